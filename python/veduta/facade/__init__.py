@@ -1,0 +1,1 @@
+"""One photo of a facade becomes a shape-grammar derivation and a LoD3 building."""

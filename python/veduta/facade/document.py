@@ -1,0 +1,159 @@
+"""The facade document (`facade.json`): what was found in one photo, and nothing derived from it.
+
+Pixel frame: the rectified image, x right, y down, origin at the upper left corner of the
+upper left pixel (its centre is at (0.5, 0.5)). Facade frame: metres, x right along the wall,
+y up from the ground, origin at the facade's lower left corner.
+"""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+FacadeClass = Literal[
+    "window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"
+]
+CLASSES: tuple[FacadeClass, ...] = (
+    "window",
+    "wall",
+    "balcony",
+    "door",
+    "roof",
+    "chimney",
+    "sky",
+    "shop",
+    "other",
+)
+Provenance = Literal["measured", "inferred", "invented"]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+
+
+class Source(_Record):
+    """The photo as it was read (after EXIF orientation)."""
+
+    image: str = Field(description="file name of the photo")
+    sha256: str
+    width_px: int
+    height_px: int
+
+
+class Rectification(_Record):
+    """The fronto-parallel view of the facade plane."""
+
+    method: Literal["rectified", "corners", "vanishing-points"]
+    width_px: int
+    height_px: int
+    rectified_from_source: list[list[float]] = Field(
+        description="3x3 homography, row major; takes source pixels to rectified pixels"
+    )
+    aspect: Literal["given", "focal-length", "assumed"] = Field(
+        description="where the ratio of horizontal to vertical metres per pixel comes from"
+    )
+    focal_px: float | None = None
+    residual_deg: float | None = Field(
+        default=None, description="median angle of the held-out segments to the nearest axis"
+    )
+
+
+class Scale(_Record):
+    """Metres per rectified pixel, the same in x and y."""
+
+    metres_per_px: float
+    basis: Literal["height", "storey", "assumed-storey"]
+
+
+class FacadeBox(_Record):
+    """The facade itself, from the ground to the eaves, in the rectified image and in metres."""
+
+    x_px: float
+    y_px: float
+    width_px: float
+    height_px: float
+    width_m: float
+    height_m: float
+
+
+class Extent(_Record):
+    """A region of the rectified image that the elements stand on (sky, roof, wall, other)."""
+
+    class_: FacadeClass = Field(alias="class")
+    polygon_px: list[tuple[float, float]]
+    provenance: Provenance = "measured"
+
+
+class Element(_Record):
+    """A rectangle of one class. `x_px, y_px` is its upper left, `x_m, y_m` its lower left."""
+
+    class_: FacadeClass = Field(alias="class")
+    x_px: float
+    y_px: float
+    width_px: float
+    height_px: float
+    x_m: float
+    y_m: float
+    width_m: float
+    height_m: float
+    score: float = Field(ge=0.0, le=1.0)
+    floor: int | None = Field(default=None, description="0 is the ground floor, None the roof")
+    column: int | None = None
+    provenance: Provenance = "measured"
+
+
+class Split(_Record):
+    """One rule application: the symbols and sizes (metres) of its right-hand side, in order."""
+
+    symbols: list[str]
+    sizes_m: list[float]
+
+
+class RuleParameters(_Record):
+    """The parameters of the five rules (Koutsourakis et al. 2009, equation 2)."""
+
+    building_height_m: float = Field(description="h_b, ground to eaves")
+    roof_height_m: float = Field(description="h_l + h_t, eaves to ridge; 0 where none is seen")
+    facade: Split = Field(description="split(z; Gf, Fl_1..Fl_m; h_0..h_m)")
+    floors: list[Split] = Field(description="split(x; Wa, Win, .., Wa; w'_1, w_1, .., w'_k+1)")
+
+
+class DerivationNode(_Record):
+    """A node of the derivation tree; the scope is in facade metres."""
+
+    symbol: str
+    rule: str | None = None
+    x_m: float
+    y_m: float
+    width_m: float
+    height_m: float
+    children: list[DerivationNode] = []
+
+
+class EnergyTerm(_Record):
+    """What one Markov random field reached: its total and the sum of each of its terms."""
+
+    total: float
+    terms: dict[str, float]
+    nodes: int
+    labels: int
+
+
+class FacadeDocument(_Record):
+    """Everything that was found in one photo."""
+
+    schema_: Literal["veduta/facade"] = Field(default="veduta/facade", alias="schema")
+    version: Literal[1] = 1
+    source: Source
+    rectification: Rectification
+    scale: Scale
+    facade: FacadeBox
+    classes: list[FacadeClass] = list(CLASSES)
+    extents: list[Extent] = Field(description="painted in order, before the elements")
+    elements: list[Element] = Field(description="painted in order")
+    storeys: int = Field(description="the ground floor and the full floors below the eaves")
+    rules: RuleParameters
+    derivation: DerivationNode
+    energy: dict[str, EnergyTerm]
+    notes: list[str] = Field(default=[], description="what was assumed or left out, and why")

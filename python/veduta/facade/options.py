@@ -1,0 +1,53 @@
+"""The options of `veduta facade`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+Metres = Annotated[float, Field(gt=0)]
+
+
+class RectifyOptions(Options):
+    """How the photo becomes a fronto-parallel view."""
+
+    rectified: bool = Field(default=False, description="the image is already fronto-parallel")
+    corners: tuple[float, float, float, float, float, float, float, float] | None = Field(
+        default=None,
+        description=(
+            "facade corners in photo pixels, x y each: "
+            "upper left, upper right, lower right, lower left"
+        ),
+    )
+    focal_mm35: Metres | None = Field(
+        default=None, description="35 mm equivalent focal length where EXIF has none (mm)"
+    )
+
+
+class ScaleOptions(Options):
+    """How pixels become metres."""
+
+    height_m: Metres | None = Field(default=None, description="ground to eaves (m)")
+    storey_m: Annotated[float, Field(ge=2.0, le=8.0)] | None = Field(
+        default=None, description="mean storey height (m); assumed 3.0 where nothing is given"
+    )
+
+
+class ModelOptions(Options):
+    """How the document becomes a building."""
+
+    depth_m: Metres = Field(default=10.0, description="depth of the footprint (m)")
+    setback_m: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
+        default=0.2, description="how far openings are set back into the wall (m)"
+    )
+
+
+class FacadeOptions(Options):
+    """All options of the verb that change its result."""
+
+    rectify: RectifyOptions = RectifyOptions()
+    scale: ScaleOptions = ScaleOptions()
+    model: ModelOptions = ModelOptions()

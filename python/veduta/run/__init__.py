@@ -1,0 +1,1 @@
+"""What every verb runs on: errors, options, digests, cache, pool, progress, report."""
