@@ -25,6 +25,9 @@ class RectifyOptions(Options):
     focal_mm35: Metres | None = Field(
         default=None, description="35 mm equivalent focal length where EXIF has none (mm)"
     )
+    max_side_px: Annotated[int, Field(ge=256, le=8000)] = Field(
+        default=2000, description="longest side of the rectified image (px)"
+    )
 
 
 class ScaleOptions(Options):

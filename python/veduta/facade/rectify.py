@@ -1,0 +1,146 @@
+"""The fronto-parallel view of the facade: given, from four corners, or from vanishing points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.document import Rectification
+from veduta.facade.options import RectifyOptions
+from veduta.geometry import homography, polygon
+from veduta.geometry.homography import Matrix
+from veduta.geometry.rectangle import aspect_of_rectangle
+from veduta.imaging.exif import focal_px_from_mm35
+from veduta.imaging.read import Photo
+from veduta.imaging.warp import warp
+from veduta.run.errors import InputError
+
+MIN_SIDE_PX = 64
+
+
+@dataclass(frozen=True)
+class Rectified:
+    """The rectified photo: (h, w, 3) uint8 sRGB; `valid` (h, w) is False outside the photo."""
+
+    pixels: NDArray[np.uint8]
+    record: Rectification
+    valid: NDArray[np.bool_]
+    notes: tuple[str, ...] = ()
+
+
+def rectify(photo: Photo, options: RectifyOptions) -> Rectified:
+    """Rectify a photo; NotFoundError without a facade plane, InputError when it is too small."""
+    height, width = photo.pixels.shape[:2]
+    if min(height, width) < MIN_SIDE_PX:
+        raise InputError(
+            photo.path,
+            f"is {width} x {height} px",
+            f"A facade needs at least {MIN_SIDE_PX} px a side.",
+        )
+    if options.rectified and options.corners is not None:
+        raise InputError("--corners", "is given together with --rectified", "Give one of the two.")
+    if options.rectified:
+        return _as_given(photo, options)
+    if options.corners is None:
+        raise InputError(
+            photo.path, "is not said to be rectified", "Give --rectified or --corners."
+        )
+    return _from_corners(photo, options)
+
+
+def known_focal_px(photo: Photo, options: RectifyOptions) -> float | None:
+    """The focal length that the user states, else that of EXIF."""
+    if options.focal_mm35 is not None:
+        height, width = photo.pixels.shape[:2]
+        return focal_px_from_mm35(options.focal_mm35, width, height)
+    return photo.focal_px
+
+
+def _as_given(photo: Photo, options: RectifyOptions) -> Rectified:
+    height, width = photo.pixels.shape[:2]
+    shrink = min(1.0, options.max_side_px / max(height, width))
+    width_px, height_px = max(1, round(width * shrink)), max(1, round(height * shrink))
+    scale = homography.scaling(width_px / width, height_px / height)
+    return _render(photo, scale, (width_px, height_px), "rectified", "given", None, ())
+
+
+def _from_corners(photo: Photo, options: RectifyOptions) -> Rectified:
+    corners = checked_corners(photo, options)
+    focal_px = known_focal_px(photo, options)
+    height, width = photo.pixels.shape[:2]
+    if focal_px is not None:
+        aspect = aspect_of_rectangle(corners, focal_px, (width / 2, height / 2))
+        notes: tuple[str, ...] = ()
+    else:
+        edges = np.linalg.norm(np.roll(corners, -1, axis=0) - corners, axis=1)
+        aspect = float((edges[0] + edges[2]) / (edges[1] + edges[3]))
+        notes = ("no focal length: the aspect is that of the mean edge lengths of the corners",)
+    target_width, target_height = _size_of_same_area(polygon.signed_area(corners), aspect)
+    shrink = min(1.0, options.max_side_px / max(target_width, target_height))
+    width_px = max(1, round(target_width * shrink))
+    height_px = max(1, round(target_height * shrink))
+    rectified_from_source = homography.from_points(
+        corners, polygon.rectangle(0.0, 0.0, width_px, height_px)
+    )
+    basis: Literal["focal-length", "assumed"] = "assumed" if focal_px is None else "focal-length"
+    size = (width_px, height_px)
+    return _render(photo, rectified_from_source, size, "corners", basis, focal_px, notes)
+
+
+def _size_of_same_area(area: float, aspect: float) -> tuple[float, float]:
+    """Width and height of a rectangle with the area and the ratio width / height."""
+    return float(np.sqrt(area * aspect)), float(np.sqrt(area / aspect))
+
+
+def checked_corners(photo: Photo, options: RectifyOptions) -> NDArray[np.float64]:
+    """The corners as (4, 2); InputError when they are not a facade in the stated order."""
+    corners = np.array(options.corners, dtype=np.float64).reshape(4, 2)
+    height, width = photo.pixels.shape[:2]
+    order = "Give upper left, upper right, lower right, lower left, as x y in photo pixels."
+    if not np.isfinite(corners).all():
+        raise InputError("--corners", "has a value that is not a finite number", order)
+    reach = np.array([width, height], dtype=np.float64)
+    if (corners < -reach).any() or (corners > 2 * reach).any():
+        raise InputError("--corners", f"lies far outside the {width} x {height} px photo", order)
+    if not polygon.is_strictly_convex(corners, tolerance=1e-3):
+        raise InputError("--corners", "is not a convex quadrilateral", order)
+    if polygon.signed_area(corners) < 0:
+        raise InputError("--corners", "goes round the wrong way (a mirrored facade)", order)
+    top, bottom = corners[:2].mean(axis=0), corners[2:].mean(axis=0)
+    left, right = corners[[0, 3]].mean(axis=0), corners[1:3].mean(axis=0)
+    if top[1] >= bottom[1] or left[0] >= right[0]:
+        raise InputError("--corners", "starts at another corner than the upper left", order)
+    if polygon.signed_area(corners) < MIN_SIDE_PX**2:
+        raise InputError("--corners", "encloses too few pixels", order)
+    return corners
+
+
+def _render(
+    photo: Photo,
+    rectified_from_source: Matrix,
+    size_px: tuple[int, int],
+    method: Literal["rectified", "corners", "vanishing-points"],
+    aspect: Literal["given", "focal-length", "assumed"],
+    focal_px: float | None,
+    notes: tuple[str, ...],
+    residual_deg: float | None = None,
+) -> Rectified:
+    height, width = photo.pixels.shape[:2]
+    width_px, height_px = size_px
+    if size_px == (width, height) and np.array_equal(rectified_from_source, np.eye(3)):
+        pixels, valid = photo.pixels, np.ones((height, width), dtype=np.bool_)
+    else:
+        pixels, valid = warp(photo.pixels, rectified_from_source, width_px, height_px)
+    record = Rectification(
+        method=method,
+        width_px=width_px,
+        height_px=height_px,
+        rectified_from_source=homography.normalised(rectified_from_source).tolist(),
+        aspect=aspect,
+        focal_px=focal_px,
+        residual_deg=residual_deg,
+    )
+    return Rectified(pixels=pixels, record=record, valid=valid, notes=notes)

@@ -1,0 +1,1 @@
+"""Frames, transforms and polygons: pure geometry without images."""

@@ -1,0 +1,198 @@
+"""Reading a photo: any usual file in, upright 8-bit sRGB pixels and the focal length out."""
+
+from __future__ import annotations
+
+import hashlib
+import io
+import struct
+import warnings
+import zlib
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, UnidentifiedImageError
+
+from veduta.imaging.colour import READABLE_MODES, srgb_on_white
+from veduta.imaging.exif import CameraTags, focal_px_from_mm35, read_camera_tags
+from veduta.run.errors import InputError
+
+MAX_PIXELS = 100_000_000
+MAX_SIDE_PX = 30_000
+MAX_FILE_BYTES = 1_000_000_000
+FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
+SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp")
+
+# What Pillow raises on damaged files, found by cutting and flipping bytes of each format.
+_DAMAGE = (
+    OSError,
+    ValueError,
+    SyntaxError,
+    EOFError,
+    KeyError,
+    IndexError,
+    TypeError,
+    AttributeError,
+    OverflowError,
+    RuntimeError,
+    struct.error,
+    zlib.error,
+)
+
+_TRANSPOSE = {
+    2: Image.Transpose.FLIP_LEFT_RIGHT,
+    3: Image.Transpose.ROTATE_180,
+    4: Image.Transpose.FLIP_TOP_BOTTOM,
+    5: Image.Transpose.TRANSPOSE,
+    6: Image.Transpose.ROTATE_270,
+    7: Image.Transpose.TRANSVERSE,
+    8: Image.Transpose.ROTATE_90,
+}
+
+
+@dataclass(frozen=True)
+class Photo:
+    """An upright photo.
+
+    `pixels` is (h, w, 3) uint8 sRGB with EXIF orientation applied and alpha laid on white;
+    `sha256` is that of the file's bytes; the focal length is None where EXIF has none.
+    """
+
+    pixels: NDArray[np.uint8]
+    sha256: str
+    focal_mm35: float | None
+    focal_px: float | None
+    path: Path
+    notes: tuple[str, ...] = ()
+
+
+def read_image(path: Path) -> Photo:
+    """Read a JPEG, PNG, TIFF or WebP file; raise InputError when it cannot be read whole."""
+    data = _read_bytes(path)
+    with _damage_is_input_error(path), _open_bounded(path, data) as image:
+        notes = _frame_notes(image)
+        tags = _camera_tags(image)
+        image.load()
+        if image.mode not in READABLE_MODES:
+            raise InputError(
+                path,
+                f"its pixels are not 8 or 16 bit colours (stored as {image.mode!r})",
+                "Save it as an 8-bit or 16-bit RGB image.",
+            )
+        upright = _upright(image, tags.orientation)
+        pixels, colour_notes = srgb_on_white(upright)
+    height_px, width_px = pixels.shape[:2]
+    focal_px = None
+    if tags.focal_mm35 is not None:
+        focal_px = focal_px_from_mm35(tags.focal_mm35, width_px, height_px)
+    return Photo(
+        pixels=pixels,
+        sha256=hashlib.sha256(data).hexdigest(),
+        focal_mm35=tags.focal_mm35,
+        focal_px=focal_px,
+        path=path,
+        notes=notes + tags.notes + colour_notes,
+    )
+
+
+def _read_bytes(path: Path) -> bytes:
+    if path.is_dir():
+        raise InputError(path, "is a folder, not an image", f"Name its images: {path}/*.jpg")
+    try:
+        size = path.stat().st_size
+        if size > MAX_FILE_BYTES:
+            raise InputError(path, f"is {size / 1e9:.1f} GB large", "Save it as a JPEG.")
+        data = path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(path, "does not exist", "Check the name of the image.") from None
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(path, fault, "Check its permissions.") from error
+    if not data:
+        raise InputError(path, "is empty", "Copy the image again.")
+    return data
+
+
+@contextmanager
+def _damage_is_input_error(path: Path) -> Iterator[None]:
+    """Turn what Pillow raises on damaged or oversized files into an InputError."""
+    try:
+        with warnings.catch_warnings():
+            # Sizes are checked here; a damaged EXIF block is no reason to speak.
+            warnings.simplefilter("ignore")
+            yield
+    except Image.DecompressionBombError:
+        raise _too_large(path, f"has more than {MAX_PIXELS // 10**6} megapixels") from None
+    except MemoryError:
+        raise _too_large(path, "needs more memory than there is") from None
+    except _DAMAGE as error:
+        reason = str(error) or type(error).__name__
+        fault = f"is truncated or damaged ({reason})"
+        raise InputError(path, fault, "Copy or export the image again.") from error
+
+
+def _open_bounded(path: Path, data: bytes) -> Image.Image:
+    """Read the header; refuse other formats and images over the size bounds."""
+    try:
+        image = Image.open(io.BytesIO(data), formats=FORMATS)
+    except UnidentifiedImageError:
+        raise InputError(path, _why_unidentified(data), _OTHER_FORMAT) from None
+    width_px, height_px = image.size
+    if width_px * height_px > MAX_PIXELS or max(image.size) > MAX_SIDE_PX:
+        raise _too_large(path, f"is {width_px} x {height_px} px")
+    return image
+
+
+_OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
+
+
+def _why_unidentified(data: bytes) -> str:
+    magic = {
+        b"\xff\xd8\xff": "JPEG",
+        b"\x89PNG\r\n\x1a\n": "PNG",
+        b"II*\0": "TIFF",
+        b"MM\0*": "TIFF",
+    }
+    for start, name in magic.items():
+        if data.startswith(start):
+            return f"starts like a {name} file, but its header is truncated or damaged"
+    if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
+        return "starts like a WEBP file, but is truncated or damaged"
+    if data[4:8] == b"ftyp":
+        return "is a HEIC, AVIF or video file"
+    return "is not an image that can be read"
+
+
+def _too_large(path: Path, fault: str) -> InputError:
+    remedy = (
+        f"Resize it to at most {MAX_PIXELS // 10**6} megapixels and {MAX_SIDE_PX} px a side; "
+        "2000 px a side is enough."
+    )
+    return InputError(path, fault, remedy)
+
+
+def _camera_tags(image: Image.Image) -> CameraTags:
+    """EXIF, or nothing with a note where the block is damaged: the pixels are still good."""
+    try:
+        return read_camera_tags(image)
+    except _DAMAGE:
+        return CameraTags(notes=("the EXIF block is damaged: orientation and lens unknown",))
+
+
+def _upright(image: Image.Image, orientation: int) -> Image.Image:
+    if orientation == 1:
+        return image
+    info = image.info
+    turned = image.transpose(_TRANSPOSE[orientation])
+    turned.info = info
+    return turned
+
+
+def _frame_notes(image: Image.Image) -> tuple[str, ...]:
+    frames = getattr(image, "n_frames", 1)
+    if image.format != "MPO" and frames > 1:
+        return (f"the file has {frames} images: the first is used",)
+    return ()
