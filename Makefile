@@ -1,0 +1,128 @@
+# Everything from a fresh checkout: `make demo` and `make test` do their own set-up.
+# Each target below is a real file, so that a second run has nothing to do.
+SHELL := /bin/bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+.DEFAULT_GOAL := help
+
+PY := .venv/bin/python
+UV := .venv/bin/uv
+STAGE := scripts/stage
+CJVAL_VERSION := 0.10.0
+
+PACKAGES := .venv/.packages
+EXTENSION := python/veduta/_core.abi3.so
+NODE_PACKAGES := studio/node_modules/.package-lock.json
+STUDIO := python/veduta/studio/static/index.html
+CJVAL := build/cjval/.installed-$(CJVAL_VERSION)
+
+RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml)
+STUDIO_SOURCES := $(shell find studio -path studio/node_modules -prune -o -type f -print)
+
+# PyO3 asks this interpreter what to build for, the same in every target: nothing is built twice.
+export PYO3_PYTHON := $(CURDIR)/$(PY)
+
+.PHONY: help setup demo test lint lint-python lint-rust lint-studio test-python test-rust \
+	test-studio test-browser bench studio pictures lock clean
+
+help: ## what there is
+	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
+
+setup: $(EXTENSION) $(STUDIO) ## everything that `veduta` needs: .venv, the extension, the studio
+
+demo: setup ## a synthetic street, rebuilt from its photo and compared with the truth
+	.venv/bin/veduta demo -o out/demo $(DEMO)
+
+studio: $(STUDIO) ## the web app alone
+
+# ---- set-up ---------------------------------------------------------------------------------
+
+.venv/.bootstrap: requirements/bootstrap.txt
+	@python=$$(scripts/need python); \
+	if ! $(PY) -c 'import pip, sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
+		"$$python" -m venv --clear .venv; fi
+	$(PY) -m pip install --quiet --disable-pip-version-check --require-hashes -r $<
+	@touch $@
+
+$(PACKAGES): requirements/lock.txt .venv/.bootstrap
+	$(UV) pip sync --quiet --require-hashes --python $(PY) $<
+	@touch $@
+
+$(EXTENSION): $(PACKAGES) pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES)
+	@scripts/need cargo
+	env -u CONDA_PREFIX VIRTUAL_ENV=$(CURDIR)/.venv \
+		.venv/bin/maturin develop --release --locked --uv --quiet
+	@touch $@
+
+$(NODE_PACKAGES): studio/package.json studio/package-lock.json
+	@scripts/need node
+	cd studio && npm ci --no-audit --no-fund --loglevel=error
+	@touch $@
+
+$(STUDIO): $(NODE_PACKAGES) $(STUDIO_SOURCES)
+	cd studio && npm run --silent build
+	@touch $@
+
+$(CJVAL):
+	@scripts/need cargo
+	cargo install --quiet --locked cjval --version =$(CJVAL_VERSION) --features build-binary \
+		--force --root build/cjval --target-dir build/cjval/target
+	@rm -rf build/cjval/target && touch $@
+
+# ---- checks ---------------------------------------------------------------------------------
+
+test: setup lint test-rust test-python test-studio test-browser ## all checks and all tests
+	@printf '\nAll tests passed.\n'
+
+lint: lint-python lint-rust lint-studio ## style and types of the three languages
+
+lint-python: $(EXTENSION)
+	@$(STAGE) "ruff" $(PY) -m ruff check .
+	@$(STAGE) "ruff format" $(PY) -m ruff format --check --quiet .
+	@$(STAGE) "mypy" $(PY) -m mypy
+	@$(STAGE) "import order" .venv/bin/lint-imports --no-cache
+
+lint-rust: $(PACKAGES)
+	@scripts/need rust-lint
+	@$(STAGE) "rustfmt" cargo fmt --all --check
+	@$(STAGE) "clippy" cargo clippy --quiet --locked --workspace --all-targets -- -D warnings
+
+lint-studio: $(NODE_PACKAGES)
+	@cd studio && ../$(STAGE) "tsc" npm run --silent typecheck
+	@cd studio && ../$(STAGE) "eslint" npm run --silent lint
+
+# The extension crate is tested from Python: as a program of its own it would need libpython.
+test-rust: $(PACKAGES)
+	@scripts/need cargo
+	@$(STAGE) "cargo test" cargo test --quiet --locked --workspace --exclude veduta-py
+
+test-python: setup $(CJVAL)
+	@$(STAGE) "pytest" $(PY) -m pytest
+
+test-studio: $(NODE_PACKAGES)
+	@cd studio && ../$(STAGE) "vitest" npm run --silent test
+
+test-browser: setup
+	@if chromium=$$(scripts/need chromium); then \
+		cd studio && CHROMIUM="$$chromium" ../$(STAGE) "browser tests" npm run --silent test:browser; \
+	else echo "== browser tests: SKIPPED, there is no Chromium (see above)" >&2; fi
+
+bench: setup ## speed, memory and accuracy tables; dated results go to benchmarks/results
+	@set -- benchmarks/*.py; for file in "$$@"; do $(STAGE) "$$file" $(PY) "$$file"; done
+
+pictures: setup ## the README's pictures, made from the synthetic demo
+	$(PY) docs/pictures.py
+
+# ---- locks ----------------------------------------------------------------------------------
+
+COMPILE := $(UV) pip compile --quiet --universal --fork-strategy fewest --python-version 3.11 \
+	--generate-hashes --no-header --no-emit-index-url --no-emit-find-links
+
+lock: .venv/.bootstrap ## renew the locks of all three languages
+	$(COMPILE) --upgrade requirements/bootstrap.in -o requirements/bootstrap.txt
+	$(COMPILE) --upgrade pyproject.toml --group dev -o requirements/lock.txt
+	cargo update
+	cd studio && npm update --package-lock-only --no-audit --no-fund
+
+clean: ## everything that was built
+	rm -rf .venv build target $(EXTENSION) studio/node_modules python/veduta/studio/static
