@@ -1,0 +1,10 @@
+//! The private extension `veduta._core`: it registers one module per topic and does nothing else.
+
+use pyo3::prelude::*;
+
+mod polygons;
+
+#[pymodule]
+fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    polygons::register(m)
+}

@@ -1,0 +1,86 @@
+//! `veduta_geometry` for Python: columns in, columns out, the GIL released in between.
+
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use veduta_geometry::{triangulate, PolygonError, PolygonSet, Triangulation};
+
+create_exception!(_core, PolygonFault, PyValueError);
+create_exception!(_core, BadOffsetsError, PolygonFault);
+create_exception!(_core, NotFiniteError, PolygonFault);
+create_exception!(_core, RingTooShortError, PolygonFault);
+create_exception!(_core, RepeatedVertexError, PolygonFault);
+create_exception!(_core, NoAreaError, PolygonFault);
+create_exception!(_core, NotPlanarError, PolygonFault);
+create_exception!(_core, SelfCrossingError, PolygonFault);
+
+fn to_python(error: &PolygonError) -> PyErr {
+    let text = error.to_string();
+    match error {
+        PolygonError::BadOffsets { .. } => BadOffsetsError::new_err(text),
+        PolygonError::NotFinite { .. } => NotFiniteError::new_err(text),
+        PolygonError::RingTooShort { .. } => RingTooShortError::new_err(text),
+        PolygonError::RepeatedVertex { .. } => RepeatedVertexError::new_err(text),
+        PolygonError::NoArea { .. } => NoAreaError::new_err(text),
+        PolygonError::NotPlanar { .. } => NotPlanarError::new_err(text),
+        PolygonError::SelfCrossing { .. } => SelfCrossingError::new_err(text),
+    }
+}
+
+type Columns<'py> = (
+    Bound<'py, PyArray2<u32>>,
+    Bound<'py, PyArray1<u32>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<f64>>,
+);
+
+/// Triangles, the polygon of each triangle, unit normals and areas (m2) of columnar polygons.
+#[pyfunction]
+fn triangulate_polygons<'py>(
+    py: Python<'py>,
+    positions_m: PyReadonlyArray2<'py, f64>,
+    ring_offsets: PyReadonlyArray1<'py, i64>,
+    polygon_offsets: PyReadonlyArray1<'py, i64>,
+    tolerance_m: f64,
+) -> PyResult<Columns<'py>> {
+    let view = positions_m.as_array();
+    if view.ncols() != 3 {
+        return Err(PyValueError::new_err(format!(
+            "positions_m must have 3 columns, not {}",
+            view.ncols()
+        )));
+    }
+    let points: Vec<[f64; 3]> = view.rows().into_iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let rings: Vec<i64> = ring_offsets.as_array().to_vec();
+    let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
+    let found: Result<Triangulation, PolygonError> = py.detach(|| {
+        let set = PolygonSet::new(&points, &rings, &polygons)?;
+        triangulate(&set, tolerance_m)
+    });
+    let found = found.map_err(|error| to_python(&error))?;
+    Ok((
+        rows(&found.triangles).into_pyarray(py),
+        found.triangle_polygon.into_pyarray(py),
+        rows(&found.normals).into_pyarray(py),
+        found.areas_m2.into_pyarray(py),
+    ))
+}
+
+fn rows<T: Copy>(triples: &[[T; 3]]) -> Array2<T> {
+    Array2::from_shape_fn((triples.len(), 3), |(row, column)| triples[row][column])
+}
+
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    let py = m.py();
+    m.add("PolygonFault", py.get_type::<PolygonFault>())?;
+    m.add("BadOffsetsError", py.get_type::<BadOffsetsError>())?;
+    m.add("NotFiniteError", py.get_type::<NotFiniteError>())?;
+    m.add("RingTooShortError", py.get_type::<RingTooShortError>())?;
+    m.add("RepeatedVertexError", py.get_type::<RepeatedVertexError>())?;
+    m.add("NoAreaError", py.get_type::<NoAreaError>())?;
+    m.add("NotPlanarError", py.get_type::<NotPlanarError>())?;
+    m.add("SelfCrossingError", py.get_type::<SelfCrossingError>())?;
+    m.add_function(wrap_pyfunction!(triangulate_polygons, m)?)
+}

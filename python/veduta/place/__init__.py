@@ -1,0 +1,1 @@
+"""Place, Part, Material, surface semantics: what every verb makes and every format writes."""

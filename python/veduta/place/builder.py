@@ -1,0 +1,116 @@
+"""Collects polygons and features and packs them into the columns of a part."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from veduta.place.material import Material
+from veduta.place.part import NO_PARENT, Features, Part
+from veduta.place.semantics import Provenance, SemanticClass
+
+# Maps (n, 3) metres to (n, 2) UV.
+UvMap = Callable[[NDArray[np.float64]], NDArray[np.float64]]
+Rect = tuple[float, float, float, float]
+_NO_RECT: Rect = (np.nan, np.nan, np.nan, np.nan)
+
+
+class PartBuilder:
+    """Grows the columns of one part; `build` packs them."""
+
+    def __init__(self, part_id: str) -> None:
+        self.part_id = part_id
+        self.notes: list[str] = []
+        self._materials: list[Material] = []
+        self._rings: list[NDArray[np.float64]] = []
+        self._ring_uv: list[NDArray[np.float64]] = []
+        self._polygon_rings: list[int] = []
+        self._polygon_feature: list[int] = []
+        self._polygon_material: list[int] = []
+        self._rows: list[tuple[str, str, int, int, int, int, float, float, Rect]] = []
+        self._shells = 1
+
+    def material(self, material: Material) -> int:
+        """Register a material; returns its number."""
+        self._materials.append(material)
+        return len(self._materials) - 1
+
+    def new_shell(self) -> int:
+        """Open another closed surface beside the body (which is 0)."""
+        self._shells += 1
+        return self._shells - 1
+
+    def feature(
+        self,
+        semantic: SemanticClass,
+        provenance: Provenance,
+        name: str,
+        *,
+        parent: int = NO_PARENT,
+        shell: int = 0,
+        size_m: tuple[float, float] = (np.nan, np.nan),
+        photo_px: Rect = _NO_RECT,
+    ) -> int:
+        """Add a row to the feature table; returns its number."""
+        row = len(self._rows)
+        self._rows.append(
+            (
+                f"{self.part_id}/{semantic.value}-{row}",
+                name,
+                semantic.code,
+                provenance.code,
+                parent,
+                shell,
+                size_m[0],
+                size_m[1],
+                photo_px,
+            )
+        )
+        return row
+
+    def polygon(
+        self,
+        rings_m: Sequence[ArrayLike],
+        feature: int,
+        material: int,
+        uv: UvMap | None = None,
+    ) -> None:
+        """Add a polygon: outline counter-clockwise seen from outside, holes clockwise."""
+        for ring in rings_m:
+            points = np.asarray(ring, dtype=np.float64)
+            self._rings.append(points)
+            self._ring_uv.append(np.zeros((len(points), 2)) if uv is None else uv(points))
+        self._polygon_rings.append(len(rings_m))
+        self._polygon_feature.append(feature)
+        self._polygon_material.append(material)
+
+    def build(self) -> Part:
+        """Pack everything that was added."""
+        ring_sizes = [len(ring) for ring in self._rings]
+        ids, names, classes, provenances, parents, shells, widths, heights, rects = zip(
+            *self._rows, strict=True
+        )
+        return Part(
+            id=self.part_id,
+            positions_m=np.concatenate(self._rings).astype(np.float32),
+            uv=np.concatenate(self._ring_uv).astype(np.float32),
+            ring_offsets=np.concatenate([[0], np.cumsum(ring_sizes)]).astype(np.int64),
+            polygon_offsets=np.concatenate([[0], np.cumsum(self._polygon_rings)]).astype(np.int64),
+            polygon_feature=np.array(self._polygon_feature, dtype=np.int32),
+            polygon_material=np.array(self._polygon_material, dtype=np.int32),
+            features=Features(
+                id=ids,
+                name=names,
+                class_code=np.array(classes, dtype=np.uint8),
+                provenance_code=np.array(provenances, dtype=np.uint8),
+                parent=np.array(parents, dtype=np.int32),
+                shell=np.array(shells, dtype=np.int32),
+                width_m=np.array(widths, dtype=np.float64),
+                height_m=np.array(heights, dtype=np.float64),
+                photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
+            ),
+            materials=tuple(self._materials),
+            notes=tuple(self.notes),
+        )

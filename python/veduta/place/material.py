@@ -1,0 +1,42 @@
+"""Materials: a colour, or a texture whose invented pixels are marked."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True)
+class Texture:
+    """An image that several surfaces share through UV.
+
+    pixels: (h, w, 3) uint8 sRGB.
+    invented: (h, w) bool, True where a pixel was synthesised and not photographed.
+    """
+
+    pixels: NDArray[np.uint8]
+    invented: NDArray[np.bool_]
+
+    def __post_init__(self) -> None:
+        height, width = self.pixels.shape[:2]
+        if self.pixels.shape != (height, width, 3) or self.pixels.dtype != np.uint8:
+            raise ValueError(f"texture must be (h, w, 3) uint8, not {self.pixels.shape}")
+        if self.invented.shape != (height, width) or self.invented.dtype != np.bool_:
+            raise ValueError(f"mask must be ({height}, {width}) bool, not {self.invented.shape}")
+
+
+@dataclass(frozen=True)
+class Material:
+    """How a surface looks.
+
+    colour: sRGB, 0..1; it multiplies the texture where there is one (white leaves it alone).
+    roughness, metalness: glTF's, 0..1.
+    """
+
+    name: str
+    colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    roughness: float = 0.9
+    metalness: float = 0.0
+    texture: Texture | None = None
