@@ -1,0 +1,202 @@
+"""What happens to an OUT that exists, rule by rule."""
+
+from __future__ import annotations
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from veduta.run.errors import InputError
+from veduta.run.outputs import OutFolder, Standing, open_out
+from veduta.run.record import load_record
+from veduta.run.report import Failure
+
+
+def make(out: OutFolder, item: str = "a", content: str = "one", *names: str) -> None:
+    work = out.work_folder(item)
+    for name in names or ("x.txt", "y.txt"):
+        (work / name).write_text(content)
+    out.publish(item, "k", work)
+
+
+def finished(path: Path, key: str = "k", content: str = "one") -> None:
+    with open_out(path, "facade", key, force=path.exists()) as out:
+        make(out, "a", content)
+        out.finish()
+
+
+def test_new_folder(tmp_path: Path) -> None:
+    with open_out(tmp_path / "new" / "out", "facade", "k") as out:
+        assert out.standing is Standing.NEW
+        make(out)
+        out.finish()
+    assert (tmp_path / "new" / "out" / "a" / "x.txt").read_text() == "one"
+    assert not (tmp_path / "new" / "out" / ".veduta" / "work").exists()
+
+
+def test_same_call_is_up_to_date(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        assert out.standing is Standing.UP_TO_DATE
+        assert out.is_current("a", "k")
+        assert out.edited() == []
+
+
+def test_missing_file_is_made_again(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    (tmp_path / "out" / "a" / "x.txt").unlink()
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        assert out.standing is Standing.RESUMED
+        assert not out.is_current("a", "k")
+
+
+def test_unfinished_resumes(tmp_path: Path) -> None:
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        make(out, "a")
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        assert out.standing is Standing.RESUMED
+        assert out.is_current("a", "k")
+        assert not out.is_current("b", "k")
+
+
+def test_other_call_is_refused_without_force(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    with pytest.raises(InputError, match="other inputs or options"):
+        with open_out(tmp_path / "out", "facade", "other"):
+            pass
+    with pytest.raises(InputError, match="veduta facade"):
+        with open_out(tmp_path / "out", "grammar", "k"):
+            pass
+
+
+def test_force_replaces_and_forgets_what_is_left_over(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    with open_out(tmp_path / "out", "facade", "other", force=True) as out:
+        assert out.standing is Standing.REPLACED
+        assert not out.is_current("a", "k")
+        make(out, "a", "two", "y.txt", "z.txt")
+        out.finish()
+    found = {file.name: file.read_text() for file in (tmp_path / "out" / "a").iterdir()}
+    assert found == {"y.txt": "two", "z.txt": "two"}
+
+
+def test_edited_file_is_never_replaced(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    edited = tmp_path / "out" / "a" / "x.txt"
+    edited.write_text("mine")
+    for _ in range(2):  # also not by the second --force
+        with open_out(tmp_path / "out", "facade", "other", force=True) as out:
+            assert out.edited("a") == ["a/x.txt"]
+            make(out, "a", "two")
+            out.finish()
+            assert out.kept == ["a/x.txt"]
+        assert edited.read_text() == "mine"
+        assert (tmp_path / "out" / "a" / "y.txt").read_text() == "two"
+
+
+def test_edited_file_is_never_removed(tmp_path: Path) -> None:
+    finished(tmp_path / "out")
+    edited = tmp_path / "out" / "a" / "x.txt"
+    edited.write_text("mine")
+    with open_out(tmp_path / "out", "facade", "other", force=True) as out:
+        make(out, "a", "two", "z.txt")
+        assert out.kept == ["a/x.txt"]
+    assert edited.read_text() == "mine"
+    assert not (tmp_path / "out" / "a" / "y.txt").exists()
+
+
+def test_foreign_folder_is_refused_and_its_files_stay(tmp_path: Path) -> None:
+    (tmp_path / "a").mkdir()
+    (tmp_path / "a" / "x.txt").write_text("mine")
+    with pytest.raises(InputError, match="not made by veduta"):
+        with open_out(tmp_path, "facade", "k"):
+            pass
+    assert not (tmp_path / ".veduta").exists()
+    with open_out(tmp_path, "facade", "k", force=True) as out:
+        make(out, "a", "two")
+        assert out.kept == ["a/x.txt"]
+    assert (tmp_path / "a" / "x.txt").read_text() == "mine"
+
+
+def test_only_failures_are_nothing_to_protect(tmp_path: Path) -> None:
+    failure = Failure(subject="a.jpg", kind="not-found", reason="no facade")
+    with open_out(tmp_path, "facade", "k") as out:
+        out.publish("a", "k", out.work_folder("a"), failure=failure)
+        out.finish()
+    with open_out(tmp_path, "facade", "other") as out:
+        assert out.standing is Standing.REPLACED
+
+
+@pytest.mark.parametrize("renames", [0, 1, 2])
+def test_killed_between_renames(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, renames: int
+) -> None:
+    """Wherever a kill falls, no file of ours is taken for an edited one."""
+    finished(tmp_path / "out")
+
+    class Killed(BaseException):
+        pass
+
+    done: list[Path] = []
+    replace = os.replace
+
+    def dying_replace(source: Path, target: Path) -> None:
+        if Path(target).suffix == ".txt":
+            if len(done) == renames:
+                raise Killed
+            done.append(target)
+        replace(source, target)
+
+    monkeypatch.setattr(os, "replace", dying_replace)
+    with pytest.raises(Killed) if renames < 2 else pytest.raises(ZeroDivisionError):
+        with open_out(tmp_path / "out", "facade", "k", force=True) as out:
+            make(out, "a", "two")
+            raise ZeroDivisionError
+    monkeypatch.undo()
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        assert out.standing is Standing.RESUMED
+        assert out.edited() == []
+        assert out.is_current("a", "k") == (renames == 2)
+        make(out, "a", "three")
+        out.finish()
+    assert (tmp_path / "out" / "a" / "x.txt").read_text() == "three"
+
+
+def test_one_writer_at_a_time_and_a_dead_one_is_no_hindrance(tmp_path: Path) -> None:
+    code = (
+        "import sys, time; from pathlib import Path; from veduta.run.outputs import open_out\n"
+        "with open_out(Path(sys.argv[1]), 'facade', 'k'):\n"
+        "    print('open', flush=True); time.sleep(60)"
+    )
+    holder = subprocess.Popen(
+        [sys.executable, "-c", code, str(tmp_path / "out")], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        assert holder.stdout is not None
+        assert holder.stdout.readline() == "open\n"
+        with pytest.raises(InputError, match=f"process {holder.pid}"):
+            with open_out(tmp_path / "out", "facade", "k"):
+                pass
+    finally:
+        holder.kill()
+        holder.wait()
+    with open_out(tmp_path / "out", "facade", "k") as out:
+        assert out.standing is Standing.RESUMED
+
+
+def test_out_that_cannot_be_made(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("in the way")
+    for path in (tmp_path / "file", tmp_path / "file" / "out", Path("/proc/veduta/out")):
+        with pytest.raises(InputError, match="-o"), open_out(path, "facade", "k"):
+            pass
+
+
+@pytest.mark.parametrize("path", ["../x", "/etc/passwd", "a/../../x", ".veduta/run.json"])
+def test_a_record_cannot_reach_outside(tmp_path: Path, path: str) -> None:
+    finished(tmp_path)
+    record = tmp_path / ".veduta" / "run.json"
+    record.write_text(record.read_text().replace("a/x.txt", path))
+    with pytest.raises(InputError, match="run record"):
+        load_record(tmp_path)
