@@ -70,6 +70,10 @@ class PartBuilder:
         )
         return row
 
+    def count(self, semantic: SemanticClass) -> int:
+        """How many features of this class there are already."""
+        return sum(1 for row in self._rows if row[2] == semantic.code)
+
     def polygon(
         self,
         rings_m: Sequence[ArrayLike],

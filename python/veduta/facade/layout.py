@@ -1,0 +1,210 @@
+"""From the document's rectangles to openings that can be built: none touches another.
+
+Rectangles of a photo may overlap, touch each other or hang over the border. A wall with such
+holes does not close, so each is clipped clear of those before it, and what is lost is noted.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.rectangles import Rectangle, carve
+
+# Least wall between two openings, and between an opening and the border (m).
+GAP_M = 0.05
+# An opening smaller than this in either direction is left out (m).
+SMALLEST_M = 0.2
+# Thickness of a balcony's slab (m).
+SLAB_M = 0.15
+# A window whose lower edge is at most this far above a balcony's railing opens onto it (m).
+RAILING_REACH_M = 0.4
+# Share of a door's area in a shop from which it counts as the shop's own door.
+INSIDE_SHARE = 0.6
+
+
+@dataclass(frozen=True)
+class Opening:
+    """A hole in a wall, with the element that it was made from."""
+
+    rectangle: Rectangle
+    element: Element
+    children: tuple[Opening, ...] = ()
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Everything that stands on or in the front, in the facade frame (metres)."""
+
+    openings: tuple[Opening, ...]
+    dormers: tuple[Opening, ...]
+    balconies: tuple[Opening, ...]
+    chimneys: tuple[Opening, ...]
+    notes: tuple[str, ...]
+
+
+@dataclass
+class _Front:
+    """The wall while openings are being placed."""
+
+    wall: Rectangle
+    placed: list[Rectangle] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+
+    def place(self, element: Element, number: int, wanted: Rectangle) -> Rectangle | None:
+        """Clip `wanted` clear of the border and of all before it; None where nothing is left."""
+        inside = wanted.common(self.wall.grown(-GAP_M))
+        found = carve(inside, self.placed, GAP_M)
+        name = f"{element.class_} {number}"
+        if found.width < SMALLEST_M or found.height < SMALLEST_M:
+            self.notes.append(f"{name}: left out, no room beside other openings or the border")
+            return None
+        if found.area < 0.95 * wanted.area:
+            self.notes.append(
+                f"{name}: clipped from {wanted.width:.2f} x {wanted.height:.2f} m "
+                f"to {found.width:.2f} x {found.height:.2f} m"
+            )
+        self.placed.append(found)
+        return found
+
+
+def rectangle_of(element: Element) -> Rectangle:
+    """The element's rectangle in the facade frame."""
+    return Rectangle(
+        element.x_m,
+        element.y_m,
+        element.x_m + element.width_m,
+        element.y_m + element.height_m,
+    )
+
+
+def lay_out(document: FacadeDocument) -> Layout:
+    """Place shops, doors, windows and balconies on the wall, dormers and chimneys above it."""
+    wall = Rectangle(0.0, 0.0, document.facade.width_m, document.facade.height_m)
+    numbered = list(enumerate(document.elements))
+    front = _Front(wall)
+    balconies = _balconies(numbered, document, front.notes)
+    shops = _shops(numbered, front)
+    doors = _doors(numbered, front, shops)
+    windows = _windows(numbered, front, [balcony.rectangle for balcony in balconies])
+    roof = [(n, e) for n, e in numbered if _is_above(e, wall)]
+    dormers = [Opening(rectangle_of(e), e) for _, e in roof if e.class_ == "window"]
+    chimneys = [Opening(rectangle_of(e), e) for _, e in numbered if e.class_ == "chimney"]
+    return Layout(
+        openings=(*shops, *doors, *windows),
+        dormers=tuple(dormers),
+        balconies=tuple(balconies),
+        chimneys=tuple(chimneys),
+        notes=tuple(front.notes),
+    )
+
+
+Numbered = Sequence[tuple[int, Element]]
+
+
+def _is_above(element: Element, wall: Rectangle) -> bool:
+    """Whether more of it lies above the eaves than below."""
+    return element.y_m + 0.5 * element.height_m > wall.z1
+
+
+def _shops(numbered: Numbered, front: _Front) -> list[Opening]:
+    found = []
+    for number, element in numbered:
+        if element.class_ != "shop":
+            continue
+        wanted = _down_to_threshold(rectangle_of(element), front.wall)
+        place = front.place(element, number, wanted)
+        if place is not None:
+            doors = _shop_doors(numbered, front, place)
+            found.append(Opening(place, element, doors))
+    return found
+
+
+def _shop_doors(numbered: Numbered, front: _Front, shop: Rectangle) -> tuple[Opening, ...]:
+    """Doors and windows that lie in the shop front are set into it."""
+    inner = _Front(shop, notes=front.notes)
+    found = []
+    for kind in ("door", "window"):
+        for number, element in numbered:
+            wanted = rectangle_of(element)
+            if element.class_ != kind or _share_inside(wanted, shop) < INSIDE_SHARE:
+                continue
+            place = inner.place(element, number, wanted)
+            if place is not None:
+                found.append(Opening(place, element))
+    return tuple(found)
+
+
+def _doors(numbered: Numbered, front: _Front, shops: Sequence[Opening]) -> list[Opening]:
+    found = []
+    for number, element in numbered:
+        wanted = rectangle_of(element)
+        if element.class_ != "door" or _is_above(element, front.wall):
+            continue
+        if any(_share_inside(wanted, shop.rectangle) >= INSIDE_SHARE for shop in shops):
+            continue
+        place = front.place(element, number, _down_to_threshold(wanted, front.wall))
+        if place is not None:
+            found.append(Opening(place, element))
+    return found
+
+
+def _windows(
+    numbered: Numbered, front: _Front, balconies: Sequence[Rectangle]
+) -> list[Opening]:
+    """Windows from the ground up; one that opens onto a balcony reaches down to its floor."""
+    obstacles = list(front.placed)
+    found = []
+    for number, element in sorted(numbered, key=lambda pair: (pair[1].y_m, pair[0])):
+        wanted = rectangle_of(element)
+        if element.class_ != "window" or _is_above(element, front.wall):
+            continue
+        if any(_share_inside(wanted, shop) >= INSIDE_SHARE for shop in obstacles):
+            continue
+        place = front.place(element, number, _down_to_balcony(wanted, balconies))
+        if place is not None:
+            found.append(Opening(place, element))
+    return found
+
+
+def _balconies(numbered: Numbered, document: FacadeDocument, notes: list[str]) -> list[Opening]:
+    """Balconies within the facade's width; they may not stand in the ground."""
+    width = document.facade.width_m
+    top = document.facade.height_m + max(document.rules.roof_height_m, 0.0)
+    allowed = Rectangle(0.0, 0.3, width, max(top, 0.3))
+    found: list[Opening] = []
+    for number, element in numbered:
+        if element.class_ != "balcony":
+            continue
+        inside = rectangle_of(element).common(allowed)
+        place = carve(inside, [other.rectangle for other in found], GAP_M)
+        if place.width < SMALLEST_M or place.height < SMALLEST_M:
+            notes.append(f"balcony {number}: left out, too small or off the facade")
+            continue
+        found.append(Opening(place, element))
+    return found
+
+
+def _down_to_threshold(wanted: Rectangle, wall: Rectangle) -> Rectangle:
+    """Doors and shops that end near the ground reach down to it."""
+    if wanted.z0 > wall.z0 + 0.6:
+        return wanted
+    return Rectangle(wanted.x0, wall.z0, wanted.x1, wanted.z1)
+
+
+def _down_to_balcony(wanted: Rectangle, balconies: Sequence[Rectangle]) -> Rectangle:
+    """The railing of a balcony hides the lower part of the window behind it."""
+    for balcony in balconies:
+        beside = min(wanted.x1, balcony.x1) - max(wanted.x0, balcony.x0)
+        floor = balcony.z0 + SLAB_M
+        if beside < 0.5 * wanted.width or not floor < wanted.z0 < balcony.z1 + RAILING_REACH_M:
+            continue
+        return Rectangle(wanted.x0, floor, wanted.x1, wanted.z1)
+    return wanted
+
+
+def _share_inside(rectangle: Rectangle, other: Rectangle) -> float:
+    if rectangle.area <= 0.0:
+        return 0.0
+    return rectangle.common(other).area / rectangle.area

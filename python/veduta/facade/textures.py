@@ -1,0 +1,204 @@
+"""The texture of a facade: one atlas with two layers of the rectified photo.
+
+The first layer is the photo as it is. In the second, what stands before the wall and the roof
+(balconies, chimneys, sky beside the roof) is replaced by synthesised pixels and marked as
+invented: a railing is shown once, on the railing, and not again on the wall behind it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, floor
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.document import FacadeDocument
+from veduta.place.builder import UvMap
+from veduta.place.material import Texture
+
+# Longest edge of the atlas (px).
+LONGEST_PX = 4096
+# A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
+BALCONY_SPREAD = 0.08
+
+Pixels = NDArray[np.uint8]
+Mask = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class PixelBox:
+    """A box of whole pixels in the rectified photo."""
+
+    x0: int
+    y0: int
+    x1: int
+    y1: int
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Width and height."""
+        return self.x1 - self.x0, self.y1 - self.y0
+
+
+@dataclass(frozen=True)
+class Atlas:
+    """The texture, and where metres of the facade lie in it."""
+
+    texture: Texture
+    photo_uv: UvMap
+    surface_uv: UvMap
+    wall_colour: tuple[float, float, float]
+    roof_colour: tuple[float, float, float]
+
+
+def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
+    """Cut the facade up to `top_m` above the ground out of the photo and lay out both layers.
+
+    photo: (h, w, 3) uint8 sRGB, the rectified photo of the document.
+    """
+    box = _crop_box(document, photo, top_m)
+    crop = np.ascontiguousarray(photo[box.y0 : box.y1, box.x0 : box.x1])
+    wall_colour = _typical(crop, _class_mask(document, box, "wall"))
+    roof_mask = _class_mask(document, box, "roof")
+    roof_colour = _typical(crop, roof_mask) if roof_mask.any() else (0.30, 0.33, 0.37)
+    surface, invented = _surface_layer(document, crop, box, roof_colour)
+    side_by_side = box.size[1] > box.size[0]
+    axis = 1 if side_by_side else 0
+    pixels = np.concatenate([crop, surface], axis=axis)
+    mask = np.concatenate([np.zeros_like(invented), invented], axis=axis)
+    step = (0.5, 0.0) if side_by_side else (0.0, 0.5)
+    return Atlas(
+        texture=_shrunk(pixels, mask),
+        photo_uv=_uv_map(document, box, (0.0, 0.0), side_by_side),
+        surface_uv=_uv_map(document, box, step, side_by_side),
+        wall_colour=wall_colour,
+        roof_colour=roof_colour,
+    )
+
+
+def _crop_box(document: FacadeDocument, photo: Pixels, top_m: float) -> PixelBox:
+    facade = document.facade
+    scale = document.scale.metres_per_px
+    height, width = photo.shape[:2]
+    bottom = facade.y_px + facade.height_px
+    x0 = min(max(floor(facade.x_px), 0), width - 1)
+    y0 = min(max(floor(bottom - top_m / scale), 0), height - 1)
+    x1 = min(max(ceil(facade.x_px + facade.width_px), x0 + 1), width)
+    y1 = min(max(ceil(bottom), y0 + 1), height)
+    return PixelBox(x0, y0, x1, y1)
+
+
+def _uv_map(
+    document: FacadeDocument, box: PixelBox, start: tuple[float, float], side_by_side: bool
+) -> UvMap:
+    """Metres (x, any y, z) to UV of one layer; what lies outside of it takes its border."""
+    scale = document.scale.metres_per_px
+    facade = document.facade
+    width, height = box.size
+    share = np.array([0.5, 1.0] if side_by_side else [1.0, 0.5])
+
+    def to_uv(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+        x_px = facade.x_px + points_m[:, 0] / scale - box.x0
+        y_px = facade.y_px + facade.height_px - points_m[:, 2] / scale - box.y0
+        u = np.clip(x_px, 0.5, width - 0.5) / width
+        v = np.clip(y_px, 0.5, height - 0.5) / height
+        return np.stack([u, v], axis=1) * share + np.array(start)
+
+    return to_uv
+
+
+def _class_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
+    """Where the extents of one class show and no element stands before them."""
+    width, height = box.size
+    mask = np.zeros((height, width), dtype=np.uint8)
+    for extent in document.extents:
+        corners = np.array(extent.polygon_px, dtype=np.float64) - (box.x0, box.y0)
+        if len(corners) >= 3:
+            painted = 255 if extent.class_ == wanted else 0
+            cv2.fillPoly(mask, [np.round(corners).astype(np.int32)], painted)
+    for element in document.elements:
+        rows, columns = _pixels_of(
+            element.x_px, element.y_px, element.width_px, element.height_px, box
+        )
+        mask[rows, columns] = 0
+    return mask > 0
+
+
+def _pixels_of(
+    x_px: float, y_px: float, width_px: float, height_px: float, box: PixelBox
+) -> tuple[slice, slice]:
+    width, height = box.size
+    x0 = min(max(round(x_px) - box.x0, 0), width)
+    x1 = min(max(round(x_px + width_px) - box.x0, x0), width)
+    y0 = min(max(round(y_px) - box.y0, 0), height)
+    y1 = min(max(round(y_px + height_px) - box.y0, y0), height)
+    return slice(y0, y1), slice(x0, x1)
+
+
+def _typical(pixels: Pixels, mask: Mask) -> tuple[float, float, float]:
+    """Median colour under the mask (of everything where the mask is empty), 0..1."""
+    chosen = pixels[mask] if mask.any() else pixels.reshape(-1, 3)
+    median = np.median(chosen, axis=0) / 255.0
+    return float(median[0]), float(median[1]), float(median[2])
+
+
+def _surface_layer(
+    document: FacadeDocument,
+    crop: Pixels,
+    box: PixelBox,
+    roof_colour: tuple[float, float, float],
+) -> tuple[Pixels, Mask]:
+    """The photo without what stands before wall and roof, and the mask of invented pixels."""
+    surface = crop.copy()
+    invented = np.zeros(crop.shape[:2], dtype=np.bool_)
+    sky = _class_mask(document, box, "sky")
+    roof_rgb = np.round(np.array(roof_colour) * 255.0).astype(np.uint8)
+    for element in document.elements:
+        if element.class_ == "chimney":
+            rows, columns = _pixels_of(
+                element.x_px, element.y_px, element.width_px, element.height_px, box
+            )
+            sky[rows, columns] = True
+    surface[sky] = roof_rgb
+    invented |= sky
+    balconies = [element for element in document.elements if element.class_ == "balcony"]
+    for element in sorted(balconies, key=lambda balcony: balcony.y_px):
+        spread = BALCONY_SPREAD * element.height_px
+        rows, columns = _pixels_of(
+            element.x_px - spread,
+            element.y_px - spread,
+            element.width_px + 2 * spread,
+            element.height_px + 2 * spread,
+            box,
+        )
+        _mirror_into(surface, rows, columns)
+        invented[rows, columns] = True
+    return surface, invented
+
+
+def _mirror_into(surface: Pixels, rows: slice, columns: slice) -> None:
+    """Fill rows by those above them, mirrored at their upper edge (below, at the image's top)."""
+    count = rows.stop - rows.start
+    above, below = rows.start, surface.shape[0] - rows.stop
+    if count <= 0 or max(above, below) == 0:
+        return
+    offsets = np.arange(count)
+    if above >= min(count, below):
+        source = rows.start - 1 - np.minimum(offsets, above - 1)
+    else:
+        source = rows.stop + np.minimum(offsets[::-1], below - 1)
+    surface[rows, columns] = surface[source, columns]
+
+
+def _shrunk(pixels: Pixels, mask: Mask) -> Texture:
+    """At most `LONGEST_PX` on the long edge."""
+    height, width = mask.shape
+    factor = min(1.0, LONGEST_PX / max(height, width))
+    if factor == 1.0:
+        return Texture(pixels=pixels, invented=mask)
+    size = (max(1, round(width * factor)), max(1, round(height * factor)))
+    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
+    part = cv2.resize(mask.astype(np.uint8) * 255, size, interpolation=cv2.INTER_AREA)
+    return Texture(pixels=np.asarray(small, dtype=np.uint8), invented=part > 0)
