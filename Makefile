@@ -54,9 +54,11 @@ $(EXTENSION): $(PACKAGES) pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES)
 		.venv/bin/maturin develop --release --locked --uv --quiet
 	@touch $@
 
+# Not `npm ci`: from 11.16 on it refuses a lock without download addresses, naming the packages of
+# other platforms (npm issue 9846). This installs the same: what the lock says, hashes checked.
 $(NODE_PACKAGES): studio/package.json studio/package-lock.json
 	@scripts/need node
-	cd studio && npm ci --no-audit --no-fund --loglevel=error
+	cd studio && npm install --no-save --ignore-scripts --no-audit --no-fund --loglevel=error
 	@touch $@
 
 $(STUDIO): $(NODE_PACKAGES) $(STUDIO_SOURCES)
