@@ -19,3 +19,36 @@ def triangulate_polygons(
     polygon_offsets: NDArray[np.int64],
     tolerance_m: float,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
+
+# chain.rs
+class ChainFault(ValueError): ...
+class ChainSizeError(ChainFault): ...
+class ChainLabelsError(ChainFault): ...
+
+def skyline_chain(unary: NDArray[np.float32], slope: float, jump: float) -> list[int]: ...
+def floor_chain(
+    distance: NDArray[np.float32],
+    scales: list[
+        tuple[list[int], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+    ],
+    similarity: float,
+    height_change: float,
+    neutral: float,
+    max_floors: int,
+) -> list[list[tuple[float, list[int]] | None]]: ...
+def column_chain(
+    distance: NDArray[np.float32],
+    evidence: NDArray[np.float64],
+    jamb: NDArray[np.float64],
+    widths: list[int],
+    *,
+    step: int,
+    gap_min: int,
+    gap_max: int,
+    jamb_weight: float,
+    similarity: float,
+    width_change: float,
+    gap_symmetry: float,
+    stripe_symmetry: float,
+    neutral: float,
+) -> tuple[float, list[tuple[int, int]]]: ...

@@ -2,9 +2,11 @@
 
 use pyo3::prelude::*;
 
+mod chain;
 mod polygons;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    chain::register(m)?;
     polygons::register(m)
 }

@@ -52,7 +52,11 @@ fn triangulate_polygons<'py>(
             view.ncols()
         )));
     }
-    let points: Vec<[f64; 3]> = view.rows().into_iter().map(|p| [p[0], p[1], p[2]]).collect();
+    let points: Vec<[f64; 3]> = view
+        .rows()
+        .into_iter()
+        .map(|p| [p[0], p[1], p[2]])
+        .collect();
     let rings: Vec<i64> = ring_offsets.as_array().to_vec();
     let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
     let found: Result<Triangulation, PolygonError> = py.detach(|| {
