@@ -10,17 +10,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from veduta.facade.paint import Finish
 from veduta.facade.rectangles import Rectangle
-from veduta.place.builder import PartBuilder, UvMap
-
-
-@dataclass(frozen=True)
-class Finish:
-    """What a polygon is given: its feature, its material and where its texture lies."""
-
-    feature: int
-    material: int
-    uv: UvMap | None = None
+from veduta.place.builder import PartBuilder
 
 
 @dataclass(frozen=True)

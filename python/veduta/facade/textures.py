@@ -14,14 +14,20 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.document import FacadeDocument
+from veduta.facade.document import Element, FacadeDocument
 from veduta.place.builder import UvMap
-from veduta.place.material import Texture
+from veduta.place.material import Colour, Texture
 
 # Longest edge of the atlas (px).
 LONGEST_PX = 4096
 # A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
 BALCONY_SPREAD = 0.08
+
+# Colours where the photo shows none of a class.
+_STONE: Colour = (0.78, 0.73, 0.65)
+_SLATE: Colour = (0.30, 0.33, 0.37)
+_IRON: Colour = (0.12, 0.12, 0.13)
+_BRICK: Colour = (0.55, 0.36, 0.29)
 
 Pixels = NDArray[np.uint8]
 Mask = NDArray[np.bool_]
@@ -43,14 +49,23 @@ class PixelBox:
 
 
 @dataclass(frozen=True)
+class Colours:
+    """The typical (median) colour of each class in the photo, sRGB 0..1."""
+
+    wall: Colour
+    roof: Colour
+    balcony: Colour
+    chimney: Colour
+
+
+@dataclass(frozen=True)
 class Atlas:
     """The texture, and where metres of the facade lie in it."""
 
     texture: Texture
     photo_uv: UvMap
     surface_uv: UvMap
-    wall_colour: tuple[float, float, float]
-    roof_colour: tuple[float, float, float]
+    colours: Colours
 
 
 def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
@@ -60,10 +75,8 @@ def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
     """
     box = _crop_box(document, photo, top_m)
     crop = np.ascontiguousarray(photo[box.y0 : box.y1, box.x0 : box.x1])
-    wall_colour = _typical(crop, _class_mask(document, box, "wall"))
-    roof_mask = _class_mask(document, box, "roof")
-    roof_colour = _typical(crop, roof_mask) if roof_mask.any() else (0.30, 0.33, 0.37)
-    surface, invented = _surface_layer(document, crop, box, roof_colour)
+    colours = _colours(document, crop, box)
+    surface, invented = _surface_layer(document, crop, box, colours.roof)
     side_by_side = box.size[1] > box.size[0]
     axis = 1 if side_by_side else 0
     pixels = np.concatenate([crop, surface], axis=axis)
@@ -73,8 +86,7 @@ def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
         texture=_shrunk(pixels, mask),
         photo_uv=_uv_map(document, box, (0.0, 0.0), side_by_side),
         surface_uv=_uv_map(document, box, step, side_by_side),
-        wall_colour=wall_colour,
-        roof_colour=roof_colour,
+        colours=colours,
     )
 
 
@@ -109,7 +121,17 @@ def _uv_map(
     return to_uv
 
 
-def _class_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
+def _element_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
+    """The rectangles of all elements of one class."""
+    width, height = box.size
+    mask = np.zeros((height, width), dtype=np.bool_)
+    for element in document.elements:
+        if element.class_ == wanted:
+            mask[_pixels_of(element, box)] = True
+    return mask
+
+
+def _extent_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
     """Where the extents of one class show and no element stands before them."""
     width, height = box.size
     mask = np.zeros((height, width), dtype=np.uint8)
@@ -119,60 +141,47 @@ def _class_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
             painted = 255 if extent.class_ == wanted else 0
             cv2.fillPoly(mask, [np.round(corners).astype(np.int32)], painted)
     for element in document.elements:
-        rows, columns = _pixels_of(
-            element.x_px, element.y_px, element.width_px, element.height_px, box
-        )
-        mask[rows, columns] = 0
+        mask[_pixels_of(element, box)] = 0
     return mask > 0
 
 
-def _pixels_of(
-    x_px: float, y_px: float, width_px: float, height_px: float, box: PixelBox
-) -> tuple[slice, slice]:
+def _pixels_of(element: Element, box: PixelBox, spread_px: float = 0.0) -> tuple[slice, slice]:
+    """Rows and columns of the element in the crop, grown by `spread_px` on each side."""
     width, height = box.size
-    x0 = min(max(round(x_px) - box.x0, 0), width)
-    x1 = min(max(round(x_px + width_px) - box.x0, x0), width)
-    y0 = min(max(round(y_px) - box.y0, 0), height)
-    y1 = min(max(round(y_px + height_px) - box.y0, y0), height)
+    x0 = min(max(round(element.x_px - spread_px) - box.x0, 0), width)
+    x1 = min(max(round(element.x_px + element.width_px + spread_px) - box.x0, x0), width)
+    y0 = min(max(round(element.y_px - spread_px) - box.y0, 0), height)
+    y1 = min(max(round(element.y_px + element.height_px + spread_px) - box.y0, y0), height)
     return slice(y0, y1), slice(x0, x1)
 
 
-def _typical(pixels: Pixels, mask: Mask) -> tuple[float, float, float]:
-    """Median colour under the mask (of everything where the mask is empty), 0..1."""
-    chosen = pixels[mask] if mask.any() else pixels.reshape(-1, 3)
-    median = np.median(chosen, axis=0) / 255.0
+def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox) -> Colours:
+    return Colours(
+        wall=_typical(crop, _extent_mask(document, box, "wall"), _STONE),
+        roof=_typical(crop, _extent_mask(document, box, "roof"), _SLATE),
+        balcony=_typical(crop, _element_mask(document, box, "balcony"), _IRON),
+        chimney=_typical(crop, _element_mask(document, box, "chimney"), _BRICK),
+    )
+
+
+def _typical(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
+    """Median colour under the mask, 0..1; `otherwise` where the mask is empty."""
+    if not mask.any():
+        return otherwise
+    median = np.median(pixels[mask], axis=0) / 255.0
     return float(median[0]), float(median[1]), float(median[2])
 
 
 def _surface_layer(
-    document: FacadeDocument,
-    crop: Pixels,
-    box: PixelBox,
-    roof_colour: tuple[float, float, float],
+    document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour
 ) -> tuple[Pixels, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     surface = crop.copy()
-    invented = np.zeros(crop.shape[:2], dtype=np.bool_)
-    sky = _class_mask(document, box, "sky")
-    roof_rgb = np.round(np.array(roof_colour) * 255.0).astype(np.uint8)
-    for element in document.elements:
-        if element.class_ == "chimney":
-            rows, columns = _pixels_of(
-                element.x_px, element.y_px, element.width_px, element.height_px, box
-            )
-            sky[rows, columns] = True
-    surface[sky] = roof_rgb
-    invented |= sky
+    invented = _extent_mask(document, box, "sky") | _element_mask(document, box, "chimney")
+    surface[invented] = np.round(np.array(roof) * 255.0).astype(np.uint8)
     balconies = [element for element in document.elements if element.class_ == "balcony"]
     for element in sorted(balconies, key=lambda balcony: balcony.y_px):
-        spread = BALCONY_SPREAD * element.height_px
-        rows, columns = _pixels_of(
-            element.x_px - spread,
-            element.y_px - spread,
-            element.width_px + 2 * spread,
-            element.height_px + 2 * spread,
-            box,
-        )
+        rows, columns = _pixels_of(element, box, BALCONY_SPREAD * element.height_px)
         _mirror_into(surface, rows, columns)
         invented[rows, columns] = True
     return surface, invented

@@ -7,6 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+Colour = tuple[float, float, float]
+
 
 @dataclass(frozen=True)
 class Texture:
@@ -36,7 +38,7 @@ class Material:
     """
 
     name: str
-    colour: tuple[float, float, float] = (1.0, 1.0, 1.0)
+    colour: Colour = (1.0, 1.0, 1.0)
     roughness: float = 0.9
     metalness: float = 0.0
     texture: Texture | None = None

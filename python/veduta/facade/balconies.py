@@ -1,0 +1,62 @@
+"""Balconies: a floor and three railings as a solid of its own before the wall."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from veduta.facade.layout import SLAB_M, Opening
+from veduta.facade.paint import Finish, Paint, photo_rect
+from veduta.facade.roof import Mansard
+from veduta.facade.solids import Box, add_box, add_tray
+from veduta.place.builder import PartBuilder
+from veduta.place.semantics import Provenance, SemanticClass
+
+# How far a balcony juts out (m): one before a single window, and one that people stand on.
+SHALLOW_M, DEEP_M = 0.35, 0.80
+# From this width on, a balcony serves more than one window (m).
+WIDE_M = 2.2
+RAILING_M = 0.04
+
+
+def add_balconies(
+    builder: PartBuilder,
+    balconies: Sequence[Opening],
+    mansard: Mansard | None,
+    paint: Paint,
+    wall: int,
+) -> None:
+    """Add each as a closed solid; its front shows the photo, the rest follows from a rule."""
+    for number, balcony in enumerate(balconies, start=1):
+        place = balcony.rectangle
+        shell = builder.new_shell()
+        front = builder.feature(
+            SemanticClass.BALCONY,
+            Provenance(balcony.element.provenance),
+            f"balcony {number}",
+            parent=wall,
+            shell=shell,
+            size_m=(place.width, place.height),
+            photo_px=photo_rect(balcony.element),
+        )
+        out = DEEP_M if place.width >= WIDE_M else SHALLOW_M
+        rest = builder.feature(
+            SemanticClass.BALCONY,
+            Provenance.INFERRED,
+            f"floor and sides of balcony {number}",
+            parent=front,
+            shell=shell,
+            size_m=(place.width, out),
+        )
+        box = Box(place.x0, place.x1, -out, _back_m(place.z0, mansard), place.z0, place.z1)
+        seen, plain = paint.seen(front), Finish(rest, paint.railing)
+        if min(place.width - 2 * RAILING_M, place.height - SLAB_M) > 0.1:
+            add_tray(builder, box, RAILING_M, SLAB_M, seen, plain)
+        else:
+            add_box(builder, box, seen, plain)
+
+
+def _back_m(floor_m: float, mansard: Mansard | None) -> float:
+    """Where the balcony meets the building: the wall, or the slope above the eaves."""
+    if mansard is None or floor_m <= mansard.eaves_m:
+        return 0.0
+    return mansard.front_y_m(min(floor_m + SLAB_M, mansard.break_m))

@@ -1,0 +1,147 @@
+"""Windows that lie in the roof stand in dormers on the front's lower slope.
+
+A dormer's front is upright at the foot of its window; two cheeks and a flat lid run back to the
+slope, which is cut open along their edges, so that the body stays closed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from veduta.facade.front import opening_panel
+from veduta.facade.layout import SMALLEST_M, Opening
+from veduta.facade.paint import Finish, Paint
+from veduta.facade.recess import add_panel
+from veduta.facade.rectangles import Rectangle, carve
+from veduta.facade.roof import Mansard
+from veduta.facade.solids import Box, Point, add_box
+from veduta.place.builder import PartBuilder
+from veduta.place.semantics import Provenance, SemanticClass
+
+# The frame of a dormer around its window (m): left and right, below, above.
+CHEEK_M, SILL_M, LINTEL_M = 0.14, 0.10, 0.16
+# Least roof between two dormers, and around all of them (m).
+GAP_M = 0.15
+# The lid juts out by this to the front and to the sides, and is this thick (m).
+LID_OUT_M, LID_SIDE_M, LID_M = 0.10, 0.05, 0.08
+
+
+@dataclass(frozen=True)
+class Dormer:
+    """Its front on the street side, as x and z, and the window in it."""
+
+    front: Rectangle
+    window: Opening
+
+
+def reach_m(windows: Sequence[Opening], eaves_m: float) -> float:
+    """How high above the eaves the slope must reach to carry these windows."""
+    tops = [window.rectangle.z1 for window in windows]
+    return max(tops, default=eaves_m) + LINTEL_M + 2 * GAP_M - eaves_m
+
+
+def plan_dormers(
+    windows: Sequence[Opening], mansard: Mansard | None, notes: list[str]
+) -> list[Dormer]:
+    """Clip the dormers clear of each other and of the slope's edges; note what is left out."""
+    if mansard is None:
+        if windows:
+            notes.append(f"{len(windows)} windows above the eaves left out: no roof to carry them")
+        return []
+    allowed = Rectangle(
+        mansard.inset_m, mansard.eaves_m, mansard.width_m - mansard.inset_m, mansard.break_m
+    ).grown(-GAP_M)
+    found: list[Dormer] = []
+    for number, window in enumerate(windows):
+        want = window.rectangle
+        around = Rectangle(
+            want.x0 - CHEEK_M, want.z0 - SILL_M, want.x1 + CHEEK_M, want.z1 + LINTEL_M
+        )
+        front = carve(around.common(allowed), [other.front for other in found], GAP_M)
+        inner = Rectangle(
+            front.x0 + CHEEK_M, front.z0 + SILL_M, front.x1 - CHEEK_M, front.z1 - LINTEL_M
+        )
+        if inner.width < SMALLEST_M or inner.height < SMALLEST_M:
+            notes.append(f"dormer {number}: left out, no room on the slope")
+            continue
+        if inner.area < 0.95 * want.area:
+            notes.append(f"dormer {number}: clipped to the slope")
+        found.append(Dormer(front, Opening(inner, window.element)))
+    return found
+
+
+def slope_hole(dormer: Dormer, mansard: Mansard) -> list[Point]:
+    """The hole that a dormer needs in the front slope, clockwise seen from outside."""
+    return [(x, mansard.front_y_m(z), z) for x, z in reversed(dormer.front.corners())]
+
+
+def add_dormers(
+    builder: PartBuilder,
+    dormers: Sequence[Dormer],
+    mansard: Mansard,
+    setback_m: float,
+    paint: Paint,
+    roof: int,
+) -> None:
+    """Add fronts, cheeks, lids and windows; `roof` is the feature of the slope."""
+    for number, dormer in enumerate(dormers, start=1):
+        size = (dormer.front.width, dormer.front.height)
+        wall = builder.feature(
+            SemanticClass.WALL,
+            Provenance.INFERRED,
+            f"dormer {number}",
+            parent=roof,
+            size_m=size,
+        )
+        window = opening_panel(builder, dormer.window, setback_m, paint, wall)
+        low_y = mansard.front_y_m(dormer.front.z0)
+        add_panel(builder, dormer.front.corners(), low_y, paint.surface(wall), [window])
+        _add_cheeks(builder, dormer.front, mansard, Finish(wall, paint.roof))
+        _add_lid(builder, dormer.front, mansard, paint, roof)
+
+
+def _add_cheeks(
+    builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish
+) -> None:
+    """Two triangles and the flat top between them."""
+    low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1)
+    right: list[Point] = [
+        (front.x1, low_y, front.z0),
+        (front.x1, high_y, front.z1),
+        (front.x1, low_y, front.z1),
+    ]
+    left: list[Point] = [(front.x0, y, z) for _, y, z in reversed(right)]
+    top: list[Point] = [
+        (front.x0, low_y, front.z1),
+        (front.x1, low_y, front.z1),
+        (front.x1, high_y, front.z1),
+        (front.x0, high_y, front.z1),
+    ]
+    for ring in (right, left, top):
+        builder.polygon([ring], finish.feature, finish.material)
+
+
+def _add_lid(
+    builder: PartBuilder, front: Rectangle, mansard: Mansard, paint: Paint, roof: int
+) -> None:
+    """A thin slab that juts out over the window; a solid of its own."""
+    low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1 + LID_M)
+    lid = builder.feature(
+        SemanticClass.CORNICE,
+        Provenance.INVENTED,
+        "lid of a dormer",
+        parent=roof,
+        shell=builder.new_shell(),
+        size_m=(front.width + 2 * LID_SIDE_M, LID_M),
+    )
+    box = Box(
+        front.x0 - LID_SIDE_M,
+        front.x1 + LID_SIDE_M,
+        low_y - LID_OUT_M,
+        high_y,
+        front.z1,
+        front.z1 + LID_M,
+    )
+    finish = Finish(lid, paint.roof)
+    add_box(builder, box, finish, finish)
