@@ -1,0 +1,213 @@
+/** What is known about the selected surface. */
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
+import { childrenOf, countClasses, type Feature, type FeatureTable } from "../core/features.ts";
+import { areaText, countText, sizeText } from "../core/wording.ts";
+import { icons } from "./icons.ts";
+import "./photo-region.ts";
+import { theme } from "./theme.ts";
+
+export interface ShownFeature {
+  readonly feature: Feature;
+  readonly row: number;
+  readonly table: FeatureTable;
+  readonly partName: string;
+  readonly severalParts: boolean;
+  readonly arrangementInvented: boolean;
+  readonly photoAddress: string | null;
+}
+
+export class FeaturePanel extends LitElement {
+  static override properties = { shown: { attribute: false } };
+  declare shown: ShownFeature | null;
+
+  static override styles = [
+    theme,
+    css`
+      :host {
+        display: block;
+        overflow: auto;
+        padding: 18px 20px 20px;
+        scrollbar-width: thin;
+      }
+      header {
+        display: flex;
+        gap: 10px;
+        align-items: start;
+        justify-content: space-between;
+        margin-bottom: 14px;
+      }
+      .kind {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+      }
+      h2 {
+        font-size: 19px;
+        line-height: 1.3;
+        font-weight: 620;
+        letter-spacing: -0.012em;
+        margin-top: 4px;
+        overflow-wrap: anywhere;
+      }
+      .icon-button {
+        margin: -6px -8px 0 0;
+        flex: none;
+      }
+      .sizes {
+        display: grid;
+        grid-template-columns: 3fr 2fr;
+        gap: 1px;
+        border-radius: 10px;
+        overflow: hidden;
+        background: var(--line);
+        border: 1px solid var(--line);
+        margin-bottom: 16px;
+      }
+      .sizes > div {
+        background: #fff;
+        padding: 10px 12px;
+      }
+      .sizes dd {
+        font-size: 16px;
+        font-weight: 560;
+        font-variant-numeric: tabular-nums;
+        white-space: nowrap;
+      }
+      dt {
+        font-size: 12px;
+        color: var(--ink-faint);
+      }
+      section {
+        margin-top: 16px;
+      }
+      h3 {
+        margin-bottom: 6px;
+      }
+      .provenance {
+        display: grid;
+        grid-template-columns: auto 1fr;
+        gap: 2px 9px;
+        align-items: center;
+      }
+      .provenance strong {
+        font-weight: 580;
+      }
+      .provenance p {
+        grid-column: 2;
+        color: var(--ink-soft);
+        font-size: 13px;
+      }
+      .parent {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        width: 100%;
+        padding: 8px 10px;
+        border: 1px solid var(--line);
+        border-radius: 10px;
+        background: #fff;
+        text-align: left;
+      }
+      .parent:hover {
+        background: #f5f5f2;
+      }
+      .parent span:nth-child(2) {
+        flex: 1;
+      }
+      .parent svg {
+        width: 16px;
+        height: 16px;
+        color: var(--ink-faint);
+      }
+      .note {
+        font-size: 12.5px;
+        color: var(--ink-soft);
+      }
+    `,
+  ];
+
+  constructor() {
+    super();
+    this.shown = null;
+  }
+
+  override render(): TemplateResult | typeof nothing {
+    const { shown } = this;
+    if (shown === null) return nothing;
+    const { feature } = shown;
+    const look = CLASS_LOOKS[feature.class];
+    return html`
+      <header>
+        <div>
+          <div class="kind">
+            <span class="swatch" .style=${`background:${look.colour}`}></span>
+            <span class="eyebrow" data-field="class">${look.label}</span>
+          </div>
+          <h2 data-field="name">${feature.name === "" ? look.label : feature.name}</h2>
+        </div>
+        <button class="icon-button" aria-label="Close this panel (Esc)" title="Close (Esc)"
+          @click=${() => this.#emit("close-panel", null)}>${icons.close}</button>
+      </header>
+      <dl class="sizes">
+        <div><dt>Width × height</dt><dd data-field="size">${sizeText(feature.width_m, feature.height_m)}</dd></div>
+        <div><dt>Area</dt><dd data-field="area">${areaText(feature.area_m2)}</dd></div>
+      </dl>
+      ${provenance(feature)} ${this.#relations(shown)}
+      <section>
+        <h3 class="eyebrow">In the photo</h3>
+        <veduta-photo-region .address=${shown.photoAddress} .rectangle=${feature.photo_px}></veduta-photo-region>
+      </section>
+      ${shown.severalParts ? building(shown) : nothing}
+    `;
+  }
+
+  #relations(shown: ShownFeature): TemplateResult | typeof nothing {
+    const { feature, table } = shown;
+    const parent = feature.parent === null ? undefined : table.rows[feature.parent];
+    const children = countClasses([{ rows: childrenOf(table, shown.row) }]);
+    if (parent === undefined && children.size === 0) return nothing;
+    return html`<section>
+      ${parent === undefined
+        ? nothing
+        : html`<h3 class="eyebrow">Part of</h3>
+            <button class="parent" data-field="parent" @click=${() => this.#emit("select-row", feature.parent)}>
+              <span class="swatch" .style=${`background:${CLASS_LOOKS[parent.class].colour}`}></span>
+              <span>${parent.name === "" ? CLASS_LOOKS[parent.class].label : parent.name}</span>
+              ${icons.chevron}
+            </button>`}
+      ${children.size === 0
+        ? nothing
+        : html`<h3 class="eyebrow">Carries</h3>
+            <p data-field="children">${[...children].map(([kind, count]) => countText(kind, count)).join(", ")}</p>`}
+    </section>`;
+  }
+
+  #emit(name: "close-panel" | "select-row", detail: number | null): void {
+    this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
+  }
+}
+
+function provenance(feature: Feature): TemplateResult {
+  const look = PROVENANCE_LOOKS[feature.provenance];
+  return html`<section>
+    <h3 class="eyebrow">How it is known</h3>
+    <div class="provenance">
+      <span class="swatch" .style=${`background:${look.colour}`}></span>
+      <strong data-field="provenance">${look.label}</strong>
+      <p>${look.meaning}</p>
+    </div>
+  </section>`;
+}
+
+function building(shown: ShownFeature): TemplateResult {
+  return html`<section>
+    <h3 class="eyebrow">Building</h3>
+    <p>${shown.partName}</p>
+    ${shown.arrangementInvented
+      ? html`<p class="note">Where it stands beside the others is invented: no record says so.</p>`
+      : nothing}
+  </section>`;
+}
+
+customElements.define("veduta-feature-panel", FeaturePanel);

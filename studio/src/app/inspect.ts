@@ -1,0 +1,70 @@
+/**
+ * `window.veduta`: what the page shows, for tests and for the curious. It only tells; to do
+ * something, use the page. Lengths in metres, world frame (x east, y north, z up); angles in
+ * degrees. The page says that it is ready (or failed) in `<html data-veduta="ready|error">`.
+ */
+import type { Feature } from "../core/features.ts";
+import type { StudioState } from "../core/state.ts";
+import type { Store } from "../core/store.ts";
+import type { Vec3 } from "../core/vector.ts";
+import type { ViewerStats } from "../three/viewer.ts";
+import type { Session } from "./session.ts";
+
+export interface Inspection {
+  /** Mode, colours, hidden classes. */
+  state(): { mode: string; colouring: string; hidden: string[]; flying: boolean };
+  camera(): { eye: Vec3; direction: Vec3; fov_deg: number };
+  walk(): { feet: Vec3; velocity: Vec3; grounded: boolean; blocked: boolean };
+  /** The selected feature and the part that it belongs to. */
+  picked(): (Feature & { part: string }) | null;
+  features(): (Feature & { part: string })[];
+  /** What a click there would pick; CSS pixels of the canvas. */
+  under(x: number, y: number): { feature: Feature; point: Vec3; distance_m: number } | null;
+  /** Where a point of the world is on the canvas, CSS pixels; null behind the camera. */
+  project(point: Vec3): { x: number; y: number } | null;
+  bounds(): { min: Vec3; max: Vec3 };
+  stats(): ViewerStats & { load_s: number };
+}
+
+declare global {
+  interface Window {
+    veduta?: Inspection;
+  }
+}
+
+export function inspect(session: Session, store: Store<StudioState>): Inspection {
+  const { viewer, place, tables } = session;
+  const name = (part: number): string => place.parts[part]?.id ?? "";
+  return {
+    state: () => ({
+      mode: store.value.mode,
+      colouring: store.value.colouring,
+      hidden: [...store.value.hidden],
+      flying: viewer.isFlying,
+    }),
+    camera: () => viewer.pose,
+    walk: () => {
+      const { feet, velocity, grounded, blocked } = viewer.walker;
+      return { feet, velocity, grounded, blocked };
+    },
+    picked: () => {
+      const { selected } = store.value;
+      const feature = selected === null ? undefined : tables[selected.part]?.rows[selected.row];
+      return selected === null || feature === undefined
+        ? null
+        : { ...feature, part: name(selected.part) };
+    },
+    features: () =>
+      tables.flatMap((table, part) => table.rows.map((row) => ({ ...row, part: name(part) }))),
+    under: (x, y) => {
+      const hit = viewer.hitAt(x, y);
+      const feature = hit === null ? undefined : tables[hit.feature.part]?.rows[hit.feature.row];
+      return hit === null || feature === undefined
+        ? null
+        : { feature, point: hit.point, distance_m: hit.distance_m };
+    },
+    project: (point) => viewer.project(point),
+    bounds: () => viewer.solid.bounds,
+    stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
+  };
+}

@@ -1,0 +1,182 @@
+/** Which classes are shown, and what the colours mean. */
+import { css, html, LitElement, type TemplateResult } from "lit";
+import {
+  CLASS_LOOKS,
+  CLASSES,
+  PROVENANCE_LOOKS,
+  PROVENANCES,
+  type SemanticClass,
+} from "../core/classes.ts";
+import { countClasses, countProvenances, type FeatureTable } from "../core/features.ts";
+import type { Colouring } from "../core/state.ts";
+import { icons } from "./icons.ts";
+import { theme } from "./theme.ts";
+
+const COLOURINGS: readonly { readonly value: Colouring; readonly label: string }[] = [
+  { value: "photo", label: "Photo" },
+  { value: "class", label: "Class" },
+  { value: "provenance", label: "Provenance" },
+];
+
+export class LayersPanel extends LitElement {
+  static override properties = {
+    tables: { attribute: false },
+    hidden_: { attribute: false },
+    colouring: { type: String },
+  };
+  declare tables: readonly FeatureTable[];
+  declare hidden_: ReadonlySet<SemanticClass>;
+  declare colouring: Colouring;
+
+  static override styles = [
+    theme,
+    css`
+      :host {
+        display: block;
+        overflow: auto;
+        padding: 16px 12px 12px;
+        scrollbar-width: thin;
+      }
+      .eyebrow {
+        padding: 0 8px;
+        margin-bottom: 6px;
+      }
+      .segments {
+        display: grid;
+        grid-auto-flow: column;
+        grid-auto-columns: auto;
+        gap: 2px;
+        padding: 3px;
+        margin: 0 4px 16px;
+        border-radius: 10px;
+        background: var(--hover);
+      }
+      .segments button {
+        padding: 6px 10px;
+        border-radius: 8px;
+        font-size: 13px;
+        font-weight: 520;
+        color: var(--ink-soft);
+      }
+      .segments button[aria-checked="true"] {
+        background: #fff;
+        color: var(--ink);
+        box-shadow: 0 1px 3px rgb(20 30 40 / 0.16);
+      }
+      ul {
+        list-style: none;
+      }
+      .layer,
+      .legend li {
+        display: flex;
+        align-items: center;
+        gap: 10px;
+        width: 100%;
+        min-height: 36px;
+        padding: 6px 8px;
+        border-radius: 8px;
+        text-align: left;
+      }
+      .layer:hover {
+        background: var(--hover);
+      }
+      .layer .name,
+      .legend .name {
+        flex: 1;
+      }
+      .count {
+        color: var(--ink-faint);
+        font-variant-numeric: tabular-nums;
+      }
+      .layer svg {
+        width: 18px;
+        height: 18px;
+        color: var(--ink-faint);
+      }
+      .layer[aria-checked="false"] .name {
+        color: var(--ink-faint);
+        text-decoration: line-through;
+        text-decoration-thickness: 1px;
+      }
+      .layer[aria-checked="false"] .swatch {
+        background: transparent !important;
+      }
+      .legend {
+        margin-bottom: 12px;
+      }
+      .legend li {
+        align-items: start;
+        min-height: 0;
+      }
+      .legend .swatch {
+        margin-top: 4px;
+      }
+      .legend small {
+        display: block;
+        font-size: 12.5px;
+        line-height: 1.4;
+        color: var(--ink-soft);
+      }
+    `,
+  ];
+
+  constructor() {
+    super();
+    this.tables = [];
+    this.hidden_ = new Set();
+    this.colouring = "photo";
+  }
+
+  override render(): TemplateResult {
+    const counts = countClasses(this.tables);
+    return html`
+      <h2 class="eyebrow" id="colours">Colours</h2>
+      <div class="segments" role="radiogroup" aria-labelledby="colours">
+        ${COLOURINGS.map(
+          ({ value, label }) => html`<button role="radio" aria-checked=${this.colouring === value}
+            @click=${() => this.#emit("colouring", value)}>${label}</button>`,
+        )}
+      </div>
+      ${this.colouring === "provenance" ? this.#legend() : ""}
+      <h2 class="eyebrow">Layers</h2>
+      <ul>
+        ${CLASSES.filter((kind) => counts.has(kind)).map((kind) => this.#layer(kind, counts.get(kind) ?? 0))}
+      </ul>
+    `;
+  }
+
+  #layer(kind: SemanticClass, count: number): TemplateResult {
+    const visible = !this.hidden_.has(kind);
+    const { plural, colour } = CLASS_LOOKS[kind];
+    return html`<li>
+      <button class="layer" role="switch" aria-checked=${visible} data-class=${kind}
+        title=${visible ? `Hide: ${plural}` : `Show: ${plural}`}
+        @click=${() => this.#emit("layer", { kind, visible: !visible })}>
+        <span class="swatch" .style=${`background:${colour}`}></span>
+        <span class="name">${plural}</span>
+        <span class="count">${count}</span>
+        ${visible ? icons.eye : icons.eyeOff}
+      </button>
+    </li>`;
+  }
+
+  #legend(): TemplateResult {
+    const counts = countProvenances(this.tables);
+    return html`<ul class="legend">
+      ${PROVENANCES.map((kind) => {
+        const { label, meaning, colour } = PROVENANCE_LOOKS[kind];
+        return html`<li>
+          <span class="swatch" .style=${`background:${colour}`}></span>
+          <span class="name">${label}<small>${meaning}</small></span>
+          <span class="count">${counts.get(kind) ?? 0}</span>
+        </li>`;
+      })}
+    </ul>`;
+  }
+
+  #emit(name: "colouring" | "layer", detail: unknown): void {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+}
+
+customElements.define("veduta-layers", LayersPanel);

@@ -1,0 +1,276 @@
+/** The page: the canvas and the panels over it. */
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { faultOf, Fault } from "../core/fault.ts";
+import { type Command, commandOf, holdOf } from "../core/input.ts";
+import type { SemanticClass } from "../core/classes.ts";
+import { type Colouring, INITIAL_STATE, type StudioState, withLayer } from "../core/state.ts";
+import { Store } from "../core/store.ts";
+import type { ShownFeature } from "./feature-panel.ts";
+import "./feature-panel.ts";
+import type { HelpDialog } from "./help-dialog.ts";
+import "./help-dialog.ts";
+import { inspect } from "./inspect.ts";
+import "./joystick.ts";
+import "./layers-panel.ts";
+import "./loading-screen.ts";
+import "./message-card.ts";
+import { openPlace, type Session } from "./session.ts";
+import { studioStyles } from "./studio-styles.ts";
+import { theme } from "./theme.ts";
+import "./toolbar.ts";
+
+const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
+  photo: "class",
+  class: "provenance",
+  provenance: "photo",
+};
+
+export class Studio extends LitElement {
+  static override properties = {
+    fault: { state: true },
+    session: { state: true },
+    progress: { state: true },
+    layersOpen: { state: true },
+    notice: { state: true },
+  };
+  declare fault: Fault | null;
+  declare session: Session | null;
+  declare progress: { share: number; file: string };
+  declare layersOpen: boolean;
+  declare notice: string;
+  readonly #store = new Store<StudioState>(INITIAL_STATE);
+  #noticeTimer = 0;
+
+  static override styles = [theme, studioStyles, css``];
+
+  constructor() {
+    super();
+    this.fault = null;
+    this.session = null;
+    this.progress = { share: 0, file: "" };
+    this.layersOpen = matchMedia("(min-width: 900px)").matches;
+    this.notice = "";
+    this.#store.subscribe(() => this.requestUpdate());
+  }
+
+  override firstUpdated(): void {
+    addEventListener("keydown", (event) => this.#onKey(event, true));
+    addEventListener("keyup", (event) => this.#onKey(event, false));
+    addEventListener("blur", () => this.session?.viewer.releaseKeys());
+    this.#canvas.addEventListener("webglcontextlost", () => {
+      this.#fail(
+        new Fault(
+          "The graphics card",
+          "the browser took it away from this page",
+          "Close other pages that draw in 3D, then try again.",
+        ),
+      );
+    });
+    void this.#open();
+  }
+
+  get #canvas(): HTMLCanvasElement {
+    const canvas = this.renderRoot.querySelector("canvas");
+    if (canvas === null) throw new Fault("Veduta studio", "its canvas is gone", "Reload the page.");
+    return canvas;
+  }
+
+  async #open(): Promise<void> {
+    try {
+      const session = await openPlace(new URL(location.href), this.#canvas, this.#store, (share, file) => {
+        this.progress = { share, file };
+      });
+      this.session = session;
+      document.title = `${titleOf(session)} · Veduta`;
+      window.veduta = inspect(session, this.#store);
+      await this.updateComplete;
+      document.documentElement.dataset.veduta = "ready";
+    } catch (error) {
+      this.#fail(error);
+    }
+  }
+
+  #fail(error: unknown): void {
+    this.fault = faultOf(error);
+    console.error(error);
+    document.documentElement.dataset.veduta = "error";
+  }
+
+  override render(): TemplateResult {
+    return html`
+      <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}></canvas>
+      ${this.session !== null && this.fault === null ? this.#panels(this.session) : nothing}
+      ${this.session === null && this.fault === null
+        ? html`<veduta-loading .share=${this.progress.share} .file=${this.progress.file}></veduta-loading>`
+        : nothing}
+      ${this.fault === null ? nothing : html`<veduta-message .fault=${this.fault}></veduta-message>`}
+    `;
+  }
+
+  #panels(session: Session): TemplateResult {
+    const state = this.#store.value;
+    const shown = this.#shown(session);
+    const coarse = matchMedia("(pointer: coarse)").matches;
+    return html`
+      <header class="brand sheet">
+        <img src="./icon.svg" alt="" width="26" height="26" />
+        <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
+      </header>
+      <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
+        .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
+        @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
+      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables}
+        .hidden_=${state.hidden} .colouring=${state.colouring}
+        @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
+        @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}>
+      </veduta-layers>
+      <veduta-feature-panel class="sheet" role="region" aria-label="The selected surface" ?hidden=${shown === null}
+        .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
+        @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
+      ${state.mode === "walk" && coarse
+        ? html`<veduta-joystick
+            @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
+          ></veduta-joystick>`
+        : nothing}
+      ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
+      <p class="hint" aria-live="polite">${this.notice === "" ? hintOf(state, coarse) : this.notice}</p>
+      <veduta-help></veduta-help>
+    `;
+  }
+
+  #shown(session: Session): ShownFeature | null {
+    const { selected } = this.#store.value;
+    if (selected === null) return null;
+    const table = session.tables[selected.part];
+    const feature = table?.rows[selected.row];
+    const part = session.place.parts[selected.part];
+    if (table === undefined || feature === undefined || part === undefined) return null;
+    return {
+      feature,
+      row: selected.row,
+      table,
+      partName: part.name,
+      severalParts: session.place.parts.length > 1,
+      arrangementInvented: part.arrangement === "invented",
+      photoAddress: session.photoAddress(selected.part),
+    };
+  }
+
+  #layer(change: { kind: SemanticClass; visible: boolean }): void {
+    const { hidden, selected } = this.#store.value;
+    const row = selected === null ? undefined : this.session?.tables[selected.part]?.rows[selected.row];
+    this.#store.update({
+      hidden: withLayer(hidden, change.kind, change.visible),
+      selected: !change.visible && row?.class === change.kind ? null : selected,
+    });
+  }
+
+  #selectRow(row: number): void {
+    const { selected } = this.#store.value;
+    if (selected !== null) this.#store.update({ selected: { part: selected.part, row } });
+  }
+
+  #onKey(event: KeyboardEvent, down: boolean): void {
+    const { session } = this;
+    if (session === null || this.fault !== null) return;
+    if (this.#help?.isOpen === true) return;
+    const hold = holdOf(event);
+    if (hold !== null) {
+      if (down && isTyping(event)) return;
+      session.viewer.hold(hold, down);
+      if (down && event.code.startsWith("Arrow")) event.preventDefault();
+      return;
+    }
+    const command = down && !event.repeat && !isTyping(event) ? commandOf(event) : null;
+    if (command === null) return;
+    event.preventDefault();
+    this.#do(command);
+  }
+
+  get #help(): HelpDialog | null {
+    return this.renderRoot.querySelector<HelpDialog>("veduta-help");
+  }
+
+  #do(command: Command): void {
+    const { session } = this;
+    if (session === null) return;
+    const { viewer } = session;
+    const actions: Record<Command, () => void> = {
+      orbit: () => this.#store.update({ mode: "orbit" }),
+      walk: () => this.#store.update({ mode: "walk" }),
+      reset: () => viewer.resetView(),
+      layers: () => (this.layersOpen = !this.layersOpen),
+      colouring: () => this.#nextColouring(),
+      screenshot: () => void this.#savePicture(session),
+      fullscreen: () => void this.#toggleFullscreen(),
+      "mouse-look": () => void this.#toggleMouseLook(session),
+      help: () => this.#help?.toggle(),
+      close: () => this.#store.update({ selected: null }),
+    };
+    actions[command]();
+  }
+
+  #nextColouring(): void {
+    const colouring = NEXT_COLOURING[this.#store.value.colouring];
+    this.#store.update({ colouring });
+    this.#say(`Colours: ${colouring}`);
+  }
+
+  async #savePicture(session: Session): Promise<void> {
+    try {
+      const address = URL.createObjectURL(await session.viewer.screenshot());
+      const link = document.createElement("a");
+      link.href = address;
+      link.download = `${session.place.parts[0]?.id ?? "veduta"}.png`;
+      link.click();
+      setTimeout(() => URL.revokeObjectURL(address), 10_000);
+      this.#say("Picture saved");
+    } catch (error) {
+      this.#say(faultOf(error).message);
+    }
+  }
+
+  async #toggleFullscreen(): Promise<void> {
+    try {
+      if (document.fullscreenElement === null) await document.documentElement.requestFullscreen();
+      else await document.exitFullscreen();
+    } catch (error) {
+      if (!(error instanceof TypeError || error instanceof DOMException)) throw error;
+      this.#say("This browser does not allow full screen here");
+    }
+  }
+
+  async #toggleMouseLook(session: Session): Promise<void> {
+    if (this.#store.value.mode !== "walk") this.#store.update({ mode: "walk" });
+    if (this.#store.value.mouseLook) session.viewer.releaseMouse();
+    else if (!(await session.viewer.captureMouse())) {
+      this.#say("The browser keeps the mouse; drag to look around");
+    }
+  }
+
+  #say(words: string): void {
+    this.notice = words;
+    clearTimeout(this.#noticeTimer);
+    this.#noticeTimer = window.setTimeout(() => (this.notice = ""), 2500);
+  }
+}
+
+function titleOf(session: Session): string {
+  const { parts } = session.place;
+  const first = parts[0]?.name ?? "";
+  return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;
+}
+
+function hintOf(state: StudioState, coarse: boolean): string {
+  if (state.mode === "orbit") return coarse ? "Drag to turn, tap a surface to ask" : "Drag to turn · scroll to zoom · click a surface to ask";
+  if (state.mouseLook) return "Move the mouse to look · click to ask · Esc lets go";
+  return coarse ? "Stick to walk, drag to look" : "W A S D to walk · drag to look · Shift to run";
+}
+
+/** Keys pressed in a field or on a switch belong to it, except those that no control uses. */
+function isTyping(event: KeyboardEvent): boolean {
+  const target = event.composedPath()[0];
+  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
+}
+
+customElements.define("veduta-studio", Studio);

@@ -1,0 +1,57 @@
+/** Where to stand to see a box whole. */
+import { add, dot, scale, subtract, type Vec3 } from "./vector.ts";
+
+export interface Box {
+  readonly min: Vec3;
+  readonly max: Vec3;
+}
+
+export interface View {
+  readonly eye: Vec3;
+  readonly target: Vec3;
+}
+
+/** Share of the picture that stays free around the box, on each side. */
+const MARGIN = 0.12;
+
+/**
+ * The nearest eye on the ray from the box's centre against `direction` (unit, where the camera
+ * looks to; not vertical) from which all corners are inside the picture.
+ * `fovY_rad` is the vertical angle of view, `aspect` width over height.
+ */
+export function frameBox(box: Box, direction: Vec3, fovY_rad: number, aspect: number): View {
+  const target = scale(add(box.min, box.max), 0.5);
+  const right = rightOf(direction);
+  const up = cross(right, direction);
+  const tanY = Math.tan(fovY_rad / 2) * (1 - MARGIN);
+  const tanX = tanY * aspect;
+  let distance = 0;
+  for (const corner of cornersOf(box)) {
+    const arm = subtract(corner, target);
+    const nearer = -dot(arm, direction);
+    const x = Math.abs(dot(arm, right)) / tanX;
+    const y = Math.abs(dot(arm, up)) / tanY;
+    distance = Math.max(distance, nearer + Math.max(x, y));
+  }
+  return { eye: subtract(target, scale(direction, distance)), target };
+}
+
+export function cornersOf(box: Box): Vec3[] {
+  const ends = [box.min, box.max] as const;
+  return ends.flatMap((a) =>
+    ends.flatMap((b) => ends.map((c): Vec3 => [a[0], b[1], c[2]])),
+  );
+}
+
+function rightOf(direction: Vec3): Vec3 {
+  const size = Math.hypot(direction[0], direction[1]);
+  return [direction[1] / size, -direction[0] / size, 0];
+}
+
+function cross(a: Vec3, b: Vec3): Vec3 {
+  return [
+    a[1] * b[2] - a[2] * b[1],
+    a[2] * b[0] - a[0] * b[2],
+    a[0] * b[1] - a[1] * b[0],
+  ];
+}

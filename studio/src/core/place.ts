@@ -1,0 +1,124 @@
+/** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
+import type { PartEntry, PlaceManifest } from "../generated/place.ts";
+import { Fault } from "./fault.ts";
+import type { Vec3 } from "./vector.ts";
+
+export interface Part {
+  readonly id: string;
+  readonly name: string;
+  /** Addresses relative to `place.json`. */
+  readonly model: string;
+  readonly photo: string | null;
+  readonly worldFromPart: readonly number[];
+  readonly arrangement: PartEntry["arrangement"];
+}
+
+export interface Place {
+  readonly parts: readonly Part[];
+  readonly start: { readonly eye: Vec3; readonly target: Vec3 };
+}
+
+/** More parts than a browser could show; a larger number is a broken or hostile file. */
+const MOST_PARTS = 10_000;
+const REMEDY = "Write the place again, for example with `veduta facade`.";
+
+export function readPlace(text: string, file: string): Place {
+  const broken = (fault: string): Fault => new Fault(file, fault, REMEDY);
+  const manifest = record(parse(text, broken), () => broken("it does not hold a place"));
+  if (manifest.schema !== "veduta/place") throw broken("it is not a Veduta place");
+  if (manifest.version !== 1) {
+    throw new Fault(
+      file,
+      `its version is ${String(manifest.version)}, and this studio reads version 1`,
+      "Use the studio of the Veduta that wrote the place.",
+    );
+  }
+  const parts: unknown = manifest.parts;
+  if (!Array.isArray(parts) || parts.length === 0) throw broken("the place has no parts");
+  if (parts.length > MOST_PARTS) throw broken(`it names more than ${MOST_PARTS} parts`);
+  const start = record(manifest.start, () => broken("it does not say where to start"));
+  return {
+    parts: parts.map((part, index) => readPart(part, `part ${index + 1}`, broken)),
+    start: {
+      eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),
+      target: readVec3(start.target, () => broken('"start.target" is not a point')),
+    },
+  };
+}
+
+type Fields<T> = { readonly [Key in keyof T]?: unknown };
+
+function parse(text: string, broken: (fault: string) => Fault): unknown {
+  try {
+    return JSON.parse(text) as unknown;
+  } catch (error) {
+    if (error instanceof SyntaxError) throw broken(`it is not JSON (${error.message})`);
+    throw error;
+  }
+}
+
+function record(value: unknown, bad: () => Fault): Fields<PlaceManifest & PlaceManifest["start"]> {
+  if (typeof value !== "object" || value === null || Array.isArray(value)) throw bad();
+  return value as Fields<PlaceManifest & PlaceManifest["start"]>;
+}
+
+function readPart(value: unknown, which: string, broken: (fault: string) => Fault): Part {
+  const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
+  if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
+  const part = value as Fields<PartEntry>;
+  const text = (field: "id" | "name"): string => {
+    const given: unknown = part[field];
+    if (typeof given !== "string") throw bad(field);
+    return given;
+  };
+  const transform: unknown = part.transform;
+  if (!isTransform(transform)) throw bad("transform");
+  if (part.arrangement !== "single" && part.arrangement !== "invented") throw bad("arrangement");
+  if (!isInside(part.model)) throw bad("model");
+  return {
+    id: text("id"),
+    name: text("name"),
+    model: part.model,
+    photo: isInside(part.photo) ? part.photo : null,
+    worldFromPart: transform,
+    arrangement: part.arrangement,
+  };
+}
+
+function isTransform(value: unknown): value is number[] {
+  return Array.isArray(value) && value.length === 16 && value.every((v) => Number.isFinite(v));
+}
+
+/** A relative address that stays in the folder of the manifest. */
+export function isInside(path: unknown): path is string {
+  if (typeof path !== "string" || path === "") return false;
+  if (/^[/\\]|[:\\?#]|%2e|%2f|%5c/i.test(path)) return false;
+  return !path.split("/").includes("..");
+}
+
+function readVec3(value: unknown, bad: () => Fault): Vec3 {
+  if (!Array.isArray(value) || value.length !== 3) throw bad();
+  const [x, y, z] = value as unknown[];
+  if (![x, y, z].every((v) => Number.isFinite(v))) throw bad();
+  return [x as number, y as number, z as number];
+}
+
+/** The address of the manifest: `?place=` (a file, or a folder ending in /), else beside the page. */
+export function placeAddress(page: URL): URL {
+  const asked = page.searchParams.get("place") ?? "place.json";
+  const url = URL.canParse(asked, page) ? new URL(asked, page) : null;
+  if (url?.origin !== page.origin || url.protocol !== page.protocol) {
+    throw new Fault(
+      asked,
+      "a place is shown only from the server that this page came from",
+      "Copy the place beside the studio, or run `veduta view` on its folder.",
+    );
+  }
+  if (url.pathname.endsWith("/")) url.pathname += "place.json";
+  return url;
+}
+
+/** The address of a file that the manifest names. */
+export function fileAddress(file: string, manifest: URL): URL {
+  return new URL(file.split("/").map(encodeURIComponent).join("/"), manifest);
+}

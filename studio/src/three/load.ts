@@ -1,0 +1,98 @@
+/** From the place to parts that can be drawn. */
+import { Group, Mesh, Texture, type Object3D } from "three";
+import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { readFeatureTable, type FeatureTable } from "../core/features.ts";
+import { drawnFromModel } from "../core/frames.ts";
+import { Fault } from "../core/fault.ts";
+import { fileAddress, type Part, type Place } from "../core/place.ts";
+import { fetchBytes } from "./fetch.ts";
+import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
+
+export interface LoadedPart {
+  readonly part: Part;
+  readonly table: FeatureTable;
+  readonly group: Group;
+  readonly meshes: readonly FeatureMesh[];
+}
+
+/** `share` in 0..1 of all parts; `file` is the one in hand. */
+export type OnProgress = (share: number, file: string) => void;
+
+const REMEDY = "Write the model again, for example with `veduta facade`.";
+const GLB_MAGIC = 0x46546c67;
+/** Texture size at a grazing angle costs little and keeps a street's walls sharp. */
+const ANISOTROPY = 8;
+
+export async function loadParts(
+  place: Place,
+  manifest: URL,
+  onProgress: OnProgress,
+): Promise<LoadedPart[]> {
+  const loaded: LoadedPart[] = [];
+  for (const [index, part] of place.parts.entries()) {
+    const share = (fraction: number): number => (index + fraction) / place.parts.length;
+    onProgress(share(0), part.model);
+    const bytes = await fetchBytes(fileAddress(part.model, manifest), part.model, (got, total) => {
+      onProgress(share(0.9 * (total === null ? 0.5 : got / total)), part.model);
+    });
+    loaded.push(await readPart(part, bytes));
+    onProgress(share(1), part.model);
+  }
+  return loaded;
+}
+
+async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
+  checkContainer(bytes, part.model);
+  const scene = await parse(bytes, part.model);
+  const extras = scene.userData as { veduta?: { features?: unknown } };
+  const table = readFeatureTable(extras.veduta?.features, part.model);
+  const group = new Group();
+  group.name = part.id;
+  group.add(scene);
+  group.matrix.fromArray(drawnFromModel(part.worldFromPart));
+  group.matrixAutoUpdate = false;
+  group.updateMatrixWorld(true);
+  const meshes: FeatureMesh[] = [];
+  scene.traverse((node) => {
+    if (node instanceof Mesh) meshes.push(featureMesh(node, table, part.model));
+  });
+  if (meshes.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
+  for (const { mesh } of meshes) sharpenTextures(mesh);
+  return { part, table, group, meshes };
+}
+
+/** The loader trusts the lengths in the file; a truncated one must not reach it. */
+function checkContainer(bytes: ArrayBuffer, file: string): void {
+  const view = new DataView(bytes);
+  if (bytes.byteLength < 20 || view.getUint32(0, true) !== GLB_MAGIC) {
+    throw new Fault(file, "it is not a binary glTF file", REMEDY);
+  }
+  const announced = view.getUint32(8, true);
+  if (announced > bytes.byteLength) {
+    throw new Fault(
+      file,
+      `it is cut short (${bytes.byteLength} of ${announced} bytes)`,
+      "Copy the file again, or write the model again.",
+    );
+  }
+}
+
+async function parse(bytes: ArrayBuffer, file: string): Promise<Group> {
+  try {
+    const gltf = await new GLTFLoader().parseAsync(bytes, "");
+    return gltf.scene;
+  } catch (error) {
+    const words = error instanceof Error ? error.message : String(error);
+    throw new Fault(file, `the model is broken (${words})`, REMEDY);
+  }
+}
+
+function sharpenTextures(mesh: Object3D): void {
+  if (!(mesh instanceof Mesh)) return;
+  const materials: unknown[] = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
+  for (const material of materials) {
+    for (const value of Object.values(material as Record<string, unknown>)) {
+      if (value instanceof Texture) value.anisotropy = ANISOTROPY;
+    }
+  }
+}

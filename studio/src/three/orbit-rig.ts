@@ -1,0 +1,84 @@
+/** Looking at the place from outside. */
+import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
+import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
+import { drawnFromWorld } from "../core/frames.ts";
+import { type Box, frameBox } from "../core/framing.ts";
+import { length, scale, subtract, type Vec3 } from "../core/vector.ts";
+import type { Pose } from "./flight.ts";
+
+export const ORBIT_FOV_DEG = 38;
+/** Where the camera looks to at first: into the facade, a little from the left and above. */
+const HOME_DIRECTION: Vec3 = [0.42, 0.86, -0.16];
+const KEY_TURN_RAD_S = 1.1;
+
+export class OrbitRig {
+  readonly #controls: OrbitControls;
+  readonly #camera: PerspectiveCamera;
+  readonly #bounds: Box;
+
+  constructor(camera: PerspectiveCamera, canvas: HTMLElement, bounds: Box, onChange: () => void) {
+    this.#camera = camera;
+    this.#bounds = bounds;
+    this.#controls = new OrbitControls(camera, canvas);
+    this.#controls.enableDamping = true;
+    this.#controls.dampingFactor = 0.09;
+    this.#controls.zoomToCursor = true;
+    this.#controls.minDistance = 1;
+    this.#controls.maxDistance = 12 * length(subtract(bounds.max, bounds.min));
+    this.#controls.maxPolarAngle = 0.495 * Math.PI;
+    this.#controls.addEventListener("change", onChange);
+  }
+
+  get target(): Vector3 {
+    return this.#controls.target;
+  }
+
+  set enabled(enabled: boolean) {
+    this.#controls.enabled = enabled;
+  }
+
+  /** The pose that shows the whole place. */
+  home(aspect: number): { pose: Pose; target: Vector3 } {
+    const direction = scale(HOME_DIRECTION, 1 / length(HOME_DIRECTION));
+    const view = frameBox(this.#bounds, direction, MathUtils.degToRad(ORBIT_FOV_DEG), aspect);
+    const target = new Vector3(...drawnFromWorld(view.target));
+    const camera = this.#camera.clone();
+    camera.position.set(...drawnFromWorld(view.eye));
+    camera.position.y = Math.max(0.4, camera.position.y);
+    camera.lookAt(target);
+    return {
+      pose: { position: camera.position, quaternion: camera.quaternion, fov: ORBIT_FOV_DEG },
+      target,
+    };
+  }
+
+  aimAt(target: Vector3): void {
+    this.#controls.target.copy(target);
+  }
+
+  /** Damping; true while the camera still moves. */
+  advance(): boolean {
+    this.#controls.target.y = Math.max(0, this.#controls.target.y);
+    const moved = this.#controls.update();
+    this.#camera.position.y = Math.max(0.1, this.#camera.position.y);
+    return moved;
+  }
+
+  /** Turning and zooming by keys; the wishes are in -1..1. */
+  steer(left: number, up: number, nearer: number, seconds: number): void {
+    const arm = new Spherical().setFromVector3(this.#camera.position.clone().sub(this.target));
+    arm.theta += left * KEY_TURN_RAD_S * seconds;
+    arm.phi = MathUtils.clamp(arm.phi - up * KEY_TURN_RAD_S * seconds, 0.05, 0.495 * Math.PI);
+    arm.radius = MathUtils.clamp(
+      arm.radius * Math.exp(-nearer * seconds),
+      this.#controls.minDistance,
+      this.#controls.maxDistance,
+    );
+    this.#camera.position.setFromSpherical(arm).add(this.target);
+    this.#controls.update();
+  }
+
+  dispose(): void {
+    this.#controls.dispose();
+  }
+}

@@ -1,0 +1,237 @@
+/** Sun, sky and ground: calm daylight that leaves the photo's colours as they are. */
+import {
+  BackSide,
+  Color,
+  DirectionalLight,
+  Group,
+  Mesh,
+  PlaneGeometry,
+  PMREMGenerator,
+  Scene,
+  ShaderMaterial,
+  ShadowMaterial,
+  SphereGeometry,
+  type Texture,
+  Vector3,
+  Vector4,
+  type WebGLRenderer,
+} from "three";
+import { drawnFromWorld } from "../core/frames.ts";
+import type { Box } from "../core/framing.ts";
+import type { Vec3 } from "../core/vector.ts";
+
+/** To the sun, world frame: a spring afternoon, from the street's side (facades look south). */
+const TO_SUN: Vec3 = [-0.5, -0.62, 0.6];
+const SUN_STRENGTH = 2.9;
+const SKY_STRENGTH = 0.62;
+const HORIZON = new Color("#e4eaee");
+const ZENITH = new Color("#7ea6c9");
+const SUN_GLOW = new Color("#fff3dc");
+const GROUND = new Color("#cfccc4");
+/** Radius of the ground; beyond, the sky's lower half has the same colour as the horizon. */
+const GROUND_RADIUS_M = 3000;
+/** Just under the buildings' own bases, which lie at zero. */
+const GROUND_HEIGHT_M = -0.012;
+/** Buildings beyond this number get no darkening of the ground along their walls. */
+const MOST_FOOTPRINTS = 24;
+
+export interface Scenery {
+  readonly group: Group;
+  readonly sun: DirectionalLight;
+  readonly environment: Texture;
+  readonly skyStrength: number;
+  /** Keeps the sky around the camera. */
+  follow(camera: { readonly position: Vector3 }): void;
+}
+
+export function makeScenery(
+  renderer: WebGLRenderer,
+  bounds: Box,
+  footprints: readonly Box[],
+): Scenery {
+  const group = new Group();
+  const sky = makeSky();
+  const sun = makeSun(bounds);
+  group.add(sky, makeGround(footprints), makeGroundShadow(bounds), sun, sun.target);
+  return {
+    group,
+    sun,
+    environment: makeEnvironment(renderer),
+    skyStrength: SKY_STRENGTH,
+    follow: (camera) => sky.position.copy(camera.position),
+  };
+}
+
+function toSun(): Vector3 {
+  return new Vector3(...drawnFromWorld(TO_SUN)).normalize();
+}
+
+function makeSky(): Mesh {
+  const material = new ShaderMaterial({
+    side: BackSide,
+    depthWrite: false,
+    uniforms: {
+      horizon: { value: HORIZON },
+      zenith: { value: ZENITH },
+      glow: { value: SUN_GLOW },
+      toSun: { value: toSun() },
+    },
+    vertexShader: `
+      varying vec3 vDirection;
+      void main() {
+        vDirection = position;
+        gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
+      }`,
+    fragmentShader: `
+      uniform vec3 horizon, zenith, glow, toSun;
+      varying vec3 vDirection;
+      float dither(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453) - 0.5; }
+      void main() {
+        vec3 d = normalize(vDirection);
+        float height = clamp(d.y, 0.0, 1.0);
+        vec3 colour = mix(horizon, zenith, pow(height, 0.62));
+        float near = max(0.0, dot(d, toSun));
+        colour = mix(colour, glow, 0.28 * pow(near, 6.0) + 0.5 * pow(near, 90.0));
+        gl_FragColor = vec4(colour, 1.0);
+        #include <colorspace_fragment>
+        gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;
+      }`,
+  });
+  const sky = new Mesh(new SphereGeometry(1500, 48, 24), material);
+  sky.renderOrder = -2;
+  sky.frustumCulled = false;
+  return sky;
+}
+
+/** What glass and cornices mirror, and the light from everywhere: the sky over the ground. */
+function makeEnvironment(renderer: WebGLRenderer): Texture {
+  const scene = new Scene();
+  const sky = makeSky();
+  sky.scale.setScalar(0.02);
+  const floor = new Mesh(
+    new PlaneGeometry(60, 60),
+    new ShaderMaterial({
+      uniforms: { colour: { value: GROUND } },
+      vertexShader: "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
+      fragmentShader: "uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 1.0); }",
+    }),
+  );
+  floor.rotation.x = -Math.PI / 2;
+  floor.position.y = -2;
+  scene.add(sky, floor);
+  const generator = new PMREMGenerator(renderer);
+  const environment = generator.fromScene(scene, 0.02).texture;
+  generator.dispose();
+  return environment;
+}
+
+function makeSun(bounds: Box): DirectionalLight {
+  const sun = new DirectionalLight("#fff1dd", SUN_STRENGTH);
+  const { centre, radius } = sphereOf(bounds);
+  sun.position.copy(centre).addScaledVector(toSun(), 2 * radius);
+  sun.target.position.copy(centre);
+  sun.castShadow = true;
+  // Frame the place, with room for the shadows that fall in front of it.
+  const camera = sun.shadow.camera;
+  camera.left = -radius;
+  camera.right = radius;
+  camera.top = radius;
+  camera.bottom = -radius;
+  camera.near = 0.1;
+  camera.far = 4 * radius;
+  const size = radius > 12 ? 4096 : 2048;
+  sun.shadow.mapSize.set(size, size);
+  sun.shadow.bias = -0.0004;
+  sun.shadow.normalBias = Math.min(0.06, (2 * radius) / size);
+  sun.shadow.radius = 3;
+  // Nothing moves in a place: shadows are drawn again only when layers change.
+  sun.shadow.autoUpdate = false;
+  sun.shadow.needsUpdate = true;
+  return sun;
+}
+
+function makeGround(footprints: readonly Box[]): Mesh {
+  const boxes = footprints.slice(0, MOST_FOOTPRINTS).map((box) => {
+    const [x0, , z0] = drawnFromWorld(box.min);
+    const [x1, , z1] = drawnFromWorld(box.max);
+    return new Vector4(Math.min(x0, x1), Math.min(z0, z1), Math.max(x0, x1), Math.max(z0, z1));
+  });
+  const material = new ShaderMaterial({
+    defines: { FOOTPRINTS: boxes.length },
+    uniforms: {
+      ground: { value: GROUND },
+      horizon: { value: HORIZON },
+      footprints: { value: boxes },
+    },
+    vertexShader: `
+      varying vec3 vWorld;
+      void main() {
+        vec4 world = modelMatrix * vec4(position, 1.0);
+        vWorld = world.xyz;
+        gl_Position = projectionMatrix * viewMatrix * world;
+      }`,
+    fragmentShader: GROUND_SHADER,
+  });
+  const ground = new Mesh(new PlaneGeometry(2 * GROUND_RADIUS_M, 2 * GROUND_RADIUS_M, 24, 24), material);
+  ground.rotation.x = -Math.PI / 2;
+  ground.position.y = GROUND_HEIGHT_M;
+  ground.renderOrder = -1;
+  return ground;
+}
+
+/** Paving lines of one and five metres give the eye a scale; they fade with distance. */
+const GROUND_SHADER = `
+  uniform vec3 ground, horizon;
+  #if FOOTPRINTS > 0
+  uniform vec4 footprints[FOOTPRINTS];
+  #endif
+  varying vec3 vWorld;
+  float lines(vec2 p, float width) {
+    vec2 blur = fwidth(p);
+    vec2 toLine = abs(fract(p - 0.5) - 0.5);
+    vec2 line = 1.0 - smoothstep(vec2(width), vec2(width) + 1.2 * blur, toLine);
+    vec2 coverage = clamp(vec2(width) / max(blur, vec2(1e-5)), 0.0, 1.0);
+    return max(line.x * coverage.x, line.y * coverage.y);
+  }
+  float dither(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453) - 0.5; }
+  void main() {
+    float away = distance(vWorld, cameraPosition);
+    vec3 colour = ground;
+    float fine = lines(vWorld.xz, 0.012) * (1.0 - smoothstep(10.0, 40.0, away));
+    float coarse = lines(vWorld.xz / 5.0, 0.006) * (1.0 - smoothstep(30.0, 130.0, away));
+    colour *= 1.0 - 0.09 * fine - 0.10 * coarse;
+    #if FOOTPRINTS > 0
+    float dark = 0.0;
+    for (int i = 0; i < FOOTPRINTS; i++) {
+      vec2 outside = max(footprints[i].xy - vWorld.xz, vWorld.xz - footprints[i].zw);
+      float d = length(max(outside, 0.0));
+      dark = max(dark, 0.34 * exp(-d / 0.55) + 0.16 * exp(-d / 3.0));
+    }
+    colour *= 1.0 - dark;
+    #endif
+    colour = mix(colour, horizon, 1.0 - exp(-max(0.0, away - 30.0) / 260.0));
+    gl_FragColor = vec4(colour, 1.0);
+    #include <colorspace_fragment>
+    gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;
+  }`;
+
+function makeGroundShadow(bounds: Box): Mesh {
+  const { centre, radius } = sphereOf(bounds);
+  const material = new ShadowMaterial({ color: "#2b3442", opacity: 0.36, depthWrite: false });
+  const plane = new Mesh(new PlaneGeometry(6 * radius, 6 * radius), material);
+  plane.rotation.x = -Math.PI / 2;
+  plane.position.set(centre.x, GROUND_HEIGHT_M + 0.004, centre.z);
+  plane.receiveShadow = true;
+  plane.renderOrder = -1;
+  return plane;
+}
+
+/** In the drawn frame. */
+function sphereOf(bounds: Box): { centre: Vector3; radius: number } {
+  const min = new Vector3(...drawnFromWorld(bounds.min));
+  const max = new Vector3(...drawnFromWorld(bounds.max));
+  return {
+    centre: min.clone().add(max).multiplyScalar(0.5),
+    radius: Math.max(1, 0.5 * min.distanceTo(max)),
+  };
+}

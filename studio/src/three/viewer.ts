@@ -1,0 +1,330 @@
+/** Draws the place and moves the camera through it, as the state says. */
+import {
+  NeutralToneMapping,
+  PCFShadowMap,
+  PerspectiveCamera,
+  Raycaster,
+  Scene,
+  Vector2,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { Fault } from "../core/fault.ts";
+import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import type { Box } from "../core/framing.ts";
+import { type Hold, turnOf, wishOf } from "../core/input.ts";
+import type { Place } from "../core/place.ts";
+import type { FeatureRef, StudioState } from "../core/state.ts";
+import type { Store } from "../core/store.ts";
+import type { Vec3 } from "../core/vector.ts";
+import type { Walker } from "../core/walking.ts";
+import { Appearance } from "./appearance.ts";
+import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
+import type { LoadedPart } from "./load.ts";
+import { OrbitRig } from "./orbit-rig.ts";
+import { CanvasPointer } from "./pointer.ts";
+import { makeScenery, type Scenery } from "./scenery.ts";
+import { type Hit, Solid, soupOf } from "./solid.ts";
+import { WalkRig } from "./walk-rig.ts";
+
+/** Radians per CSS pixel: a drag takes the picture along, the captured mouse turns the head. */
+const DRAG_RAD_PX = 0.0032;
+const MOUSE_RAD_PX = 0.0022;
+const MOST_PIXELS_PER_CSS_PX = 2;
+
+export interface ViewerStats {
+  readonly frames: number;
+  /** Mean over the frames that were drawn one after the other; 0 before there were two. */
+  readonly framesPerSecond: number;
+  readonly triangles: number;
+}
+
+export class Viewer {
+  readonly solid: Solid;
+  readonly #canvas: HTMLCanvasElement;
+  readonly #store: Store<StudioState>;
+  readonly #parts: readonly LoadedPart[];
+  readonly #renderer: WebGLRenderer;
+  readonly #scene = new Scene();
+  readonly #camera = new PerspectiveCamera(38, 1, 0.08, 6000);
+  readonly #scenery: Scenery;
+  readonly #appearance: Appearance;
+  readonly #orbit: OrbitRig;
+  readonly #walk: WalkRig;
+  readonly #pointer: CanvasPointer;
+  readonly #resizes: ResizeObserver;
+  readonly #held = new Set<Hold>();
+  #stick: readonly [number, number] = [0, 0];
+  #flight: Flight | null = null;
+  #orbitPose: { pose: Pose; target: Vector3 } | null = null;
+  #request = 0;
+  #lastFrame_ms: number | null = null;
+  #frames = 0;
+  #streak = { frames: 0, seconds: 0 };
+
+  constructor(
+    canvas: HTMLCanvasElement,
+    place: Place,
+    parts: readonly LoadedPart[],
+    store: Store<StudioState>,
+  ) {
+    this.#canvas = canvas;
+    this.#store = store;
+    this.#parts = parts;
+    this.#renderer = makeRenderer(canvas);
+    this.solid = new Solid(soupOf(parts));
+    const footprints = parts.map((part) => new Solid(soupOf([part])).bounds);
+    this.#scenery = makeScenery(this.#renderer, this.solid.bounds, footprints);
+    this.#appearance = new Appearance(parts);
+    this.#scene.environment = this.#scenery.environment;
+    this.#scene.environmentIntensity = this.#scenery.skyStrength;
+    this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
+    this.#scene.add(...parts.map(({ group }) => group));
+    this.#orbit = new OrbitRig(this.#camera, canvas, this.solid.bounds, () => this.invalidate());
+    this.#walk = new WalkRig(place.start, this.solid, middleOf(this.solid.bounds));
+    this.#pointer = new CanvasPointer(canvas, {
+      onClick: (x, y) => this.#select(x, y),
+      onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
+      onCapture: (captured) => store.update({ mouseLook: captured }),
+    });
+    this.#resizes = new ResizeObserver(() => this.#resize());
+    this.#resizes.observe(canvas);
+    store.subscribe((now, before) => this.#follow(now, before));
+    this.#resize();
+    this.#appearance.tint(store.value);
+    this.#goHome();
+  }
+
+  /** Compiles and draws once, so that the first picture the person sees is whole. */
+  async prepare(): Promise<void> {
+    await this.#renderer.compileAsync(this.#scene, this.#camera);
+    this.#draw();
+  }
+
+  get walker(): Walker {
+    return this.#walk.walker;
+  }
+
+  get isFlying(): boolean {
+    return this.#flight !== null;
+  }
+
+  get stats(): ViewerStats {
+    const { frames, seconds } = this.#streak;
+    return {
+      frames: this.#frames,
+      framesPerSecond: seconds > 0 ? frames / seconds : 0,
+      triangles: this.solid.faceCount,
+    };
+  }
+
+  /** World frame. */
+  get pose(): { eye: Vec3; direction: Vec3; fov_deg: number } {
+    const direction = this.#camera.getWorldDirection(new Vector3());
+    return {
+      eye: worldFromDrawn(this.#camera.position.toArray()),
+      direction: worldFromDrawn(direction.toArray()),
+      fov_deg: this.#camera.fov,
+    };
+  }
+
+  hold(key: Hold, down: boolean): void {
+    if (down) this.#held.add(key);
+    else this.#held.delete(key);
+    this.invalidate();
+  }
+
+  releaseKeys(): void {
+    this.#held.clear();
+  }
+
+  /** x right, y forward, -1..1. */
+  setStick(x: number, y: number): void {
+    this.#stick = [x, y];
+    this.invalidate();
+  }
+
+  resetView(): void {
+    if (this.#store.value.mode === "walk") {
+      this.#walk.restart();
+      this.#fly(this.#walk.pose(this.#camera));
+      return;
+    }
+    const home = this.#orbit.home(this.#camera.aspect);
+    this.#orbit.aimAt(home.target);
+    this.#fly(home.pose);
+  }
+
+  async captureMouse(): Promise<boolean> {
+    return await this.#pointer.capture();
+  }
+
+  releaseMouse(): void {
+    this.#pointer.release();
+  }
+
+  /** The visible surface under a point of the canvas (CSS pixels). */
+  hitAt(x: number, y: number): Hit | null {
+    const box = this.#canvas.getBoundingClientRect();
+    const caster = new Raycaster();
+    const onScreen = new Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height);
+    caster.setFromCamera(onScreen, this.#camera);
+    return this.solid.firstHit(
+      worldFromDrawn(caster.ray.origin.toArray()),
+      worldFromDrawn(caster.ray.direction.toArray()),
+      (feature) => this.#isVisible(feature),
+    );
+  }
+
+  /** Where a point of the world is on the canvas (CSS pixels); null behind the camera. */
+  project(point: Vec3): { x: number; y: number } | null {
+    const box = this.#canvas.getBoundingClientRect();
+    const seen = new Vector3(...drawnFromWorld(point)).project(this.#camera);
+    if (seen.z > 1) return null;
+    return { x: ((seen.x + 1) / 2) * box.width, y: ((1 - seen.y) / 2) * box.height };
+  }
+
+  async screenshot(): Promise<Blob> {
+    this.#draw();
+    return await new Promise((resolve, reject) => {
+      this.#canvas.toBlob((blob) => {
+        if (blob !== null) resolve(blob);
+        else reject(new Fault("Picture", "the browser made no image", "Try a smaller window."));
+      }, "image/png");
+    });
+  }
+
+  dispose(): void {
+    cancelAnimationFrame(this.#request);
+    this.#resizes.disconnect();
+    this.#pointer.dispose();
+    this.#orbit.dispose();
+    this.#renderer.dispose();
+  }
+
+  /** Asks for a frame; nothing is drawn while nothing changes. */
+  invalidate(): void {
+    if (this.#request === 0) this.#request = requestAnimationFrame((now) => this.#frame(now));
+  }
+
+  #frame(now_ms: number): void {
+    this.#request = 0;
+    const seconds = this.#lastFrame_ms === null ? 1 / 60 : (now_ms - this.#lastFrame_ms) / 1000;
+    if (this.#lastFrame_ms !== null) {
+      this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
+    }
+    const goesOn = this.#advance(seconds);
+    this.#draw();
+    this.#lastFrame_ms = goesOn ? now_ms : null;
+    if (goesOn) this.invalidate();
+  }
+
+  #advance(seconds: number): boolean {
+    if (this.#flight !== null) {
+      if (this.#flight.advance(this.#camera, Math.min(seconds, 0.1))) this.#flight = null;
+      return true;
+    }
+    const turn = turnOf(this.#held);
+    const wish = wishOf(this.#held, this.#stick);
+    if (this.#store.value.mode === "walk") {
+      const moves = this.#walk.advance(wish, turn, seconds);
+      setPose(this.#camera, this.#walk.pose(this.#camera));
+      return moves;
+    }
+    const steering = turn.left !== 0 || turn.up !== 0 || wish.forward !== 0 || wish.right !== 0;
+    if (steering) {
+      this.#orbit.steer(turn.left - wish.right, turn.up, wish.forward, Math.min(seconds, 0.1));
+    }
+    return this.#orbit.advance() || steering;
+  }
+
+  #draw(): void {
+    this.#scenery.follow(this.#camera);
+    this.#renderer.render(this.#scene, this.#camera);
+    this.#frames += 1;
+  }
+
+  #follow(now: StudioState, before: StudioState): void {
+    if (now.mode !== before.mode) this.#changeMode(now.mode);
+    if (now.hidden !== before.hidden) {
+      this.#appearance.showLayers(now);
+      this.#scenery.sun.shadow.needsUpdate = true;
+    }
+    if (now.selected !== before.selected) this.#appearance.outlineSelected(now.selected);
+    if (now.selected !== before.selected || now.colouring !== before.colouring) {
+      this.#appearance.tint(now);
+    }
+    this.invalidate();
+  }
+
+  #changeMode(mode: StudioState["mode"]): void {
+    this.#held.clear();
+    this.#orbit.enabled = mode === "orbit";
+    if (mode === "walk") {
+      this.#orbitPose = { pose: poseOf(this.#camera), target: this.#orbit.target.clone() };
+      this.#fly(this.#walk.pose(this.#camera));
+      return;
+    }
+    this.releaseMouse();
+    const back = this.#orbitPose ?? this.#orbit.home(this.#camera.aspect);
+    this.#orbit.aimAt(back.target);
+    this.#fly(back.pose);
+  }
+
+  #fly(to: Pose): void {
+    this.#flight = new Flight(poseOf(this.#camera), to);
+    this.invalidate();
+  }
+
+  #goHome(): void {
+    const home = this.#orbit.home(this.#camera.aspect);
+    this.#orbit.aimAt(home.target);
+    setPose(this.#camera, home.pose);
+    this.#orbit.advance();
+    this.invalidate();
+  }
+
+  #look(dx: number, dy: number, captured: boolean): void {
+    if (this.#store.value.mode !== "walk" || this.#flight !== null) return;
+    const scale = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX;
+    this.#walk.turn(dx * scale, dy * scale);
+    this.invalidate();
+  }
+
+  #select(x: number, y: number): void {
+    this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
+  }
+
+  #isVisible(ref: FeatureRef): boolean {
+    const feature = this.#parts[ref.part]?.table.rows[ref.row];
+    return feature !== undefined && !this.#store.value.hidden.has(feature.class);
+  }
+
+  #resize(): void {
+    const { clientWidth: width, clientHeight: height } = this.#canvas;
+    if (width === 0 || height === 0) return;
+    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX));
+    this.#renderer.setSize(width, height, false);
+    this.#appearance.outline.resize(width, height);
+    this.#camera.aspect = width / height;
+    this.#camera.updateProjectionMatrix();
+    this.invalidate();
+  }
+}
+
+function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
+  const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
+  renderer.toneMapping = NeutralToneMapping;
+  renderer.toneMappingExposure = 1;
+  renderer.shadowMap.enabled = true;
+  renderer.shadowMap.type = PCFShadowMap;
+  return renderer;
+}
+
+function middleOf(box: Box): Vec3 {
+  return [
+    (box.min[0] + box.max[0]) / 2,
+    (box.min[1] + box.max[1]) / 2,
+    (box.min[2] + box.max[2]) / 2,
+  ];
+}

@@ -1,0 +1,75 @@
+/** The camera in the walker's head. */
+import { MathUtils, type PerspectiveCamera, Vector3 } from "three";
+import { drawnFromWorld } from "../core/frames.ts";
+import { directionOf, headingOf, turned } from "../core/heading.ts";
+import { add, subtract, type Vec3 } from "../core/vector.ts";
+import {
+  DEFAULT_WALK,
+  eyeOf,
+  isMoving,
+  type Obstacles,
+  standing,
+  step,
+  type Walker,
+  type WalkOptions,
+  type WalkWish,
+} from "../core/walking.ts";
+import type { Pose } from "./flight.ts";
+
+const KEY_TURN_RAD_S = 1.6;
+/** Vertical angle of view of a wide and of an upright picture. */
+const FOV_WIDE_DEG = 60;
+const FOV_UPRIGHT_DEG = 78;
+
+export class WalkRig {
+  readonly options: WalkOptions;
+  readonly #start: { readonly eye: Vec3; readonly target: Vec3 };
+  readonly #obstacles: Obstacles;
+  #walker: Walker;
+
+  constructor(start: { readonly eye: Vec3; readonly target: Vec3 }, obstacles: Obstacles, centre: Vec3) {
+    this.options = { ...DEFAULT_WALK, reachCentre: [centre[0], centre[1]] };
+    this.#start = start;
+    this.#obstacles = obstacles;
+    this.#walker = this.#standingAtStart();
+  }
+
+  get walker(): Walker {
+    return this.#walker;
+  }
+
+  restart(): void {
+    this.#walker = this.#standingAtStart();
+  }
+
+  #standingAtStart(): Walker {
+    const heading = headingOf(subtract(this.#start.target, this.#start.eye));
+    return standing(this.#start.eye, heading, this.options);
+  }
+
+  turn(left_rad: number, up_rad: number): void {
+    this.#walker = { ...this.#walker, heading: turned(this.#walker.heading, left_rad, up_rad) };
+  }
+
+  /** True while there is something to draw anew. */
+  advance(wish: WalkWish, keys: { left: number; up: number }, seconds: number): boolean {
+    const turning = keys.left !== 0 || keys.up !== 0;
+    if (turning) {
+      this.turn(keys.left * KEY_TURN_RAD_S * seconds, 0.6 * keys.up * KEY_TURN_RAD_S * seconds);
+    }
+    const wishes = wish.forward !== 0 || wish.right !== 0;
+    if (!wishes && !isMoving(this.#walker)) return turning;
+    this.#walker = step(this.#walker, wish, seconds, this.#obstacles, this.options);
+    return true;
+  }
+
+  pose(camera: PerspectiveCamera): Pose {
+    const eye = eyeOf(this.#walker, this.options.body);
+    const ahead = add(eye, directionOf(this.#walker.heading));
+    const probe = camera.clone();
+    probe.position.set(...drawnFromWorld(eye));
+    probe.lookAt(new Vector3(...drawnFromWorld(ahead)));
+    const fov = MathUtils.lerp(FOV_UPRIGHT_DEG, FOV_WIDE_DEG, MathUtils.clamp(camera.aspect - 0.5, 0, 1));
+    return { position: probe.position, quaternion: probe.quaternion, fov };
+  }
+}

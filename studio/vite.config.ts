@@ -1,0 +1,47 @@
+import { defineConfig, type Plugin } from "vite";
+
+/**
+ * The page may talk to its own origin only. Textures inside a GLB become blob: addresses
+ * of this page, and screenshots are data made here, hence blob: and data:.
+ */
+const POLICY = [
+  "default-src 'self'",
+  "img-src 'self' blob: data:",
+  "connect-src 'self' blob:",
+  "style-src 'self'",
+  "object-src 'none'",
+  "base-uri 'none'",
+  "form-action 'none'",
+].join("; ");
+
+function contentSecurityPolicy(): Plugin {
+  return {
+    name: "veduta-content-security-policy",
+    apply: "build",
+    transformIndexHtml: () => [
+      {
+        tag: "meta",
+        attrs: { "http-equiv": "Content-Security-Policy", content: POLICY },
+        injectTo: "head-prepend",
+      },
+    ],
+  };
+}
+
+export default defineConfig({
+  base: "./",
+  plugins: [contentSecurityPolicy()],
+  build: {
+    outDir: "../python/veduta/studio/static",
+    emptyOutDir: true,
+    target: "es2022",
+    modulePreload: { polyfill: false },
+    chunkSizeWarningLimit: 800,
+    rollupOptions: {
+      output: {
+        manualChunks: (id) =>
+          id.includes("node_modules/three") ? "three" : undefined,
+      },
+    },
+  },
+});
