@@ -1,0 +1,50 @@
+"""From the rectified photo to the facade document: the recipe of the analysis."""
+
+from __future__ import annotations
+
+from veduta.facade.columns import split_columns
+from veduta.facade.compose import compose
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.evidence import gather
+from veduta.facade.extent import find_skyline, row_histograms
+from veduta.facade.floors import split_floors
+from veduta.facade.openings import find_openings
+from veduta.facade.options import FacadeOptions
+from veduta.facade.rectify import Rectified
+from veduta.run.progress import StepProgress, no_progress
+from veduta.run.report import StepRecord, timed_step
+
+
+def analyse(
+    rectified: Rectified,
+    source: Source,
+    options: FacadeOptions,
+    progress: StepProgress = no_progress,
+) -> tuple[FacadeDocument, list[StepRecord]]:
+    """Read a rectified facade; NotFoundError where the image shows none."""
+    steps: list[StepRecord] = []
+    with timed_step(steps, "extent") as step:
+        progress("extent", 0.0)
+        evidence = gather(rectified.pixels, rectified.valid)
+        skyline = find_skyline(evidence)
+        histograms = row_histograms(evidence, skyline)
+        step.counts["skyline_row"] = skyline.level
+        if skyline.reason:
+            step.rejected.append(f"sky: {skyline.reason}")
+    with timed_step(steps, "floors") as step:
+        progress("floors", 0.3)
+        floors = split_floors(evidence, skyline, histograms)
+        step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
+    with timed_step(steps, "columns") as step:
+        progress("columns", 0.6)
+        columns = split_columns(evidence, floors)
+        step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
+    with timed_step(steps, "openings") as step:
+        progress("openings", 0.8)
+        boxes = find_openings(evidence, floors, columns)
+        for kind in ("window", "balcony"):
+            step.counts[kind] = sum(b.kind == kind for b in boxes)
+    with timed_step(steps, "document"):
+        document = compose(rectified, source, options, evidence, skyline, floors, columns, boxes)
+    progress("document", 1.0)
+    return document, steps

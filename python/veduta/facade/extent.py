@@ -1,0 +1,127 @@
+"""Where the sky ends, and how strongly the image parts at each row (paper section 3.4)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.facade.evidence import Evidence, Float
+
+# The sky is looked for in the upper part of the image only.
+_SEARCHED = 0.5
+# Log-likelihood at which a pixel is as likely building as sky.
+_EVEN = 4.5
+# Cost per row of a step of the skyline, and of a jump of any height (chimneys).
+_SLOPE = 0.5
+_JUMP = 12.0
+_BINS = 32
+
+
+@dataclass(frozen=True)
+class Skyline:
+    """First row of building in each column (w,), at analysis resolution.
+
+    `level` is the row of the roof's ridge: chimneys and the like reach above it. `reason` says
+    why no sky was found, else it is empty.
+    """
+
+    rows: NDArray[np.int64]
+    level: int
+    reason: str = ""
+
+
+def find_skyline(evidence: Evidence) -> Skyline:
+    """Part sky from building with one row per column, smooth from column to column.
+
+    The sky's colours are those of the smooth pixels at the upper edge. Each pixel pays for being
+    unlike them or for being textured; the chain over columns is solved exactly.
+    """
+    none = np.zeros(evidence.width, np.int64)
+    seeds = _sky_seeds(evidence)
+    if seeds is None:
+        return Skyline(none, 0, "the upper edge is textured")
+    body = evidence.lab[evidence.height // 3 : 2 * evidence.height // 3]
+    brighter = np.median(seeds[:, 0]) >= np.median(body[:, :, 0]) + 10
+    blue = np.median(seeds[:, 2]) <= 122
+    if not (brighter or blue):
+        return Skyline(none, 0, "the upper edge is neither brighter than the facade nor blue")
+    rows = np.asarray(_core.skyline_chain(_sky_cost(evidence, seeds), _SLOPE, _JUMP), np.int64)
+    return Skyline(rows, int(np.percentile(rows, 60)))
+
+
+def _texture(evidence: Evidence) -> Float:
+    return np.hypot(evidence.gx, evidence.gy).astype(np.float32) * 2
+
+
+def _sky_seeds(evidence: Evidence) -> Float | None:
+    rows = max(3, round(evidence.height * 0.02))
+    part = np.s_[1:rows]
+    smooth = (_texture(evidence)[part] < 6) & evidence.valid[part]
+    if smooth.sum() < 0.25 * evidence.valid[part].sum() or smooth.sum() < 9:
+        return None
+    seeds: Float = cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0)[part][smooth]
+    return seeds
+
+
+def _sky_cost(evidence: Evidence, seeds: Float) -> Float:
+    """Cost (rows + 1, w) of a skyline at each row: the building-likeness of all pixels above."""
+    rows = round(evidence.height * _SEARCHED)
+    lab = cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0)[:rows]
+    stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 20, 1.0)
+    cv2.setRNGSeed(0)
+    _, labels, centres = cv2.kmeans(seeds, 3, np.empty(0), stop, 2, cv2.KMEANS_PP_CENTERS)
+    distance = np.full(lab.shape[:2], np.inf, np.float32)
+    for k in range(3):
+        members = seeds[labels.ravel() == k]
+        if len(members) >= 0.05 * len(seeds):
+            spread = members.var(0) + np.array([36, 6, 9], np.float32)
+            distance = np.minimum(distance, (((lab - centres[k]) ** 2) / spread).sum(-1))
+    texture = np.minimum(_texture(evidence)[:rows], 30)
+    unlike = np.minimum(distance, 30) / 2 + texture / 3 - _EVEN
+    # Nothing is known where there is no photo: it goes with the sky.
+    unlike[~evidence.valid[:rows]] = -_EVEN
+    cost = np.zeros((rows + 1, evidence.width), np.float32)
+    np.cumsum(unlike, axis=0, out=cost[1:])
+    return cost
+
+
+@dataclass(frozen=True)
+class RowHistograms:
+    """Running colour histograms of the building's rows: (3, h + 1, bins) counts."""
+
+    running: NDArray[np.float64]
+
+    def parting(self, half: int) -> NDArray[np.float64]:
+        """Earth mover's distance between the `half` rows above and below each row (h + 1,).
+
+        Taken on the marginal histograms of L, a and b, where it is the L1 distance of the
+        cumulative histograms (Rubner et al. 1998), chroma counted twice.
+        """
+        rows = self.running.shape[1]
+        at = np.arange(rows)
+        above = self.running[:, at] - self.running[:, np.maximum(at - half, 0)]
+        below = self.running[:, np.minimum(at + half, rows - 1)] - self.running[:, at]
+        moved = np.abs(_cumulative(above) - _cumulative(below)).sum(-1) * (256 / _BINS)
+        return np.asarray(np.array([1.0, 2.0, 2.0]) @ moved, np.float64)
+
+
+def _cumulative(counts: NDArray[np.float64]) -> NDArray[np.float64]:
+    totals = np.maximum(counts.sum(-1, keepdims=True), 1)
+    return np.asarray(np.cumsum(counts / totals, -1), np.float64)
+
+
+def row_histograms(evidence: Evidence, skyline: Skyline) -> RowHistograms:
+    """Histograms of every row's building pixels, ready for `parting`."""
+    rows, columns = evidence.height, evidence.width
+    building = (np.arange(rows)[:, None] >= skyline.rows[None]) & evidence.valid
+    bins = np.clip(evidence.lab / 256 * _BINS, 0, _BINS - 1).astype(np.int64)
+    offset = np.broadcast_to(np.arange(rows)[:, None] * _BINS, (rows, columns))[building]
+    running = np.zeros((3, rows + 1, _BINS))
+    for channel in range(3):
+        flat = np.bincount(offset + bins[:, :, channel][building], minlength=rows * _BINS)
+        np.cumsum(flat.reshape(rows, _BINS), axis=0, out=running[channel, 1:])
+    return RowHistograms(running)
