@@ -1,0 +1,173 @@
+"""Reading a facade document that somebody may have edited, and the photo beside it."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import BaseModel, ValidationError
+
+from veduta.facade.document import CLASSES, Element, FacadeBox, FacadeDocument
+from veduta.imaging.read import read_image
+from veduta.run.errors import InputError
+
+DOCUMENT = "facade.json"
+PHOTO = "rectified.jpg"
+MAX_BYTES = 20_000_000
+MAX_ELEMENTS = 20_000
+MAX_COORDINATE = 1e6
+"""No number of a document (px or m) is larger than this, by amount."""
+TOLERANCE = 0.01
+"""Metres that differ from what the pixels say by no more than this are left alone."""
+
+_REMEDY = "Mend it there; docs/facade.md says what each field means."
+_SHOWN_FAULTS = 5
+
+
+def load_document(path: Path) -> FacadeDocument:
+    """The document in `path`; InputError names each place in the file and its fault.
+
+    Pixels decide: where an element's metres disagree with them, the metres are made anew.
+    """
+    document = _parse(path, _read(path))
+    faults = _faults(document)
+    if faults:
+        raise InputError(path, "; ".join(faults[:_SHOWN_FAULTS]), _REMEDY)
+    return _with_metres(document)
+
+
+def load_photo(document_path: Path, document: FacadeDocument) -> NDArray[np.uint8]:
+    """(h, w, 3) sRGB of the rectified photo beside the document."""
+    path = document_path.with_name(PHOTO)
+    if not path.is_file():
+        raise InputError(
+            path, "does not exist", f"It must lie beside {document_path.name} as it was written."
+        )
+    pixels = read_image(path).pixels
+    size = (document.rectification.width_px, document.rectification.height_px)
+    if pixels.shape[1::-1] != size:
+        raise InputError(
+            path,
+            f"is {pixels.shape[1]} x {pixels.shape[0]} px, but {document_path.name} describes"
+            f" {size[0]} x {size[1]} px",
+            f"Use the {PHOTO} that was written with it.",
+        )
+    return pixels
+
+
+def _read(path: Path) -> bytes:
+    try:
+        if path.stat().st_size > MAX_BYTES:
+            raise InputError(path, "is too large for a facade document", "Check the file.")
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(path, "does not exist", "Check its name.") from None
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(path, fault, "Check its permissions.") from error
+
+
+def _parse(path: Path, content: bytes) -> FacadeDocument:
+    try:
+        return FacadeDocument.model_validate(json.loads(content))
+    except json.JSONDecodeError as error:
+        fault = f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}"
+        raise InputError(path, fault, "Mend the file there.") from error
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise InputError(path, f"is not JSON ({error})", "Check the file.") from error
+    except ValidationError as error:
+        faults = [f"{_place(fault['loc'])}: {fault['msg']}" for fault in error.errors()]
+        more = len(faults) - _SHOWN_FAULTS
+        shown = "; ".join(faults[:_SHOWN_FAULTS]) + (f"; and {more} more" if more > 0 else "")
+        raise InputError(path, shown, _REMEDY) from error
+
+
+def _place(location: tuple[int | str, ...]) -> str:
+    """A place in the file as a person would write it: `elements[3].width_px`."""
+    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in location]
+    return "".join(parts).lstrip(".") or "the document"
+
+
+def _faults(document: FacadeDocument) -> list[str]:
+    """What the schema cannot say."""
+    found = [
+        f"{place}: {value} is out of range"
+        for place, value in _numbers(document)
+        if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
+    ]
+    if sorted(document.classes) != sorted(CLASSES):
+        found.append(f"classes: must be {', '.join(CLASSES)}")
+    if len(document.elements) > MAX_ELEMENTS:
+        found.append(f"elements: more than {MAX_ELEMENTS}")
+    if document.scale.metres_per_px <= 0:
+        found.append("scale.metres_per_px: must be above zero")
+    for name, sized in _sized(document):
+        for side in ("width_px", "height_px"):
+            if getattr(sized, side) <= 0:
+                found.append(f"{name}.{side}: must be above zero")
+    for index, extent in enumerate(document.extents):
+        if len(extent.polygon_px) < 3:
+            found.append(f"extents[{index}].polygon_px: needs at least three points")
+    rules = document.rules.facade
+    if len(rules.symbols) != len(rules.sizes_m):
+        found.append("rules.facade: needs as many sizes_m as symbols")
+    return found
+
+
+def _sized(document: FacadeDocument) -> list[tuple[str, Element | FacadeBox]]:
+    elements = [(f"elements[{index}]", item) for index, item in enumerate(document.elements)]
+    return [("facade", document.facade), *elements]
+
+
+def _numbers(value: object, place: str = "") -> list[tuple[str, float]]:
+    """All floats in the document with their places."""
+    if isinstance(value, float):
+        return [(place.lstrip("."), value)]
+    if isinstance(value, BaseModel):
+        fields = type(value).model_fields
+        parts = [(f"{place}.{fields[name].alias or name}", part) for name, part in value]
+    elif isinstance(value, dict):
+        parts = [(f"{place}.{name}", part) for name, part in value.items()]
+    elif isinstance(value, list | tuple):
+        parts = [(f"{place}[{index}]", part) for index, part in enumerate(value)]
+    else:
+        return []
+    return [number for name, part in parts for number in _numbers(part, name)]
+
+
+def _with_metres(document: FacadeDocument) -> FacadeDocument:
+    """The document with all metres as the pixels and the scale say, and a note where they moved."""
+    scale, box = document.scale.metres_per_px, document.facade
+    moved: list[str] = []
+
+    def agreed(name: str, written: float, pixels: float) -> float:
+        if abs(written - pixels * scale) <= TOLERANCE:
+            return written
+        moved.append(name)
+        return pixels * scale
+
+    facade = box.model_copy(
+        update={
+            "width_m": agreed("the facade", box.width_m, box.width_px),
+            "height_m": agreed("the facade", box.height_m, box.height_px),
+        }
+    )
+    below = box.y_px + box.height_px
+    elements = []
+    for index, item in enumerate(document.elements):
+        name = f"{item.class_} (elements[{index}])"
+        metres = {
+            "x_m": agreed(name, item.x_m, item.x_px - box.x_px),
+            "y_m": agreed(name, item.y_m, below - item.y_px - item.height_px),
+            "width_m": agreed(name, item.width_m, item.width_px),
+            "height_m": agreed(name, item.height_m, item.height_px),
+        }
+        elements.append(item.model_copy(update=metres))
+    notes = list(document.notes)
+    if moved:
+        which = ", ".join(dict.fromkeys(moved))
+        notes.append(f"metres made anew from edited pixels: {which}")
+    return document.model_copy(update={"facade": facade, "elements": elements, "notes": notes})

@@ -1,0 +1,141 @@
+"""One photo becomes a building: read, rectify, analyse, model, write.
+
+An edited document takes the second way in: load, model, write.
+"""
+
+from __future__ import annotations
+
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from veduta.facade.analyse import analyse
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
+from veduta.facade.model import build_part
+from veduta.facade.options import FacadeOptions, ModelOptions
+from veduta.facade.outputs import label_png, rasterise
+from veduta.facade.overlay import overlay, png
+from veduta.facade.rectify import rectify
+from veduta.formats.gltf import write_glb
+from veduta.imaging.read import Photo, read_image
+from veduta.place.part import Part
+from veduta.run.progress import StepProgress, no_progress
+from veduta.run.report import StepRecord, timed_step
+
+VERSION = "1"
+"""Raised when any step changes its result: no older result is then taken for a new one's."""
+JPEG_QUALITY = 95
+
+
+@dataclass(frozen=True)
+class Building:
+    """What one photo gave; `photo_jpeg` is the rectified photo as it is stored."""
+
+    document: FacadeDocument
+    photo_jpeg: bytes
+    pixels: NDArray[np.uint8]
+    part: Part
+
+
+def reconstruct(
+    image: Path,
+    options: FacadeOptions,
+    part_id: str,
+    steps: list[StepRecord],
+    progress: StepProgress = no_progress,
+) -> Building:
+    """The building in one photo; each step adds its record to `steps`."""
+    progress("read", 0.0)
+    with timed_step(steps, "read") as step:
+        photo = read_image(image)
+        step.counts |= {"width_px": photo.pixels.shape[1], "height_px": photo.pixels.shape[0]}
+    progress("rectify", 0.0)
+    with timed_step(steps, "rectify") as step:
+        rectified = rectify(photo, options.rectify)
+        step.counts["method"] = rectified.record.method
+    document, analysis = analyse(rectified, _source(photo), options, progress)
+    steps.extend(analysis)
+    document = _with_notes(document, (*photo.notes, *rectified.notes))
+    jpeg, pixels = _stored(rectified.pixels)
+    part = _model(document, pixels, options.model, part_id, steps, progress)
+    return Building(document, jpeg, pixels, part)
+
+
+def rebuild(
+    document_path: Path,
+    options: ModelOptions,
+    part_id: str,
+    steps: list[StepRecord],
+    progress: StepProgress = no_progress,
+) -> Building:
+    """The building of a document that somebody may have edited; its photo lies beside it."""
+    progress("load", 0.0)
+    with timed_step(steps, "load") as step:
+        document = load_document(document_path)
+        pixels = load_photo(document_path, document)
+        step.counts["elements"] = len(document.elements)
+    part = _model(document, pixels, options, part_id, steps, progress)
+    return Building(document, document_path.with_name(PHOTO).read_bytes(), pixels, part)
+
+
+def write_building(
+    building: Building,
+    folder: Path,
+    steps: list[StepRecord],
+    progress: StepProgress = no_progress,
+) -> None:
+    """Write all files of one building but its report."""
+    progress("write", 0.0)
+    with timed_step(steps, "write") as step:
+        document = building.document
+        text = document.model_dump_json(by_alias=True, indent=1) + "\n"
+        (folder / DOCUMENT).write_text(text, encoding="utf-8")
+        (folder / PHOTO).write_bytes(building.photo_jpeg)
+        (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
+        (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
+        write_glb(building.part, folder / "model.glb")
+        step.counts["bytes"] = sum(file.stat().st_size for file in folder.iterdir())
+
+
+def _source(photo: Photo) -> Source:
+    height, width = photo.pixels.shape[:2]
+    return Source(image=photo.path.name, sha256=photo.sha256, width_px=width, height_px=height)
+
+
+def _with_notes(document: FacadeDocument, notes: tuple[str, ...]) -> FacadeDocument:
+    """The document with notes of the steps before the analysis, each once."""
+    return document.model_copy(update={"notes": list(dict.fromkeys((*notes, *document.notes)))})
+
+
+def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
+    """The photo as JPEG, and (h, w, 3) as it is read back.
+
+    The model is textured from what is stored, so that a rebuild of an untouched document gives
+    the same bytes.
+    """
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, format="JPEG", quality=JPEG_QUALITY, subsampling=0)
+    data = file.getvalue()
+    with Image.open(io.BytesIO(data)) as image:
+        return data, np.asarray(image.convert("RGB"), dtype=np.uint8)
+
+
+def _model(
+    document: FacadeDocument,
+    pixels: NDArray[np.uint8],
+    options: ModelOptions,
+    part_id: str,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Part:
+    progress("model", 0.0)
+    with timed_step(steps, "model") as step:
+        part = build_part(document, pixels, options, part_id)
+        step.counts |= {"features": len(part.features), "materials": len(part.materials)}
+        step.rejected.extend(part.notes)
+    return part
