@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -10,15 +10,22 @@ from numpy.typing import NDArray
 
 from veduta.facade.document import Rectification
 from veduta.facade.options import RectifyOptions
+from veduta.facade.plane import FacadePlane, find_plane
+from veduta.facade.plane_region import PlaneRegion, plane_region
 from veduta.geometry import homography, polygon
 from veduta.geometry.homography import Matrix
 from veduta.geometry.rectangle import aspect_of_rectangle
+from veduta.geometry.vanishing import axis_angles
 from veduta.imaging.exif import focal_px_from_mm35
+from veduta.imaging.plane_fit import aspect_error
 from veduta.imaging.read import Photo
 from veduta.imaging.warp import warp
 from veduta.run.errors import InputError
 
 MIN_SIDE_PX = 64
+
+MIN_VALID_PART = 0.3
+"""Outer rows and columns with less of the photo in them are cut off."""
 
 
 @dataclass(frozen=True)
@@ -44,11 +51,9 @@ def rectify(photo: Photo, options: RectifyOptions) -> Rectified:
         raise InputError("--corners", "is given together with --rectified", "Give one of the two.")
     if options.rectified:
         return _as_given(photo, options)
-    if options.corners is None:
-        raise InputError(
-            photo.path, "is not said to be rectified", "Give --rectified or --corners."
-        )
-    return _from_corners(photo, options)
+    if options.corners is not None:
+        return _from_corners(photo, options)
+    return _from_vanishing_points(photo, options)
 
 
 def known_focal_px(photo: Photo, options: RectifyOptions) -> float | None:
@@ -116,6 +121,80 @@ def checked_corners(photo: Photo, options: RectifyOptions) -> NDArray[np.float64
     if polygon.signed_area(corners) < MIN_SIDE_PX**2:
         raise InputError("--corners", "encloses too few pixels", order)
     return corners
+
+
+def _from_vanishing_points(photo: Photo, options: RectifyOptions) -> Rectified:
+    height, width = photo.pixels.shape[:2]
+    focal_px = known_focal_px(photo, options)
+    plane = find_plane(photo, focal_px)
+    region = plane_region(plane, (width, height))
+    rectified_from_source, size_px = framed(plane, region, options.max_side_px)
+    basis: Literal["focal-length", "assumed"] = "assumed" if focal_px is None else "focal-length"
+    notes = region.notes
+    if focal_px is None:
+        error = max(0.01, aspect_error(plane.fit, region.middle_px[0]))
+        notes += (f"no focal length: width against height may be off by about {error:.0%}",)
+    rectified = _render(
+        photo,
+        rectified_from_source,
+        size_px,
+        "vanishing-points",
+        basis,
+        plane.view.focal_px,
+        notes,
+        residual_deg(plane, region, rectified_from_source),
+    )
+    return trimmed(rectified)
+
+
+def framed(
+    plane: FacadePlane, region: PlaneRegion, max_side_px: int
+) -> tuple[Matrix, tuple[int, int]]:
+    """rectified_from_source and (width, height): the region's bounding box, 1:1 in its middle."""
+    plane_from_source = plane.plane_from_image()
+    corners = homography.apply(plane_from_source, region.polygon_px)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    extent = (high - low) * region.px_per_plane_unit
+    scale = region.px_per_plane_unit * min(1.0, max_side_px / float(extent.max()))
+    width_px, height_px = (max(1, min(max_side_px, round(v))) for v in (high - low) * scale)
+    frame = homography.scaling(scale, scale) @ homography.translation(-low[0], -low[1])
+    return frame @ plane_from_source, (width_px, height_px)
+
+
+def residual_deg(
+    plane: FacadePlane, region: PlaneRegion, rectified_from_source: Matrix
+) -> float | None:
+    """Median angle (degrees) of the region's held-out segments to the nearest image axis."""
+    held_out = plane.segments.select(plane.held_out)
+    inside = polygon.contains(region.polygon_px, held_out.start)
+    inside &= polygon.contains(region.polygon_px, held_out.end)
+    mapped = held_out.select(inside).mapped(rectified_from_source)
+    angles = axis_angles(mapped.directions())
+    return float(np.rad2deg(np.median(angles))) if len(angles) else None
+
+
+def trimmed(rectified: Rectified) -> Rectified:
+    """Without the outer rows and columns that lie mostly outside the photo."""
+    rows = np.flatnonzero(rectified.valid.mean(axis=1) >= MIN_VALID_PART)
+    columns = np.flatnonzero(rectified.valid.mean(axis=0) >= MIN_VALID_PART)
+    if not len(rows) or not len(columns):
+        return rectified
+    top, bottom = int(rows[0]), int(rows[-1]) + 1
+    left, right = int(columns[0]), int(columns[-1]) + 1
+    moved = homography.translation(-left, -top) @ np.array(rectified.record.rectified_from_source)
+    record = rectified.record.model_copy(
+        update={
+            "width_px": right - left,
+            "height_px": bottom - top,
+            "rectified_from_source": homography.normalised(moved).tolist(),
+        }
+    )
+    return replace(
+        rectified,
+        pixels=np.ascontiguousarray(rectified.pixels[top:bottom, left:right]),
+        valid=np.ascontiguousarray(rectified.valid[top:bottom, left:right]),
+        record=record,
+    )
 
 
 def _render(

@@ -47,3 +47,11 @@ def clip_half_plane(polygon: Points, line: NDArray[np.float64]) -> Points:
 def rectangle(x0: float, y0: float, x1: float, y1: float) -> Points:
     """Upper left, upper right, lower right, lower left."""
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], dtype=np.float64)
+
+
+def contains(polygon: Points, points: Points) -> NDArray[np.bool_]:
+    """(n,) whether points lie in or on a convex polygon that goes clockwise on the screen."""
+    inside = np.ones(len(points), dtype=np.bool_)
+    for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
+        inside &= (b[0] - a[0]) * (points[:, 1] - a[1]) >= (b[1] - a[1]) * (points[:, 0] - a[0])
+    return inside

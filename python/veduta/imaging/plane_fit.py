@@ -1,0 +1,251 @@
+"""The view of the dominant vertical plane of a photo, from its line segments.
+
+Maximum a posteriori over six numbers: yaw, pitch, roll, log focal length and the principal
+point. Each segment runs along the wall or up the wall (the nearer one), with a robust
+(Geman and McClure) penalty on its angle to that vanishing point; clutter is what is far from
+both. The priors say what a photo is like when the segments do not: a phone's lens, a principal
+point at the centre, a camera about level. They are weak, so "do nothing" wins only where the
+evidence is weak. A focal length from EXIF is a narrow prior.
+
+Rejected: two free vanishing points and the focal length from their orthogonality afterwards.
+Near-frontal photos, the common case, then have an arbitrary or imaginary focal length.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.geometry import homography, vanishing
+from veduta.geometry.vanishing import FacadeView
+from veduta.imaging.segments import Segments
+from veduta.imaging.vanishing import horizontal_candidates, vertical_candidates
+
+_VERTICALS, _HORIZONTALS = 3, 5
+_REFINED = 4
+_SCALES_RAD = tuple(math.radians(v) for v in (3.0, 2.0, 1.2, 0.8, 0.8, 0.8, 0.8, 0.8))
+_END_NOISE_PX = 0.7
+_EVIDENCE = 0.25
+"""Segments of one cornice are not independent: each counts for a quarter."""
+
+_YAW_SIGMA, _PITCH_SIGMA, _ROLL_SIGMA = (math.radians(v) for v in (40.0, 15.0, 6.0))
+_USUAL_FOCAL = 0.74
+"""32 mm equivalent, as a part of the diagonal: between a phone and a standard lens."""
+
+_USUAL_FOCAL_SIGMA = 0.35
+_USUAL_CENTRE_SIGMA = 0.05
+_KNOWN_FOCAL_SIGMA = 0.02
+_KNOWN_CENTRE_SIGMA = 0.01
+
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class PlaneFit:
+    """The view, the (6, 6) covariance of (yaw, pitch, roll, log f, cx/d, cy/d), and its cost."""
+
+    view: FacadeView
+    covariance: NDArray[np.float64]
+    cost: float
+    size_px: tuple[int, int]
+
+
+@dataclass(frozen=True)
+class _Problem:
+    """Segments in centred pixels / diagonal, and Gaussian priors on the six numbers."""
+
+    middle: NDArray[np.float64]
+    direction: NDArray[np.float64]
+    weight: Vector
+    noise_rad: Vector
+    prior_mean: Vector
+    prior_sigma: Vector
+
+
+def fit_plane(
+    segments: Segments,
+    size_px: tuple[int, int],
+    focal_px: float | None,
+    seed: int = 0,
+) -> PlaneFit | None:
+    """Fit the view of the dominant plane; None when no two segments meet in each direction.
+
+    `size_px` is (width, height) of the photo. Same arguments, same answer.
+    """
+    width, height = size_px
+    diagonal = math.hypot(width, height)
+    centred = Segments(
+        (segments.start - (width / 2, height / 2)) / diagonal,
+        (segments.end - (width / 2, height / 2)) / diagonal,
+    )
+    problem = _problem(centred, diagonal, focal_px)
+    starts = _starts(centred, problem, np.random.default_rng(seed))
+    if not starts:
+        return None
+    refined = [_refine(problem, start) for start in starts]
+    best = min(refined, key=lambda params: _cost(problem, params, _SCALES_RAD[-1]))
+    normal = _normal_equations(problem, best, _SCALES_RAD[-1])[0]
+    cost = _cost(problem, best, _SCALES_RAD[-1])
+    covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
+    return PlaneFit(_view(best, size_px), covariance, cost, size_px)
+
+
+def _view(params: Vector, size_px: tuple[int, int]) -> FacadeView:
+    width, height = size_px
+    diagonal = math.hypot(width, height)
+    yaw, pitch, roll, log_focal, cx, cy = (float(v) for v in params)
+    return FacadeView(
+        yaw=yaw,
+        pitch=pitch,
+        roll=roll,
+        focal_px=math.exp(log_focal) * diagonal,
+        centre_x_px=width / 2 + cx * diagonal,
+        centre_y_px=height / 2 + cy * diagonal,
+    )
+
+
+def _parameters(fit: PlaneFit) -> Vector:
+    """The six numbers of a fit: the inverse of `_view`."""
+    view, (width, height) = fit.view, fit.size_px
+    diagonal = math.hypot(width, height)
+    centre_x = (view.centre_x_px - width / 2) / diagonal
+    centre_y = (view.centre_y_px - height / 2) / diagonal
+    log_focal = math.log(view.focal_px / diagonal)
+    return np.array([view.yaw, view.pitch, view.roll, log_focal, centre_x, centre_y])
+
+
+def aspect_error(fit: PlaneFit, at_px: NDArray[np.float64]) -> float:
+    """Standard deviation of log(width / height) of a small piece of wall seen at a pixel (2,)."""
+    mean = _parameters(fit)
+    gradient = np.empty(6)
+    for i in range(6):
+        step = np.zeros(6)
+        step[i] = 1e-4
+        ahead = _log_aspect(_view(mean + step, fit.size_px), at_px)
+        gradient[i] = (ahead - _log_aspect(_view(mean - step, fit.size_px), at_px)) / 2e-4
+    return math.sqrt(float(gradient @ fit.covariance @ gradient))
+
+
+def _log_aspect(view: FacadeView, at_px: NDArray[np.float64]) -> float:
+    """log of metres on the wall per pixel across over metres per pixel up, at a pixel."""
+    plane_from_image = vanishing.plane_from_image(view)
+    steps = np.array([[0.0, 0.0], [0.5, 0.0], [0.0, 0.5]]) + at_px
+    origin, across, up = homography.apply(plane_from_image, steps)
+    return math.log(float(np.linalg.norm(across - origin)) / float(np.linalg.norm(up - origin)))
+
+
+def segment_weights(segments: Segments, diagonal: float) -> Vector:
+    """Length as a part of the diagonal, capped: one gutter is not the whole wall."""
+    return np.asarray(np.minimum(segments.lengths() / diagonal, 0.1))
+
+
+def _problem(centred: Segments, diagonal: float, focal_px: float | None) -> _Problem:
+    known = focal_px is not None
+    log_focal = math.log(focal_px / diagonal if focal_px is not None else _USUAL_FOCAL)
+    focal_sigma = _KNOWN_FOCAL_SIGMA if known else _USUAL_FOCAL_SIGMA
+    centre_sigma = _KNOWN_CENTRE_SIGMA if known else _USUAL_CENTRE_SIGMA
+    lengths = centred.lengths()
+    return _Problem(
+        middle=centred.midpoints(),
+        direction=centred.directions(),
+        weight=_EVIDENCE * segment_weights(centred, 1.0) / 0.03,
+        noise_rad=np.asarray(_END_NOISE_PX / np.maximum(lengths * diagonal, 1.0)),
+        prior_mean=np.array([0.0, 0.0, 0.0, log_focal, 0.0, 0.0]),
+        prior_sigma=np.array(
+            [_YAW_SIGMA, _PITCH_SIGMA, _ROLL_SIGMA, focal_sigma, centre_sigma, centre_sigma]
+        ),
+    )
+
+
+def _starts(centred: Segments, problem: _Problem, rng: np.random.Generator) -> list[Vector]:
+    """The cheapest pairs of vanishing points, each as the six numbers, and "do nothing"."""
+    verticals = vertical_candidates(centred, problem.weight, _VERTICALS, rng)
+    horizontals = horizontal_candidates(centred, problem.weight, _HORIZONTALS, rng)
+    if not len(verticals.points) or not len(horizontals.points):
+        return []
+    starts = [problem.prior_mean.copy()]
+    for vertical in verticals.points:
+        for horizontal in horizontals.points:
+            start = _start(problem, vertical, horizontal)
+            if start is not None:
+                starts.append(start)
+    starts.sort(key=lambda params: _cost(problem, params, _SCALES_RAD[0]))
+    return starts[:_REFINED]
+
+
+def _start(
+    problem: _Problem, vertical: NDArray[np.float64], horizontal: NDArray[np.float64]
+) -> Vector | None:
+    """Angles under the focal length that makes the pair orthogonal where it is a likely one."""
+    usual = problem.prior_mean[3]
+    focal = vanishing.focal_from_orthogonal(vertical, horizontal, (0.0, 0.0))
+    log_focal = usual
+    if focal is not None and abs(math.log(focal) - usual) < 2.0 * problem.prior_sigma[3]:
+        log_focal = math.log(focal)
+    camera = vanishing.camera_matrix(math.exp(log_focal), 0.0, 0.0)
+    rotation = vanishing.rotation_from_vanishing_points(camera, horizontal, vertical)
+    if rotation is None:
+        return None
+    yaw, pitch, roll = vanishing.angles_from_rotation(rotation)
+    if abs(yaw) > math.radians(75) or abs(pitch) > math.radians(50):
+        return None
+    return np.array([yaw, pitch, roll, log_focal, 0.0, 0.0])
+
+
+def _refine(problem: _Problem, start: Vector) -> Vector:
+    """Damped Gauss-Newton with iteratively reweighted segments, the scale annealed."""
+    params = start
+    for scale in _SCALES_RAD:
+        normal, gradient = _normal_equations(problem, params, scale)
+        step = np.linalg.solve(normal, gradient)
+        cost = _cost(problem, params, scale)
+        for _ in range(4):
+            trial = params - step
+            if _cost(problem, trial, scale) < cost:
+                params = trial
+                break
+            step = step / 2.0
+    return params
+
+
+def _angles(problem: _Problem, params: Vector) -> tuple[Vector, Vector]:
+    """(n,) signed angles of each segment to the horizontal and the vertical vanishing point."""
+    rotation = vanishing.rotation_from_angles(params[0], params[1], params[2])
+    camera = vanishing.camera_matrix(math.exp(params[3]), params[4], params[5])
+    points = camera @ rotation
+    along = vanishing.angles_to_vanishing_point(problem.middle, problem.direction, points[:, 0])
+    up = vanishing.angles_to_vanishing_point(problem.middle, problem.direction, points[:, 1])
+    return along, up
+
+
+def _cost(problem: _Problem, params: Vector, scale_rad: float) -> float:
+    along, up = _angles(problem, params)
+    angle = np.minimum(np.abs(along), np.abs(up))
+    ratio = angle**2 / (scale_rad**2 + problem.noise_rad**2)
+    prior = (params - problem.prior_mean) / problem.prior_sigma
+    return float((problem.weight * ratio / (1.0 + ratio)).sum() + (prior**2).sum())
+
+
+def _normal_equations(
+    problem: _Problem, params: Vector, scale_rad: float
+) -> tuple[NDArray[np.float64], Vector]:
+    """J^T W J and J^T W r of segments and priors; Jacobian by central differences."""
+    along, up = _angles(problem, params)
+    is_up = np.abs(up) < np.abs(along)
+    residual = np.where(is_up, up, along)
+    jacobian = np.empty((len(residual), 6))
+    for i in range(6):
+        step = np.zeros(6)
+        step[i] = 1e-5
+        ahead, behind = _angles(problem, params + step), _angles(problem, params - step)
+        difference = np.where(is_up, ahead[1] - behind[1], ahead[0] - behind[0])
+        jacobian[:, i] = difference / 2e-5
+    variance = scale_rad**2 + problem.noise_rad**2
+    weight = problem.weight / variance / (1.0 + residual**2 / variance) ** 2
+    precision = np.diag(1.0 / problem.prior_sigma**2)
+    normal = jacobian.T @ (weight[:, None] * jacobian) + precision
+    gradient = jacobian.T @ (weight * residual) + precision @ (params - problem.prior_mean)
+    return normal, gradient
