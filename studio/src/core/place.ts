@@ -1,5 +1,5 @@
 /** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
-import type { PartEntry, PlaceManifest } from "../generated/place.ts";
+import type { Place as Manifest, PlacePart } from "../generated/place.ts";
 import { Fault } from "./fault.ts";
 import type { Vec3 } from "./vector.ts";
 
@@ -10,7 +10,7 @@ export interface Part {
   readonly model: string;
   readonly photo: string | null;
   readonly worldFromPart: readonly number[];
-  readonly arrangement: PartEntry["arrangement"];
+  readonly arrangement: PlacePart["arrangement"];
 }
 
 export interface Place {
@@ -20,6 +20,7 @@ export interface Place {
 
 /** More parts than a browser could show; a larger number is a broken or hostile file. */
 const MOST_PARTS = 10_000;
+const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const REMEDY = "Write the place again, for example with `veduta facade`.";
 
 export function readPlace(text: string, file: string): Place {
@@ -57,21 +58,21 @@ function parse(text: string, broken: (fault: string) => Fault): unknown {
   }
 }
 
-function record(value: unknown, bad: () => Fault): Fields<PlaceManifest & PlaceManifest["start"]> {
+function record(value: unknown, bad: () => Fault): Fields<Manifest & Manifest["start"]> {
   if (typeof value !== "object" || value === null || Array.isArray(value)) throw bad();
-  return value as Fields<PlaceManifest & PlaceManifest["start"]>;
+  return value as Fields<Manifest & Manifest["start"]>;
 }
 
 function readPart(value: unknown, which: string, broken: (fault: string) => Fault): Part {
   const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
   if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
-  const part = value as Fields<PartEntry>;
+  const part = value as Fields<PlacePart>;
   const text = (field: "id" | "name"): string => {
     const given: unknown = part[field];
     if (typeof given !== "string") throw bad(field);
     return given;
   };
-  const transform: unknown = part.transform;
+  const transform: unknown = part.transform ?? IDENTITY;
   if (!isTransform(transform)) throw bad("transform");
   if (part.arrangement !== "single" && part.arrangement !== "invented") throw bad("arrangement");
   if (!isInside(part.model)) throw bad("model");

@@ -1,0 +1,1 @@
+"""The web studio: serving a place on this machine, and exporting it as a static folder."""

@@ -1,0 +1,52 @@
+"""The web application: the built studio at `/`, the place read-only below `/place/`."""
+
+from __future__ import annotations
+
+import mimetypes
+import os
+from pathlib import Path
+
+from fastapi import FastAPI, Request
+from fastapi.staticfiles import StaticFiles
+from starlette.responses import FileResponse, RedirectResponse, Response
+from starlette.types import ASGIApp
+
+from veduta.studio.guard import Guard
+
+# The machine's own tables may lack these, or have others.
+_TYPES = {
+    ".glb": "model/gltf-binary",
+    ".js": "text/javascript",
+    ".woff2": "font/woff2",
+    ".svg": "image/svg+xml",
+}
+
+
+class VisibleFiles(StaticFiles):
+    """Files below one folder; names that begin with a dot (work, temporary) are not there.
+
+    The base class resolves each path, links included, and refuses what leads out of the folder.
+    """
+
+    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
+        """Full path and status of a file, None where it may not be seen."""
+        if any(name.startswith(".") for name in Path(path).parts) or "\0" in path:
+            return "", None
+        return super().lookup_path(path)
+
+
+def make_app(static: Path, place: Path, token: str | None) -> ASGIApp:
+    """The application for one place; nothing in it writes or runs what it is sent."""
+    for suffix, media_type in _TYPES.items():
+        mimetypes.add_type(media_type, suffix)
+    app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
+
+    @app.get("/")
+    def page(request: Request) -> Response:
+        if "place" not in request.query_params:
+            return RedirectResponse("/?place=place/", status_code=307)
+        return FileResponse(static / "index.html", media_type="text/html")
+
+    app.mount("/place", VisibleFiles(directory=place), name="place")
+    app.mount("/", VisibleFiles(directory=static), name="studio")
+    return Guard(app, token)

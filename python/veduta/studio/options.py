@@ -1,0 +1,34 @@
+"""The options of `veduta view` and `veduta export`."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+
+class ViewOptions(Options):
+    """How a place is served."""
+
+    out: Path = Field(description="folder with a place.json, as `veduta facade -o OUT` writes it")
+    host: str = Field(
+        default="127.0.0.1",
+        description="address to listen on; any but this machine's own asks visitors for a token",
+    )
+    port: Annotated[int, Field(ge=0, le=65535)] = Field(
+        default=0, description="port to listen on; 0 takes a free one"
+    )
+    browser: bool = Field(default=True, description="open the page in the browser")
+
+
+class ExportOptions(Options):
+    """Where a place is exported to."""
+
+    out: Path = Field(description="folder with a place.json, as `veduta facade -o OUT` writes it")
+    web: Path | None = Field(
+        default=None, description="folder to write, which any static web server can show"
+    )
+    force: bool = Field(default=False, description="replace an earlier export of another place")
