@@ -82,7 +82,7 @@ lint-python: $(EXTENSION)
 	@$(STAGE) "ruff" $(PY) -m ruff check .
 	@$(STAGE) "ruff format" $(PY) -m ruff format --check --quiet .
 	@$(STAGE) "mypy" $(PY) -m mypy
-	@$(STAGE) "import order" .venv/bin/lint-imports --no-cache
+	@$(STAGE) "import order" .venv/bin/lint-imports --no-cache --no-logo
 
 lint-rust: $(PACKAGES)
 	@scripts/need rust-lint

@@ -1,0 +1,73 @@
+"""The shape of the checkout: sizes and names of files, and words that do not belong in them."""
+
+from __future__ import annotations
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+
+SOURCES = {".py", ".pyi", ".rs", ".ts"}
+TEXTS = SOURCES | {".md", ".toml", ".html", ".css", ".json", ".mjs", ".js", ".txt", ".yml", ""}
+MAX_LINES = 450
+MAX_BYTES = 1_500_000
+
+
+@pytest.fixture(scope="module")
+def tracked(repository: Path) -> list[Path]:
+    """Return the files that git knows and that are still there, relative to the root."""
+    listed = subprocess.run(
+        ["git", "ls-files", "-z"], cwd=repository, capture_output=True, text=True, check=False
+    )
+    if listed.returncode != 0:
+        pytest.skip("not a git checkout: the files of the project cannot be told from others")
+    names = [Path(name) for name in listed.stdout.split("\0") if name]
+    return [name for name in names if (repository / name).is_file()]
+
+
+def _sources(tracked: list[Path]) -> list[Path]:
+    return [name for name in tracked if name.suffix in SOURCES and "generated" not in name.parts]
+
+
+def _hits(repository: Path, names: list[Path], pattern: str) -> list[str]:
+    found = []
+    for name in names:
+        for number, line in enumerate((repository / name).read_text("utf-8").splitlines(), 1):
+            if re.search(pattern, line):
+                found.append(f"{name}:{number}: {line.strip()[:100]}")
+    return found
+
+
+def test_source_files_are_one_thing_each(repository: Path, tracked: list[Path]) -> None:
+    lengths = {
+        str(name): len((repository / name).read_text("utf-8").splitlines())
+        for name in _sources(tracked)
+    }
+    assert {name: lines for name, lines in lengths.items() if lines > MAX_LINES} == {}
+
+
+def test_no_file_is_a_dumping_ground(tracked: list[Path]) -> None:
+    names = re.compile(r"(?:^|_)(?:utils?|helpers?|common|misc)(?:_|$)")
+    grounds = [
+        str(name)
+        for name in _sources(tracked)
+        if any(names.search(Path(p).stem) for p in name.parts)
+    ]
+    assert grounds == []
+
+
+def test_no_data_in_the_repository(repository: Path, tracked: list[Path]) -> None:
+    sizes = {str(name): (repository / name).stat().st_size for name in tracked}
+    assert {name: size for name, size in sizes.items() if size > MAX_BYTES} == {}
+
+
+def test_nothing_is_left_unfinished(repository: Path, tracked: list[Path]) -> None:
+    words = r"\b(TO" + r"DO|FIX" + r"ME|NotImplemented" + r"Error)\b|(todo|unimplemented)!\("
+    assert _hits(repository, _sources(tracked), words) == []
+
+
+def test_no_path_of_a_developers_machine(repository: Path, tracked: list[Path]) -> None:
+    paths = r"(?<![\w.])/(" + "|".join(["work", "root", r"home/\w+", r"Users/\w+"]) + r")/\w"
+    texts = [name for name in tracked if name.suffix in TEXTS and name.name != "LICENSE"]
+    assert _hits(repository, texts, paths) == []
