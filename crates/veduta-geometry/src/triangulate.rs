@@ -35,10 +35,7 @@ struct Piece {
 /// Triangulates every polygon; `tolerance_m` is how far a vertex may lie off its polygon's plane.
 ///
 /// A polygon of n vertices and h holes whose rings do not touch gives n + 2h - 2 triangles.
-pub fn triangulate(
-    set: &PolygonSet<'_>,
-    tolerance_m: f64,
-) -> Result<Triangulation, PolygonError> {
+pub fn triangulate(set: &PolygonSet<'_>, tolerance_m: f64) -> Result<Triangulation, PolygonError> {
     let pieces: Vec<Piece> = (0..set.len())
         .into_par_iter()
         .map(|polygon| one_polygon(set, polygon, tolerance_m))
@@ -93,7 +90,9 @@ fn inside_triangles(
             let handle = mesh
                 .insert(Point2::new(u, v))
                 .map_err(|_| PolygonError::NotFinite { vertex })?;
-            vertex_of_handle.entry(handle.index()).or_insert(vertex as u32);
+            vertex_of_handle
+                .entry(handle.index())
+                .or_insert(vertex as u32);
             handles.push(handle);
         }
         for (k, &from) in handles.iter().enumerate() {
@@ -126,7 +125,11 @@ fn faces_inside(mesh: &Mesh) -> Vec<bool> {
     inside[outer.index()] = Some(false);
     let mut open: Vec<FixedFaceHandle<InnerTag>> = Vec::new();
     for edge in mesh.convex_hull() {
-        let hull = if edge.is_outer_edge() { edge.rev() } else { edge };
+        let hull = if edge.is_outer_edge() {
+            edge.rev()
+        } else {
+            edge
+        };
         let Some(face) = hull.face().as_inner() else {
             continue;
         };
@@ -148,7 +151,10 @@ fn faces_inside(mesh: &Mesh) -> Vec<bool> {
             }
         }
     }
-    inside.into_iter().map(|known| known.unwrap_or(false)).collect()
+    inside
+        .into_iter()
+        .map(|known| known.unwrap_or(false))
+        .collect()
 }
 
 /// The triangulation refuses coordinates below 2^-142, which are zero by any measure of ours.

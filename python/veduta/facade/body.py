@@ -26,9 +26,7 @@ def add_plain_walls(
     }
     for name, corners in walls.items():
         width = x1 if name == "back wall" else y1
-        feature = builder.feature(
-            SemanticClass.WALL, Provenance.INVENTED, name, size_m=(width, z1)
-        )
+        feature = builder.feature(SemanticClass.WALL, Provenance.INVENTED, name, size_m=(width, z1))
         builder.polygon([corners], feature, paint.wall)
     ground = builder.feature(
         SemanticClass.GROUND, Provenance.INVENTED, "footprint", size_m=(x1, y1)
@@ -42,9 +40,7 @@ def add_flat_roof(
 ) -> None:
     """The photo shows no roof: a flat one, marked as invented."""
     x1, y1, z1 = footprint_m
-    flat = builder.feature(
-        SemanticClass.ROOF, Provenance.INVENTED, "flat roof", size_m=(x1, y1)
-    )
+    flat = builder.feature(SemanticClass.ROOF, Provenance.INVENTED, "flat roof", size_m=(x1, y1))
     corners = [(0.0, 0.0, z1), (x1, 0.0, z1), (x1, y1, z1), (0.0, y1, z1)]
     builder.polygon([corners], flat, paint.roof)
 

@@ -101,9 +101,7 @@ def add_dormers(
         _add_lid(builder, dormer.front, mansard, paint, roof)
 
 
-def _add_cheeks(
-    builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish
-) -> None:
+def _add_cheeks(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish) -> None:
     """Two triangles and the flat top between them."""
     low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1)
     right: list[Point] = [

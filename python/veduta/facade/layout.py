@@ -150,9 +150,7 @@ def _doors(numbered: Numbered, front: _Front, shops: Sequence[Opening]) -> list[
     return found
 
 
-def _windows(
-    numbered: Numbered, front: _Front, balconies: Sequence[Rectangle]
-) -> list[Opening]:
+def _windows(numbered: Numbered, front: _Front, balconies: Sequence[Rectangle]) -> list[Opening]:
     """Windows from the ground up; one that opens onto a balcony reaches down to its floor."""
     obstacles = list(front.placed)
     found = []

@@ -58,6 +58,11 @@ def build_part(
         add_mansard(builder, mansard, dormers, setback, paint)
     add_balconies(builder, layout.balconies, mansard, paint, wall)
     add_chimneys(builder, layout.chimneys, footprint, mansard, paint)
+    builder.attributes.update(
+        storeysAboveGround=document.storeys,
+        eavesHeight_m=round(footprint[2], 3),
+        scale_basis=document.scale.basis,
+    )
     return builder.build()
 
 

@@ -36,7 +36,7 @@ def add_panel(
     face: Finish,
     recesses: Sequence[Panel],
 ) -> None:
-    """Add the panel with this outline (x, z; counter-clockwise from the street) and its recesses."""
+    """Add the panel with this outline (x, z; counter-clockwise seen from the street)."""
     rings: list[list[Point]] = [[(x, y_m, z) for x, z in outline]]
     for recess in recesses:
         rings.append([(x, y_m, z) for x, z in reversed(recess.rectangle.corners())])

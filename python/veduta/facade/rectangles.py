@@ -17,14 +17,17 @@ class Rectangle:
 
     @property
     def width(self) -> float:
+        """Size along x (m); negative where the rectangle is inside out."""
         return self.x1 - self.x0
 
     @property
     def height(self) -> float:
+        """Size along z (m); negative where the rectangle is inside out."""
         return self.z1 - self.z0
 
     @property
     def area(self) -> float:
+        """Square metres; zero where the rectangle is inside out."""
         return max(self.width, 0.0) * max(self.height, 0.0)
 
     def grown(self, margin_m: float) -> Rectangle:

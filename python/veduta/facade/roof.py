@@ -35,6 +35,7 @@ class Mansard:
 
     @property
     def top_m(self) -> float:
+        """Height of the ridge."""
         return self.break_m + self.upper_m
 
     def front_y_m(self, z_m: float) -> float:

@@ -19,9 +19,12 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.place.material import Material, Texture
+from veduta.formats.gltf_read import read_glb
+from veduta.place.material import Material
 from veduta.place.part import Features, Part
 from veduta.run.atomic import write_bytes
+
+__all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 
 JPEG_QUALITY = 90
 _FLOAT, _UINT = 5126, 5125
@@ -81,7 +84,13 @@ def glb_bytes(part: Part) -> bytes:
         "scenes": [
             {
                 "nodes": [0],
-                "extras": {"veduta": {"features": feature_columns(part), "notes": list(part.notes)}},
+                "extras": {
+                    "veduta": {
+                        "features": feature_columns(part),
+                        "attributes": dict(part.attributes),
+                        "notes": list(part.notes),
+                    }
+                },
             }
         ],
         "nodes": [{"mesh": 0, "name": part.id}],
@@ -164,11 +173,6 @@ def _add_primitives(root: dict[str, Any], part: Part, binary: _Bin) -> None:
 def _y_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
     """(x, y, z) with z up to glTF's (x, z, -y); no negative zeros."""
     return np.stack([vectors[:, 0], vectors[:, 2], -vectors[:, 1]], axis=1) + np.float32(0.0)
-
-
-def _z_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
-    """The way back from `_y_up`."""
-    return np.stack([vectors[:, 0], -vectors[:, 2], vectors[:, 1]], axis=1) + np.float32(0.0)
 
 
 def _polygon_of_vertex(part: Part) -> NDArray[np.int64]:

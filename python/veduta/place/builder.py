@@ -22,6 +22,7 @@ class PartBuilder:
 
     def __init__(self, part_id: str) -> None:
         self.part_id = part_id
+        self.attributes: dict[str, str | int | float] = {}
         self.notes: list[str] = []
         self._materials: list[Material] = []
         self._rings: list[NDArray[np.float64]] = []
@@ -116,5 +117,6 @@ class PartBuilder:
                 photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
             ),
             materials=tuple(self._materials),
+            attributes=dict(self.attributes),
             notes=tuple(self.notes),
         )

@@ -6,7 +6,8 @@ no object per surface: a part of a million faces is a few dozen arrays.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -47,9 +48,11 @@ class Features:
         return len(self.id)
 
     def semantic(self, row: int) -> SemanticClass:
+        """The class of one feature."""
         return SemanticClass.of_code(int(self.class_code[row]))
 
     def provenance(self, row: int) -> Provenance:
+        """Where one feature comes from."""
         return Provenance.of_code(int(self.provenance_code[row]))
 
 
@@ -76,6 +79,7 @@ class Part:
     ring_offsets: (r + 1,) int64, first vertex of each ring. polygon_offsets: (p + 1,) int64,
     first ring of each polygon, whose first ring is the outline.
     polygon_feature, polygon_material: (p,) int32.
+    attributes: what is known of the whole, under CityJSON's names where it has them.
     notes: what was adjusted or left out, and why.
     """
 
@@ -88,6 +92,7 @@ class Part:
     polygon_material: NDArray[np.int32]
     features: Features
     materials: tuple[Material, ...]
+    attributes: Mapping[str, str | int | float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
 
     @cached_property
@@ -112,11 +117,9 @@ class Part:
     @cached_property
     def feature_area_m2(self) -> NDArray[np.float64]:
         """(f,) the summed area of each feature's polygons, holes taken off."""
-        return np.bincount(
-            self.polygon_feature,
-            weights=self.triangles.polygon_area_m2,
-            minlength=len(self.features),
-        )
+        area = np.zeros(len(self.features))
+        np.add.at(area, self.polygon_feature, self.triangles.polygon_area_m2)
+        return area
 
     def polygons_of_shell(self, shell: int) -> NDArray[np.int64]:
         """The polygons that close one shell, in order."""

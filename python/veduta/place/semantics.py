@@ -26,6 +26,7 @@ class SemanticClass(StrEnum):
 
     @staticmethod
     def of_code(code: int) -> SemanticClass:
+        """Return the class at this place in the list."""
         return _CLASSES[code]
 
 
@@ -43,15 +44,16 @@ class Provenance(StrEnum):
 
     @staticmethod
     def of_code(code: int) -> Provenance:
+        """Return the provenance at this place in the list."""
         return _PROVENANCES[code]
 
 
 _CLASSES: tuple[SemanticClass, ...] = tuple(SemanticClass)
 _PROVENANCES: tuple[Provenance, ...] = tuple(Provenance)
 
-# CityJSON 2.0, section 3.3: the semantic surfaces that a Building may carry. A shop front and a
-# chimney have no class of their own there: the one is filled by a door-like opening that people
-# look through (Window), the other is a BuildingInstallation, whose faces take the roof's class.
+# CityJSON 2.0, section 3.3: the semantic surfaces that a Building may carry. A shop front has no
+# class of its own there; it is glass that people look through, an opening of its wall (Window).
+# What is an installation takes the surface that its direction says (formats/cityjson.py).
 CITYJSON_SURFACE: dict[SemanticClass, str] = {
     SemanticClass.WALL: "WallSurface",
     SemanticClass.ROOF: "RoofSurface",
@@ -67,8 +69,4 @@ CITYJSON_SURFACE: dict[SemanticClass, str] = {
 # Classes that CityJSON models as openings: they name the surface that they open as parent.
 OPENINGS: frozenset[SemanticClass] = frozenset(
     {SemanticClass.WINDOW, SemanticClass.DOOR, SemanticClass.SHOP}
-)
-# Classes that CityJSON models as objects of their own beside the building's shell.
-INSTALLATIONS: frozenset[SemanticClass] = frozenset(
-    {SemanticClass.BALCONY, SemanticClass.CHIMNEY, SemanticClass.CORNICE}
 )

@@ -1,0 +1,177 @@
+"""Reading back the GLB files that `formats.gltf` writes.
+
+The polygons are gone in a GLB: each triangle comes back as a polygon of its own. Features,
+materials, textures and their masks of invented pixels come back as they were (JPEG aside).
+"""
+
+from __future__ import annotations
+
+import io
+import json
+import struct
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from veduta.place.material import Colour, Material, Texture
+from veduta.place.part import Features, Part
+from veduta.place.semantics import Provenance, SemanticClass
+from veduta.run.errors import InputError
+
+LARGEST_BYTES = 2**31
+LARGEST_PIXELS = 64 * 2**20
+_HEADER = struct.Struct("<4sII")
+_CHUNK = struct.Struct("<I4s")
+_REMEDY = "Let Veduta write it again."
+_DTYPES = {5126: np.float32, 5125: np.uint32}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
+
+
+@dataclass(frozen=True)
+class _Glb:
+    """The two chunks of a file."""
+
+    root: dict[str, Any]
+    content: bytes
+
+    def view(self, number: int) -> bytes:
+        view = self.root["bufferViews"][number]
+        start, size = int(view["byteOffset"]), int(view["byteLength"])
+        if start < 0 or size < 0 or start + size > len(self.content):
+            raise ValueError(f"buffer view {number} lies outside of the file")
+        return self.content[start : start + size]
+
+    def array(self, number: int) -> NDArray[Any]:
+        accessor = self.root["accessors"][number]
+        width = _WIDTHS[accessor["type"]]
+        dtype = np.dtype(_DTYPES[accessor["componentType"]])
+        count = int(accessor["count"])
+        data = self.view(accessor["bufferView"])
+        if len(data) != count * width * dtype.itemsize:
+            raise ValueError(f"accessor {number} does not fill its buffer view")
+        return np.frombuffer(data, dtype=dtype).reshape((count, width) if width > 1 else (count,))
+
+
+def read_glb(path: Path) -> Part:
+    """Read a GLB file that Veduta wrote; raises InputError on any other."""
+    try:
+        if path.stat().st_size > LARGEST_BYTES:
+            raise InputError(path, f"larger than {LARGEST_BYTES} bytes", _REMEDY)
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(path, f"cannot be read ({error.strerror})", _REMEDY) from error
+    try:
+        return _part(_chunks(data))
+    except (ValueError, KeyError, IndexError, TypeError, struct.error, OSError) as error:
+        raise InputError(path, f"not a GLB file of Veduta ({error})", _REMEDY) from error
+
+
+def _chunks(data: bytes) -> _Glb:
+    magic, version, total = _HEADER.unpack_from(data, 0)
+    if magic != b"glTF" or version != 2 or total != len(data):
+        raise ValueError("the header is not glTF 2.0's, or the file is cut short")
+    size, kind = _CHUNK.unpack_from(data, _HEADER.size)
+    start = _HEADER.size + _CHUNK.size
+    if kind != b"JSON":
+        raise ValueError("the first chunk is not JSON")
+    root = json.loads(data[start : start + size])
+    size_bin, kind_bin = _CHUNK.unpack_from(data, start + size)
+    if kind_bin != b"BIN\0":
+        raise ValueError("the second chunk is not binary")
+    first = start + size + _CHUNK.size
+    return _Glb(root, data[first : first + size_bin])
+
+
+def _part(glb: _Glb) -> Part:
+    if glb.root["asset"].get("generator") != "veduta":
+        raise ValueError("another program wrote it")
+    extras = glb.root["scenes"][0]["extras"]["veduta"]
+    positions, uv, features, materials = [], [], [], []
+    for primitive in glb.root["meshes"][0]["primitives"]:
+        attributes = primitive["attributes"]
+        corners = glb.array(primitive["indices"])
+        points = glb.array(attributes["POSITION"])
+        positions.append(_z_up(points[corners]))
+        flat = np.zeros((len(points), 2), dtype=np.float32)
+        seen = glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else flat
+        uv.append(seen[corners])
+        features.append(glb.array(attributes["_FEATURE_ID_0"])[corners][::3].astype(np.int32))
+        materials.append(np.full(len(corners) // 3, primitive["material"], dtype=np.int32))
+    count = sum(len(rows) for rows in features)
+    table = _features(extras["features"])
+    feature = np.concatenate(features)
+    if count and not 0 <= int(feature.min()) <= int(feature.max()) < len(table):
+        raise ValueError("a face names a feature that is not in the table")
+    return Part(
+        id=glb.root["nodes"][0]["name"],
+        positions_m=np.concatenate(positions),
+        uv=np.concatenate(uv),
+        ring_offsets=np.arange(0, 3 * count + 1, 3, dtype=np.int64),
+        polygon_offsets=np.arange(count + 1, dtype=np.int64),
+        polygon_feature=feature,
+        polygon_material=np.concatenate(materials),
+        features=table,
+        materials=tuple(_material(glb, entry) for entry in glb.root["materials"]),
+        attributes=dict(extras.get("attributes", {})),
+        notes=tuple(extras.get("notes", ())),
+    )
+
+
+def _z_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
+    """glTF's (x, y, z) with y up to the part's (x, -z, y); no negative zeros."""
+    return np.stack([vectors[:, 0], -vectors[:, 2], vectors[:, 1]], axis=1) + np.float32(0.0)
+
+
+def _features(columns: dict[str, list[Any]]) -> Features:
+    unseen = [np.nan] * 4
+    return Features(
+        id=tuple(columns["id"]),
+        name=tuple(columns["name"]),
+        class_code=np.array([SemanticClass(n).code for n in columns["class"]], dtype=np.uint8),
+        provenance_code=np.array(
+            [Provenance(name).code for name in columns["provenance"]], dtype=np.uint8
+        ),
+        parent=np.array(columns["parent"], dtype=np.int32),
+        shell=np.array(columns["shell"], dtype=np.int32),
+        width_m=_sizes(columns["width_m"]),
+        height_m=_sizes(columns["height_m"]),
+        photo_px=np.array(
+            [unseen if rect is None else rect for rect in columns["photo_px"]], dtype=np.float64
+        ).reshape(-1, 4),
+    )
+
+
+def _sizes(column: list[float | None]) -> NDArray[np.float64]:
+    return np.array([np.nan if value is None else value for value in column], dtype=np.float64)
+
+
+def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
+    shading = entry["pbrMetallicRoughness"]
+    red, green, blue = (_srgb(value) for value in shading["baseColorFactor"][:3])
+    colour: Colour = (red, green, blue)
+    texture = None
+    if "baseColorTexture" in shading:
+        source = glb.root["textures"][shading["baseColorTexture"]["index"]]["source"]
+        pixels = _pixels(glb, source, "RGB")
+        mask = _pixels(glb, entry["extras"]["veduta"]["invented_mask"], "L")
+        texture = Texture(pixels=pixels, invented=mask > 127)
+    return Material(
+        entry["name"], colour, shading["roughnessFactor"], shading["metallicFactor"], texture
+    )
+
+
+def _pixels(glb: _Glb, number: int, mode: str) -> NDArray[np.uint8]:
+    image = Image.open(io.BytesIO(glb.view(glb.root["images"][number]["bufferView"])))
+    if image.width * image.height > LARGEST_PIXELS:
+        raise ValueError(f"image {number} is {image.width} x {image.height} pixels")
+    return np.asarray(image.convert(mode), dtype=np.uint8)
+
+
+def _srgb(linear: float) -> float:
+    """IEC 61966-2-1, the way back from `formats.gltf`."""
+    value = 12.92 * linear if linear <= 0.0031308 else 1.055 * linear ** (1 / 2.4) - 0.055
+    return round(value, 5)

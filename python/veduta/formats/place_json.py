@@ -1,0 +1,39 @@
+"""`place.json`: read with care, written whole or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from veduta.place.manifest import Place
+from veduta.run.atomic import write_bytes
+from veduta.run.errors import InputError
+
+# A manifest larger than this is refused before it is read (bytes).
+LARGEST_BYTES = 256 * 2**20
+
+
+def write_place(place: Place, path: Path) -> None:
+    """Write the manifest as indented JSON."""
+    write_bytes(path, (place.model_dump_json(by_alias=True, indent=2) + "\n").encode())
+
+
+def read_place(path: Path) -> Place:
+    """Read and check a manifest; raises InputError with the field that is wrong."""
+    try:
+        if path.stat().st_size > LARGEST_BYTES:
+            raise InputError(path, f"larger than {LARGEST_BYTES} bytes", "This is no place.json.")
+        text = path.read_bytes()
+    except OSError as error:
+        raise InputError(
+            path, f"cannot be read ({error.strerror})", "Name a folder that Veduta has written."
+        ) from error
+    try:
+        return Place.model_validate_json(text)
+    except ValidationError as error:
+        first = error.errors()[0]
+        field = ".".join(str(step) for step in first["loc"]) or "the file"
+        raise InputError(
+            path, f"{field}: {first['msg']}", "Let Veduta write it again, or mend the field."
+        ) from error
