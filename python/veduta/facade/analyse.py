@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.columns import split_columns
 from veduta.facade.compose import compose
 from veduta.facade.document import FacadeDocument, Source
@@ -37,11 +38,14 @@ def analyse(
         step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
     with timed_step(steps, "columns") as step:
         progress("columns", 0.6)
-        columns = split_columns(evidence, floors)
+        rows = floors.eaves, floors.ground_top
+        wall = wall_colour(evidence, *rows, floors.mean_storey)
+        scores = class_scores(evidence, wall, *rows, floors.mean_storey)
+        columns = split_columns(evidence, floors, scores)
         step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
-        boxes = find_openings(evidence, floors, columns)
+        boxes = find_openings(evidence, floors, columns, scores)
         for kind in ("window", "balcony"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):

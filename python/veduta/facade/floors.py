@@ -53,6 +53,11 @@ class Floors:
         return self.boundaries[0]
 
     @property
+    def mean_storey(self) -> float:
+        """Mean height of a floor above the ground floor (analysis pixels)."""
+        return (self.ground_top - self.eaves) / (len(self.boundaries) - 1)
+
+    @property
     def ground_top(self) -> int:
         """Row of the ground floor's top."""
         return self.boundaries[-1]

@@ -1,19 +1,33 @@
-"""The window rectangle of each floor and column, and the balconies in front of them."""
+"""The window rectangle of each floor and column, and the balconies in front of them.
+
+Within a floor the rows of a window stripe read from top to bottom: wall, window, railing, wall.
+The best rows (t, k, b) maximise the sum of the pixels' log-odds in the stripes plus, for each gap
+between the stripes, that of a railing running on through it where that is positive: one exact
+search decides windows, single balconies and running balconies together.
+"""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.appearance import Scores
 from veduta.facade.columns import Columns
-from veduta.facade.evidence import Evidence, Float, blur_line, two_class_threshold
+from veduta.facade.evidence import Evidence
 from veduta.facade.floors import Floors
 
-# In storeys: window heights, and depths of a balcony's railing in the image.
-_WINDOW = (0.3, 0.95)
-_RAILING = (0.12, 0.55)
+# In storeys: heights of a window's visible part and of a railing in the image.
+_WINDOW = (0.2, 0.9)
+_RAILING = (0.12, 0.5)
+# Weight of the horizontal edges at t, k and b against the pixel scores.
+_EDGE = 0.04
+# Mean log-odds at which a railing is taken to run on through a gap.
+_RUNS_ON = 0.15
+
+Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -30,103 +44,108 @@ class Box:
     score: float
 
 
-def find_openings(evidence: Evidence, floors: Floors, columns: Columns) -> list[Box]:
+def find_openings(
+    evidence: Evidence, floors: Floors, columns: Columns, scores: Scores
+) -> list[Box]:
     """Windows and balconies of every floor above the ground floor, eaves first."""
     boxes: list[Box] = []
-    above = len(floors.boundaries) - 1
-    storey = (floors.ground_top - floors.eaves) / above
     if not columns.stripes:
         return boxes
-    for i, (top, bottom) in enumerate(
-        zip(floors.boundaries[:-1], floors.boundaries[1:], strict=True)
-    ):
-        boxes += _floor(evidence, columns, top, bottom, storey, above - i)
+    above = len(floors.boundaries) - 1
+    for i, (top, bottom) in enumerate(pairwise(floors.boundaries)):
+        rows = np.s_[top - floors.eaves : bottom - floors.eaves]
+        edges = np.minimum(np.abs(evidence.gy[top:bottom]), 25)
+        boxes += _floor(
+            columns.stripes,
+            scores.window[rows],
+            scores.railing[rows],
+            edges,
+            floors.mean_storey,
+            (above - i, top),
+        )
     return boxes
 
 
-def _masks(
-    columns: Columns, width: int, storey: float
-) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
-    """Pixel columns surely inside a stripe, and surely between stripes."""
-    inside = np.zeros(width, bool)
-    wide = np.zeros(width, bool)
-    margin = max(2, int(0.06 * storey))
-    for x, w in columns.stripes:
-        trim = max(1, w // 8)
-        inside[x + trim : x + w - trim] = True
-        wide[max(0, x - margin) : x + w + margin] = True
-    return inside, ~wide if (~wide).sum() >= 5 else ~inside
+def _running(values: NDArray[np.floating]) -> Array:
+    """Running sums down the rows, with a zero row first."""
+    total = np.zeros((values.shape[0] + 1, *values.shape[1:]))
+    np.cumsum(values, axis=0, out=total[1:])
+    return total
 
 
 def _floor(
-    evidence: Evidence, columns: Columns, top: int, bottom: int, storey: float, floor: int
+    stripes: list[tuple[int, int]],
+    window: NDArray[np.float32],
+    railing: NDArray[np.float32],
+    edges: NDArray[np.float32],
+    storey: float,
+    place: tuple[int, int],
 ) -> list[Box]:
-    inside, between = _masks(columns, evidence.width, storey)
-    lightness = evidence.lab[top:bottom, :, 0]
-    plain = float(np.percentile(lightness[:, between], 60))
-    dark = np.clip((plain - lightness) / 30, -1, 2)
-    unlike = np.minimum(columns.wall.unlike[top:bottom], 50)
-    edges = np.minimum(np.abs(evidence.gy[top:bottom]), 25)[:, inside].mean(1)
-    edges = (edges - edges.mean()) / (float(edges.std()) + 1e-6)
-    y, end = _window_rows(unlike[:, inside].mean(1), edges, storey)
-    boxes = [
-        Box("window", x, top + y, w, end - y, floor, k, 0.5)
-        for k, (x, w) in enumerate(columns.stripes)
-    ]
-    texture = np.clip(np.minimum(np.abs(evidence.gx[top:bottom]), 20) / 5 - 1.5, -1, 2)
-    railing = blur_line((0.5 * texture + dark)[:, between].mean(1), 1.0) - 0.5
-    run = _best_run(railing, storey)
-    if run is not None:
-        boxes.append(
-            Box("balcony", 0, top + run[0], evidence.width, run[1] - run[0], floor, None, 0.5)
-        )
-        return boxes
-    split = _railing_row(blur_line(dark[:, inside].mean(1), 1.0), edges, y, end)
-    if split is not None:
+    floor, top = place
+    inside = np.zeros(window.shape[1], bool)
+    for x, w in stripes:
+        inside[x + w // 8 : x + w - w // 8] = True
+    gaps = _gaps(stripes, window.shape[1])
+    share = inside.sum() * storey
+    line = edges[:, inside].mean(1)
+    line = _EDGE * (line - line.mean()) / (float(line.std()) + 1e-6)
+    through = np.stack(
+        [_running(railing[:, a:b].sum(1) - _RUNS_ON * (b - a)) for a, b in gaps], axis=1
+    )
+    t, k, b = _best_rows(
+        _running(window[:, inside].sum(1)) / share,
+        _running(railing[:, inside].sum(1)) / share,
+        through / share,
+        np.append(line, 0.0),
+        storey,
+    )
+    boxes = [Box("window", x, top + t, w, k - t, floor, i, 0.5) for i, (x, w) in enumerate(stripes)]
+    if b > k:
+        on = through[b] - through[k] > 0
         boxes += [
-            Box("balcony", x, top + split, w, end - split, floor, k, 0.5)
-            for k, (x, w) in enumerate(columns.stripes)
+            Box("balcony", x, top + k, end - x, b - k, floor, None, 0.5)
+            for x, end in _spans(stripes, gaps, on)
         ]
     return boxes
 
 
-def _window_rows(unlike: Float, edges: Float, storey: float) -> tuple[int, int]:
-    """Rows of the window: most of what is unlike wall, between two horizontal edges."""
-    height = len(unlike)
-    signed = (unlike - two_class_threshold(unlike)) / (float(unlike.std()) + 1e-6)
-    running = np.concatenate([[0], np.cumsum(np.clip(signed, -1.5, 1.5))])
-    start, end = np.meshgrid(np.arange(height), np.arange(height + 1), indexing="ij")
-    gain = (running[end] - running[start]) * 2 / storey
-    gain += 0.05 * (edges[start] + edges[np.minimum(end, height - 1)])
-    span = end - start
-    gain[(span < _WINDOW[0] * storey) | (span >= _WINDOW[1] * storey)] = -np.inf
-    best = int(np.argmax(gain))
-    return best // (height + 1), best % (height + 1)
+def _gaps(stripes: list[tuple[int, int]], width: int) -> list[tuple[int, int]]:
+    """Pixel columns between the stripes, and to the left and right of all."""
+    starts = [0, *(x + w for x, w in stripes)]
+    ends = [*(x for x, _ in stripes), width]
+    return list(zip(starts, ends, strict=True))
 
 
-def _best_run(railing: Float, storey: float) -> tuple[int, int] | None:
-    """Rows of a balcony that runs along the wall, where the wall shows one."""
-    height = len(railing)
-    running = np.concatenate([[0], np.cumsum(railing)])
-    start, end = np.meshgrid(np.arange(height), np.arange(height + 1), indexing="ij")
-    gain = running[end] - running[start]
-    span = end - start
-    gain[(span < _RAILING[0] * storey) | (span > _RAILING[1] * storey)] = -np.inf
-    best = int(np.argmax(gain))
-    if gain.flat[best] < 0.05 * storey:
-        return None
-    return best // (height + 1), best % (height + 1)
+def _best_rows(
+    window: Array, railing: Array, through: Array, line: Array, storey: float
+) -> tuple[int, int, int]:
+    """The rows (t, k, b) of the greatest sum; b equals k where no railing shows."""
+    n = len(window)
+    at = np.arange(n)
+    # Best t for each k: the sum of the window's pixels between two edges.
+    span = at[None, :] - at[:, None]
+    gain = window[None, :] - window[:, None] + line[:, None]
+    gain[(span < _WINDOW[0] * storey) | (span > _WINDOW[1] * storey)] = -np.inf
+    t_of_k = gain.argmax(0)
+    upper = gain.max(0)
+    lower = railing[None, :] - railing[:, None] + line[None, :]
+    lower = lower + np.maximum(through[None] - through[:, None], 0).sum(-1)
+    lower[(span < _RAILING[0] * storey) | (span > _RAILING[1] * storey)] = -np.inf
+    np.fill_diagonal(lower, 0.0)
+    total = upper[:, None] + line[:, None] + lower
+    k, b = np.unravel_index(int(np.argmax(total)), total.shape)
+    return int(t_of_k[k]), int(k), int(b)
 
 
-def _railing_row(dark: Float, edges: Float, top: int, bottom: int) -> int | None:
-    """Row at which a railing in front of the window begins, where one shows."""
-    height = bottom - top
-    rows = range(top + int(0.4 * height), bottom - int(0.14 * height))
-    found = [
-        (float(dark[k:bottom].mean() - dark[top + 2 : k].mean() + 0.15 * edges[k]), k)
-        for k in rows
-        if k > top + 2
-    ]
-    if not found or max(found)[0] <= 0.1:
-        return None
-    return max(found)[1]
+def _spans(
+    stripes: list[tuple[int, int]], gaps: list[tuple[int, int]], on: NDArray[np.bool_]
+) -> list[tuple[int, int]]:
+    """Stripes joined through the gaps that the railing runs through."""
+    spans: list[tuple[int, int]] = []
+    for i, (x, w) in enumerate(stripes):
+        start = gaps[i][0] if on[i] else x
+        if on[i] and spans:
+            start = spans.pop()[0]
+        end = gaps[-1][1] if i == len(stripes) - 1 and on[-1] else x + w
+        spans.append((start, end))
+    return spans

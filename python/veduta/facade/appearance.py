@@ -1,0 +1,85 @@
+"""How much each pixel of the floors looks like a window or a railing rather than like wall.
+
+Nothing is learned: windows are unlike the wall's colour and striped vertically (frames, jambs,
+curtains), railings are textured in both directions, wall is neither. Each cue is taken relative to
+its median over the same facade, so that light, resolution and contrast drop out.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+
+from veduta.facade.evidence import Evidence, Float, blur
+
+# Cues in the order: texture across x, texture across y, unlikeness to wall; then the level at
+# which a pixel is as likely wall.
+_WINDOW = ((0.4, -0.55, 1.65), 0.65)
+_RAILING = ((1.05, 0.4, 0.25), 0.35)
+_CLIP = 1.5
+
+
+@dataclass(frozen=True)
+class Wall:
+    """How far each pixel of the floors is from the wall's colour around it.
+
+    `unlike` (n, w) is a colour distance, `colour` (n, w, 3) Lab; rows from the eaves down.
+    """
+
+    unlike: Float
+    colour: Float
+
+
+@dataclass(frozen=True)
+class Scores:
+    """Log-odds against wall, clipped, (n, w) each; rows from the eaves to the ground floor."""
+
+    window: Float
+    railing: Float
+    texture_x: Float
+
+
+def wall_colour(evidence: Evidence, top: int, bottom: int, storey: float) -> Wall:
+    """Colour of the wall around each pixel: a mean of the smooth pixels at about the same height.
+
+    Repeated with the pixels that are unlike it left out, so it follows shadows across the facade.
+    """
+    lab = evidence.lab[top:bottom]
+    edges = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
+    texture = blur(edges, max(1.0, storey / 20), storey / 6)
+    smooth = np.exp(-((texture / max(float(np.percentile(texture, 35)), 1e-3)) ** 2))
+    weight = smooth + 1e-4
+    colour, distance = lab, np.zeros(lab.shape[:2], np.float32)
+    for _ in range(3):
+        total = blur(weight, 0.7 * storey, 0.06 * storey) + 1e-6
+        spread = [blur(weight * lab[:, :, c], 0.7 * storey, 0.06 * storey) for c in range(3)]
+        colour = np.dstack([s / total for s in spread])
+        scaled = (lab - colour) * np.array([0.7, 1.3, 1.3], np.float32)
+        distance = np.sqrt((scaled**2).sum(-1))
+        weight = smooth * np.exp(-((distance / 12) ** 2)) + 1e-4
+    return Wall(distance.astype(np.float32), colour.astype(np.float32))
+
+
+def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: float) -> Scores:
+    """Scores of every pixel between the eaves and the ground floor."""
+    lightness = evidence.lab[top:bottom, :, 0]
+    fine = storey / 48
+    spread = storey / 36
+    textures = []
+    for across_x in (True, False):
+        sigma = (fine, 0.0) if across_x else (0.0, fine)
+        detail = np.minimum(np.abs(lightness - blur(lightness, *sigma)), 30)
+        textures.append(_relative(blur(detail, spread, spread)))
+    cues = np.dstack([*textures, _relative(blur(wall.unlike, spread, spread))])
+    window, railing = (
+        np.clip(cues @ np.array(weights, np.float32) - level, -_CLIP, _CLIP).astype(np.float32)
+        for weights, level in (_WINDOW, _RAILING)
+    )
+    return Scores(window, railing, cues[:, :, 0])
+
+
+def _relative(values: Float) -> Float:
+    middle = max(float(np.median(values)), 1e-3)
+    return np.asarray(cv2.log(values / middle + 0.1), np.float32)
