@@ -17,7 +17,8 @@ STUDIO := python/veduta/studio/static/index.html
 CJVAL := build/cjval/.installed-$(CJVAL_VERSION)
 
 RUST_SOURCES := $(shell find crates -name '*.rs' -o -name Cargo.toml)
-STUDIO_SOURCES := $(shell find studio -path studio/node_modules -prune -o -type f -print)
+STUDIO_SOURCES := $(shell find studio/src studio/public -type f) \
+	studio/index.html studio/vite.config.ts studio/tsconfig.json
 
 # PyO3 asks this interpreter what to build for, the same in every target: nothing is built twice.
 export PYO3_PYTHON := $(CURDIR)/$(PY)
