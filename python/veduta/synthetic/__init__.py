@@ -1,0 +1,1 @@
+"""Places with known truth, rendered as photos, scans and plans."""

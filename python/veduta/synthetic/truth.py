@@ -1,0 +1,110 @@
+"""The truth about a synthetic photo: sizes in metres, places in pixels, labels per pixel."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.place.semantics import SemanticClass
+from veduta.synthetic.camera import Camera
+from veduta.synthetic.layout import Layout, Rect
+from veduta.synthetic.roofs import DORMER_FRONT_M
+
+Label = Literal["window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"]
+LABELS: tuple[Label, ...] = (
+    "window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other",
+)  # fmt: skip
+_LABEL_OF_SEMANTIC: dict[SemanticClass, Label] = {
+    SemanticClass.WALL: "wall",
+    SemanticClass.CORNICE: "wall",
+    SemanticClass.ROOF: "roof",
+    SemanticClass.GROUND: "other",
+    SemanticClass.WINDOW: "window",
+    SemanticClass.DOOR: "door",
+    SemanticClass.BALCONY: "balcony",
+    SemanticClass.SHOP: "shop",
+    SemanticClass.CHIMNEY: "chimney",
+    SemanticClass.OTHER: "other",
+}
+
+
+@dataclass(frozen=True)
+class TrueElement:
+    """One window, door, shop or balcony.
+
+    `rect` is in facade metres; `visible` is what no balcony in front of it covers (a window's
+    upper part). `quad_px` (4, 2): the corners of `visible` in the photo, seen in the facade
+    plane (upper left, upper right, lower right, lower left). `floor` is None in the roof.
+    """
+
+    label: Label
+    rect: Rect
+    visible: Rect
+    floor: int | None
+    column: int | None
+    quad_px: NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class FacadeTruth:
+    """What a perfect reader of the photo would say.
+
+    `photo_from_facade` (3, 3) takes facade metres (x right, y up) to photo pixels. `labels`
+    (h, w) uint8: places in LABELS; a balcony covers what its outline covers.
+    """
+
+    style: str
+    width_m: float
+    height_m: float
+    storeys: int
+    columns: int
+    elements: tuple[TrueElement, ...]
+    photo_from_facade: NDArray[np.float64]
+    labels: NDArray[np.uint8]
+
+
+def facade_homography(camera: Camera) -> NDArray[np.float64]:
+    """Photo pixels from facade metres, for a part that stands at the world's origin."""
+    x, z, zero = np.array([1.0, 0, 0]), np.array([0, 0, 1.0]), np.zeros(3)
+    return camera.image_from_plane(zero, x, z)
+
+
+def elements_of(layout: Layout, camera: Camera) -> tuple[TrueElement, ...]:
+    """All windows, doors, shops and balconies of a layout, in the photo of a camera."""
+    found = [(o.class_, o.rect, _uncovered(o.rect, layout), o.floor, o.column, 0.0)
+             for o in layout.openings]  # fmt: skip
+    found += [("window", r, r, None, n, DORMER_FRONT_M) for n, r in enumerate(layout.roof.dormers)]
+    found += [("balcony", b.rect, b.rect, b.floor, b.column, -b.depth_m) for b in layout.balconies]
+    return tuple(
+        TrueElement(label, rect, seen, floor, column, _corners_px(seen, y, camera))
+        for label, rect, seen, floor, column, y in found
+    )
+
+
+def _uncovered(rect: Rect, layout: Layout) -> Rect:
+    """A window without the part behind the railing of a balcony that spans it."""
+    low = rect.y_m
+    for balcony in layout.balconies:
+        cover = balcony.rect
+        spans = cover.x_m <= rect.x_m + 0.1 and cover.right_m >= rect.right_m - 0.1
+        if spans and cover.y_m <= rect.y_m + 0.3 and rect.y_m < cover.top_m < rect.top_m:
+            low = max(low, cover.top_m)
+    return Rect(rect.x_m, low, rect.width_m, rect.top_m - low)
+
+
+def _corners_px(rect: Rect, y_m: float, camera: Camera) -> NDArray[np.float64]:
+    x = [rect.x_m, rect.right_m, rect.right_m, rect.x_m]
+    z = [rect.top_m, rect.top_m, rect.y_m, rect.y_m]
+    return camera.project(np.stack([x, np.full(4, y_m), z], axis=1))[0]
+
+
+def label_image(
+    feature: NDArray[np.int32], class_codes: NDArray[np.uint8]
+) -> NDArray[np.uint8]:
+    """Features per pixel to labels; `class_codes` (f,) are semantic codes, -1 pixels are sky."""
+    table = [LABELS.index(_LABEL_OF_SEMANTIC[SemanticClass.of_code(c)]) for c in class_codes.tolist()]
+    table.append(LABELS.index("sky"))
+    return np.asarray(table, np.uint8)[feature]

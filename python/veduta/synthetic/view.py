@@ -1,0 +1,57 @@
+"""Where the photographer stands: a camera in the street that has the whole facade in its frame."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from veduta.synthetic.camera import FILM_DIAGONAL_MM, Camera, look_at
+from veduta.synthetic.layout import Layout
+from veduta.synthetic.options import SyntheticOptions
+from veduta.synthetic.seeds import stream
+
+EYE_M = 1.65
+# How far to the side the camera stands, as a share of its distance from the wall; roll (rad).
+_ASIDE = {"frontal": (0.0, 0.0), "mild": (0.08, 0.22), "strong": (0.35, 0.6)}
+_ROLL = {"frontal": 0.0, "mild": 0.008, "strong": 0.02}
+
+
+def street_view(layout: Layout, seed: int, options: SyntheticOptions) -> Camera:
+    """A camera at eye height with a focal length of whole millimetres (35 mm equivalent)."""
+    rng = stream(seed, "view")
+    top = layout.height_m + layout.roof.rise_m
+    wide = layout.width_m > 1.1 * top
+    long_px = options.long_side_px
+    size = (long_px, round(long_px * 0.75)) if wide else (round(long_px * 0.75), long_px)
+    focal_mm = float(rng.integers(26, 34))
+    focal_px = focal_mm * float(np.hypot(*size)) / FILM_DIAGONAL_MM
+    low, high = _ASIDE[options.perspective]
+    aside = float(rng.uniform(low, high)) * (1.0 if rng.random() < 0.5 else -1.0)
+    roll = float(rng.uniform(-1.0, 1.0)) * _ROLL[options.perspective]
+    near, far = 1.0, 400.0
+    for _ in range(40):
+        distance = 0.5 * (near + far)
+        camera = _camera_at(layout, distance, aside, size, focal_px, roll)
+        near, far = (near, distance) if _in_frame(layout, camera) else (distance, far)
+    return _camera_at(layout, far, aside, size, focal_px, roll)
+
+
+def _camera_at(
+    layout: Layout, distance_m: float, aside: float, size_px: tuple[int, int], focal_px: float,
+    roll_rad: float,
+) -> Camera:  # fmt: skip
+    top = layout.height_m + layout.roof.rise_m
+    eye = (layout.width_m / 2 + aside * distance_m, -distance_m, EYE_M)
+    return look_at(eye, (layout.width_m / 2, 0.0, 0.46 * top), size_px, focal_px, roll_rad)
+
+
+def _in_frame(layout: Layout, camera: Camera) -> bool:
+    """Whether ground, eaves and ridge lie within the frame, with a margin of 4 %."""
+    top, run = layout.height_m + layout.roof.rise_m, layout.roof.run_m
+    corners = np.array(
+        [[x, y, z] for x in (0.0, layout.width_m)
+         for y, z in ((0.0, -0.3), (0.0, layout.height_m), (run, top))]
+    )  # fmt: skip
+    pixels, depth = camera.project(corners)
+    margin = 0.04 * min(camera.width_px, camera.height_px)
+    inside = (pixels > margin) & (pixels < np.array([camera.width_px, camera.height_px]) - margin)
+    return bool(np.all(depth > 0.5) and np.all(inside))
