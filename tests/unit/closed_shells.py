@@ -1,4 +1,4 @@
-"""An independent oracle for closed surfaces: trimesh, on vertices that are equal to the last bit."""
+"""An independent oracle for closed surfaces: trimesh, on vertices equal to the last bit."""
 
 from __future__ import annotations
 

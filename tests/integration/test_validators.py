@@ -1,0 +1,83 @@
+"""The Khronos glTF validator and cjval on the files that we write."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sample_document import element, sample_document, sample_photo
+
+from veduta.facade.document import FacadeDocument
+from veduta.facade.model import build_part
+from veduta.facade.options import ModelOptions
+from veduta.formats.cityjson import write_cityjson
+from veduta.formats.gltf import write_glb
+
+ROOT = Path(__file__).resolve().parents[2]
+CJVAL_COMMAND = "cargo install cjval --features build-binary --root build/cjval"
+GLTF_COMMAND = "npm ci --prefix studio"
+_SCRIPT = """
+const validator = require(process.argv[1] + '/gltf-validator');
+const bytes = new Uint8Array(require('fs').readFileSync(process.argv[2]));
+validator.validateBytes(bytes).then((report) => console.log(JSON.stringify(report.issues)));
+"""
+
+
+def documents() -> dict[str, FacadeDocument]:
+    crowded = [element("window", 0.1 * k, 0.4 * k, 1.5, 1.5) for k in range(30)]
+    return {
+        "sample": sample_document(),
+        "bare": sample_document(elements=[], roof_m=0.0),
+        "crowded": sample_document(elements=[*crowded, element("shop", -1.0, -1.0, 20.0, 4.0)]),
+    }
+
+
+def validate_gltf(path: Path) -> dict[str, Any]:
+    modules = ROOT / "studio" / "node_modules"
+    node = shutil.which("node")
+    if node is None or not (modules / "gltf-validator").is_dir():
+        pytest.skip(f"no glTF validator: {GLTF_COMMAND}")
+    done = subprocess.run(
+        [node, "-e", _SCRIPT, str(modules), str(path)], capture_output=True, text=True, check=True
+    )
+    report: dict[str, Any] = json.loads(done.stdout)
+    return report
+
+
+def validate_city(path: Path) -> dict[str, Any]:
+    installed = ROOT / "build" / "cjval" / "bin" / "cjval"
+    program = str(installed) if installed.is_file() else shutil.which("cjval")
+    if program is None:
+        pytest.skip(f"no cjval: {CJVAL_COMMAND}")
+    done = subprocess.run([program, "-r", str(path)], capture_output=True, text=True, check=True)
+    report: dict[str, Any] = json.loads(done.stdout)
+    return report
+
+
+@pytest.mark.parametrize("name", list(documents()))
+@pytest.mark.parametrize("setback_m", [0.0, 0.2])
+def test_files_are_valid(tmp_path: Path, name: str, setback_m: float) -> None:
+    document = documents()[name]
+    part = build_part(document, sample_photo(document), ModelOptions(setback_m=setback_m), name)
+    write_glb(part, tmp_path / "model.glb")
+    write_cityjson(part, tmp_path / "model.city.json")
+    issues = validate_gltf(tmp_path / "model.glb")
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    report = validate_city(tmp_path / "model.city.json")
+    assert (report["valid"], report["has_warnings"]) == (True, False), report["checks"]
+
+
+def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:
+    document = sample_document()
+    part = build_part(document, sample_photo(document), ModelOptions(), "broken")
+    glb, city = tmp_path / "model.glb", tmp_path / "model.city.json"
+    write_glb(part, glb)
+    glb.write_bytes(glb.read_bytes().replace(b'"VEC3"', b'"VEC4"', 1))
+    assert validate_gltf(glb)["numErrors"] > 0
+    write_cityjson(part, city)
+    city.write_text(city.read_text().replace('"GroundSurface"', '"CellarSurface"'))
+    assert validate_city(city)["valid"] is False
