@@ -129,7 +129,7 @@ def _legend(draw: ImageDraw.ImageDraw, document: FacadeDocument, left: int) -> N
     box = document.facade
     given = "given" if document.scale.basis != "assumed-storey" else "assumed"
     y = 24
-    for line in (f"{box.width_m:.1f} × {box.height_m:.1f} m", f"{document.storeys} storeys"):
+    for line in (f"{box.width_m:.1f} x {box.height_m:.1f} m", f"{document.storeys} storeys"):
         draw.text((left, y), line, INK, _font(24))
         y += 32
     draw.text((left, y), f"scale {given}", FAINT, _font(17))

@@ -21,6 +21,7 @@ from veduta.facade.options import FacadeOptions, ModelOptions
 from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
 from veduta.facade.rectify import rectify
+from veduta.formats.cityjson import write_cityjson
 from veduta.formats.gltf import write_glb
 from veduta.imaging.read import Photo, read_image
 from veduta.place.part import Part
@@ -99,6 +100,7 @@ def write_building(
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
         write_glb(building.part, folder / "model.glb")
+        write_cityjson(building.part, folder / "model.city.json")
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.iterdir())
 
 

@@ -52,6 +52,8 @@ class OutFolder:
     path: Path
     record: RunRecord
     standing: Standing
+    former: dict[str, Item] = field(default_factory=dict)
+    """The items of the run that this one replaces."""
     kept: list[str] = field(default_factory=list)
     """Files that were not replaced because they are the user's, as paths in OUT."""
 
@@ -67,9 +69,13 @@ class OutFolder:
         names = sorted(self.record.files) if item is None else self.record.files_of(item)
         return [name for name in names if self._is_users(name)]
 
+    def work_path(self, item: str) -> Path:
+        """The folder in which an item's files are made."""
+        return self.path / PRIVATE / "work" / ("call" if item == CALL else f"item-{item}")
+
     def work_folder(self, item: str) -> Path:
-        """An empty folder in which to make an item's files."""
-        folder = self.path / PRIVATE / "work" / ("call" if item == CALL else f"item-{item}")
+        """The same folder, made and empty."""
+        folder = self.work_path(item)
         shutil.rmtree(folder, ignore_errors=True)
         folder.mkdir(parents=True)
         return folder
@@ -101,6 +107,15 @@ class OutFolder:
         )
         self.record.save(self.path)
         self.kept.extend(users)
+
+    def keep(self, item: str) -> bool:
+        """Leave an item of the former run as it is; False where it was not done."""
+        known = self.former.get(item) or self.record.items.get(item)
+        if known is None or known.state != "done":
+            return False
+        self.record.items[item] = known
+        self.record.save(self.path)
+        return True
 
     def forget(self, item: str) -> None:
         """Have the next run of the same call make the item again."""
@@ -221,7 +236,9 @@ def _open_locked(
         return OutFolder(path, RunRecord(command=command, key=key), Standing.NEW)
     if record.command == command and record.key == key:
         complete = all(
-            (path / name).exists() for item in record.items for name in record.files_of(item)
+            item.state != "publishing" and (path / file).exists()
+            for name, item in record.items.items()
+            for file in record.files_of(name)
         )
         if record.state == "finished" and not force and complete:
             return OutFolder(path, record, Standing.UP_TO_DATE)
@@ -240,7 +257,7 @@ def _open_locked(
             " (files that were edited are kept).",
         )
     fresh = RunRecord(command=command, key=key, files=record.files)
-    return OutFolder(path, fresh, Standing.REPLACED)
+    return OutFolder(path, fresh, Standing.REPLACED, former=record.items)
 
 
 def _digests(folder: Path, prefix: str) -> dict[str, str]:

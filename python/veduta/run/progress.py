@@ -2,7 +2,17 @@
 
 from __future__ import annotations
 
+import sys
+from collections.abc import Iterator
+from contextlib import contextmanager
 from typing import Protocol
+
+from rich.console import Console
+from rich.progress import BarColumn, MofNCompleteColumn, TextColumn, TimeElapsedColumn
+from rich.progress import Progress as Bar
+
+from veduta.run.pool import Task
+from veduta.run.report import Failure
 
 
 class StepProgress(Protocol):
@@ -14,3 +24,59 @@ class StepProgress(Protocol):
 
 def no_progress(step: str, fraction: float) -> None:
     """Say nothing."""
+
+
+class Progress:
+    """How far a call with several items has come; written to standard error."""
+
+    def __init__(self, *, quiet: bool = False) -> None:
+        self._console = Console(stderr=True, quiet=quiet, highlight=False)
+        self._bar: Bar | None = None
+        self._in_hand: list[str] = []
+        self._total = 0
+        self._done = 0
+
+    @contextmanager
+    def over(self, total: int) -> Iterator[None]:
+        """Show the progress of `total` items while the block runs."""
+        self._total, self._done = total, 0
+        if not self._console.is_terminal or self._console.quiet:
+            yield
+            return
+        columns = (BarColumn(24), MofNCompleteColumn(), TimeElapsedColumn())
+        text = TextColumn("{task.description}", markup=False)
+        self._bar = Bar(*columns, text, console=self._console, transient=True)
+        try:
+            with self._bar:
+                self._bar.add_task("", total=total)
+                yield
+        finally:
+            self._bar = None
+
+    def started(self, task: Task) -> None:
+        """A process has taken an item in hand."""
+        self._in_hand.append(task.name)
+        self._show()
+
+    def step(self, step: str, fraction: float) -> None:
+        """The only item in hand has come to this step."""
+        self._show(step)
+
+    def finished(self, name: str, failure: Failure | None) -> None:
+        """An item is done, or has failed."""
+        self._done += 1
+        if name in self._in_hand:
+            self._in_hand.remove(name)
+        if self._bar is not None:
+            self._bar.advance(self._bar.task_ids[0])
+        elif not self._console.quiet and self._total > 1:
+            state = "failed" if failure else "done"
+            sys.stderr.write(f"[{self._done}/{self._total}] {name}: {state}\n")
+            sys.stderr.flush()
+        self._show()
+
+    def _show(self, step: str = "") -> None:
+        if self._bar is not None:
+            names = ", ".join(self._in_hand)
+            text = f"{names}: {step}" if step else names
+            self._bar.update(self._bar.task_ids[0], description=text)

@@ -1,0 +1,74 @@
+"""`veduta facade IMAGE... -o OUT`."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+SUMMARY = "photos of facades become LoD3 buildings: floors, windows, balconies, roof"
+
+if TYPE_CHECKING:
+    from veduta.cli.facade_call import FacadeCall
+    from veduta.facade.batch import CallResult
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, do the work, say what was found and where it is."""
+    import tyro
+
+    from veduta.cli.facade_call import FacadeCall
+
+    call = tyro.cli(
+        FacadeCall,
+        args=arguments,
+        prog="veduta facade",
+        description=FacadeCall.__doc__,
+        config=(tyro.conf.OmitArgPrefixes, tyro.conf.FlagCreatePairsOff),
+    )
+    return _run(call)
+
+
+def _run(call: FacadeCall) -> int:
+    from veduta.facade.batch import run_call
+    from veduta.run.progress import Progress
+
+    progress = Progress(quiet=call.quiet)
+    result = run_call(
+        call.images, call.out, call.options(), progress, force=call.force, jobs=call.jobs
+    )
+    _tell_failures(result)
+    if not call.quiet:
+        _tell_results(result)
+    return result.exit_code
+
+
+def _tell_failures(result: CallResult) -> None:
+    from veduta.cli.main import save_traceback
+
+    for name, failure in result.failed.items():
+        print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
+        if name in result.tracebacks:
+            path = save_traceback(result.tracebacks[name])
+            print(f"Please report it with {path}", file=sys.stderr)
+
+
+def _tell_results(result: CallResult) -> None:
+    from veduta.facade.report import summary_line
+
+    out = result.out
+    done = [name for name in result.asked if name in result.summaries]
+    for name in done:
+        state = "" if name in result.fresh else " (was done)"
+        print(f"{name}: {summary_line(result.summaries[name])}{state}")
+    for name in result.edited:
+        if not (result.kind == "document" and name.split("/")[0] in result.asked):
+            print(f"{out / name}: was edited and is left as it is")
+    for name in result.left:
+        print(f"{out / name}: is left from an earlier call")
+    if result.up_to_date:
+        print(f"{out} is up to date; --force makes it anew")
+    if done:
+        total = len(result.asked)
+        print(f"{len(done)} of {total} in {out}. Walk in it: veduta view {out}")
+        page = out / done[0] / "report.html" if total == 1 else out / "report.html"
+        print(f"What was done, and why: {page}")

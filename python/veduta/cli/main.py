@@ -1,0 +1,110 @@
+"""`veduta VERB ...`: finds the verb, runs it, and tells errors the way people read them.
+
+Nothing heavy is imported here, nor at the top of a verb's module: `veduta --help` answers at once.
+A verb's module has `SUMMARY` (one line) and `run(arguments) -> exit code`.
+"""
+
+from __future__ import annotations
+
+import difflib
+import importlib
+import os
+import signal
+import sys
+import tempfile
+import traceback
+from collections.abc import Sequence
+from types import FrameType
+from typing import NoReturn
+
+import veduta
+from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
+
+VERBS = ("facade", "demo", "view", "export")
+DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
+INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """Run the command line; the result is the exit code."""
+    words = list(sys.argv[1:] if arguments is None else arguments)
+    if not words or words[0] in {"-h", "--help", "help"}:
+        print(_help())
+        return DONE if words else BAD_USE
+    if words[0] in {"-V", "--version"}:
+        print(f"veduta {veduta.__version__}")
+        return DONE
+    verb = words.pop(0)
+    if verb not in VERBS:
+        return _unknown(verb)
+    signal.signal(signal.SIGTERM, _stop)
+    return _guarded(verb, words)
+
+
+def _guarded(verb: str, words: list[str]) -> int:
+    """Run a verb; every error becomes a line on standard error and an exit code."""
+    try:
+        module = importlib.import_module(f"veduta.cli.{verb}")
+        return int(module.run(words))
+    except InputError as error:
+        _say(f"error: {error}")
+        return BAD_USE
+    except NotFoundError as error:
+        _say(f"error: {error}")
+        return SOME_FAILED
+    except (KeyboardInterrupt, UnfinishedError) as error:
+        _say("stopped: what is finished is on disk, and the same command goes on from there")
+        return TERMINATED if isinstance(error, UnfinishedError) else INTERRUPTED
+    except VedutaError as error:
+        _say(f"error: {error}")
+        return BAD_USE
+    except BrokenPipeError:
+        # The reader of our output has gone (`veduta ... | head`); nobody is left to tell.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return DONE
+    except Exception as error:  # noqa: BLE001  the last place where a bug can be told
+        _say(f"error: a bug in veduta {verb}: {type(error).__name__}: {error}")
+        _say(f"Please report it with {save_traceback(traceback.format_exc())}")
+        return BUG
+
+
+def save_traceback(text: str) -> str:
+    """Write a traceback to a file of its own; its path."""
+    with tempfile.NamedTemporaryFile(
+        "w", prefix="veduta-bug-", suffix=".txt", delete=False, encoding="utf-8"
+    ) as file:
+        file.write(f"veduta {veduta.__version__}, Python {sys.version}\n\n{text}")
+    return file.name
+
+
+def _help() -> str:
+    lines = [
+        "usage: veduta VERB [OPTIONS] ...",
+        "",
+        "Turns records of real places into measured, semantic, walkable 3D.",
+        "",
+    ]
+    for verb in VERBS:
+        summary = importlib.import_module(f"veduta.cli.{verb}").SUMMARY
+        lines.append(f"  {verb:<10}{summary}")
+    lines += ["", "`veduta VERB --help` explains a verb; `veduta --version` tells the version."]
+    return "\n".join(lines)
+
+
+def _unknown(verb: str) -> int:
+    near = difflib.get_close_matches(verb, VERBS, n=1)
+    hint = f"Did you mean `veduta {near[0]}`?" if near else "`veduta --help` lists the verbs."
+    _say(f"error: {verb}: is not a verb of veduta. {hint}")
+    return BAD_USE
+
+
+def _stop(number: int, frame: FrameType | None) -> NoReturn:
+    raise UnfinishedError("stopped by SIGTERM")
+
+
+def _say(text: str) -> None:
+    print(text, file=sys.stderr)
+
+
+if __name__ == "__main__":
+    sys.exit(main())

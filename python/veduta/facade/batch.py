@@ -1,0 +1,244 @@
+"""All inputs of one call: what is done already, the rest on all cores, and the place of all."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import cast
+
+from pydantic import JsonValue
+
+from veduta.facade.arrangement import Placed, Vector, arrange
+from veduta.facade.call import Call, Input, Kind, plan_call
+from veduta.facade.job import Job, JobResult, memory_of, run_job
+from veduta.facade.load import DOCUMENT, load_document, load_photo
+from veduta.facade.options import FacadeOptions
+from veduta.facade.pipeline import VERSION
+from veduta.facade.report import call_report
+from veduta.formats.place_json import write_place
+from veduta.run.digests import result_key
+from veduta.run.errors import InputError
+from veduta.run.options import Options
+from veduta.run.outputs import OutFolder, Standing, open_out
+from veduta.run.pool import Outcome, Task, run_tasks
+from veduta.run.progress import Progress, no_progress
+from veduta.run.record import CALL
+from veduta.run.report import Failure
+
+COMMAND = {"photo": "facade", "document": "facade (rebuild)"}
+LASTING = {"input", "not-found"}
+"""Failures that the same input would give again; others are tried anew by the next run."""
+
+
+@dataclass
+class CallResult:
+    """What the call came to; names are those of the folders in OUT."""
+
+    out: Path
+    kind: Kind
+    asked: list[str]
+    """The inputs of this call; a rebuild in place leaves others in OUT."""
+    up_to_date: bool = False
+    summaries: dict[str, dict[str, JsonValue]] = field(default_factory=dict)
+    failures: dict[str, Failure] = field(default_factory=dict)
+    fresh: list[str] = field(default_factory=list)
+    """Made by this run; the others were there already."""
+    edited: list[str] = field(default_factory=list)
+    """Files that somebody has edited: left as they are; paths in OUT."""
+    left: list[str] = field(default_factory=list)
+    """Folders of an earlier call that this one has nothing to do with."""
+    tracebacks: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def failed(self) -> dict[str, Failure]:
+        """The inputs of this call that gave nothing."""
+        return {name: self.failures[name] for name in self.asked if name in self.failures}
+
+    @property
+    def exit_code(self) -> int:
+        """0 done, 1 a bug, 2 nothing but bad input (or no room), 3 some images failed."""
+        kinds = {failure.kind for failure in self.failed.values()}
+        if "bug" in kinds:
+            return 1
+        if "output" in kinds or (kinds == {"input"} and len(self.failed) == len(self.asked)):
+            return 2
+        return 3 if kinds else 0
+
+
+def run_call(
+    paths: Sequence[Path],
+    out: Path,
+    options: FacadeOptions,
+    progress: Progress,
+    *,
+    force: bool = False,
+    jobs: int | None = None,
+) -> CallResult:
+    """Make the results of all inputs in OUT, by the rules of `run.outputs`."""
+    call = plan_call(paths)
+    if call.kind == "document":
+        _check_documents(call, options)
+    key = _key("call", [source.identity for source in call.inputs], call, options)
+    amend = all(_is_in_place(source, out) for source in call.inputs)
+    with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
+        result = CallResult(out, call.kind, [source.name for source in call.inputs])
+        result.up_to_date = folder.standing is Standing.UP_TO_DATE
+        waiting = [
+            source for source in call.inputs if _is_wanted(folder, source, call, options, result)
+        ]
+        if waiting:
+            result.up_to_date = False
+            _process(waiting, folder, call, options, result, progress, jobs)
+        elif amend:
+            result.up_to_date = True
+        _collect(folder, call, result)
+        if not result.up_to_date:
+            _write_call(folder, options, key, result)
+        result.edited = folder.edited()
+    return result
+
+
+def _check_documents(call: Call, options: FacadeOptions) -> None:
+    """Edited documents are checked before anything is written because of them."""
+    for given in (options.rectify, options.scale):
+        for name in type(given).model_fields:
+            if getattr(given, name) != getattr(type(given)(), name):
+                raise InputError(
+                    f"--{name.replace('_', '-')}",
+                    "is for photos and changes nothing in a document",
+                    "Leave it out, or name the photo.",
+                )
+    for source in call.inputs:
+        load_photo(source.path, load_document(source.path))
+
+
+def _is_in_place(source: Input, out: Path) -> bool:
+    return source.kind == "document" and source.path.resolve() == (
+        out.resolve() / source.name / DOCUMENT
+    )
+
+
+def _key(step: str, inputs: JsonValue, call: Call, options: FacadeOptions) -> str:
+    """A rebuild depends on the model's options alone."""
+    used: Options = options if call.kind == "photo" else options.model
+    return result_key(f"{COMMAND[call.kind]} {step}", VERSION, used, inputs)
+
+
+def _is_wanted(
+    folder: OutFolder, source: Input, call: Call, options: FacadeOptions, result: CallResult
+) -> bool:
+    """Whether the input has still to be worked on.
+
+    A folder whose document somebody has edited stays as it is, whole: new pictures and models
+    beside an old document would contradict it. Only a rebuild works on it.
+    """
+    if folder.standing is Standing.UP_TO_DATE:
+        return False
+    document = f"{source.name}/{DOCUMENT}"
+    if call.kind == "photo" and document in folder.edited(source.name):
+        if not folder.keep(source.name):
+            result.failures[source.name] = _interrupted(folder.path / document, folder.path)
+        return False
+    return not folder.is_current(source.name, _key("item", source.identity, call, options))
+
+
+def _interrupted(document: Path, out: Path) -> Failure:
+    reason = f"was edited, and its rebuild did not end: veduta facade {document} -o {out}"
+    return Failure(subject=str(document), kind="output", reason=reason)
+
+
+def _process(
+    waiting: list[Input],
+    folder: OutFolder,
+    call: Call,
+    options: FacadeOptions,
+    result: CallResult,
+    progress: Progress,
+    jobs: int | None,
+) -> None:
+    """Work on the inputs, and publish each as soon as it is done."""
+    inputs = {source.name: source for source in waiting}
+    step = progress.step if len(waiting) == 1 else no_progress
+    tasks = [
+        Task(
+            source.name,
+            Job(source, options, folder.work_folder(source.name), step),
+            memory_of(source),
+        )
+        for source in waiting
+    ]
+    with progress.over(len(tasks)):
+        for outcome in run_tasks(run_job, tasks, jobs=jobs, started=progress.started):
+            source = inputs[outcome.task.name]
+            job_result = _result_of(outcome, source, result)
+            _publish(folder, source, _key("item", source.identity, call, options), job_result)
+            result.fresh.append(source.name)
+            if job_result.failure:
+                result.failures[source.name] = job_result.failure
+            progress.finished(source.name, job_result.failure)
+
+
+def _result_of(outcome: Outcome[JobResult], source: Input, result: CallResult) -> JobResult:
+    """The job's own result, or the failure that its end without one is."""
+    if outcome.value is not None:
+        return outcome.value
+    if outcome.traceback is not None:
+        result.tracebacks[source.name] = outcome.traceback
+        last = outcome.traceback.strip().splitlines()[-1]
+        reason = f"a bug in veduta: {last}"
+        return JobResult(failure=Failure(subject=str(source.path), kind="bug", reason=reason))
+    reason = outcome.crash or str(outcome.error)
+    return JobResult(failure=Failure(subject=str(source.path), kind="crash", reason=reason))
+
+
+def _publish(folder: OutFolder, source: Input, key: str, job_result: JobResult) -> None:
+    """Put the files in place. A failed rebuild leaves what was there."""
+    failure = job_result.failure
+    lasting = failure is None or failure.kind in LASTING
+    if lasting and not (failure and folder.standing is Standing.AMENDED):
+        work = folder.work_path(source.name)
+        folder.publish(source.name, key, work, job_result.summary, failure)
+    elif folder.standing is not Standing.AMENDED:
+        folder.forget(source.name)
+
+
+def _collect(folder: OutFolder, call: Call, result: CallResult) -> None:
+    """What the place consists of, in the order of the call (or of the run that it amends)."""
+    asked = [source.name for source in call.inputs]
+    known = [name for name in folder.record.items if name != CALL]
+    if folder.standing is Standing.AMENDED:
+        asked = [*known, *(name for name in asked if name not in known)]
+    for name in asked:
+        item = folder.record.items.get(name)
+        if item is not None and item.failure is not None:
+            result.failures.setdefault(name, item.failure)
+        elif item is not None and item.state == "done" and name not in result.failures:
+            result.summaries[name] = item.summary
+    folders = {path.split("/")[0] for path in folder.record.files if "/" in path}
+    result.left = sorted(folders - set(asked))
+
+
+def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: CallResult) -> None:
+    """The place of all that is done, and the report of the call."""
+    work = folder.work_folder(CALL)
+    placed = [
+        Placed(name, _vector(summary["bounds_min"]), _vector(summary["bounds_max"]))
+        for name, summary in result.summaries.items()
+    ]
+    if placed:
+        write_place(arrange(placed), work / "place.json")
+    notes = [f"{name}/ is left from an earlier call" for name in result.left]
+    notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
+    report, page = call_report(options, result.summaries, list(result.failures.values()), notes)
+    (work / "report.json").write_bytes(report.to_json())
+    (work / "report.html").write_bytes(page)
+    folder.publish(CALL, key, work)
+    retry = any(failure.kind not in LASTING for failure in result.failures.values())
+    if not retry and folder.standing is not Standing.AMENDED:
+        folder.finish()
+
+
+def _vector(value: JsonValue) -> Vector:
+    x, y, z = cast(list[float], value)
+    return (x, y, z)

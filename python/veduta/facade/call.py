@@ -1,0 +1,116 @@
+"""What a call of the verb is asked to do: its inputs, each with a name, and nothing done yet."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from pydantic import JsonValue
+
+from veduta.facade.load import DOCUMENT, PHOTO
+from veduta.imaging.read import SUFFIXES
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError
+
+Kind = Literal["photo", "document"]
+RESERVED = {"place.json", "report.json", "report.html"}
+"""Names that OUT itself uses."""
+_UNUSABLE = re.compile(r"[\x00-\x1f\\:]|^[.\s]|[.\s]$")
+_MAX_NAME = 200
+
+
+@dataclass(frozen=True)
+class Input:
+    """One photo or document; its results go to the folder `name` in OUT."""
+
+    name: str
+    path: Path
+    kind: Kind
+    digests: tuple[str, ...]
+
+    @property
+    def identity(self) -> JsonValue:
+        """What a key is made of: the content, and the name that is written into the result."""
+        return [self.name, self.path.name, *self.digests]
+
+
+@dataclass(frozen=True)
+class Call:
+    """All inputs of one call, of one kind, with different names."""
+
+    kind: Kind
+    inputs: tuple[Input, ...]
+
+
+def plan_call(paths: Sequence[Path]) -> Call:
+    """The inputs in the order given; a folder stands for the images in it, by name."""
+    files = _each_once([file for path in paths for file in _files(path)])
+    if not files:
+        raise InputError("IMAGE", "no image is named", "Name at least one photo.")
+    kinds = {path: _kind(path) for path in files}
+    if len(set(kinds.values())) > 1:
+        document = next(path for path in files if kinds[path] == "document")
+        raise InputError(
+            document, "is a document between photos", "Give photos or documents, not both at once."
+        )
+    _refuse_same_names(files)
+    inputs = tuple(Input(_name(path), path, kinds[path], _digests(path)) for path in files)
+    return Call(inputs[0].kind, inputs)
+
+
+def _files(path: Path) -> list[Path]:
+    if not path.is_dir():
+        return [path]
+    images = sorted(
+        file for file in path.iterdir() if file.suffix.lower() in SUFFIXES and file.is_file()
+    )
+    if not images:
+        wanted = ", ".join(SUFFIXES)
+        raise InputError(path, f"is a folder without images ({wanted})", "Name another folder.")
+    return images
+
+
+def _each_once(files: list[Path]) -> list[Path]:
+    return list({file.resolve(): file for file in reversed(files)}.values())[::-1]
+
+
+def _kind(path: Path) -> Kind:
+    return "document" if path.suffix.lower() == ".json" else "photo"
+
+
+def _name(path: Path) -> str:
+    """The image's stem; for `OUT/x/facade.json` it is `x`, as it was for the image."""
+    if path.name == DOCUMENT:
+        return path.resolve().parent.name
+    return path.stem
+
+
+def _refuse_same_names(files: list[Path]) -> None:
+    seen: dict[str, Path] = {}
+    for path in files:
+        name = _name(path)
+        if not name or name in RESERVED or _UNUSABLE.search(name) or len(name) > _MAX_NAME:
+            raise InputError(path, f"{name!r} cannot name a result folder", "Rename the image.")
+        if name in seen:
+            raise InputError(
+                path,
+                f"has the same name as {seen[name]}: the results of both would be in {name}/",
+                "Rename one of them, or make two calls.",
+            )
+        seen[name] = path
+
+
+def _digests(path: Path) -> tuple[str, ...]:
+    """The digest of the file, and for a document that of the photo beside it."""
+    files = [path] if _kind(path) == "photo" else [path, path.with_name(PHOTO)]
+    try:
+        return tuple(file_digest(file) for file in files)
+    except OSError as error:
+        name = Path(error.filename or path)
+        if isinstance(error, FileNotFoundError):
+            raise InputError(name, "does not exist", "Check its name.") from error
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(name, fault, "Check its permissions.") from error

@@ -1,0 +1,110 @@
+"""One input of a call, from its path to a folder of finished files: what a worker does."""
+
+from __future__ import annotations
+
+import struct
+import warnings
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from PIL import Image
+from pydantic import JsonValue
+
+from veduta.facade.call import Input
+from veduta.facade.load import PHOTO
+from veduta.facade.options import FacadeOptions
+from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
+from veduta.facade.report import failure_report, image_report, measures
+from veduta.run.errors import InputError, NotFoundError
+from veduta.run.options import Options
+from veduta.run.progress import StepProgress, no_progress
+from veduta.run.report import Failure, Report, StepRecord
+
+BYTES_PER_PIXEL = 12
+"""Of the photo as it is read: the file's own pixels, the upright copy and the resampled one."""
+BYTES_ANALYSIS = 250 * 1024**2
+"""What the later steps need at the most, on an image of the largest rectified size."""
+
+
+@dataclass(frozen=True)
+class Job:
+    """One input, and the empty folder that gets its files."""
+
+    source: Input
+    options: FacadeOptions
+    folder: Path
+    progress: StepProgress = no_progress
+
+
+@dataclass(frozen=True)
+class JobResult:
+    """What is kept in the run record of a finished input; or why there is nothing."""
+
+    summary: dict[str, JsonValue] = field(default_factory=dict)
+    failure: Failure | None = None
+
+
+def run_job(job: Job) -> JobResult:
+    """Fill the job's folder with the results, or with the report of why there are none."""
+    steps: list[StepRecord] = []
+    options: Options = job.options if job.source.kind == "photo" else job.options.model
+    try:
+        building = _building(job, steps)
+    except (InputError, NotFoundError) as error:
+        kind = "input" if isinstance(error, InputError) else "not-found"
+        failure = Failure(subject=str(job.source.path), kind=kind, reason=_reason(error, job))
+        _write_report(job.folder, failure_report(job.source.path.name, failure, options, steps))
+        return JobResult(failure=failure)
+    try:
+        write_building(building, job.folder, steps, job.progress)
+        _write_report(job.folder, image_report(building, options, steps))
+    except OSError as error:
+        return JobResult(failure=_not_written(job, error))
+    return JobResult(summary=_summary(building, steps))
+
+
+def memory_of(source: Input) -> int:
+    """Bytes that a worker will need for the input, from its header; 0 where there is none."""
+    path = source.path if source.kind == "photo" else source.path.with_name(PHOTO)
+    try:
+        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:
+            pixels = image.width * image.height
+    except (OSError, ValueError, SyntaxError, struct.error, Image.DecompressionBombError):
+        return 0  # the job will say what is wrong with it
+    return BYTES_ANALYSIS + BYTES_PER_PIXEL * pixels
+
+
+def _building(job: Job, steps: list[StepRecord]) -> Building:
+    source = job.source
+    if source.kind == "photo":
+        return reconstruct(source.path, job.options, source.name, steps, job.progress)
+    return rebuild(source.path, job.options.model, source.name, steps, job.progress)
+
+
+def _reason(error: InputError | NotFoundError, job: Job) -> str:
+    """The error without the path, which stands beside it."""
+    if isinstance(error, InputError) and error.subject == str(job.source.path):
+        return f"{error.fault}. {error.remedy}"
+    return str(error)
+
+
+def _not_written(job: Job, error: OSError) -> Failure:
+    reason = f"the result cannot be written ({error.strerror}). Make room, or choose another -o."
+    return Failure(subject=str(job.source.path), kind="output", reason=reason)
+
+
+def _write_report(folder: Path, report: tuple[Report, bytes]) -> None:
+    (folder / "report.json").write_bytes(report[0].to_json())
+    (folder / "report.html").write_bytes(report[1])
+
+
+def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue]:
+    found = measures(building.document)
+    low, high = building.part.bounds_m
+    kept = ("storeys", "windows", "width_m", "height_m", "scale")
+    return {
+        **{name: found[name] for name in kept},
+        "seconds": round(sum(step.seconds for step in steps), 3),
+        "bounds_min": list(low),
+        "bounds_max": list(high),
+    }

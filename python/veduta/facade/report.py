@@ -1,0 +1,222 @@
+"""What `report.json` and `report.html` say: of one image, and of the whole call."""
+
+from __future__ import annotations
+
+import io
+from collections import Counter, defaultdict
+from collections.abc import Mapping, Sequence
+from typing import Any
+from urllib.parse import quote
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from pydantic import JsonValue
+
+from veduta.facade.document import FacadeDocument
+from veduta.facade.outputs import coloured, rasterise
+from veduta.facade.overlay import overlay
+from veduta.facade.pipeline import Building
+from veduta.run.options import Options
+from veduta.run.page import Bars, Page, Picture, Table, render
+from veduta.run.report import Failure, Report, StepRecord
+
+THUMBNAIL_PX = 1000
+FILES = (
+    ("facade.json", "everything that was found; edit it and rebuild"),
+    ("rectified.jpg", "the fronto-parallel photo"),
+    ("labels.png", "a class per pixel, drawn from facade.json"),
+    ("overlay.png", "what was found, over the photo"),
+    ("model.glb", "the building as glTF 2.0"),
+    ("model.city.json", "the building as CityJSON 2.0, LoD3"),
+)
+_BASIS = {
+    "height": "from the height given",
+    "storey": "from the storey given",
+    "assumed-storey": "assumed",
+}
+
+
+def image_report(
+    building: Building, options: Options, steps: list[StepRecord]
+) -> tuple[Report, bytes]:
+    """The report of one building, and its page."""
+    document = building.document
+    report = Report(
+        verb="facade",
+        subject=document.source.image,
+        state="done",
+        options=options.model_dump(mode="json"),
+        steps=steps,
+        measures=measures(document),
+        notes=[*document.notes, *building.part.notes],
+    )
+    page = Page(
+        title=document.source.image,
+        summary=summary_line(measures(document)),
+        facts=_facts(document),
+        pictures=_pictures(building),
+        tables=[_elements(document), _provenance(building), *_energy(document)],
+        bars=[_times(steps)],
+        files=FILES,
+    )
+    return report, render(report, page)
+
+
+def failure_report(
+    subject: str, failure: Failure, options: Options, steps: list[StepRecord]
+) -> tuple[Report, bytes]:
+    """The report of an image that gave nothing: how far it came, and why it ended there."""
+    report = Report(
+        verb="facade",
+        subject=subject,
+        state="failed",
+        options=options.model_dump(mode="json"),
+        steps=steps,
+        failures=[failure],
+    )
+    return report, render(report, Page(title=subject, summary="Nothing was built."))
+
+
+def call_report(
+    options: Options,
+    summaries: Mapping[str, Mapping[str, JsonValue]],
+    failures: Sequence[Failure],
+    notes: list[str],
+) -> tuple[Report, bytes]:
+    """The report of a call: a line for each image that is done, by its name; then the failures."""
+    total = len(summaries) + len(failures)
+    report = Report(
+        verb="facade",
+        subject="call",
+        state="done" if summaries else "failed",
+        options=options.model_dump(mode="json"),
+        measures={"images": total, "done": len(summaries), "results": dict(summaries)},
+        notes=notes,
+        failures=list(failures),
+    )
+    columns = ("image", "storeys", "windows", "width m", "height m", "scale", "seconds")
+    keys = ("storeys", "windows", "width_m", "height_m", "scale", "seconds")
+    table = Table(
+        title="Images",
+        columns=columns,
+        rows=[
+            [name, *(_cell(summary.get(key)) for key in keys)]
+            for name, summary in summaries.items()
+        ],
+        links=[f"{quote(name)}/report.html" for name in summaries],
+    )
+    page = Page(
+        title=f"{total} {'image' if total == 1 else 'images'}",
+        summary=f"{len(summaries)} of {total} became buildings.",
+        tables=[table] if summaries else [],
+        files=(("place.json", "the buildings as one place"),) if summaries else (),
+    )
+    return report, render(report, page)
+
+
+def measures(document: FacadeDocument) -> dict[str, Any]:
+    """What was found, in numbers."""
+    found = Counter(element.class_ for element in document.elements)
+    return {
+        "storeys": document.storeys,
+        "windows": found["window"],
+        "elements": dict(sorted(found.items())),
+        "width_m": round(document.facade.width_m, 3),
+        "height_m": round(document.facade.height_m, 3),
+        "metres_per_px": document.scale.metres_per_px,
+        "scale": _BASIS[document.scale.basis],
+        "rectification": document.rectification.method,
+        "residual_deg": document.rectification.residual_deg,
+        "energy": {name: term.total for name, term in document.energy.items()},
+    }
+
+
+def summary_line(found: Mapping[str, Any]) -> str:
+    """What was found, in a line."""
+    return (
+        f"{found['storeys']} storeys, {found['windows']} windows,"
+        f" {found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})"
+    )
+
+
+def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
+    found = Counter(element.class_ for element in document.elements)
+    size, box = document.rectification, document.facade
+    residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° left"
+    return [
+        ("storeys", str(document.storeys)),
+        ("windows", str(found["window"])),
+        ("facade", f"{box.width_m:.1f} x {box.height_m:.1f} m"),
+        ("scale", _BASIS[document.scale.basis]),
+        ("rectified", f"{size.method}{residual}"),
+        ("resolution", f"{1000 * document.scale.metres_per_px:.1f} mm/px"),
+    ]
+
+
+def _pictures(building: Building) -> list[Picture]:
+    labels = coloured(building.document, rasterise(building.document))
+    drawn = overlay(building.document, building.pixels)
+    return [
+        _picture("Found", "Elements, regions and floor lines.", drawn, "overlay.png"),
+        _picture("Photo", "The fronto-parallel view.", building.pixels, "rectified.jpg"),
+        _picture("Labels", "The class of each pixel, by the document.", labels, "labels.png"),
+    ]
+
+
+def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Picture:
+    """A small copy for the page; flat colours stay sharp as PNG."""
+    image = Image.fromarray(pixels)
+    file = io.BytesIO()
+    if link == "labels.png":
+        image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX), Image.Resampling.NEAREST)
+        image.quantize(16).save(file, format="PNG", optimize=True)
+        return Picture(title, note, file.getvalue(), "image/png", link)
+    image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
+    image.save(file, format="JPEG", quality=85)
+    return Picture(title, note, file.getvalue(), "image/jpeg", link)
+
+
+def _elements(document: FacadeDocument) -> Table:
+    rows: list[list[float | int | str | None]] = []
+    for name in document.classes:
+        items = [element for element in document.elements if element.class_ == name]
+        if items:
+            width = float(np.median([item.width_m for item in items]))
+            height = float(np.median([item.height_m for item in items]))
+            score = float(np.mean([item.score for item in items]))
+            rows.append([name, len(items), round(width, 2), round(height, 2), round(score, 2)])
+    columns = ("class", "found", "median width m", "median height m", "mean score")
+    return Table("Elements", columns, rows)
+
+
+def _provenance(building: Building) -> Table:
+    features = building.part.features
+    count: Counter[tuple[str, str]] = Counter()
+    area: defaultdict[tuple[str, str], float] = defaultdict(float)
+    for row in range(len(features)):
+        key = (features.semantic(row).value, features.provenance(row).value)
+        count[key] += 1
+        area[key] += float(building.part.feature_area_m2[row])
+    rows = [(*key, count[key], round(area[key], 1)) for key in sorted(count)]
+    note = "measured: seen in the photo; inferred: follows from it; invented: nothing shows it"
+    columns = ("surface", "provenance", "features", "area m²")
+    return Table("Where the surfaces come from", columns, rows, note=note)
+
+
+def _energy(document: FacadeDocument) -> list[Table]:
+    rows: list[list[float | int | str | None]] = []
+    for name, field in document.energy.items():
+        rows.append([name, "total", field.total, field.nodes, field.labels])
+        rows += [[name, term, value, None, None] for term, value in field.terms.items()]
+    columns = ("chain", "term", "energy", "nodes", "labels")
+    note = "The minimum of each chain is exact: max-product without loops."
+    return [Table("Energy", columns, rows, note=note)] if rows else []
+
+
+def _times(steps: list[StepRecord]) -> Bars:
+    return Bars("Time per step", "s", [(step.name, step.seconds) for step in steps])
+
+
+def _cell(value: JsonValue) -> float | int | str | None:
+    return value if isinstance(value, float | int | str) else None

@@ -1,0 +1,91 @@
+"""`report.html`: the report with pictures and bars, in one file that needs nothing else."""
+
+from __future__ import annotations
+
+import base64
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Literal
+
+from jinja2 import Environment, PackageLoader, StrictUndefined, select_autoescape
+
+from veduta.run.report import Count, Report
+
+
+@dataclass(frozen=True)
+class Picture:
+    """An encoded image with a title; `note` says in a line what it shows."""
+
+    title: str
+    note: str
+    data: bytes
+    mime: Literal["image/jpeg", "image/png"]
+    link: str | None = None
+
+    @property
+    def url(self) -> str:
+        """The image inside the page."""
+        return f"data:{self.mime};base64,{base64.b64encode(self.data).decode('ascii')}"
+
+
+@dataclass(frozen=True)
+class Table:
+    """Rows under column names; numbers are set to the right. A row may link to its own page."""
+
+    title: str
+    columns: Sequence[str]
+    rows: Sequence[Sequence[Count | None]]
+    links: Sequence[str | None] = ()
+    note: str = ""
+
+
+@dataclass(frozen=True)
+class Bars:
+    """A bar per label, drawn to one scale."""
+
+    title: str
+    unit: str
+    values: Sequence[tuple[str, float]]
+
+    def width(self, value: float) -> float:
+        """Per cent of the longest bar."""
+        longest = max((abs(other) for _, other in self.values), default=0.0)
+        return 100 * abs(value) / longest if longest else 0.0
+
+
+@dataclass(frozen=True)
+class Page:
+    """What the page shows beside the report itself."""
+
+    title: str
+    summary: str
+    facts: Sequence[tuple[str, str]] = ()
+    pictures: Sequence[Picture] = ()
+    bars: Sequence[Bars] = ()
+    tables: Sequence[Table] = ()
+    files: Sequence[tuple[str, str]] = field(default=())
+    """Name and meaning of each file that lies beside the page."""
+
+
+def render(report: Report, page: Page) -> bytes:
+    """The page as UTF-8 HTML; everything that comes from a file is escaped."""
+    environment = Environment(
+        loader=PackageLoader("veduta.run"),
+        autoescape=select_autoescape(default=True, default_for_string=True),
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    environment.filters["figure"] = _figure
+    return environment.get_template("report.html.j2").render(report=report, page=page).encode()
+
+
+def _figure(value: object) -> str:
+    """A number as a person writes it: four digits that count; None as a dash."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    if isinstance(value, float):
+        return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.4g}"
+    return f"{value:,}" if isinstance(value, int) else str(value)
