@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+import numpy as np
+from numpy.typing import NDArray
+
 from veduta.facade.layout import SLAB_M, Opening
 from veduta.facade.paint import Finish, Paint, photo_rect
 from veduta.facade.roof import Mansard
-from veduta.facade.solids import Box, add_box, add_tray
+from veduta.facade.solids import Box, TrayFinish, add_box, add_tray
 from veduta.place.builder import PartBuilder
 from veduta.place.semantics import Provenance, SemanticClass
 
 # How far a balcony juts out (m): one before a single window, and one that people stand on.
-SHALLOW_M, DEEP_M = 0.35, 0.80
+SHALLOW_M, DEEP_M = 0.30, 0.60
 # From this width on, a balcony serves more than one window (m).
 WIDE_M = 2.2
 RAILING_M = 0.04
+# A balcony with less room than this between its railings is a plain box (m).
+LEAST_INSIDE_M = 0.1
 
 
 def add_balconies(
@@ -47,12 +52,32 @@ def add_balconies(
             shell=shell,
             size_m=(place.width, out),
         )
-        box = Box(place.x0, place.x1, -out, _back_m(place.z0, mansard), place.z0, place.z1)
-        seen, plain = paint.seen(front), Finish(rest, paint.railing)
-        if min(place.width - 2 * RAILING_M, place.height - SLAB_M) > 0.1:
-            add_tray(builder, box, RAILING_M, SLAB_M, seen, plain)
+        back = _back_m(place.z0, mansard)
+        box = Box(place.x0, place.x1, back - out, back, place.z0, place.z1)
+        if min(place.width - 2 * RAILING_M, place.height - SLAB_M) > LEAST_INSIDE_M:
+            add_tray(builder, box, RAILING_M, SLAB_M, _finish(paint, box, front, rest))
         else:
-            add_box(builder, box, seen, plain)
+            add_box(builder, box, paint.seen(front), Finish(rest, paint.railing))
+
+
+def _finish(paint: Paint, box: Box, front: int, rest: int) -> TrayFinish:
+    """The photo shows the front railing alone; its ends are bent around the corners."""
+
+    def bent(end_x: float, inwards: float) -> Finish:
+        def to_uv(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+            along = np.minimum(points_m[:, 1] - box.y0, box.x1 - box.x0)
+            flat = np.stack([end_x + inwards * along, points_m[:, 1], points_m[:, 2]], axis=1)
+            return paint.atlas.photo_uv(flat)
+
+        return Finish(rest, paint.photo, to_uv)
+
+    return TrayFinish(
+        front=paint.seen(front),
+        right=bent(box.x1, -1.0),
+        left=bent(box.x0, 1.0),
+        inner_front=paint.seen(rest),
+        rest=Finish(rest, paint.reveal),
+    )
 
 
 def _back_m(floor_m: float, mansard: Mansard | None) -> float:

@@ -32,8 +32,19 @@ def add_box(builder: PartBuilder, box: Box, front: Finish, rest: Finish) -> None
     _add(builder, rest, _facing_down(box, box.z0))
 
 
+@dataclass(frozen=True)
+class TrayFinish:
+    """What the sides of a tray show, on both of their faces, and what the rest shows."""
+
+    front: Finish
+    right: Finish
+    left: Finish
+    inner_front: Finish
+    rest: Finish
+
+
 def add_tray(
-    builder: PartBuilder, box: Box, wall_m: float, floor_m: float, front: Finish, rest: Finish
+    builder: PartBuilder, box: Box, wall_m: float, floor_m: float, finish: TrayFinish
 ) -> None:
     """A balcony: a floor with three railings, open at the top and towards the building.
 
@@ -42,18 +53,18 @@ def add_tray(
     x0, x1, y0, y1, z0, z1 = box.x0, box.x1, box.y0, box.y1, box.z0, box.z1
     a0, a1, b0, c0 = x0 + wall_m, x1 - wall_m, y0 + wall_m, z0 + floor_m
     inner = Box(a0, a1, b0, y1, c0, z1)
-    _add(builder, front, _facing_street(box, y0))
-    _add(builder, rest, _facing_right(box, x1))
-    _add(builder, rest, _facing_left(box, x0))
-    _add(builder, rest, _facing_down(box, z0))
-    _add(builder, rest, _facing_up(inner, c0))
-    _add(builder, rest, _facing_back(inner, b0))
-    _add(builder, rest, _facing_right(inner, a0))
-    _add(builder, rest, _facing_left(inner, a1))
+    _add(builder, finish.front, _facing_street(box, y0))
+    _add(builder, finish.right, _facing_right(box, x1))
+    _add(builder, finish.left, _facing_left(box, x0))
+    _add(builder, finish.inner_front, _facing_back(inner, b0))
+    _add(builder, finish.left, _facing_right(inner, a0))
+    _add(builder, finish.right, _facing_left(inner, a1))
+    _add(builder, finish.rest, _facing_down(box, z0))
+    _add(builder, finish.rest, _facing_up(inner, c0))
     back = [(x1, z0), (x0, z0), (x0, z1), (a0, z1), (a0, c0), (a1, c0), (a1, z1), (x1, z1)]
-    _add(builder, rest, [(x, y1, z) for x, z in back])
+    _add(builder, finish.rest, [(x, y1, z) for x, z in back])
     rim = [(x0, y0), (x1, y0), (x1, y1), (a1, y1), (a1, b0), (a0, b0), (a0, y1), (x0, y1)]
-    _add(builder, rest, [(x, y, z1) for x, y in rim])
+    _add(builder, finish.rest, [(x, y, z1) for x, y in rim])
 
 
 def _add(builder: PartBuilder, finish: Finish, ring: list[Point]) -> None:

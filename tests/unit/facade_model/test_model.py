@@ -96,7 +96,7 @@ def test_nothing_beside_balconies_stands_before_the_facade_plane(part: Part) -> 
     for begin, end in zip(first[body], last[body], strict=True):
         assert part.positions_m[begin:end, 1].min() >= 0.0
     low, high = part.bounds_m
-    assert low[1] == pytest.approx(-0.8)
+    assert low[1] == pytest.approx(-0.6)
     assert (low[0], low[2]) == (0.0, 0.0)
     assert high[1] == pytest.approx(DEPTH_M)
 
