@@ -49,16 +49,14 @@ def plan_dormers(
         if windows:
             notes.append(f"{len(windows)} windows above the eaves left out: no roof to carry them")
         return []
-    allowed = Rectangle(
-        mansard.inset_m, mansard.eaves_m, mansard.width_m - mansard.inset_m, mansard.break_m
-    ).grown(-GAP_M)
     found: list[Dormer] = []
     for number, window in enumerate(windows):
         want = window.rectangle
         around = Rectangle(
             want.x0 - CHEEK_M, want.z0 - SILL_M, want.x1 + CHEEK_M, want.z1 + LINTEL_M
         )
-        front = carve(around.common(allowed), [other.front for other in found], GAP_M)
+        inside = around.common(_allowed(mansard, around.z1))
+        front = carve(inside, [other.front for other in found], GAP_M)
         inner = Rectangle(
             front.x0 + CHEEK_M, front.z0 + SILL_M, front.x1 - CHEEK_M, front.z1 - LINTEL_M
         )
@@ -69,6 +67,12 @@ def plan_dormers(
             notes.append(f"dormer {number}: clipped to the slope")
         found.append(Dormer(front, Opening(inner, window.element)))
     return found
+
+
+def _allowed(mansard: Mansard, top_m: float) -> Rectangle:
+    """Where a dormer of this height may stand: the slope narrows towards its upper edge."""
+    aside = mansard.front_y_m(min(max(top_m, mansard.eaves_m), mansard.break_m))
+    return Rectangle(aside, mansard.eaves_m, mansard.width_m - aside, mansard.break_m).grown(-GAP_M)
 
 
 def slope_hole(dormer: Dormer, mansard: Mansard) -> list[Point]:

@@ -7,8 +7,9 @@ from math import radians, tan
 
 # Slope of the lower part of a mansard.
 LOWER_SLOPE_RAD = radians(72.0)
-# The lower slope takes this share of the roof's height (h_l of h_l + h_t).
-LOWER_SHARE = 0.72
+# The lower slope takes this share of the roof's height (h_l of h_l + h_t): from the street, where
+# the photo was taken, little more than the lower slope is seen.
+LOWER_SHARE = 0.85
 # A roof lower than this is taken for one that the photo does not show: it is flat (m).
 LEAST_ROOF_M = 0.5
 # The lower slopes leave at least this share of the narrower side for the upper ones.

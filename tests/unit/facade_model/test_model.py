@@ -44,7 +44,7 @@ def test_bare_building_has_the_volume_of_box_and_mansard() -> None:
     document = sample_document(elements=[])
     part = build_part(document, sample_photo(document), ModelOptions(), "bare")
     width, height = FACADE_M
-    lower, upper = 0.72 * ROOF_M, 0.28 * ROOF_M
+    lower, upper = 0.85 * ROOF_M, 0.15 * ROOF_M
     inset = lower / tan(radians(72.0))
     a, b = width - 2 * inset, DEPTH_M - 2 * inset
     # The frustum of two rectangles that are not similar: Simpson's rule is exact.
