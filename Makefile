@@ -63,7 +63,7 @@ $(NODE_PACKAGES): studio/package.json studio/package-lock.json
 	@touch $@
 
 $(STUDIO): $(NODE_PACKAGES) $(STUDIO_SOURCES)
-	cd studio && npm run --silent build
+	cd studio && npm run --silent build -- --logLevel warn
 	@touch $@
 
 $(CJVAL):
@@ -111,7 +111,7 @@ test-browser: setup
 	else echo "== browser tests: SKIPPED, there is no Chromium (see above)" >&2; fi
 
 bench: setup ## speed, memory and accuracy tables; dated results go to benchmarks/results
-	@set -- benchmarks/*.py; for file in "$$@"; do $(STAGE) "$$file" $(PY) "$$file"; done
+	@for file in $$(grep -l '^if __name__' benchmarks/*.py); do $(STAGE) "$$file" $(PY) "$$file"; done
 
 pictures: setup ## the README's pictures, made from the synthetic demo
 	$(PY) docs/pictures.py
