@@ -60,7 +60,8 @@ class _Front:
         if found.width < SMALLEST_M or found.height < SMALLEST_M:
             self.notes.append(f"{name}: left out, no room beside other openings or the border")
             return None
-        if found.area < 0.95 * wanted.area:
+        lost = max(wanted.width - found.width, wanted.height - found.height)
+        if lost > 2 * GAP_M:
             self.notes.append(
                 f"{name}: clipped from {wanted.width:.2f} x {wanted.height:.2f} m "
                 f"to {found.width:.2f} x {found.height:.2f} m"

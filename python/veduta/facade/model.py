@@ -80,6 +80,13 @@ def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:
             f"the facade is {facade.width_m} x {facade.height_m} m",
             "Give the facade a width, a height and a scale above zero in facade.json.",
         )
+    homography = np.array(document.rectification.rectified_from_source, dtype=np.float64)
+    if homography.shape != (3, 3) or not abs(np.linalg.det(homography)) > 0.0:
+        raise InputError(
+            document.source.image,
+            "rectified_from_source is not an invertible 3x3 matrix",
+            "Restore the homography in facade.json.",
+        )
     expected = (document.rectification.height_px, document.rectification.width_px, 3)
     if rectified.shape != expected:
         raise InputError(

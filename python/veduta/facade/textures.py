@@ -14,7 +14,15 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.document import FacadeDocument
+from veduta.facade.photo_masks import (
+    Mask,
+    PixelBox,
+    element_mask,
+    extent_mask,
+    pixels_of,
+    seen_mask,
+)
 from veduta.place.builder import UvMap
 from veduta.place.material import Colour, Texture
 
@@ -30,22 +38,6 @@ _IRON: Colour = (0.12, 0.12, 0.13)
 _BRICK: Colour = (0.55, 0.36, 0.29)
 
 Pixels = NDArray[np.uint8]
-Mask = NDArray[np.bool_]
-
-
-@dataclass(frozen=True)
-class PixelBox:
-    """A box of whole pixels in the rectified photo."""
-
-    x0: int
-    y0: int
-    x1: int
-    y1: int
-
-    @property
-    def size(self) -> tuple[int, int]:
-        """Width and height."""
-        return self.x1 - self.x0, self.y1 - self.y0
 
 
 @dataclass(frozen=True)
@@ -74,13 +66,15 @@ def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
     photo: (h, w, 3) uint8 sRGB, the rectified photo of the document.
     """
     box = _crop_box(document, photo, top_m)
-    crop = np.ascontiguousarray(photo[box.y0 : box.y1, box.x0 : box.x1])
-    colours = _colours(document, crop, box)
+    crop = photo[box.y0 : box.y1, box.x0 : box.x1].copy()
+    unseen = ~seen_mask(document, box)
+    colours = _colours(document, crop, box, ~unseen)
+    _fill_unseen(document, crop, box, unseen, colours)
     surface, invented = _surface_layer(document, crop, box, colours.roof)
     side_by_side = box.size[1] > box.size[0]
     axis = 1 if side_by_side else 0
     pixels = np.concatenate([crop, surface], axis=axis)
-    mask = np.concatenate([np.zeros_like(invented), invented], axis=axis)
+    mask = np.concatenate([unseen, invented | unseen], axis=axis)
     step = (0.5, 0.0) if side_by_side else (0.0, 0.5)
     return Atlas(
         texture=_shrunk(pixels, mask),
@@ -121,47 +115,22 @@ def _uv_map(
     return to_uv
 
 
-def _element_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
-    """The rectangles of all elements of one class."""
-    width, height = box.size
-    mask = np.zeros((height, width), dtype=np.bool_)
-    for element in document.elements:
-        if element.class_ == wanted:
-            mask[_pixels_of(element, box)] = True
-    return mask
-
-
-def _extent_mask(document: FacadeDocument, box: PixelBox, wanted: str) -> Mask:
-    """Where the extents of one class show and no element stands before them."""
-    width, height = box.size
-    mask = np.zeros((height, width), dtype=np.uint8)
-    for extent in document.extents:
-        corners = np.array(extent.polygon_px, dtype=np.float64) - (box.x0, box.y0)
-        if len(corners) >= 3:
-            painted = 255 if extent.class_ == wanted else 0
-            cv2.fillPoly(mask, [np.round(corners).astype(np.int32)], painted)
-    for element in document.elements:
-        mask[_pixels_of(element, box)] = 0
-    return mask > 0
-
-
-def _pixels_of(element: Element, box: PixelBox, spread_px: float = 0.0) -> tuple[slice, slice]:
-    """Rows and columns of the element in the crop, grown by `spread_px` on each side."""
-    width, height = box.size
-    x0 = min(max(round(element.x_px - spread_px) - box.x0, 0), width)
-    x1 = min(max(round(element.x_px + element.width_px + spread_px) - box.x0, x0), width)
-    y0 = min(max(round(element.y_px - spread_px) - box.y0, 0), height)
-    y1 = min(max(round(element.y_px + element.height_px + spread_px) - box.y0, y0), height)
-    return slice(y0, y1), slice(x0, x1)
-
-
-def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox) -> Colours:
+def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) -> Colours:
     return Colours(
-        wall=_typical(crop, _extent_mask(document, box, "wall"), _STONE),
-        roof=_typical(crop, _extent_mask(document, box, "roof"), _SLATE),
-        balcony=_typical(crop, _element_mask(document, box, "balcony"), _IRON),
-        chimney=_typical(crop, _element_mask(document, box, "chimney"), _BRICK),
+        wall=_typical(crop, extent_mask(document, box, "wall") & seen, _STONE),
+        roof=_typical(crop, extent_mask(document, box, "roof") & seen, _SLATE),
+        balcony=_typical(crop, element_mask(document, box, "balcony") & seen, _IRON),
+        chimney=_typical(crop, element_mask(document, box, "chimney") & seen, _BRICK),
     )
+
+
+def _fill_unseen(
+    document: FacadeDocument, crop: Pixels, box: PixelBox, unseen: Mask, colours: Colours
+) -> None:
+    """Paint what the photo does not show: roof above the eaves, wall below them."""
+    eaves = min(max(round(document.facade.y_px) - box.y0, 0), crop.shape[0])
+    for rows, colour in ((slice(0, eaves), colours.roof), (slice(eaves, None), colours.wall)):
+        crop[rows][unseen[rows]] = np.round(np.array(colour) * 255.0).astype(np.uint8)
 
 
 def _typical(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
@@ -177,11 +146,11 @@ def _surface_layer(
 ) -> tuple[Pixels, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     surface = crop.copy()
-    invented = _extent_mask(document, box, "sky") | _element_mask(document, box, "chimney")
+    invented = extent_mask(document, box, "sky") | element_mask(document, box, "chimney")
     surface[invented] = np.round(np.array(roof) * 255.0).astype(np.uint8)
     balconies = [element for element in document.elements if element.class_ == "balcony"]
     for element in sorted(balconies, key=lambda balcony: balcony.y_px):
-        rows, columns = _pixels_of(element, box, BALCONY_SPREAD * element.height_px)
+        rows, columns = pixels_of(element, box, BALCONY_SPREAD * element.height_px)
         _mirror_into(surface, rows, columns)
         invented[rows, columns] = True
     return surface, invented
