@@ -39,6 +39,7 @@ studio: $(STUDIO) ## the web app alone
 # ---- set-up ---------------------------------------------------------------------------------
 
 .venv/.bootstrap: requirements/bootstrap.txt
+	@scripts/need tools
 	@python=$$(scripts/need python); \
 	if ! $(PY) -c 'import pip, sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null; then \
 		"$$python" -m venv --clear .venv; fi
