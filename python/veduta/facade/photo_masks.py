@@ -80,4 +80,5 @@ def seen_mask(document: FacadeDocument, box: PixelBox) -> Mask:
     inside &= (y >= BORDER_PX) & (y <= source.height_px - BORDER_PX)
     # One side of the horizon: the side on which the facade's middle is.
     middle = w[w.shape[0] // 2, w.shape[1] // 2]
-    return inside & (w * middle > 0.0)
+    inside &= w * middle > 0.0
+    return inside

@@ -110,7 +110,8 @@ def _uv_map(
         y_px = facade.y_px + facade.height_px - points_m[:, 2] / scale - box.y0
         u = np.clip(x_px, 0.5, width - 0.5) / width
         v = np.clip(y_px, 0.5, height - 0.5) / height
-        return np.stack([u, v], axis=1) * share + np.array(start)
+        uv: NDArray[np.float64] = np.stack([u, v], axis=1) * share + np.array(start)
+        return uv
 
     return to_uv
 
