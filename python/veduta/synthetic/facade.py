@@ -98,7 +98,8 @@ def _neighbours(layout: Layout, seed: int) -> list[tuple[str, BuiltFacade, float
     houses = []
     for number, name in enumerate(("left", "right")):
         style: Style = STYLES[int(rng.integers(len(STYLES)))]
-        plan = design(style, seed + 7919 * (number + 1))
+        floors = max(2, layout.storeys + int(rng.integers(-1, 2)))
+        plan = design(style, seed + 7919 * (number + 1), floors)
         house = build(plan, seed + 7919 * (number + 1), street=False)
         houses.append((name, house, -plan.width_m if number == 0 else layout.width_m))
     return houses

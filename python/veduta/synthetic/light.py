@@ -11,22 +11,27 @@ from veduta.synthetic.noise import fractal_noise
 from veduta.synthetic.seeds import stream
 
 Directions = NDArray[np.float32]
-_MAP = (256, 1024)
+_ZENITH = np.array([0.16, 0.33, 0.68], np.float32)
+_HORIZON = np.array([0.64, 0.77, 0.90], np.float32)
+_WHITE = np.array([0.98, 0.97, 0.95], np.float32)
+_GREY = np.array([0.80, 0.83, 0.87], np.float32)
+_FAR_SIDE = np.array([0.16, 0.15, 0.135], np.float32)
 
 
 @dataclass(frozen=True)
 class Light:
     """Daylight. `sun_from` points from the scene to the sun (unit, world); colours are linear.
 
-    `sky_map` (256, 1024, 3) is the sky by elevation (row 0 is the zenith, the last row the
-    horizon) and azimuth; `skyline_rad` (1024,) is how high the far side of the street stands.
+    `clouds` (n, n) is how much cloud there is, 0..1, on a level ceiling that repeats;
+    `skyline_rad` (k,) is how high the far side of the street stands, by azimuth.
     """
 
     sun_from: tuple[float, float, float]
     sun: tuple[float, float, float]
     sky: tuple[float, float, float]
     bounce: tuple[float, float, float]
-    sky_map: NDArray[np.float32]
+    clouds: NDArray[np.float32]
+    overcast: bool
     skyline_rad: NDArray[np.float32]
 
     def ambient(self, normals: Directions) -> NDArray[np.float32]:
@@ -37,18 +42,39 @@ class Light:
 
     def seen(self, directions: Directions, skyline: bool) -> NDArray[np.float32]:
         """Radiance (n, 3) from unit directions; `skyline` puts the far side of the street in."""
-        rows, columns = _MAP
-        azimuth = np.arctan2(directions[:, 1], directions[:, 0]) / (2 * np.pi) % 1.0
-        elevation = np.arcsin(np.clip(directions[:, 2], -1.0, 1.0))
-        column = np.minimum((azimuth * columns).astype(np.int32), columns - 1)
-        row = ((1.0 - np.clip(elevation, 0, None) / (np.pi / 2)) * rows).astype(np.int32)
-        radiance = self.sky_map[np.minimum(row, rows - 1), column]
+        up = np.clip(directions[:, 2], 0.0, 1.0)
+        cloud = self._cloud(directions, up)
+        if self.overcast:
+            radiance = _GREY * (0.80 + 0.22 * cloud + 0.10 * up)[:, None]
+        else:
+            blue = _HORIZON + (_ZENITH - _HORIZON) * (up**0.6)[:, None]
+            cover = np.clip((cloud - 0.50) * 2.0, 0.0, 0.9)[:, None]
+            radiance = blue * (1 - cover) + _WHITE * (0.80 + 0.22 * cloud)[:, None] * cover
         if skyline:
-            below = elevation < self.skyline_rad[column]
-            depth = np.clip(elevation / np.maximum(self.skyline_rad[column], 1e-3), 0, 1)
-            wall = np.array([0.16, 0.15, 0.135], np.float32) * (0.6 + 0.5 * depth)[:, None]
-            radiance = np.where(below[:, None], wall, radiance)
+            radiance = self._with_skyline(directions, radiance)
         return radiance.astype(np.float32)
+
+    def _cloud(self, directions: Directions, up: NDArray[np.float32]) -> NDArray[np.float32]:
+        """The ceiling's cloud where each direction meets it."""
+        size = self.clouds.shape[0]
+        at = directions[:, :2] / (up[:, None] + 0.25) * (0.28 * size)
+        whole = np.floor(at).astype(np.int64)
+        part = (at - whole).astype(np.float32)
+        (x, y), (u, v) = whole.T, part.T
+        near = self.clouds[y % size, x % size] * (1 - u) + self.clouds[y % size, (x + 1) % size] * u
+        y = y + 1
+        far = self.clouds[y % size, x % size] * (1 - u) + self.clouds[y % size, (x + 1) % size] * u
+        return np.asarray(near * (1 - v) + far * v, np.float32)
+
+    def _with_skyline(
+        self, directions: Directions, radiance: NDArray[np.float32]
+    ) -> NDArray[np.float32]:
+        steps = len(self.skyline_rad)
+        azimuth = np.arctan2(directions[:, 1], directions[:, 0]) / (2 * np.pi) % 1.0
+        top = self.skyline_rad[np.minimum((azimuth * steps).astype(np.int64), steps - 1)]
+        elevation = np.arcsin(np.clip(directions[:, 2], -1.0, 1.0))
+        bright = 0.6 + 0.5 * np.clip(elevation / top, 0.0, 1.0)
+        return np.where((elevation < top)[:, None], _FAR_SIDE * bright[:, None], radiance)
 
 
 def daylight(seed: int, sunny: bool, azimuth_rad: float, elevation_rad: float) -> Light:
@@ -57,21 +83,10 @@ def daylight(seed: int, sunny: bool, azimuth_rad: float, elevation_rad: float) -
     towards = (c * float(np.cos(azimuth_rad)), c * float(np.sin(azimuth_rad)),
                float(np.sin(elevation_rad)))  # fmt: skip
     rng = stream(seed, "sky")
-    rows, columns = _MAP
-    height = 1.0 - (np.arange(rows, dtype=np.float32)[:, None, None] + 0.5) / rows
-    zenith = np.array([0.20, 0.38, 0.72], np.float32)
-    horizon = np.array([0.66, 0.78, 0.90], np.float32)
-    blue = horizon + (zenith - horizon) * height**0.55
-    cloud = 0.5 + 0.9 * fractal_noise(rng, (rows, columns), 90.0, 5)[..., None]
+    cloud = np.clip(0.5 + 0.9 * fractal_noise(rng, (512, 512), 110.0, 6), 0.0, 1.0)
+    skyline = rng.uniform(0.20, 0.42, 32).astype(np.float32)
     if sunny:
-        cover = np.clip((cloud - 0.48) * 1.7, 0.0, 0.9)
-        white = np.array([0.98, 0.97, 0.95], np.float32) * (0.82 + 0.22 * cloud)
-        sky, sun, dome, bounce = (
-            blue * (1 - cover) + white * cover, (1.15, 1.05, 0.90), (0.42, 0.48, 0.58),
-            (0.30, 0.28, 0.25),
-        )  # fmt: skip
-    else:
-        sky = np.array([0.80, 0.83, 0.87], np.float32) * (0.80 + 0.22 * cloud + 0.1 * height)
-        sun, dome, bounce = (0.0, 0.0, 0.0), (0.95, 0.98, 1.02), (0.38, 0.37, 0.35)
-    steps = np.repeat(rng.uniform(0.20, 0.42, 32), columns // 32).astype(np.float32)
-    return Light(towards, sun, dome, bounce, sky.astype(np.float32), steps)
+        return Light(towards, (1.15, 1.05, 0.90), (0.42, 0.48, 0.58), (0.30, 0.28, 0.25), cloud,
+                     False, skyline)  # fmt: skip
+    return Light(towards, (0.0, 0.0, 0.0), (0.95, 0.98, 1.02), (0.38, 0.37, 0.35), cloud, True,
+                 skyline)  # fmt: skip

@@ -36,7 +36,7 @@ def develop(radiance: NDArray[np.float32], lens: Lens, seed: int) -> NDArray[np.
     if lens.blur_px > 0:
         light = cv2.GaussianBlur(light, (0, 0), lens.blur_px).astype(np.float32)
     level = light @ np.array([0.2126, 0.7152, 0.0722], np.float32)
-    light = light * np.float32(0.72 / max(float(np.percentile(level, 88)), 1e-4))
+    light = light * np.float32(0.62 / max(float(np.percentile(level, 88)), 1e-4))
     rng = stream(seed, "noise")
     shot = np.sqrt(np.clip(light, 0.0, None) / 0.2 + 0.05)
     light = light + lens.noise * shot * rng.standard_normal(light.shape, dtype=np.float32)

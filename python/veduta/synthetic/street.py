@@ -44,7 +44,7 @@ def add_ground(builder: MeshBuilder, feature: int) -> None:
     builder.quad((-REACH_M, -PAVEMENT_M, -0.13), (far, 0, 0), (0, 0, 0.13), "kerb", feature)
     builder.quad((-REACH_M, -REACH_M, -0.13), (far, 0, 0), (0, REACH_M - PAVEMENT_M, 0), "asphalt",
                  feature)  # fmt: skip
-    builder.quad((-REACH_M, 0, 0), (far, 0, 0), (0, REACH_M, 0), "paving", feature)
+    builder.quad((-REACH_M, 0, -0.02), (far, 0, 0), (0, REACH_M, 0), "paving", feature)
 
 
 def add_occluder(
