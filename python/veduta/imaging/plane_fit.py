@@ -24,9 +24,14 @@ from veduta.geometry.vanishing import FacadeView
 from veduta.imaging.segments import Segments
 from veduta.imaging.vanishing import horizontal_candidates, vertical_candidates
 
-_VERTICALS, _HORIZONTALS = 3, 5
-_REFINED = 4
-_SCALES_RAD = tuple(math.radians(v) for v in (3.0, 2.0, 1.2, 0.8, 0.8, 0.8, 0.8, 0.8))
+_VERTICALS, _HORIZONTALS = 6, 5
+_REFINED = 5
+_TILTS_RAD = tuple(math.radians(v) for v in range(-30, 31, 4))
+_DISTINCT_RAD = math.radians(4.0)
+_MAX_YAW_RAD, _MAX_PITCH_RAD = math.radians(75.0), math.radians(50.0)
+_ANNEALING_RAD = tuple(math.radians(v) for v in (3.0, 2.0, 1.2, 0.8))
+_SCALE_RAD = math.radians(0.8)
+_MAX_STEPS = 30
 _END_NOISE_PX = 0.7
 _EVIDENCE = 0.25
 """Segments of one cornice are not independent: each counts for a quarter."""
@@ -36,7 +41,7 @@ _USUAL_FOCAL = 0.74
 """32 mm equivalent, as a part of the diagonal: between a phone and a standard lens."""
 
 _USUAL_FOCAL_SIGMA = 0.35
-_USUAL_CENTRE_SIGMA = 0.05
+_USUAL_CENTRE_SIGMA = 0.03
 _KNOWN_FOCAL_SIGMA = 0.02
 _KNOWN_CENTRE_SIGMA = 0.01
 
@@ -85,10 +90,12 @@ def fit_plane(
     starts = _starts(centred, problem, np.random.default_rng(seed))
     if not starts:
         return None
-    refined = [_refine(problem, start) for start in starts]
-    best = min(refined, key=lambda params: _cost(problem, params, _SCALES_RAD[-1]))
-    normal = _normal_equations(problem, best, _SCALES_RAD[-1])[0]
-    cost = _cost(problem, best, _SCALES_RAD[-1])
+    annealed = [_annealed(problem, start) for start in starts]
+    annealed.sort(key=lambda params: _cost(problem, params, _SCALE_RAD))
+    ends = [_converged(problem, params) for params in annealed[:2]]
+    best = min(ends, key=lambda params: _cost(problem, params, _SCALE_RAD))
+    normal = _normal_equations(problem, best, _SCALE_RAD)[0]
+    cost = _cost(problem, best, _SCALE_RAD)
     covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
     return PlaneFit(_view(best, size_px), covariance, cost, size_px)
 
@@ -161,24 +168,33 @@ def _problem(centred: Segments, diagonal: float, focal_px: float | None) -> _Pro
 
 
 def _starts(centred: Segments, problem: _Problem, rng: np.random.Generator) -> list[Vector]:
-    """The cheapest pairs of vanishing points, each as the six numbers, and "do nothing"."""
+    """The cheapest distinct guesses, each as the six numbers.
+
+    Every horizontal candidate goes with every vertical one, and with a sweep of tilts about it:
+    where a wall has few verticals of its own, something else's win the vertical RANSAC.
+    """
     verticals = vertical_candidates(centred, problem.weight, _VERTICALS, rng)
     horizontals = horizontal_candidates(centred, problem.weight, _HORIZONTALS, rng)
     if not len(verticals.points) or not len(horizontals.points):
         return []
     starts = [problem.prior_mean.copy()]
-    for vertical in verticals.points:
-        for horizontal in horizontals.points:
-            start = _start(problem, vertical, horizontal)
-            if start is not None:
-                starts.append(start)
-    starts.sort(key=lambda params: _cost(problem, params, _SCALES_RAD[0]))
-    return starts[:_REFINED]
+    for horizontal in horizontals.points:
+        for vertical in verticals.points:
+            starts += _start(problem, horizontal, vertical)
+        for tilt in _TILTS_RAD:
+            up = np.array([0.0, math.cos(tilt), math.sin(tilt) / math.exp(problem.prior_mean[3])])
+            starts += _start(problem, horizontal, up)
+    starts.sort(key=lambda params: _cost(problem, params, _ANNEALING_RAD[0]))
+    kept: list[Vector] = []
+    for start in starts:
+        if all(float(np.abs(start - other)[:3].max()) > _DISTINCT_RAD for other in kept):
+            kept.append(start)
+    return kept[:_REFINED]
 
 
 def _start(
-    problem: _Problem, vertical: NDArray[np.float64], horizontal: NDArray[np.float64]
-) -> Vector | None:
+    problem: _Problem, horizontal: NDArray[np.float64], vertical: NDArray[np.float64]
+) -> list[Vector]:
     """Angles under the focal length that makes the pair orthogonal where it is a likely one."""
     usual = problem.prior_mean[3]
     focal = vanishing.focal_from_orthogonal(vertical, horizontal, (0.0, 0.0))
@@ -188,26 +204,42 @@ def _start(
     camera = vanishing.camera_matrix(math.exp(log_focal), 0.0, 0.0)
     rotation = vanishing.rotation_from_vanishing_points(camera, horizontal, vertical)
     if rotation is None:
-        return None
+        return []
     yaw, pitch, roll = vanishing.angles_from_rotation(rotation)
-    if abs(yaw) > math.radians(75) or abs(pitch) > math.radians(50):
-        return None
-    return np.array([yaw, pitch, roll, log_focal, 0.0, 0.0])
+    if abs(yaw) > _MAX_YAW_RAD or abs(pitch) > _MAX_PITCH_RAD:
+        return []
+    return [np.array([yaw, pitch, roll, log_focal, 0.0, 0.0])]
 
 
-def _refine(problem: _Problem, start: Vector) -> Vector:
-    """Damped Gauss-Newton with iteratively reweighted segments, the scale annealed."""
+def _annealed(problem: _Problem, start: Vector) -> Vector:
+    """A few steps from a wide to a narrow scale: enough to tell good starts from bad ones."""
     params = start
-    for scale in _SCALES_RAD:
-        normal, gradient = _normal_equations(problem, params, scale)
-        step = np.linalg.solve(normal, gradient)
-        cost = _cost(problem, params, scale)
-        for _ in range(4):
-            trial = params - step
-            if _cost(problem, trial, scale) < cost:
-                params = trial
-                break
-            step = step / 2.0
+    for scale in _ANNEALING_RAD:
+        params = _step(problem, params, scale)
+    return params
+
+
+def _converged(problem: _Problem, start: Vector) -> Vector:
+    """Steps at the final scale until nothing moves."""
+    params = start
+    for _ in range(_MAX_STEPS):
+        before = params
+        params = _step(problem, params, _SCALE_RAD)
+        if float(np.abs(params - before).max()) < 1e-5:
+            break
+    return params
+
+
+def _step(problem: _Problem, params: Vector, scale_rad: float) -> Vector:
+    """One step, halved until the cost falls; the same numbers where it does not."""
+    normal, gradient = _normal_equations(problem, params, scale_rad)
+    step = np.linalg.solve(normal, gradient)
+    cost = _cost(problem, params, scale_rad)
+    for _ in range(5):
+        trial = np.asarray(params - step, dtype=np.float64)
+        if _cost(problem, trial, scale_rad) < cost:
+            return trial
+        step = step / 2.0
     return params
 
 

@@ -50,10 +50,11 @@ class Segments:
         return Segments(start, homography.apply(target_from_source, self.end))
 
 
-def detect_segments(pixels: NDArray[np.uint8]) -> Segments:
+def detect_segments(pixels: NDArray[np.uint8], shortest_part: float = MIN_LENGTH_PART) -> Segments:
     """Segments of (h, w, 3) sRGB pixels by LSD (von Gioi et al. 2010, as in OpenCV).
 
-    Segments along the image's own border (frames, letter boxes) are left out.
+    Left out: segments shorter than `shortest_part` of the diagonal, and segments along the
+    image's own border (frames, letter boxes).
     """
     height, width = pixels.shape[:2]
     grey = cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY)
@@ -67,7 +68,7 @@ def detect_segments(pixels: NDArray[np.uint8]) -> Segments:
     # OpenCV puts the centre of the upper left pixel at (0, 0).
     ends = (found.astype(np.float64).reshape(-1, 2, 2) + 0.5) / shrink
     segments = Segments(ends[:, 0], ends[:, 1])
-    shortest = MIN_LENGTH_PART * float(np.hypot(height, width))
+    shortest = shortest_part * float(np.hypot(height, width))
     keep = (segments.lengths() >= shortest) & ~_on_border(segments, width, height)
     return segments.select(keep)
 
