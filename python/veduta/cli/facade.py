@@ -30,8 +30,11 @@ def run(arguments: list[str]) -> int:
 
 def _run(call: FacadeCall) -> int:
     from veduta.facade.batch import run_call
+    from veduta.run.errors import InputError
     from veduta.run.progress import Progress
 
+    if call.jobs is not None and call.jobs < 1:
+        raise InputError("--jobs", f"is {call.jobs}", "Give 1 or more.")
     progress = Progress(quiet=call.quiet)
     result = run_call(
         call.images, call.out, call.options(), progress, force=call.force, jobs=call.jobs
@@ -63,6 +66,8 @@ def _tell_results(result: CallResult) -> None:
     for name in result.edited:
         if not (result.kind == "document" and name.split("/")[0] in result.asked):
             print(f"{out / name}: was edited and is left as it is")
+    for name in result.foreign:
+        print(f"{out / name}: was not made by veduta and is left as it is")
     for name in result.left:
         print(f"{out / name}: is left from an earlier call")
     if result.up_to_date:

@@ -31,7 +31,7 @@ class FacadeCall:
     """replace results of other inputs or options; edited files are always kept"""
     jobs: Annotated[int | None, tyro.conf.arg(metavar="N")] = None
     """processes that work at once; as many as there are cores where it is not given"""
-    quiet: bool = False
+    quiet: Annotated[bool, tyro.conf.arg(aliases=["-q"])] = False
     """say nothing but errors"""
 
     def options(self) -> FacadeOptions:

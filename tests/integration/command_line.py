@@ -1,0 +1,68 @@
+"""Running the real command line, and looking at what it left behind."""
+
+from __future__ import annotations
+
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+TIMEOUT_S = 300
+FILES = {
+    "facade.json",
+    "labels.png",
+    "rectified.jpg",
+    "overlay.png",
+    "model.glb",
+    "model.city.json",
+    "report.json",
+    "report.html",
+}
+
+
+def command(*arguments: object) -> list[str]:
+    """What to start for these arguments."""
+    return [sys.executable, "-m", "veduta.cli.main", *map(str, arguments)]
+
+
+def veduta(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """Run `veduta` with these arguments in a process of its own."""
+    return subprocess.run(
+        command(*arguments), capture_output=True, text=True, timeout=TIMEOUT_S, check=False
+    )
+
+
+def facade(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """Run `veduta facade --rectified` with these arguments."""
+    return veduta("facade", "--rectified", *arguments)
+
+
+def read_json(path: Path) -> Any:
+    """The content of a JSON file."""
+    return json.loads(path.read_text(encoding="utf-8"))
+
+
+def tree(folder: Path) -> dict[str, bytes]:
+    """All files of a result and their content; times differ, so reports are left out."""
+    return {
+        str(file.relative_to(folder)): file.read_bytes()
+        for file in sorted(folder.rglob("*"))
+        if file.is_file() and not file.name.startswith("report.") and ".veduta" not in file.parts
+    }
+
+
+def started_by(pid: int) -> list[int]:
+    """The processes that have this parent now."""
+    path = Path(f"/proc/{pid}/task/{pid}/children")
+    return [int(child) for child in path.read_text().split()] if path.exists() else []
+
+
+def is_running(pid: int) -> bool:
+    """Whether a process is there and no zombie."""
+    try:
+        os.kill(pid, 0)
+        return "Z" not in Path(f"/proc/{pid}/stat").read_text().rsplit(")", 1)[1].split()[0]
+    except (ProcessLookupError, FileNotFoundError):
+        return False

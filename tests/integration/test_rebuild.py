@@ -1,0 +1,145 @@
+"""An edited facade.json becomes a model again; a broken one says where it is broken."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from command_line import FILES, facade, read_json, tree, veduta
+from PIL import Image
+
+from veduta.facade.document import CLASSES
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory, photos: list[Path]) -> Path:
+    folder = tmp_path_factory.mktemp("made") / "out"
+    assert facade(*photos[:2], "-o", folder).returncode == 0
+    return folder
+
+
+@pytest.fixture
+def out(tmp_path: Path, made: Path) -> Path:
+    return Path(shutil.copytree(made, tmp_path / "out"))
+
+
+def edit(path: Path, change: Callable[[Any], None]) -> None:
+    content = read_json(path)
+    change(content)
+    path.write_text(json.dumps(content))
+
+
+def widen_first_window(content: Any) -> None:
+    index = next(i for i, item in enumerate(content["elements"]) if item["class"] == "window")
+    content["elements"][index]["height_px"] += 5
+    content["elements"][index]["y_px"] -= 5
+
+
+def test_untouched_gives_the_same_bytes(out: Path, tmp_path: Path) -> None:
+    new = tmp_path / "new"
+    done = veduta("facade", out / "house0" / "facade.json", "-o", new)
+    assert done.returncode == 0, done.stderr
+    assert {file.name for file in (new / "house0").iterdir()} == FILES
+    assert tree(new / "house0") == tree(out / "house0")
+
+
+def test_in_place(out: Path, photos: list[Path]) -> None:
+    before = tree(out)
+    document = out / "house0" / "facade.json"
+    edit(document, widen_first_window)
+    edited = document.read_bytes()
+    done = veduta("facade", document, "-o", out)
+    assert done.returncode == 0, done.stderr
+    after = tree(out)
+    assert document.read_bytes() == edited
+    for name in ("labels.png", "overlay.png", "model.glb", "model.city.json"):
+        assert after[f"house0/{name}"] != before[f"house0/{name}"]
+        assert after[f"house1/{name}"] == before[f"house1/{name}"]
+    assert len(read_json(out / "place.json")["parts"]) == 2
+    again = veduta("facade", document, "-o", out)
+    assert "up to date" in again.stdout
+    kept = facade(*photos[:2], "-o", out, "--force")
+    assert kept.returncode == 0
+    assert f"{document}: was edited" in kept.stdout
+    assert tree(out) == after
+
+
+def test_pixels_decide_over_metres(out: Path, tmp_path: Path) -> None:
+    document = out / "house0" / "facade.json"
+    edit(document, widen_first_window)
+    new = tmp_path / "new"
+    assert veduta("facade", document, "-o", new).returncode == 0
+    content = read_json(new / "house0" / "facade.json")
+    window = next(item for item in content["elements"] if item["class"] == "window")
+    scale = content["scale"]["metres_per_px"]
+    assert window["height_m"] == pytest.approx(window["height_px"] * scale)
+    assert any("elements[" in note for note in content["notes"])
+    labels = np.asarray(Image.open(new / "house0" / "labels.png"))
+    top = int(np.ceil(window["y_px"] - 0.5))
+    middle = int(window["x_px"] + window["width_px"] / 2)
+    assert labels[top, middle] == CLASSES.index("window")
+
+
+def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
+    def change(content: Any) -> None:
+        for step in path[:-1]:
+            content = content[step]
+        content[path[-1]] = value
+
+    return change
+
+
+@pytest.mark.parametrize(
+    ("change", "place"),
+    [
+        (set_at("elements", 3, "width_px", value="wide"), "elements[3].width_px: "),
+        (set_at("elements", 3, "class", value="windwo"), "elements[3].class: "),
+        (set_at("elements", 3, "colour", value="red"), "elements[3].colour: "),
+        (set_at("elements", 3, "width_px", value=-1), "elements[3].width_px: "),
+        (set_at("elements", 0, "x_px", value=float("inf")), "elements[0].x_px: "),
+        (set_at("elements", 0, "x_px", value=1e30), "elements[0].x_px: "),
+        (set_at("extents", 0, "polygon_px", value=[[0, 0]]), "extents[0].polygon_px: "),
+        (set_at("scale", "metres_per_px", value=0), "scale.metres_per_px: "),
+        (set_at("version", value=7), "version: "),
+        (set_at("classes", value=["window"]), "classes: "),
+        (set_at("rectification", "width_px", value=20), "rectified.jpg: is "),
+    ],
+)
+def test_a_broken_document_says_where(out: Path, change: Callable[[Any], None], place: str) -> None:
+    before = tree(out)
+    document = out / "house0" / "facade.json"
+    edit(document, change)
+    done = veduta("facade", document, "-o", out)
+    assert done.returncode == 2, done.stdout
+    assert place in done.stderr
+    assert done.stderr.startswith(f"error: {document.parent}")
+    after = tree(out)
+    assert {name for name in after if after[name] != before[name]} == {"house0/facade.json"}
+
+
+def test_not_json(out: Path) -> None:
+    document = out / "house0" / "facade.json"
+    document.write_text('{\n "schema": "veduta/facade",\n "version" 1\n}')
+    done = veduta("facade", document, "-o", out)
+    assert done.returncode == 2
+    assert "line 3" in done.stderr
+
+
+def test_photo_is_missing(out: Path, tmp_path: Path) -> None:
+    (out / "house0" / "rectified.jpg").unlink()
+    done = veduta("facade", out / "house0" / "facade.json", "-o", tmp_path / "new")
+    assert done.returncode == 2
+    assert "rectified.jpg: does not exist" in done.stderr
+
+
+def test_options_of_photos_are_refused(out: Path, tmp_path: Path) -> None:
+    document = out / "house0" / "facade.json"
+    done = veduta("facade", document, "-o", tmp_path / "new", "--height-m", "20")
+    assert done.returncode == 2
+    assert "--height-m" in done.stderr
+    assert veduta("facade", document, "-o", tmp_path / "new", "--depth-m", "7").returncode == 0
