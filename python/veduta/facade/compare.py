@@ -39,10 +39,12 @@ class Windows:
 
     @property
     def precision(self) -> float:
+        """The share of found windows that are right."""
         return self.matched / self.found if self.found else 0.0
 
     @property
     def recall(self) -> float:
+        """The share of true windows that were found."""
         return self.matched / self.true if self.true else 1.0
 
 
@@ -64,7 +66,7 @@ class Comparison:
     off_m: NDArray[np.float64]
     accuracy: float
     compared_share: float
-    class_recall: dict[str, float]
+    class_recall: dict[FacadeClass, float]
 
 
 def compare(document: FacadeDocument, truth: FacadeTruth) -> Comparison:
@@ -166,7 +168,7 @@ def _name(element: TrueElement) -> str:
 
 def _pixels(
     document: FacadeDocument, truth: FacadeTruth
-) -> tuple[float, float, dict[str, float]]:
+) -> tuple[float, float, dict[FacadeClass, float]]:
     """Accuracy, the share of the photo's decided pixels that were compared, recall by class."""
     found = labels_in_photo(document, truth.labels.shape)
     to_truth = [LABELS.index(_merged(name)) for name in document.classes]
@@ -196,8 +198,11 @@ def labels_in_photo(document: FacadeDocument, shape: tuple[int, ...]) -> NDArray
     centre = homography.translation(0.5, 0.5)
     pixels = homography.translation(-0.5, -0.5) @ rectified_from_source @ centre
     labels = cv2.warpPerspective(
-        rasterise(document), pixels, (shape[1], shape[0]),
+        rasterise(document),
+        pixels,
+        (shape[1], shape[0]),
         flags=cv2.INTER_NEAREST | cv2.WARP_INVERSE_MAP,
-        borderMode=cv2.BORDER_CONSTANT, borderValue=(_UNSEEN,),
-    )  # fmt: skip
+        borderMode=cv2.BORDER_CONSTANT,
+        borderValue=(_UNSEEN,),
+    )
     return np.asarray(labels, np.uint8)

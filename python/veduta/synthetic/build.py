@@ -1,4 +1,4 @@
-"""From a layout to a mesh with features: the wall with its openings, balconies, roof and street."""
+"""From a layout to a mesh with features: wall and openings, balconies, roof, street."""
 
 from __future__ import annotations
 
@@ -10,6 +10,9 @@ from veduta.synthetic.looks import Look, make_looks, opening_material
 from veduta.synthetic.mesh import Mesh, MeshBuilder, wall_cells
 from veduta.synthetic.roofs import add_roof
 from veduta.synthetic.street import Occluder, add_ground, add_occluder, street_looks
+
+# Lower and upper edge as shares of the height, reach as a share of the projection.
+CORNICE_STEPS = ((0.0, 0.45, 0.4), (0.45, 0.75, 0.7), (0.75, 1.0, 1.0))
 
 
 @dataclass(frozen=True)
@@ -59,11 +62,13 @@ def build(
         feature = table.add(Feature("balcony", f"balcony {number}", balcony.rect))
         add_balcony(builder, balcony, feature)
         add_screen(screens, balcony, feature)
-    dormers = [
-        table.add(Feature("window", f"dormer {n}", rect)) for n, rect in enumerate(layout.roof.dormers)
+    numbers = {"roof": [roof], "wall": [wall]}
+    numbers["dormer"] = [
+        table.add(Feature("window", f"dormer {n}", r)) for n, r in enumerate(layout.roof.dormers)
     ]
-    stacks = [table.add(Feature("chimney", f"chimney {n}")) for n in range(len(layout.roof.chimneys))]
-    numbers = {"roof": [roof], "wall": [wall], "dormer": dormers, "chimney": stacks}
+    numbers["chimney"] = [
+        table.add(Feature("chimney", f"chimney {n}")) for n in range(len(layout.roof.chimneys))
+    ]
     add_roof(builder, layout, lambda kind, number: numbers[kind][number])
     if street:
         add_ground(builder, ground)
@@ -104,13 +109,16 @@ def _band(builder: MeshBuilder, layout: Layout, band: Band, feature: int) -> Non
         if o.rect.y_m < band.y_m + band.height_m - 1e-6 and o.rect.top_m > band.y_m + 1e-6
     ]
     outer = (0.0, band.y_m, layout.width_m, band.y_m + band.height_m)
-    steps = ((0.0, 0.45, 0.4), (0.45, 0.75, 0.7), (0.75, 1.0, 1.0)) if band.cornice else ((0.0, 1.0, 1.0),)
+    steps = CORNICE_STEPS if band.cornice else ((0.0, 1.0, 1.0),)
     for x0, z0, x1, z1 in wall_cells(outer, through):
         for low, high, reach in steps:
             builder.box(
                 (x0, -band.projection_m * reach, z0 + low * (z1 - z0)),
-                (x1, 0.0, z0 + high * (z1 - z0)), "trim", feature, "flrtd",
-            )  # fmt: skip
+                (x1, 0.0, z0 + high * (z1 - z0)),
+                "trim",
+                feature,
+                "flrtd",
+            )
     if band.cornice and layout.style == "haussmann":
         _dentils(builder, layout, band, feature)
 
@@ -135,16 +143,23 @@ def _opening(
     builder.quad((x1, back, z0), (0, -back, 0), (0, 0, z1 - z0), reveal, wall, whole)
     builder.quad((x0, 0, z0), (x1 - x0, 0, 0), (0, back, 0), "trim", wall)
     builder.quad((x0, back, z1), (x1 - x0, 0, 0), (0, -back, 0), reveal, wall, whole)
-    builder.quad((x0, back, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0), material, feature,
-                 (0.0, 0.0, 1.0, 1.0))  # fmt: skip
+    builder.quad(
+        (x0, back, z0), (x1 - x0, 0, 0), (0, 0, z1 - z0), material, feature, (0.0, 0.0, 1.0, 1.0)
+    )
     if opening.surround:
         _surround(builder, layout, opening, wall)
     if opening.shutters:
         leaf = 0.5 * r.width_m
         for left in (x0 - leaf - 0.06, x1 + 0.06):
             builder.box((left, -0.06, z0 + 0.02), (left + leaf, -0.02, z1), "trim", wall, "lrtd")
-            builder.quad((left, -0.06, z0 + 0.02), (leaf, 0, 0), (0, 0, z1 - z0 - 0.02), "shutter",
-                         wall, (0.0, 0.0, 1.0, 1.0))  # fmt: skip
+            builder.quad(
+                (left, -0.06, z0 + 0.02),
+                (leaf, 0, 0),
+                (0, 0, z1 - z0 - 0.02),
+                "shutter",
+                wall,
+                (0.0, 0.0, 1.0, 1.0),
+            )
 
 
 def _surround(builder: MeshBuilder, layout: Layout, opening: Opening, wall: int) -> None:
@@ -152,8 +167,13 @@ def _surround(builder: MeshBuilder, layout: Layout, opening: Opening, wall: int)
     r = opening.rect
     raised = r.y_m > 0.4
     if layout.style == "terrace":
-        builder.box((r.x_m - 0.12, -0.02, r.top_m), (r.right_m + 0.12, 0, r.top_m + 0.24), "trim",
-                    wall, "flrtd")  # fmt: skip
+        builder.box(
+            (r.x_m - 0.12, -0.02, r.top_m),
+            (r.right_m + 0.12, 0, r.top_m + 0.24),
+            "trim",
+            wall,
+            "flrtd",
+        )
     else:
         frame = 0.15
         for low, high in (
@@ -163,8 +183,14 @@ def _surround(builder: MeshBuilder, layout: Layout, opening: Opening, wall: int)
         ):
             builder.box(low, high, "trim", wall, "flrtd")
         if opening.class_ == "window" and layout.style == "haussmann":
-            builder.box((r.x_m - 0.22, -0.16, r.top_m + frame),
-                        (r.right_m + 0.22, 0, r.top_m + frame + 0.09), "trim", wall, "flrtd")  # fmt: skip
+            builder.box(
+                (r.x_m - 0.22, -0.16, r.top_m + frame),
+                (r.right_m + 0.22, 0, r.top_m + frame + 0.09),
+                "trim",
+                wall,
+                "flrtd",
+            )
     if raised:
-        builder.box((r.x_m - 0.1, -0.1, r.y_m - 0.1), (r.right_m + 0.1, 0, r.y_m), "trim", wall,
-                    "flrtd")  # fmt: skip
+        builder.box(
+            (r.x_m - 0.1, -0.1, r.y_m - 0.1), (r.right_m + 0.1, 0, r.y_m), "trim", wall, "flrtd"
+        )

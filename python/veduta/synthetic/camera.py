@@ -24,9 +24,8 @@ class Camera:
     @property
     def intrinsics(self) -> NDArray[np.float64]:
         """K (3, 3): pixels from camera coordinates."""
-        return np.array(
-            [[self.focal_px, 0, self.centre_px[0]], [0, self.focal_px, self.centre_px[1]], [0, 0, 1]]
-        )
+        x, y = self.centre_px
+        return np.array([[self.focal_px, 0, x], [0, self.focal_px, y], [0, 0, 1]])
 
     @property
     def position_m(self) -> NDArray[np.float64]:
@@ -51,17 +50,15 @@ class Camera:
         local = np.empty((len(pixels), 3))
         local[:, :2] = (pixels - np.asarray(self.centre_px)) / self.focal_px
         local[:, 2] = 1.0
-        return local @ self.cam_from_world[:3, :3]
+        return np.asarray(local @ self.cam_from_world[:3, :3], np.float64)
 
-    def image_from_plane(
-        self, origin_m: Points, u_m: Points, v_m: Points
-    ) -> NDArray[np.float64]:
+    def image_from_plane(self, origin_m: Points, u_m: Points, v_m: Points) -> NDArray[np.float64]:
         """The homography (3, 3) from plane coordinates (a, b), the point origin + a u + b v."""
         columns = np.stack([u_m, v_m, origin_m], axis=1)
         moved = self.cam_from_world[:3, :3] @ columns
         moved[:, 2] += self.cam_from_world[:3, 3]
         homography = self.intrinsics @ moved
-        return homography / homography[2, 2]
+        return np.asarray(homography / homography[2, 2], np.float64)
 
 
 def look_at(

@@ -25,8 +25,15 @@ def add_balcony(builder: MeshBuilder, balcony: Balcony, feature: int) -> None:
         _consoles(builder, balcony, feature)
         base += SLAB_M
     front = -depth + 0.04
-    _railing(builder, (rect.x_m, front), (rect.right_m, front), base, rect.top_m,
-             balcony.pattern, feature)  # fmt: skip
+    _railing(
+        builder,
+        (rect.x_m, front),
+        (rect.right_m, front),
+        base,
+        rect.top_m,
+        balcony.pattern,
+        feature,
+    )
     for x in (rect.x_m, rect.right_m):
         _railing(builder, (x, 0.0), (x, front), base, rect.top_m, "bars", feature)
 
@@ -50,9 +57,14 @@ def _consoles(builder: MeshBuilder, balcony: Balcony, feature: int) -> None:
 
 
 def _railing(
-    builder: MeshBuilder, start: tuple[float, float], end: tuple[float, float],
-    low_m: float, high_m: float, pattern: RailPattern, feature: int,
-) -> None:  # fmt: skip
+    builder: MeshBuilder,
+    start: tuple[float, float],
+    end: tuple[float, float],
+    low_m: float,
+    high_m: float,
+    pattern: RailPattern,
+    feature: int,
+) -> None:
     """Posts and ornaments between two points of the plan (x, y)."""
     run = np.array([end[0] - start[0], end[1] - start[1]])
     length = float(np.hypot(*run))
@@ -85,9 +97,13 @@ class _Line:
         along = q - p
         across = np.array([-along[1], along[0]]) * (thickness_m / float(np.hypot(*along)))
         self.builder.quad(
-            self._lift(p - across / 2, self.start), self._lift(along), self._lift(across),
-            "iron", self.feature, (0.0, 0.0, 1.0, 1.0),
-        )  # fmt: skip
+            self._lift(p - across / 2, self.start),
+            self._lift(along),
+            self._lift(across),
+            "iron",
+            self.feature,
+            (0.0, 0.0, 1.0, 1.0),
+        )
 
     def _lift(
         self, point: NDArray[np.float64], base: tuple[float, float] = (0.0, 0.0)

@@ -5,7 +5,7 @@ Facade frame: x right along the wall, y up from the ground, origin at the lower 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from typing import Literal
 
 from veduta.synthetic.panes import WindowLook
@@ -31,10 +31,12 @@ class Rect:
 
     @property
     def right_m(self) -> float:
+        """The right edge (m)."""
         return self.x_m + self.width_m
 
     @property
     def top_m(self) -> float:
+        """The upper edge (m)."""
         return self.y_m + self.height_m
 
 
@@ -131,7 +133,6 @@ class Layout:
     balconies: tuple[Balcony, ...] = ()
     bands: tuple[Band, ...] = ()
     setback_m: float = 0.22
-    notes: tuple[str, ...] = field(default=())
 
     @property
     def height_m(self) -> float:
@@ -140,11 +141,13 @@ class Layout:
 
     @property
     def storeys(self) -> int:
+        """Floors below the eaves, with the ground floor."""
         return len(self.floors_m)
 
-    def floor_m(self, floor: int) -> float:
-        """Height of a floor's lower edge above the ground (m)."""
-        return sum(self.floors_m[:floor])
+
+def centred(centre_m: float, base_m: float, width_m: float, height_m: float) -> Rect:
+    """A rectangle around a vertical axis, standing on `base_m`."""
+    return Rect(centre_m - width_m / 2, base_m, width_m, height_m)
 
 
 def column_centres(width_m: float, columns: int, margin_m: float) -> tuple[float, ...]:

@@ -80,13 +80,24 @@ class Light:
 def daylight(seed: int, sunny: bool, azimuth_rad: float, elevation_rad: float) -> Light:
     """A day. The azimuth is counted from x towards y of the world; the facade looks to -y."""
     c = float(np.cos(elevation_rad))
-    towards = (c * float(np.cos(azimuth_rad)), c * float(np.sin(azimuth_rad)),
-               float(np.sin(elevation_rad)))  # fmt: skip
+    towards = (
+        c * float(np.cos(azimuth_rad)),
+        c * float(np.sin(azimuth_rad)),
+        float(np.sin(elevation_rad)),
+    )
     rng = stream(seed, "sky")
     cloud = np.clip(0.5 + 0.9 * fractal_noise(rng, (512, 512), 110.0, 6), 0.0, 1.0)
     skyline = rng.uniform(0.20, 0.42, 32).astype(np.float32)
     if sunny:
-        return Light(towards, (1.15, 1.05, 0.90), (0.42, 0.48, 0.58), (0.30, 0.28, 0.25), cloud,
-                     False, skyline)  # fmt: skip
-    return Light(towards, (0.0, 0.0, 0.0), (0.95, 0.98, 1.02), (0.38, 0.37, 0.35), cloud, True,
-                 skyline)  # fmt: skip
+        return Light(
+            towards,
+            (1.15, 1.05, 0.90),
+            (0.42, 0.48, 0.58),
+            (0.30, 0.28, 0.25),
+            cloud,
+            False,
+            skyline,
+        )
+    return Light(
+        towards, (0.0, 0.0, 0.0), (0.95, 0.98, 1.02), (0.38, 0.37, 0.35), cloud, True, skyline
+    )

@@ -37,12 +37,13 @@ def make_looks(layout: Layout, seed: int) -> dict[str, Look]:
         "side": Look(textures.render_coat(rng, 6.0, 6.0, (0.62, 0.58, 0.52)), None, (6.0, 6.0)),
         "iron": Look(textures.plain(rng, paint.iron)),
         "lead": Look(textures.plain(rng, (0.42, 0.44, 0.47), 0.05)),
-        "stack": Look(textures.brick(rng, 2.25, 2.25, (0.60, 0.36, 0.27), paint.mortar), None,
-                      (2.25, 2.25)),
+        "stack": Look(
+            textures.brick(rng, 2.25, 2.25, (0.60, 0.36, 0.27), paint.mortar), None, (2.25, 2.25)
+        ),
         "pot": Look(textures.plain(rng, (0.68, 0.38, 0.24), 0.08)),
         "roof": _roof(layout, seed),
         "shutter": _glazed(panes.shutter(rng, 0.55, 1.7, paint.shutter)),
-    }  # fmt: skip
+    }
     looks |= _windows(layout, seed)
     for number, opening in enumerate(layout.openings):
         if opening.class_ == "door":

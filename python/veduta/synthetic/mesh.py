@@ -8,6 +8,7 @@ glTF: u right, v down, (0, 0) at the upper left corner of the texture; outside 0
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,9 +44,14 @@ class MeshBuilder:
     _feature: list[int] = field(default_factory=list)
 
     def quad(
-        self, origin: Vector, u: Vector, v: Vector, material: str, feature: int,
+        self,
+        origin: Vector,
+        u: Vector,
+        v: Vector,
+        material: str,
+        feature: int,
         uv: UvBox | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """The parallelogram from `origin` along `u` and `v`; its outside is that of u x v.
 
         `uv` is (left, top, right, bottom); without it the material's tile repeats in metres.
@@ -54,9 +60,12 @@ class MeshBuilder:
         self.face([o, o + a, o + a + b, o + b], material, feature, uv)
 
     def face(
-        self, corners: list[NDArray[np.float64]], material: str, feature: int,
+        self,
+        corners: list[NDArray[np.float64]],
+        material: str,
+        feature: int,
         uv: UvBox | None = None,
-    ) -> None:  # fmt: skip
+    ) -> None:
         """A plane face; its first edge is the lower one. `uv` is for four corners only."""
         ring = np.stack(corners)
         if uv is None:
@@ -112,7 +121,7 @@ def _tiled(ring: NDArray[np.float64], tile_m: tuple[float, float]) -> NDArray[np
     side = side - axis * float(side @ axis)
     side = side / float(np.linalg.norm(side))
     metres = np.stack([ring @ axis, ring @ side], axis=1)
-    return metres / np.array(tile_m) * np.array([1.0, -1.0])
+    return np.asarray(metres / np.array(tile_m) * np.array([1.0, -1.0]), np.float64)
 
 
 def wall_cells(
@@ -128,7 +137,7 @@ def wall_cells(
         levels |= {min(max(hole[1], z0), z1), min(max(hole[3], z0), z1)}
     ordered = sorted(levels)
     cells = []
-    for low, high in zip(ordered, ordered[1:], strict=False):
+    for low, high in pairwise(ordered):
         if high - low < SMALLEST_M:
             continue
         middle = (low + high) / 2

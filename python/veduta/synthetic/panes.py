@@ -40,10 +40,10 @@ def window(rng: np.random.Generator, width_m: float, height_m: float, look: Wind
     """One window seen from outside."""
     h, w = round(height_m * PANE_PX_PER_M), round(width_m * PANE_PX_PER_M)
     room = _room(rng, (h, w), look)
-    glazed = np.dstack([room, np.full((h, w), 255.0, np.float32) / 255.0])
+    glazed = np.dstack([room, np.ones((h, w), np.float32)])
     for x0, y0, x1, y1 in _bars(width_m, height_m, look):
         _bar(glazed, (x0, y0, x1, y1), look.frame)
-    return np.clip(np.rint(glazed * 255.0), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(glazed * 255.0), 0, 255), np.uint8)
 
 
 def _room(
@@ -138,7 +138,7 @@ def door(
         for i in range(1, 4):
             at = round(w * i / 4)
             image[edge : top - edge, at - 1 : at + 2] = (*colour, 0.0)
-    return np.clip(np.rint(image * 255.0), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(image * 255.0), 0, 255), np.uint8)
 
 
 def _panel(image: NDArray[np.float32], rect_px: tuple[float, float, float, float]) -> None:
@@ -160,8 +160,8 @@ def shop_front(
         1.0 + 0.04 * value_noise(rng, (h, w), (h / 3, 4.0))[..., None]
     )
     fascia, riser = round(0.17 * h), round(0.14 * h)
-    _sign(rng, image[round(0.03 * h) : fascia - round(0.02 * h), round(0.05 * w) : -round(0.05 * w)],
-          sign)  # fmt: skip
+    side = round(0.05 * w)
+    _sign(rng, image[round(0.03 * h) : fascia - round(0.02 * h), side:-side], sign)
     bays = max(2, round(width_m / 1.1))
     entry = int(rng.integers(bays))
     post = round(0.07 * PANE_PX_PER_M)
@@ -173,7 +173,7 @@ def shop_front(
         if bay == entry:
             image[round(0.62 * h) : round(0.62 * h) + 6, x0:x1] = (*colour, 0.0)
     image[fascia : fascia + 4, :, :3] *= 0.5
-    return np.clip(np.rint(image * 255.0), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(image * 255.0), 0, 255), np.uint8)
 
 
 def _goods(rng: np.random.Generator, display: NDArray[np.float32]) -> None:
@@ -213,9 +213,11 @@ def shutter(rng: np.random.Generator, width_m: float, height_m: float, colour: C
     image = np.zeros((h, w, 4), np.float32)
     image[..., :3] = (slats + 0.02 * value_noise(rng, (h, w), (9.0, 9.0)))[..., None] * colour
     for rect in (
-        (0, 0, width_m, 0.06), (0, height_m - 0.08, width_m, height_m),
+        (0, 0, width_m, 0.06),
+        (0, height_m - 0.08, width_m, height_m),
         (0, height_m / 2 - 0.04, width_m, height_m / 2 + 0.04),
-        (0, 0, 0.06, height_m), (width_m - 0.06, 0, width_m, height_m),
-    ):  # fmt: skip
+        (0, 0, 0.06, height_m),
+        (width_m - 0.06, 0, width_m, height_m),
+    ):
         _bar(image, rect, colour)
-    return np.clip(np.rint(image * 255.0), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(image * 255.0), 0, 255), np.uint8)

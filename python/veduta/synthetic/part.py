@@ -63,10 +63,11 @@ def _table(features: tuple[Feature, ...], part_id: str, as_other: bool) -> Featu
         name=tuple(f.name for f in features),
         class_code=np.array([c.code for c in classes], np.uint8),
         provenance_code=np.full(count, Provenance.MEASURED.code, np.uint8),
-        parent=np.array([0 if f.class_ in ("window", "door", "shop") else NO_PARENT
-                         for f in features], np.int32),
+        parent=np.array(
+            [0 if f.class_ in ("window", "door", "shop") else NO_PARENT for f in features], np.int32
+        ),
         shell=np.zeros(count, np.int32),
         width_m=size[:, 0],
         height_m=size[:, 1],
         photo_px=np.full((count, 4), np.nan),
-    )  # fmt: skip
+    )

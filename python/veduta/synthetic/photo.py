@@ -18,8 +18,11 @@ _EXIF_IFD = 0x8769
 
 @dataclass(frozen=True)
 class Lens:
-    """The faults of a camera: blur (px, deviation), vignetting (share lost in the corners),
-    noise (deviation at mid grey, share of white) and JPEG quality (1..95)."""
+    """The faults of a camera.
+
+    blur (px, deviation), vignetting (share lost in the corners), noise (deviation at mid grey,
+    share of white), JPEG quality (1..95).
+    """
 
     blur_px: float = 0.45
     vignetting: float = 0.12
@@ -45,7 +48,7 @@ def develop(radiance: NDArray[np.float32], lens: Lens, seed: int) -> NDArray[np.
     light = np.minimum(light, shoulder) + (1 - shoulder) * over / (over + (1 - shoulder))
     light = np.clip(light, 0.0, 1.0)
     encoded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
-    return np.rint(encoded * 255.0).astype(np.uint8)
+    return np.asarray(np.rint(encoded * 255.0), np.uint8)
 
 
 def encode_jpeg(pixels: NDArray[np.uint8], lens: Lens, focal_mm35: float | None) -> bytes:

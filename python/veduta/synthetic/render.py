@@ -61,7 +61,8 @@ def render(
     ambient = np.zeros((*shape, 3), np.float32)
     open_ = np.zeros(shape, np.float32)
     key = np.full(shape, -1, np.int64)
-    offsets = [((i + 0.5) / samples, (j + 0.5) / samples) for i in range(samples) for j in range(samples)]
+    steps = [(i + 0.5) / samples for i in range(samples)]
+    offsets = [(x, y) for x in steps for y in steps]
 
     def band(rows: range) -> None:
         rng = np.random.default_rng([seed, rows.start])

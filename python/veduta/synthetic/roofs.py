@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 
@@ -28,12 +29,16 @@ def add_roof(builder: MeshBuilder, layout: Layout, feature: FeatureOf) -> None:
 
 
 def _profile(
-    builder: MeshBuilder, layout: Layout, profile: list[tuple[float, float]],
-    gable: list[tuple[float, float]], overhang: float, feature: int,
-) -> None:  # fmt: skip
+    builder: MeshBuilder,
+    layout: Layout,
+    profile: list[tuple[float, float]],
+    gable: list[tuple[float, float]],
+    overhang: float,
+    feature: int,
+) -> None:
     """Sweep a profile of (y, z) points along the width, front to back, and close both gables."""
     x0, x1 = -overhang * 0.4, layout.width_m + overhang * 0.4
-    for (ya, za), (yb, zb) in zip(profile, profile[1:], strict=False):
+    for (ya, za), (yb, zb) in pairwise(profile):
         builder.quad((x0, ya, za), (x1 - x0, 0, 0), (0, yb - ya, zb - za), "roof", feature)
     left = [gable[-1], *gable[:-1]]
     right = [gable[0], *gable[:0:-1]]
@@ -43,13 +48,19 @@ def _profile(
 
 def _mansard(builder: MeshBuilder, layout: Layout, feature: int) -> None:
     eaves, rise, run, depth = (
-        layout.height_m, layout.roof.rise_m, layout.roof.run_m, layout.depth_m,
-    )  # fmt: skip
+        layout.height_m,
+        layout.roof.rise_m,
+        layout.roof.run_m,
+        layout.depth_m,
+    )
     knee = eaves + 0.82 * rise
     profile = [
-        (0.05, eaves), (run, knee), (depth / 2, eaves + rise * 1.12),
-        (depth - run, knee), (depth, eaves),
-    ]  # fmt: skip
+        (0.05, eaves),
+        (run, knee),
+        (depth / 2, eaves + rise * 1.12),
+        (depth - run, knee),
+        (depth, eaves),
+    ]
     _profile(builder, layout, profile, profile, 0.0, feature)
     low = (0.0, run - 0.08, knee - 0.05)
     builder.box(low, (layout.width_m, run + 0.06, knee + 0.05), "lead", feature, "flrtd")
@@ -69,9 +80,13 @@ def _dormer(
     builder.box((rect.x_m, y0, z0), (rect.right_m, y1, rect.y_m), "lead", roof, "ft")
     builder.box((x0 - 0.09, y0 - 0.12, z1), (x1 + 0.09, y1, z1 + 0.09), "lead", roof, "flrtd")
     builder.quad(
-        (rect.x_m, y0 + 0.1, rect.y_m), (rect.width_m, 0, 0), (0, 0, rect.height_m),
-        f"window {number % 8}", pane, (0.0, 0.0, 1.0, 1.0),
-    )  # fmt: skip
+        (rect.x_m, y0 + 0.1, rect.y_m),
+        (rect.width_m, 0, 0),
+        (0, 0, rect.height_m),
+        f"window {number % 8}",
+        pane,
+        (0.0, 0.0, 1.0, 1.0),
+    )
 
 
 def _pitched(builder: MeshBuilder, layout: Layout, feature: int) -> None:
@@ -85,14 +100,20 @@ def _pitched(builder: MeshBuilder, layout: Layout, feature: int) -> None:
     width = layout.width_m + over * 0.8
     x0 = -over * 0.4
     builder.quad((x0, 0.0, lip - 0.02), (width, 0, 0), (0, -over, 0), "trim", feature)
-    builder.box((x0, -over - 0.11, lip - 0.05), (x0 + width, -over + 0.01, lip + 0.07), "lead",
-                feature, "flrtd")  # fmt: skip
+    builder.box(
+        (x0, -over - 0.11, lip - 0.05),
+        (x0 + width, -over + 0.01, lip + 0.07),
+        "lead",
+        feature,
+        "flrtd",
+    )
 
 
 def _flat(builder: MeshBuilder, layout: Layout, roof: int, wall: int) -> None:
     eaves = layout.height_m
-    builder.quad((0, 0.3, eaves - 0.4), (layout.width_m, 0, 0), (0, layout.depth_m - 0.3, 0),
-                 "roof", roof)  # fmt: skip
+    builder.quad(
+        (0, 0.3, eaves - 0.4), (layout.width_m, 0, 0), (0, layout.depth_m - 0.3, 0), "roof", roof
+    )
     builder.box((0, 0, eaves - 0.5), (layout.width_m, 0.3, eaves), "trim", wall, "bt")
 
 
@@ -101,8 +122,9 @@ def _chimney(builder: MeshBuilder, chimney: Chimney, feature: int) -> None:
     y0, y1 = chimney.back_m, chimney.back_m + chimney.depth_m
     top = chimney.y_m + chimney.height_m
     builder.box((x0, y0, chimney.y_m - 2.0), (x1, y1, top), "stack", feature, "fblrt")
-    builder.box((x0 - 0.06, y0 - 0.06, top - 0.22), (x1 + 0.06, y1 + 0.06, top - 0.06), "trim",
-                feature)  # fmt: skip
+    builder.box(
+        (x0 - 0.06, y0 - 0.06, top - 0.22), (x1 + 0.06, y1 + 0.06, top - 0.06), "trim", feature
+    )
     along_x = chimney.width_m >= chimney.depth_m
     for i in range(chimney.pots):
         at = (i + 0.5) / chimney.pots

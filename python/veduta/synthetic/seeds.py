@@ -1,4 +1,7 @@
-"""Random numbers of a synthetic place: one stream per purpose, so that a change in one moves no other."""
+"""Random numbers of a synthetic place: one stream per purpose.
+
+A change in what one purpose draws moves no other.
+"""
 
 from __future__ import annotations
 

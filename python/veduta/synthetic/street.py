@@ -20,8 +20,9 @@ REACH_M = 90.0
 def street_looks(seed: int) -> dict[str, Look]:
     """The materials of the street, by name."""
     rng = stream(seed, "street")
-    body = tuple(rng.choice([[0.5, 0.06, 0.05], [0.1, 0.2, 0.4], [0.75, 0.76, 0.78],
-                             [0.08, 0.08, 0.09]]))  # fmt: skip
+    body = tuple(
+        rng.choice([[0.5, 0.06, 0.05], [0.1, 0.2, 0.4], [0.75, 0.76, 0.78], [0.08, 0.08, 0.09]])
+    )
     glass = plain(rng, (0.06, 0.07, 0.08))
     paint = plain(rng, body, 0.0)
     return {
@@ -42,14 +43,13 @@ def add_ground(builder: MeshBuilder, feature: int) -> None:
     far = 2 * REACH_M
     builder.quad((-REACH_M, -PAVEMENT_M, 0), (far, 0, 0), (0, PAVEMENT_M, 0), "paving", feature)
     builder.quad((-REACH_M, -PAVEMENT_M, -0.13), (far, 0, 0), (0, 0, 0.13), "kerb", feature)
-    builder.quad((-REACH_M, -REACH_M, -0.13), (far, 0, 0), (0, REACH_M - PAVEMENT_M, 0), "asphalt",
-                 feature)  # fmt: skip
+    builder.quad(
+        (-REACH_M, -REACH_M, -0.13), (far, 0, 0), (0, REACH_M - PAVEMENT_M, 0), "asphalt", feature
+    )
     builder.quad((-REACH_M, 0, -0.02), (far, 0, 0), (0, REACH_M, 0), "paving", feature)
 
 
-def add_occluder(
-    builder: MeshBuilder, kind: Occluder, x_m: float, seed: int, feature: int
-) -> None:
+def add_occluder(builder: MeshBuilder, kind: Occluder, x_m: float, seed: int, feature: int) -> None:
     """One object on the pavement or at the kerb, at `x_m` along the wall."""
     if kind == "lamp":
         _lamp(builder, x_m, feature)
@@ -81,8 +81,14 @@ def _tree(builder: MeshBuilder, x: float, seed: int, feature: int) -> None:
         u *= 0.11 / np.linalg.norm(u)
         v *= 0.11 / np.linalg.norm(v)
         box = tuple(rng.uniform(0, 1, 2)) * 2
-        builder.quad(tuple(at), tuple(u), tuple(v), "leaves", feature,
-                     (box[0], box[1], box[0] + 0.1, box[1] + 0.1))  # fmt: skip
+        builder.quad(
+            tuple(at),
+            tuple(u),
+            tuple(v),
+            "leaves",
+            feature,
+            (box[0], box[1], box[0] + 0.1, box[1] + 0.1),
+        )
 
 
 def _car(builder: MeshBuilder, x: float, feature: int) -> None:
@@ -92,15 +98,20 @@ def _car(builder: MeshBuilder, x: float, feature: int) -> None:
     builder.box((x - 2.1, y0, base + 0.28), (x + 2.1, y1, base + 0.86), "car paint", feature)
     low, high = base + 0.86, base + 1.42
     for y, flip in ((y0 + 0.1, False), (y1 - 0.1, True)):
-        corners = [np.array([x - 1.5, y, low]), np.array([x + 1.3, y, low]),
-                   np.array([x + 0.8, y, high]), np.array([x - 1.2, y, high])]  # fmt: skip
+        corners = [
+            np.array([x - 1.5, y, low]),
+            np.array([x + 1.3, y, low]),
+            np.array([x + 0.8, y, high]),
+            np.array([x - 1.2, y, high]),
+        ]
         if flip:
             corners = [corners[1], corners[0], corners[3], corners[2]]
         builder.face(corners, "car glass", feature)
     span = (0.0, y1 - y0 - 0.2, 0.0)
     builder.quad((x + 1.3, y0 + 0.1, low), span, (-0.5, 0, high - low), "car glass", feature)
-    builder.quad((x - 1.5, y1 - 0.1, low), (0.0, -span[1], 0.0), (0.3, 0, high - low),
-                 "car glass", feature)  # fmt: skip
+    builder.quad(
+        (x - 1.5, y1 - 0.1, low), (0.0, -span[1], 0.0), (0.3, 0, high - low), "car glass", feature
+    )
     builder.quad((x - 1.2, y0 + 0.1, high), (2.0, 0, 0), span, "car paint", feature)
     for wheel in (x - 1.3, x + 1.3):
         centre = np.array([wheel, y0 - 0.01, base + 0.32])

@@ -21,12 +21,12 @@ def _canvas(width_m: float, height_m: float, px_per_m: float) -> tuple[int, int]
     return max(8, round(height_m * px_per_m)), max(8, round(width_m * px_per_m))
 
 
-def _tint(value: Field, colour: Colour) -> NDArray[np.float32]:
-    return value[..., None] * np.asarray(colour, np.float32)
+def _tint(value: NDArray[np.floating], colour: Colour) -> NDArray[np.float32]:
+    return np.asarray(value[..., None] * np.asarray(colour), np.float32)
 
 
 def _finish(image: NDArray[np.float32]) -> Image:
-    return np.clip(np.rint(image * 255.0), 0, 255).astype(np.uint8)
+    return np.asarray(np.clip(np.rint(image * 255.0), 0, 255), np.uint8)
 
 
 def _coordinates(shape: tuple[int, int], px_per_m: float) -> tuple[Field, Field]:
@@ -90,9 +90,7 @@ def brick(
     return _finish(face * (1.0 - weight) + bed * weight)
 
 
-def render_coat(
-    rng: np.random.Generator, width_m: float, height_m: float, colour: Colour
-) -> Image:
+def render_coat(rng: np.random.Generator, width_m: float, height_m: float, colour: Colour) -> Image:
     """Painted stucco: nearly even, with patches of repair and fine grain."""
     shape = _canvas(width_m, height_m, PX_PER_M)
     broad = fractal_noise(rng, shape, 2.2 * PX_PER_M)
@@ -212,4 +210,4 @@ def foliage(rng: np.random.Generator) -> Image:
     shape = (72, 72)
     light = np.clip(0.55 + 0.9 * value_noise(rng, shape, (4.0, 4.0)), 0.1, 1.3)
     image = _tint(light.astype(np.float32), (0.30, 0.40, 0.16))
-    return _finish(cv2.GaussianBlur(image, (0, 0), 0.6))
+    return _finish(np.asarray(cv2.GaussianBlur(image, (0, 0), 0.6), np.float32))

@@ -15,8 +15,16 @@ from veduta.synthetic.roofs import DORMER_FRONT_M
 
 Label = Literal["window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"]
 LABELS: tuple[Label, ...] = (
-    "window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other",
-)  # fmt: skip
+    "window",
+    "wall",
+    "balcony",
+    "door",
+    "roof",
+    "chimney",
+    "sky",
+    "shop",
+    "other",
+)
 _LABEL_OF_SEMANTIC: dict[SemanticClass, Label] = {
     SemanticClass.WALL: "wall",
     SemanticClass.CORNICE: "wall",
@@ -74,14 +82,31 @@ def facade_homography(camera: Camera) -> NDArray[np.float64]:
 
 def elements_of(layout: Layout, camera: Camera) -> tuple[TrueElement, ...]:
     """All windows, doors, shops and balconies of a layout, in the photo of a camera."""
-    found = [(o.class_, o.rect, _uncovered(o.rect, layout), o.floor, o.column, 0.0)
-             for o in layout.openings]  # fmt: skip
-    found += [("window", r, r, None, n, DORMER_FRONT_M) for n, r in enumerate(layout.roof.dormers)]
-    found += [("balcony", b.rect, b.rect, b.floor, b.column, -b.depth_m) for b in layout.balconies]
-    return tuple(
-        TrueElement(label, rect, seen, floor, column, _corners_px(seen, y, camera))
-        for label, rect, seen, floor, column, y in found
-    )
+    found = [
+        _element(o.class_, o.rect, _uncovered(o.rect, layout), o.floor, o.column, 0.0, camera)
+        for o in layout.openings
+    ]
+    found += [
+        _element("window", rect, rect, None, column, DORMER_FRONT_M, camera)
+        for column, rect in enumerate(layout.roof.dormers)
+    ]
+    found += [
+        _element("balcony", b.rect, b.rect, b.floor, b.column, -b.depth_m, camera)
+        for b in layout.balconies
+    ]
+    return tuple(found)
+
+
+def _element(
+    label: Label,
+    rect: Rect,
+    visible: Rect,
+    floor: int | None,
+    column: int | None,
+    y_m: float,
+    camera: Camera,
+) -> TrueElement:
+    return TrueElement(label, rect, visible, floor, column, _corners_px(visible, y_m, camera))
 
 
 def _uncovered(rect: Rect, layout: Layout) -> Rect:
@@ -101,10 +126,9 @@ def _corners_px(rect: Rect, y_m: float, camera: Camera) -> NDArray[np.float64]:
     return camera.project(np.stack([x, np.full(4, y_m), z], axis=1))[0]
 
 
-def label_image(
-    feature: NDArray[np.int32], class_codes: NDArray[np.uint8]
-) -> NDArray[np.uint8]:
+def label_image(feature: NDArray[np.int32], class_codes: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """Features per pixel to labels; `class_codes` (f,) are semantic codes, -1 pixels are sky."""
-    table = [LABELS.index(_LABEL_OF_SEMANTIC[SemanticClass.of_code(c)]) for c in class_codes.tolist()]
+    classes = [SemanticClass.of_code(code) for code in class_codes.tolist()]
+    table = [LABELS.index(_LABEL_OF_SEMANTIC[each]) for each in classes]
     table.append(LABELS.index("sky"))
     return np.asarray(table, np.uint8)[feature]

@@ -50,9 +50,13 @@ def _picture_size(layout: Layout, long_side_px: int) -> tuple[int, int]:
 
 
 def _closest(
-    layout: Layout, aim: float, aside: float, size_px: tuple[int, int], focal_px: float,
+    layout: Layout,
+    aim: float,
+    aside: float,
+    size_px: tuple[int, int],
+    focal_px: float,
     roll_rad: float,
-) -> Camera:  # fmt: skip
+) -> Camera:
     """The camera nearest to the wall that still has all of it in the frame (bisection)."""
     near, far = 1.0, 400.0
     for _ in range(40):
@@ -63,9 +67,14 @@ def _closest(
 
 
 def _camera_at(
-    layout: Layout, distance_m: float, aim: float, aside: float, size_px: tuple[int, int],
-    focal_px: float, roll_rad: float,
-) -> Camera:  # fmt: skip
+    layout: Layout,
+    distance_m: float,
+    aim: float,
+    aside: float,
+    size_px: tuple[int, int],
+    focal_px: float,
+    roll_rad: float,
+) -> Camera:
     top = layout.height_m + layout.roof.rise_m
     eye = (layout.width_m / 2 + aside * distance_m, -distance_m, EYE_M)
     return look_at(eye, (layout.width_m / 2, 0.0, aim * top), size_px, focal_px, roll_rad)
@@ -75,9 +84,12 @@ def _in_frame(layout: Layout, camera: Camera) -> bool:
     """Whether ground, eaves and ridge lie within the frame, with a margin of 4 %."""
     top, run = layout.height_m + layout.roof.rise_m, layout.roof.run_m
     corners = np.array(
-        [[x, y, z] for x in (0.0, layout.width_m)
-         for y, z in ((0.0, -0.3), (0.0, layout.height_m), (run, top))]
-    )  # fmt: skip
+        [
+            [x, y, z]
+            for x in (0.0, layout.width_m)
+            for y, z in ((0.0, -0.3), (0.0, layout.height_m), (run, top))
+        ]
+    )
     pixels, depth = camera.project(corners)
     margin = 0.04 * min(camera.width_px, camera.height_px)
     inside = (pixels > margin) & (pixels < np.array([camera.width_px, camera.height_px]) - margin)
