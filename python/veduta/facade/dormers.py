@@ -102,7 +102,15 @@ def add_dormers(
         low_y = mansard.front_y_m(dormer.front.z0)
         add_panel(builder, dormer.front.corners(), low_y, paint.surface(wall), [window])
         _add_cheeks(builder, dormer.front, mansard, Finish(wall, paint.roof))
-        _add_lid(builder, dormer.front, mansard, paint, roof)
+        lid = builder.feature(
+            SemanticClass.CORNICE,
+            Provenance.INVENTED,
+            f"lid of dormer {number}",
+            parent=roof,
+            shell=builder.new_shell(),
+            size_m=(dormer.front.width + 2 * LID_SIDE_M, LID_M),
+        )
+        _add_lid(builder, dormer.front, mansard, Finish(lid, paint.roof))
 
 
 def _add_cheeks(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish) -> None:
@@ -124,19 +132,9 @@ def _add_cheeks(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish
         builder.polygon([ring], finish.feature, finish.material)
 
 
-def _add_lid(
-    builder: PartBuilder, front: Rectangle, mansard: Mansard, paint: Paint, roof: int
-) -> None:
+def _add_lid(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish) -> None:
     """A thin slab that juts out over the window; a solid of its own."""
     low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1 + LID_M)
-    lid = builder.feature(
-        SemanticClass.CORNICE,
-        Provenance.INVENTED,
-        "lid of a dormer",
-        parent=roof,
-        shell=builder.new_shell(),
-        size_m=(front.width + 2 * LID_SIDE_M, LID_M),
-    )
     box = Box(
         front.x0 - LID_SIDE_M,
         front.x1 + LID_SIDE_M,
@@ -145,5 +143,4 @@ def _add_lid(
         front.z1,
         front.z1 + LID_M,
     )
-    finish = Finish(lid, paint.roof)
     add_box(builder, box, finish, finish)

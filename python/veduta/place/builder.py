@@ -54,11 +54,14 @@ class PartBuilder:
         size_m: tuple[float, float] = (np.nan, np.nan),
         photo_px: Rect = _NO_RECT,
     ) -> int:
-        """Add a row to the feature table; returns its number."""
+        """Add a row to the feature table; returns its number.
+
+        The name must be the only one of its kind in the part: the stable id derives from it.
+        """
         row = len(self._rows)
         self._rows.append(
             (
-                f"{self.part_id}/{semantic.value}-{row}",
+                f"{self.part_id}/{name.replace(' ', '-')}",
                 name,
                 semantic.code,
                 provenance.code,
@@ -93,6 +96,8 @@ class PartBuilder:
 
     def build(self) -> Part:
         """Pack everything that was added."""
+        if len({row[0] for row in self._rows}) < len(self._rows):
+            raise ValueError(f"part {self.part_id!r} has two features of one name")
         ring_sizes = [len(ring) for ring in self._rings]
         ids, names, classes, provenances, parents, shells, widths, heights, rects = zip(
             *self._rows, strict=True

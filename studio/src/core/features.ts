@@ -117,9 +117,17 @@ export function childrenOf(table: FeatureTable, row: number): readonly Feature[]
   return table.rows.filter((feature) => feature.parent === row);
 }
 
-/** How many features of each class there are, classes without any left out. */
+/**
+ * How many things of each class there are, classes without any left out. A feature within one of
+ * its own class is a piece of that thing (a balcony's floor, a window's reveal in its wall).
+ */
 export function countClasses(tables: readonly FeatureTable[]): Map<SemanticClass, number> {
-  return countBy(tables, (feature) => feature.class);
+  const whole = tables.map((table) => ({
+    rows: table.rows.filter(
+      ({ parent, class: own }) => parent === null || table.rows[parent]?.class !== own,
+    ),
+  }));
+  return countBy(whole, (feature) => feature.class);
 }
 
 export function countProvenances(tables: readonly FeatureTable[]): Map<Provenance, number> {
