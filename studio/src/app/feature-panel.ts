@@ -50,6 +50,10 @@ export class FeaturePanel extends LitElement {
         margin-top: 4px;
         overflow-wrap: anywhere;
       }
+      h2::first-letter,
+      .parent span::first-letter {
+        text-transform: uppercase;
+      }
       .icon-button {
         margin: -6px -8px 0 0;
         flex: none;
@@ -113,6 +117,7 @@ export class FeaturePanel extends LitElement {
         background: #f5f5f2;
       }
       .parent span:nth-child(2) {
+        display: block;
         flex: 1;
       }
       .parent svg {

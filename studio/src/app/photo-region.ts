@@ -1,8 +1,11 @@
 /** The region of the rectified photo in which a feature was seen, with some of its surroundings. */
 import { css, html, LitElement, type PropertyValues, type TemplateResult } from "lit";
 import type { PhotoRectangle } from "../core/features.ts";
-import { photoWindow } from "../core/photo-window.ts";
+import { photoWindow, windowAspect } from "../core/photo-window.ts";
 import { theme } from "./theme.ts";
+
+/** Twice what the panel is wide, for sharp screens. */
+const WIDTH_PX = 600;
 
 const photos = new Map<string, Promise<HTMLImageElement>>();
 
@@ -60,7 +63,8 @@ export class PhotoRegion extends LitElement {
       return html`<p>The photo (${this.address ?? "not named in the place"}) could not be loaded.</p>`;
     }
     const [x, y, w, h] = this.rectangle.map((v) => Math.round(v));
-    return html`<canvas width="600" height="400" role="img"
+    const height_px = Math.round(WIDTH_PX / windowAspect(this.rectangle));
+    return html`<canvas width=${WIDTH_PX} height=${height_px} role="img"
         aria-label="Part of the photo with the surface framed"></canvas>
       <p>${w} × ${h} px at (${x}, ${y}) of the rectified photo</p>`;
   }

@@ -84,6 +84,12 @@ export const studioStyles = css`
     color: #24313b;
     background: rgb(252 252 250 / 0.72);
     pointer-events: none;
+    animation: leave 1s 9s forwards;
+  }
+  @keyframes leave {
+    to {
+      opacity: 0;
+    }
   }
   .crosshair {
     position: absolute;

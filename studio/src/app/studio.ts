@@ -1,5 +1,6 @@
 /** The page: the canvas and the panels over it. */
-import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { html, LitElement, nothing, type TemplateResult } from "lit";
+import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
 import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
@@ -41,7 +42,7 @@ export class Studio extends LitElement {
   readonly #store = new Store<StudioState>(INITIAL_STATE);
   #noticeTimer = 0;
 
-  static override styles = [theme, studioStyles, css``];
+  static override styles = [theme, studioStyles];
 
   constructor() {
     super();
@@ -84,10 +85,28 @@ export class Studio extends LitElement {
       document.title = `${titleOf(session)} · Veduta`;
       window.veduta = inspect(session, this.#store);
       await this.updateComplete;
+      this.#leaveFree(session);
+      session.viewer.goHome();
       document.documentElement.dataset.veduta = "ready";
     } catch (error) {
       this.#fail(error);
     }
+  }
+
+  /** Tells the viewer which part of the picture the panels cover. */
+  #leaveFree(session: Session): void {
+    const { width, height } = this.#canvas.getBoundingClientRect();
+    const boxOf = (name: string): DOMRect | null =>
+      this.renderRoot.querySelector(name)?.getBoundingClientRect() ?? null;
+    const [brand, layers, tools] = [boxOf(".brand"), boxOf("veduta-layers"), boxOf("veduta-toolbar")];
+    const panel = boxOf("veduta-feature-panel");
+    const beside = (box: DOMRect | null): boolean => box !== null && box.width > 0 && box.width < 0.4 * width;
+    session.viewer.setInsets({
+      left: beside(layers) ? (layers?.right ?? 0) / width : 0,
+      right: beside(panel) ? 1 - (panel?.left ?? width) / width : 0,
+      top: beside(layers) ? 0 : (brand?.bottom ?? 0) / height,
+      bottom: 1 - (tools?.top ?? height) / height,
+    });
   }
 
   #fail(error: unknown): void {
@@ -133,7 +152,10 @@ export class Studio extends LitElement {
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
-      <p class="hint" aria-live="polite">${this.notice === "" ? hintOf(state, coarse) : this.notice}</p>
+      ${keyed(
+        `${this.notice}${state.mode}${String(state.mouseLook)}`,
+        html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse) : this.notice}</p>`,
+      )}
       <veduta-help></veduta-help>
     `;
   }
@@ -198,7 +220,10 @@ export class Studio extends LitElement {
     const actions: Record<Command, () => void> = {
       orbit: () => this.#store.update({ mode: "orbit" }),
       walk: () => this.#store.update({ mode: "walk" }),
-      reset: () => viewer.resetView(),
+      reset: () => {
+        this.#leaveFree(session);
+        viewer.resetView();
+      },
       layers: () => (this.layersOpen = !this.layersOpen),
       colouring: () => this.#nextColouring(),
       screenshot: () => void this.#savePicture(session),

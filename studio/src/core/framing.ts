@@ -6,25 +6,48 @@ export interface Box {
   readonly max: Vec3;
 }
 
+/** What lies over the edges of the picture; shares of its width and height. */
+export interface Insets {
+  readonly left: number;
+  readonly right: number;
+  readonly top: number;
+  readonly bottom: number;
+}
+
 export interface View {
   readonly eye: Vec3;
   readonly target: Vec3;
 }
 
-/** Share of the picture that stays free around the box, on each side. */
-const MARGIN = 0.12;
+/** Share of the free part of the picture that stays empty around the box. */
+const MARGIN = 0.07;
+
+export const NO_INSETS: Insets = { left: 0, right: 0, top: 0, bottom: 0 };
+
+/** How far the middle of the free part lies from the picture's own; shares, y down. */
+export function shiftOf(insets: Insets): readonly [number, number] {
+  return [(insets.left - insets.right) / 2, (insets.top - insets.bottom) / 2];
+}
 
 /**
  * The nearest eye on the ray from the box's centre against `direction` (unit, where the camera
- * looks to; not vertical) from which all corners are inside the picture.
- * `fovY_rad` is the vertical angle of view, `aspect` width over height.
+ * looks to; not vertical) from which all corners are inside the free part of the
+ * picture, provided that the picture's centre is moved to that part's middle.
+ * `fovY_rad` is the vertical angle of view of the whole picture, `aspect` its width over height.
  */
-export function frameBox(box: Box, direction: Vec3, fovY_rad: number, aspect: number): View {
+export function frameBox(
+  box: Box,
+  direction: Vec3,
+  fovY_rad: number,
+  aspect: number,
+  insets: Insets = NO_INSETS,
+): View {
   const target = scale(add(box.min, box.max), 0.5);
   const right = rightOf(direction);
   const up = cross(right, direction);
-  const tanY = Math.tan(fovY_rad / 2) * (1 - MARGIN);
-  const tanX = tanY * aspect;
+  const half = Math.tan(fovY_rad / 2) * (1 - MARGIN);
+  const tanY = half * (1 - insets.top - insets.bottom);
+  const tanX = half * aspect * (1 - insets.left - insets.right);
   let distance = 0;
   for (const corner of cornersOf(box)) {
     const arm = subtract(corner, target);

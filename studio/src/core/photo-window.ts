@@ -8,6 +8,15 @@ export interface PhotoWindow {
   readonly height: number;
 }
 
+/** Aspects (width over height) of the picture in the panel: between a tall and a wide one. */
+const TALLEST = 0.9;
+const WIDEST = 1.8;
+
+/** The aspect that suits a rectangle. */
+export function windowAspect(rectangle: PhotoRectangle): number {
+  return Math.min(WIDEST, Math.max(TALLEST, rectangle[2] / Math.max(1, rectangle[3])));
+}
+
 /** Surroundings on each side, as a share of the rectangle. */
 const SURROUNDINGS = 0.6;
 

@@ -60,7 +60,7 @@ function parse(text: string, broken: (fault: string) => Fault): unknown {
 
 function record(value: unknown, bad: () => Fault): Fields<Manifest & Manifest["start"]> {
   if (typeof value !== "object" || value === null || Array.isArray(value)) throw bad();
-  return value as Fields<Manifest & Manifest["start"]>;
+  return value;
 }
 
 function readPart(value: unknown, which: string, broken: (fault: string) => Fault): Part {
@@ -90,11 +90,11 @@ function isTransform(value: unknown): value is number[] {
   return Array.isArray(value) && value.length === 16 && value.every((v) => Number.isFinite(v));
 }
 
-/** A relative address that stays in the folder of the manifest. */
+/** A path that stays in the folder of the manifest; the rule is that of `place/manifest.py`. */
 export function isInside(path: unknown): path is string {
   if (typeof path !== "string" || path === "") return false;
-  if (/^[/\\]|[:\\?#]|%2e|%2f|%5c/i.test(path)) return false;
-  return !path.split("/").includes("..");
+  const steps = path.split("/");
+  return !path.startsWith("/") && !path.includes("\\") && !steps[0]?.includes(":") && !steps.includes("..");
 }
 
 function readVec3(value: unknown, bad: () => Fault): Vec3 {
@@ -119,7 +119,7 @@ export function placeAddress(page: URL): URL {
   return url;
 }
 
-/** The address of a file that the manifest names. */
+/** The address of a file that the manifest names; its name may hold `#`, `?` and `%`. */
 export function fileAddress(file: string, manifest: URL): URL {
   return new URL(file.split("/").map(encodeURIComponent).join("/"), manifest);
 }

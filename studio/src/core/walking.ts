@@ -67,6 +67,8 @@ const PUSHES = 4;
 /** cos 45 deg: steeper ground is a wall. */
 const STANDABLE = Math.SQRT1_2;
 const TOUCH_M = 1e-4;
+/** A body that stands is pressed down no more than this, so that no floor's edge throws it aside. */
+const PRESS_M = 0.01;
 
 export function standing(eye: Vec3, heading: Heading, options: WalkOptions): Walker {
   return {
@@ -122,11 +124,12 @@ function advance(
   const lag = options.response_s * (1 - rest);
   const [vx, vy, vz] = walker.velocity;
   const g = options.gravity_m_s2;
+  const fall = vz * dt - 0.5 * g * dt * dt;
   return {
     way: [
       target[0] * dt + (vx - target[0]) * lag,
       target[1] * dt + (vy - target[1]) * lag,
-      vz * dt - 0.5 * g * dt * dt,
+      walker.grounded ? Math.max(fall, -PRESS_M) : fall,
     ],
     velocity: [
       target[0] + (vx - target[0]) * rest,
@@ -158,7 +161,7 @@ type Moving = Omit<Walker, "heading">;
 
 /** Frees the body from what it touches and takes the velocity into it away. */
 function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Moving {
-  let { feet, velocity, grounded, blocked } = state;
+  let { feet, velocity, grounded, blocked } = onPlane(state);
   for (let i = 0; i < PUSHES; i += 1) {
     const push = obstacles.pushOut(feet, options.body);
     const size = push === null ? 0 : length(push);
@@ -169,12 +172,19 @@ function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Movi
     if (normal[2] >= STANDABLE) grounded = true;
     else blocked = true;
   }
-  if (feet[2] <= 0) {
-    feet = [feet[0], feet[1], 0];
-    velocity = withoutInto(velocity, [0, 0, 1]);
-    grounded = true;
-  }
-  return withinReach({ feet, velocity, grounded, blocked }, options);
+  return withinReach(onPlane({ feet, velocity, grounded, blocked }), options);
+}
+
+/** The ground plane carries whoever would be below it. */
+function onPlane(state: Moving): Moving {
+  const { feet, velocity } = state;
+  if (feet[2] > 0) return state;
+  return {
+    ...state,
+    feet: [feet[0], feet[1], 0],
+    velocity: withoutInto(velocity, [0, 0, 1]),
+    grounded: true,
+  };
 }
 
 function withoutInto(velocity: Vec3, normal: Vec3): Vec3 {

@@ -1,5 +1,5 @@
 /** How each feature looks: its tint, whether it is shown, the outline of the selected one. */
-import type { DataTexture, Material } from "three";
+import type { DataTexture } from "three";
 import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
 import type { Feature } from "../core/features.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
@@ -22,7 +22,7 @@ export class Appearance {
       const tints = this.#tints[index];
       if (tints === undefined) continue;
       for (const { mesh } of part.meshes) {
-        for (const material of [mesh.material].flat()) addTint(material as Material, tints);
+        for (const material of [mesh.material].flat()) addTint(material, tints);
       }
     }
   }

@@ -1,5 +1,5 @@
 /** From the place to parts that can be drawn. */
-import { Group, Mesh, Texture, type Object3D } from "three";
+import { Group, Mesh, Texture } from "three";
 import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
@@ -54,7 +54,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   group.updateMatrixWorld(true);
   const meshes: FeatureMesh[] = [];
   scene.traverse((node) => {
-    if (node instanceof Mesh) meshes.push(featureMesh(node, table, part.model));
+    if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
   });
   if (meshes.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const { mesh } of meshes) sharpenTextures(mesh);
@@ -87,11 +87,9 @@ async function parse(bytes: ArrayBuffer, file: string): Promise<Group> {
   }
 }
 
-function sharpenTextures(mesh: Object3D): void {
-  if (!(mesh instanceof Mesh)) return;
-  const materials: unknown[] = Array.isArray(mesh.material) ? mesh.material : [mesh.material];
-  for (const material of materials) {
-    for (const value of Object.values(material as Record<string, unknown>)) {
+function sharpenTextures(mesh: Mesh): void {
+  for (const material of [mesh.material].flat()) {
+    for (const value of Object.values(material)) {
       if (value instanceof Texture) value.anisotropy = ANISOTROPY;
     }
   }

@@ -2,13 +2,13 @@
 import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawnFromWorld } from "../core/frames.ts";
-import { type Box, frameBox } from "../core/framing.ts";
+import { type Box, frameBox, type Insets, shiftOf } from "../core/framing.ts";
 import { length, scale, subtract, type Vec3 } from "../core/vector.ts";
 import type { Pose } from "./flight.ts";
 
-export const ORBIT_FOV_DEG = 38;
+export const ORBIT_FOV_DEG = 28;
 /** Where the camera looks to at first: into the facade, a little from the left and above. */
-const HOME_DIRECTION: Vec3 = [0.42, 0.86, -0.16];
+const HOME_DIRECTION: Vec3 = [0.5, 0.86, -0.12];
 const KEY_TURN_RAD_S = 1.1;
 
 export class OrbitRig {
@@ -37,17 +37,23 @@ export class OrbitRig {
     this.#controls.enabled = enabled;
   }
 
-  /** The pose that shows the whole place. */
-  home(aspect: number): { pose: Pose; target: Vector3 } {
+  /** The pose that shows the whole place in the free part of the picture. */
+  home(aspect: number, insets: Insets): { pose: Pose; target: Vector3 } {
     const direction = scale(HOME_DIRECTION, 1 / length(HOME_DIRECTION));
-    const view = frameBox(this.#bounds, direction, MathUtils.degToRad(ORBIT_FOV_DEG), aspect);
+    const fov_rad = MathUtils.degToRad(ORBIT_FOV_DEG);
+    const view = frameBox(this.#bounds, direction, fov_rad, aspect, insets);
     const target = new Vector3(...drawnFromWorld(view.target));
     const camera = this.#camera.clone();
     camera.position.set(...drawnFromWorld(view.eye));
     camera.position.y = Math.max(0.4, camera.position.y);
     camera.lookAt(target);
     return {
-      pose: { position: camera.position, quaternion: camera.quaternion, fov: ORBIT_FOV_DEG },
+      pose: {
+        position: camera.position,
+        quaternion: camera.quaternion,
+        fov: ORBIT_FOV_DEG,
+        shift: shiftOf(insets),
+      },
       target,
     };
   }

@@ -4,26 +4,25 @@ import {
   Color,
   DirectionalLight,
   Group,
+  HemisphereLight,
   Mesh,
   PlaneGeometry,
-  PMREMGenerator,
-  Scene,
   ShaderMaterial,
   ShadowMaterial,
   SphereGeometry,
-  type Texture,
   Vector3,
   Vector4,
-  type WebGLRenderer,
 } from "three";
 import { drawnFromWorld } from "../core/frames.ts";
 import type { Box } from "../core/framing.ts";
 import type { Vec3 } from "../core/vector.ts";
 
 /** To the sun, world frame: a spring afternoon, from the street's side (facades look south). */
-const TO_SUN: Vec3 = [-0.5, -0.62, 0.6];
-const SUN_STRENGTH = 2.9;
-const SKY_STRENGTH = 0.62;
+const TO_SUN: Vec3 = [-0.72, -0.62, 0.66];
+const SUN_STRENGTH = 3.1;
+const SKY_STRENGTH = 2.05;
+const SKY_LIGHT = new Color("#e3edf7");
+const GROUND_LIGHT = new Color("#d8d0c2");
 const HORIZON = new Color("#e4eaee");
 const ZENITH = new Color("#7ea6c9");
 const SUN_GLOW = new Color("#fff3dc");
@@ -38,26 +37,21 @@ const MOST_FOOTPRINTS = 24;
 export interface Scenery {
   readonly group: Group;
   readonly sun: DirectionalLight;
-  readonly environment: Texture;
-  readonly skyStrength: number;
   /** Keeps the sky around the camera. */
   follow(camera: { readonly position: Vector3 }): void;
 }
 
-export function makeScenery(
-  renderer: WebGLRenderer,
-  bounds: Box,
-  footprints: readonly Box[],
-): Scenery {
+export function makeScenery(bounds: Box, footprints: readonly Box[]): Scenery {
   const group = new Group();
   const sky = makeSky();
   const sun = makeSun(bounds);
-  group.add(sky, makeGround(footprints), makeGroundShadow(bounds), sun, sun.target);
+  // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
+  // most of the loading time without a graphics card.
+  const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
+  group.add(sky, makeGround(footprints), makeGroundShadow(bounds), skyLight, sun, sun.target);
   return {
     group,
     sun,
-    environment: makeEnvironment(renderer),
-    skyStrength: SKY_STRENGTH,
     follow: (camera) => sky.position.copy(camera.position),
   };
 }
@@ -103,30 +97,8 @@ function makeSky(): Mesh {
   return sky;
 }
 
-/** What glass and cornices mirror, and the light from everywhere: the sky over the ground. */
-function makeEnvironment(renderer: WebGLRenderer): Texture {
-  const scene = new Scene();
-  const sky = makeSky();
-  sky.scale.setScalar(0.02);
-  const floor = new Mesh(
-    new PlaneGeometry(60, 60),
-    new ShaderMaterial({
-      uniforms: { colour: { value: GROUND } },
-      vertexShader: "void main() { gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0); }",
-      fragmentShader: "uniform vec3 colour; void main() { gl_FragColor = vec4(colour, 1.0); }",
-    }),
-  );
-  floor.rotation.x = -Math.PI / 2;
-  floor.position.y = -2;
-  scene.add(sky, floor);
-  const generator = new PMREMGenerator(renderer);
-  const environment = generator.fromScene(scene, 0.02).texture;
-  generator.dispose();
-  return environment;
-}
-
 function makeSun(bounds: Box): DirectionalLight {
-  const sun = new DirectionalLight("#fff1dd", SUN_STRENGTH);
+  const sun = new DirectionalLight("#fff6ea", SUN_STRENGTH);
   const { centre, radius } = sphereOf(bounds);
   sun.position.copy(centre).addScaledVector(toSun(), 2 * radius);
   sun.target.position.copy(centre);
@@ -139,7 +111,7 @@ function makeSun(bounds: Box): DirectionalLight {
   camera.bottom = -radius;
   camera.near = 0.1;
   camera.far = 4 * radius;
-  const size = radius > 12 ? 4096 : 2048;
+  const size = radius > 25 ? 4096 : 2048;
   sun.shadow.mapSize.set(size, size);
   sun.shadow.bias = -0.0004;
   sun.shadow.normalBias = Math.min(0.06, (2 * radius) / size);

@@ -53,6 +53,8 @@ export class Solid implements Obstacles {
     const onAxis = new Vector3();
     this.#bvh.shapecast({
       intersectsBounds: (box) => box.intersectsBox(reach),
+      // The types mark it deprecated unless the tree is a MeshBVH, which it is.
+      // eslint-disable-next-line @typescript-eslint/no-deprecated
       intersectsTriangle: (triangle: ExtendedTriangle) => {
         const distance = triangle.closestPointToSegment(axis, onTriangle, onAxis);
         if (distance >= radius) return false;

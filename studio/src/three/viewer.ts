@@ -11,8 +11,9 @@ import {
 } from "three";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import type { Box } from "../core/framing.ts";
+import { type Box, type Insets, NO_INSETS } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
+import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
@@ -60,6 +61,9 @@ export class Viewer {
   #request = 0;
   #lastFrame_ms: number | null = null;
   #frames = 0;
+  #insets: Insets = NO_INSETS;
+  #pace = FULL_PACE;
+  #sharpness = 1;
   #streak = { frames: 0, seconds: 0 };
 
   constructor(
@@ -74,10 +78,8 @@ export class Viewer {
     this.#renderer = makeRenderer(canvas);
     this.solid = new Solid(soupOf(parts));
     const footprints = parts.map((part) => new Solid(soupOf([part])).bounds);
-    this.#scenery = makeScenery(this.#renderer, this.solid.bounds, footprints);
+    this.#scenery = makeScenery(this.solid.bounds, footprints);
     this.#appearance = new Appearance(parts);
-    this.#scene.environment = this.#scenery.environment;
-    this.#scene.environmentIntensity = this.#scenery.skyStrength;
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
     this.#scene.add(...parts.map(({ group }) => group));
     this.#orbit = new OrbitRig(this.#camera, canvas, this.solid.bounds, () => this.invalidate());
@@ -92,7 +94,7 @@ export class Viewer {
     store.subscribe((now, before) => this.#follow(now, before));
     this.#resize();
     this.#appearance.tint(store.value);
-    this.#goHome();
+    this.goHome();
   }
 
   /** Compiles and draws once, so that the first picture the person sees is whole. */
@@ -144,13 +146,18 @@ export class Viewer {
     this.invalidate();
   }
 
+  /** What lies over the picture; the next reset leaves it free. */
+  setInsets(insets: Insets): void {
+    this.#insets = insets;
+  }
+
   resetView(): void {
     if (this.#store.value.mode === "walk") {
       this.#walk.restart();
       this.#fly(this.#walk.pose(this.#camera));
       return;
     }
-    const home = this.#orbit.home(this.#camera.aspect);
+    const home = this.#home();
     this.#orbit.aimAt(home.target);
     this.#fly(home.pose);
   }
@@ -212,8 +219,10 @@ export class Viewer {
     const seconds = this.#lastFrame_ms === null ? 1 / 60 : (now_ms - this.#lastFrame_ms) / 1000;
     if (this.#lastFrame_ms !== null) {
       this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
+      this.#pace = paced(this.#pace, seconds);
     }
     const goesOn = this.#advance(seconds);
+    this.#sharpen(goesOn ? sharpnessOf(this.#pace) : 1);
     this.#draw();
     this.#lastFrame_ms = goesOn ? now_ms : null;
     if (goesOn) this.invalidate();
@@ -236,6 +245,12 @@ export class Viewer {
       this.#orbit.steer(turn.left - wish.right, turn.up, wish.forward, Math.min(seconds, 0.1));
     }
     return this.#orbit.advance() || steering;
+  }
+
+  #sharpen(share: number): void {
+    if (share === this.#sharpness) return;
+    this.#sharpness = share;
+    this.#renderer.setPixelRatio(share * Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX));
   }
 
   #draw(): void {
@@ -266,7 +281,7 @@ export class Viewer {
       return;
     }
     this.releaseMouse();
-    const back = this.#orbitPose ?? this.#orbit.home(this.#camera.aspect);
+    const back = this.#orbitPose ?? this.#home();
     this.#orbit.aimAt(back.target);
     this.#fly(back.pose);
   }
@@ -276,8 +291,13 @@ export class Viewer {
     this.invalidate();
   }
 
-  #goHome(): void {
-    const home = this.#orbit.home(this.#camera.aspect);
+  #home(): { pose: Pose; target: Vector3 } {
+    return this.#orbit.home(this.#camera.aspect, this.#insets);
+  }
+
+  /** At once, as it is at the beginning. */
+  goHome(): void {
+    const home = this.#home();
     this.#orbit.aimAt(home.target);
     setPose(this.#camera, home.pose);
     this.#orbit.advance();
@@ -303,11 +323,12 @@ export class Viewer {
   #resize(): void {
     const { clientWidth: width, clientHeight: height } = this.#canvas;
     if (width === 0 || height === 0) return;
-    this.#renderer.setPixelRatio(Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX));
+    const ratio = Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX);
+    this.#renderer.setPixelRatio(this.#sharpness * ratio);
     this.#renderer.setSize(width, height, false);
     this.#appearance.outline.resize(width, height);
     this.#camera.aspect = width / height;
-    this.#camera.updateProjectionMatrix();
+    setPose(this.#camera, poseOf(this.#camera));
     this.invalidate();
   }
 }

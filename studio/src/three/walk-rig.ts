@@ -70,6 +70,6 @@ export class WalkRig {
     probe.position.set(...drawnFromWorld(eye));
     probe.lookAt(new Vector3(...drawnFromWorld(ahead)));
     const fov = MathUtils.lerp(FOV_UPRIGHT_DEG, FOV_WIDE_DEG, MathUtils.clamp(camera.aspect - 0.5, 0, 1));
-    return { position: probe.position, quaternion: probe.quaternion, fov };
+    return { position: probe.position, quaternion: probe.quaternion, fov, shift: [0, 0] };
   }
 }

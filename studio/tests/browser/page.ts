@@ -1,0 +1,117 @@
+/** Opening the studio in a page, and looking at what it draws. */
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import type {} from "../../src/app/inspect.ts";
+
+export interface OpenedPage {
+  readonly page: Page;
+  /** Errors of the page and requests that left its origin. */
+  readonly complaints: string[];
+}
+
+const DESKTOP = { width: 1280, height: 720 };
+
+export async function open(
+  browser: Browser,
+  url: string,
+  context: BrowserContextOptions = {},
+): Promise<OpenedPage> {
+  const page = await (await browser.newContext({ viewport: DESKTOP, ...context })).newPage();
+  const complaints: string[] = [];
+  const { origin } = new URL(url);
+  page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(`console: ${message.text()}`);
+  });
+  page.on("request", (request) => {
+    const to = request.url();
+    if (!to.startsWith(`${origin}/`) && !/^(blob|data):/.test(to)) complaints.push(`request: ${to}`);
+  });
+  await page.goto(url);
+  await page.waitForFunction(() => document.documentElement.dataset.veduta !== undefined);
+  return { page, complaints };
+}
+
+export async function stateOf(page: Page): Promise<string | undefined> {
+  return await page.evaluate(() => document.documentElement.dataset.veduta);
+}
+
+/** Calls the page's inspection API; `null` where it is not there. */
+export type Inspection = NonNullable<Window["veduta"]>;
+
+export async function picked(page: Page): Promise<ReturnType<Inspection["picked"]>> {
+  return await page.evaluate(() => window.veduta?.picked() ?? null);
+}
+
+export async function walkState(page: Page): Promise<ReturnType<Inspection["walk"]>> {
+  const state = await page.evaluate(() => window.veduta?.walk());
+  if (state === undefined) throw new Error("window.veduta is not there");
+  return state;
+}
+
+/** Where a point of the world is on the page, CSS pixels. */
+export async function project(page: Page, point: readonly [number, number, number]): Promise<{ x: number; y: number }> {
+  const at = await page.evaluate((p) => window.veduta?.project(p as [number, number, number]) ?? null, point);
+  if (at === null) throw new Error(`the camera does not see ${point.join(", ")}`);
+  return at;
+}
+
+export async function settled(page: Page): Promise<void> {
+  await page.waitForFunction(() => window.veduta?.state().flying === false);
+  // Two frames: the one that is due, and the one that it may ask for.
+  await page.evaluate(
+    () => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))),
+  );
+}
+
+export interface Look {
+  /** Standard deviation of the luminance, 0..255. */
+  readonly spread: number;
+  readonly mean: readonly [number, number, number];
+}
+
+/** Statistics of a region of the page as the person sees it. */
+export async function look(
+  page: Page,
+  clip: { x: number; y: number; width: number; height: number },
+): Promise<Look> {
+  const png = (await page.screenshot({ clip })).toString("base64");
+  // A page of its own: the studio's content policy need not allow what the test does.
+  const helper = await page.context().newPage();
+  try {
+    return await helper.evaluate(statisticsOf, png);
+  } finally {
+    await helper.close();
+  }
+}
+
+async function statisticsOf(png: string): Promise<Look> {
+  const bytes = Uint8Array.from(atob(png), (c) => c.charCodeAt(0));
+  const bitmap = await createImageBitmap(new Blob([bytes], { type: "image/png" }));
+  const canvas = new OffscreenCanvas(bitmap.width, bitmap.height);
+  const context = canvas.getContext("2d");
+  if (context === null) throw new Error("no 2D canvas");
+  context.drawImage(bitmap, 0, 0);
+  const { data } = context.getImageData(0, 0, bitmap.width, bitmap.height);
+  const sums = [0, 0, 0];
+  let light = 0;
+  let square = 0;
+  for (let i = 0; i < data.length; i += 4) {
+    const [r, g, b] = [data[i] ?? 0, data[i + 1] ?? 0, data[i + 2] ?? 0];
+    const luminance = 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    sums[0] = (sums[0] ?? 0) + r;
+    sums[1] = (sums[1] ?? 0) + g;
+    sums[2] = (sums[2] ?? 0) + b;
+    light += luminance;
+    square += luminance * luminance;
+  }
+  const n = data.length / 4;
+  return {
+    spread: Math.sqrt(Math.max(0, square / n - (light / n) ** 2)),
+    mean: [(sums[0] ?? 0) / n, (sums[1] ?? 0) / n, (sums[2] ?? 0) / n],
+  };
+}
+
+/** A square of the page around a point. */
+export function around(at: { x: number; y: number }, size = 12): { x: number; y: number; width: number; height: number } {
+  return { x: at.x - size / 2, y: at.y - size / 2, width: size, height: size };
+}

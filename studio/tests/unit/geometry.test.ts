@@ -1,0 +1,87 @@
+import { describe, expect, it } from "vitest";
+import { cornersOf, frameBox, NO_INSETS, shiftOf } from "../../src/core/framing.ts";
+import { drawnFromModel, drawnFromWorld, worldFromDrawn, worldPoint } from "../../src/core/frames.ts";
+import { directionOf, headingOf, turned } from "../../src/core/heading.ts";
+import { photoWindow } from "../../src/core/photo-window.ts";
+import { dot, length, scale, subtract, type Vec3 } from "../../src/core/vector.ts";
+
+describe("frames", () => {
+  const turnedPart = [0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 5, 6, 7, 1];
+
+  it("go there and back", () => {
+    expect(worldFromDrawn(drawnFromWorld([1, 2, 3]))).toEqual([1, 2, 3]);
+    expect(drawnFromWorld([0, 0, 1])[1]).toBe(1);
+  });
+
+  it.each<{ p: Vec3 }>([{ p: [0, 0, 0] }, { p: [1, 0, 0] }, { p: [0, 1, 0] }, { p: [1, 2, 3] }])("place a model's point $p as the world does", ({ p }) => {
+    // Model coordinates are the part's in glTF axes.
+    const drawn = worldPoint(drawnFromModel(turnedPart), drawnFromWorld(p));
+    const expected = drawnFromWorld(worldPoint(turnedPart, p));
+    for (const axis of [0, 1, 2] as const) expect(drawn[axis]).toBeCloseTo(expected[axis], 12);
+  });
+});
+
+describe("headings", () => {
+  it.each<{ d: Vec3 }>([{ d: [0, 1, 0] }, { d: [1, 0, 0] }, { d: [-1, -1, 0.5] }, { d: [0.3, -0.2, -0.6] }])("of $d point that way", ({ d }) => {
+    const again = directionOf(headingOf(d));
+    for (const axis of [0, 1, 2] as const) expect(again[axis]).toBeCloseTo(d[axis] / length(d), 9);
+  });
+
+  it("turn left anticlockwise and stop short of straight up", () => {
+    expect(directionOf(turned(headingOf([0, 1, 0]), Math.PI / 2, 0))[0]).toBeCloseTo(-1, 9);
+    expect(turned({ yaw: 0, pitch: 0 }, 0, 9).pitch).toBeLessThan(Math.PI / 2);
+  });
+});
+
+describe("framing", () => {
+  const box = { min: [0, 0, 0] as Vec3, max: [12, 8, 15] as Vec3 };
+  const direction = scale([0.5, 0.86, -0.12], 1 / length([0.5, 0.86, -0.12]));
+  const insets = { left: 0.25, right: 0, top: 0.05, bottom: 0.15 };
+
+  it.each([16 / 9, 1, 9 / 19])("has all corners in the free part and one near its edge, aspect %f", (aspect) => {
+    for (const free of [NO_INSETS, insets]) {
+      const { eye } = frameBox(box, direction, 0.6, aspect, free);
+      const right: Vec3 = scale([direction[1], -direction[0], 0], 1 / Math.hypot(direction[0], direction[1]));
+      const up: Vec3 = [
+        right[1] * direction[2] - right[2] * direction[1],
+        right[2] * direction[0] - right[0] * direction[2],
+        right[0] * direction[1] - right[1] * direction[0],
+      ];
+      const tan = Math.tan(0.3);
+      const used = cornersOf(box).map((corner) => {
+        const arm = subtract(corner, eye);
+        const depth = dot(arm, direction);
+        const x = Math.abs(dot(arm, right)) / depth / (tan * aspect * (1 - free.left - free.right));
+        const y = Math.abs(dot(arm, up)) / depth / (tan * (1 - free.top - free.bottom));
+        return Math.max(x, y);
+      });
+      expect(Math.max(...used)).toBeLessThan(1);
+      expect(Math.max(...used)).toBeGreaterThan(0.85);
+    }
+  });
+
+  it("shifts the picture's middle to the free part's", () => {
+    expect(shiftOf(insets)[0]).toBeCloseTo(0.125, 12);
+    expect(shiftOf(insets)[1]).toBeCloseTo(-0.05, 12);
+  });
+});
+
+describe("the part of the photo that is shown", () => {
+  it.each([[[10, 10, 40, 60]], [[0, 0, 500, 20]], [[480, 560, 20, 20]], [[0, 0, 500, 600]]] as const)(
+    "holds the rectangle %j in the wanted aspect",
+    (rectangle) => {
+      const view = photoWindow(rectangle, 500, 600, 1.5);
+      const [x, y, w, h] = rectangle;
+      expect(view.width / view.height).toBeCloseTo(1.5, 9);
+      expect(view.x).toBeLessThanOrEqual(x + 1e-9);
+      expect(view.y).toBeLessThanOrEqual(y + 1e-9);
+      expect(view.x + view.width).toBeGreaterThanOrEqual(x + w - 1e-9);
+      expect(view.y + view.height).toBeGreaterThanOrEqual(y + h - 1e-9);
+    },
+  );
+
+  it("stays in the photo where it can", () => {
+    const view = photoWindow([0, 0, 20, 20], 500, 600, 1.5);
+    expect([view.x, view.y]).toEqual([0, 0]);
+  });
+});
