@@ -22,6 +22,8 @@ from veduta.run.errors import InputError
 
 # Recesses may take this share of the building's depth.
 DEEPEST_SHARE = 0.4
+# Single precision, and what a building is: sides outside of this range are refused (m).
+SMALLEST_SIDE_M, LARGEST_SIDE_M = 0.5, 1000.0
 
 
 def build_part(
@@ -37,6 +39,7 @@ def build_part(
     The body is shell 0 and closed; balconies, chimneys and lids are closed shells of their own.
     """
     _check(document, rectified)
+    _check_sizes(document, options)
     builder = PartBuilder(part_id)
     footprint = (document.facade.width_m, options.depth_m, document.facade.height_m)
     setback = min(options.setback_m, DEEPEST_SHARE * options.depth_m)
@@ -73,13 +76,6 @@ def _top_m(layout: Layout, mansard: Mansard | None, eaves_m: float) -> float:
 
 
 def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:
-    facade = document.facade
-    if not (facade.width_m > 0.0 and facade.height_m > 0.0 and document.scale.metres_per_px > 0.0):
-        raise InputError(
-            document.source.image,
-            f"the facade is {facade.width_m} x {facade.height_m} m",
-            "Give the facade a width, a height and a scale above zero in facade.json.",
-        )
     homography = np.array(document.rectification.rectified_from_source, dtype=np.float64)
     if homography.shape != (3, 3) or not abs(np.linalg.det(homography)) > 0.0:
         raise InputError(
@@ -93,4 +89,26 @@ def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:
             document.source.image,
             f"the rectified photo is {rectified.shape}, the document says {expected}",
             "Use the rectified.jpg that was written with this facade.json.",
+        )
+
+
+def _check_sizes(document: FacadeDocument, options: ModelOptions) -> None:
+    sides = {
+        "the facade's width": document.facade.width_m,
+        "the facade's height": document.facade.height_m,
+        "the depth (--depth-m)": options.depth_m,
+    }
+    for name, side in sides.items():
+        if not SMALLEST_SIDE_M <= side <= LARGEST_SIDE_M:
+            raise InputError(
+                document.source.image,
+                f"{name} is {side:g} m, not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m",
+                "Give it a size that a building has.",
+            )
+    if not document.rules.roof_height_m <= LARGEST_SIDE_M or not document.scale.metres_per_px > 0:
+        raise InputError(
+            document.source.image,
+            f"the roof is {document.rules.roof_height_m:g} m high, "
+            f"a pixel {document.scale.metres_per_px:g} m",
+            "Mend both in facade.json.",
         )

@@ -45,11 +45,6 @@ class Rectangle:
             min(self.z1, other.z1),
         )
 
-    def meets(self, other: Rectangle) -> bool:
-        """Whether the insides intersect."""
-        both = self.common(other)
-        return both.width > 0.0 and both.height > 0.0
-
     def corners(self) -> list[tuple[float, float]]:
         """Counter-clockwise from the lower left, as (x, z)."""
         return [(self.x0, self.z0), (self.x1, self.z0), (self.x1, self.z1), (self.x0, self.z1)]
@@ -62,9 +57,14 @@ def carve(rectangle: Rectangle, obstacles: Iterable[Rectangle], gap_m: float) ->
     """
     left = rectangle
     for obstacle in obstacles:
-        wall = obstacle.grown(gap_m)
-        if not left.meets(wall):
+        if (
+            obstacle.x0 - gap_m >= left.x1
+            or obstacle.x1 + gap_m <= left.x0
+            or obstacle.z0 - gap_m >= left.z1
+            or obstacle.z1 + gap_m <= left.z0
+        ):
             continue
+        wall = obstacle.grown(gap_m)
         strips = (
             Rectangle(left.x0, left.z0, min(wall.x0, left.x1), left.z1),
             Rectangle(max(wall.x1, left.x0), left.z0, left.x1, left.z1),

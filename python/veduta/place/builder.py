@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable, Sequence
 
 import numpy as np
@@ -31,6 +32,7 @@ class PartBuilder:
         self._polygon_feature: list[int] = []
         self._polygon_material: list[int] = []
         self._rows: list[tuple[str, str, int, int, int, int, float, float, Rect]] = []
+        self._counts: Counter[SemanticClass] = Counter()
         self._shells = 1
 
     def material(self, material: Material) -> int:
@@ -59,6 +61,7 @@ class PartBuilder:
         The name must be the only one of its kind in the part: the stable id derives from it.
         """
         row = len(self._rows)
+        self._counts[semantic] += 1
         self._rows.append(
             (
                 f"{self.part_id}/{name.replace(' ', '-')}",
@@ -76,7 +79,7 @@ class PartBuilder:
 
     def count(self, semantic: SemanticClass) -> int:
         """How many features of this class there are already."""
-        return sum(1 for row in self._rows if row[2] == semantic.code)
+        return self._counts[semantic]
 
     def polygon(
         self,

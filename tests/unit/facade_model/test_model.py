@@ -155,13 +155,20 @@ def test_photo_of_another_size_is_refused() -> None:
         build_part(document, np.zeros((10, 10, 3), dtype=np.uint8), ModelOptions(), "x")
 
 
-def test_facade_without_width_is_refused() -> None:
-    document = sample_document()
+@pytest.mark.parametrize("width_m", [0.0, -3.0, 0.1, 2000.0, float("nan"), float("inf")])
+def test_facade_of_no_building_is_refused(width_m: float) -> None:
+    document = sample_document(elements=[])
     broken = document.model_copy(
-        update={"facade": document.facade.model_copy(update={"width_m": 0.0})}
+        update={"facade": document.facade.model_copy(update={"width_m": width_m})}
     )
-    with pytest.raises(InputError, match=r"0\.0 x"):
+    with pytest.raises(InputError, match="the facade's width is"):
         build_part(broken, sample_photo(document), ModelOptions(), "x")
+
+
+def test_depth_of_no_building_is_refused() -> None:
+    document = sample_document(elements=[])
+    with pytest.raises(InputError, match="--depth-m"):
+        build_part(document, sample_photo(document), ModelOptions(depth_m=1e6), "x")
 
 
 def test_same_input_same_columns(part: Part) -> None:
