@@ -97,9 +97,7 @@ def _resolved_target(web: Path, place: Path) -> Path:
             target.parent, "there is no such folder", "Make it first, or choose another place."
         )
     if not os.access(target.parent, os.W_OK):
-        raise InputError(
-            target.parent, "this user may not write there", "Choose another folder."
-        )
+        raise InputError(target.parent, "this user may not write there", "Choose another folder.")
     return target
 
 

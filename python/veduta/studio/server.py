@@ -73,7 +73,9 @@ def _listening_socket(host: str, port: int) -> socket.socket:
 def _bind_error(error: OSError, host: str, port: int) -> InputError:
     if error.errno == errno.EADDRINUSE:
         return InputError(
-            f"--port {port}", "another program listens there", "Choose another, or 0 for a free one."
+            f"--port {port}",
+            "another program listens there",
+            "Choose another, or 0 for a free one.",
         )
     if error.errno in (errno.EACCES, errno.EPERM):
         return InputError(
@@ -88,7 +90,7 @@ def _bind_error(error: OSError, host: str, port: int) -> InputError:
 
 def _address(host: str, port: int, token: str | None) -> Address:
     """The address to open; a wildcard host is replaced by the machine's own name."""
-    name = socket.gethostname() if host in ("0.0.0.0", "::") else host  # noqa: S104
+    name = socket.gethostname() if host in ("0.0.0.0", "::") else host
     if ":" in name and not name.startswith("["):
         name = f"[{name}]"
     query = "place=place/" if token is None else f"place=place/&token={token}"
