@@ -14,18 +14,10 @@ if TYPE_CHECKING:
 
 def run(arguments: list[str]) -> int:
     """Parse the arguments, do the work, say what was found and where it is."""
-    import tyro
-
+    from veduta.cli.arguments import parse
     from veduta.cli.facade_call import FacadeCall
 
-    call = tyro.cli(
-        FacadeCall,
-        args=arguments,
-        prog="veduta facade",
-        description=FacadeCall.__doc__,
-        config=(tyro.conf.OmitArgPrefixes, tyro.conf.FlagCreatePairsOff),
-    )
-    return _run(call)
+    return _run(parse(FacadeCall, "veduta facade", arguments))
 
 
 def _run(call: FacadeCall) -> int:

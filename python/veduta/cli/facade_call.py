@@ -10,29 +10,49 @@ import tyro
 
 from veduta.facade.options import FacadeOptions, ModelOptions, RectifyOptions, ScaleOptions
 
+Images = Annotated[
+    tyro.conf.Positional[tuple[Path, ...]],
+    tyro.conf.arg(
+        metavar="IMAGE...",
+        help_behavior_hint="",
+        help="photos (JPEG, PNG, TIFF, WebP), folders of photos, or facade.json documents",
+    ),
+]
+Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]
+Force = Annotated[
+    bool,
+    tyro.conf.arg(help="replace results of other inputs or options; edited files are always kept"),
+]
+Jobs = Annotated[
+    int | None,
+    tyro.conf.arg(
+        metavar="N",
+        help_behavior_hint="",
+        help="processes that work at once; one per core where it is not given",
+    ),
+]
+Quiet = Annotated[bool, tyro.conf.arg(aliases=["-q"], help="say nothing but errors")]
+
 
 @dataclass(frozen=True)
 class FacadeCall:
     """Turn photos of facades into LoD3 buildings.
 
     The results of each photo are written to OUT/NAME/, all together to OUT/place.json.
+
     An edited OUT/NAME/facade.json in the place of a photo rebuilds its model.
+
     Exit codes: 0 done, 2 bad use or input, 3 some images failed (named), 1 a bug.
     """
 
-    images: Annotated[tyro.conf.Positional[tuple[Path, ...]], tyro.conf.arg(metavar="IMAGE...")]
-    """photos (JPEG, PNG, TIFF, WebP), folders of photos, or facade.json documents"""
-    out: Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT")]
-    """folder for the results"""
+    images: Images
+    out: Out
     rectify: RectifyOptions = field(default_factory=RectifyOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     model: ModelOptions = field(default_factory=ModelOptions)
-    force: bool = False
-    """replace results of other inputs or options; edited files are always kept"""
-    jobs: Annotated[int | None, tyro.conf.arg(metavar="N")] = None
-    """processes that work at once; as many as there are cores where it is not given"""
-    quiet: Annotated[bool, tyro.conf.arg(aliases=["-q"])] = False
-    """say nothing but errors"""
+    force: Force = False
+    jobs: Jobs = None
+    quiet: Quiet = False
 
     def options(self) -> FacadeOptions:
         """What changes the result."""

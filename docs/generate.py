@@ -1,0 +1,143 @@
+"""Writes the tables of the docs that follow from the code: `python docs/generate.py`.
+
+A table stands between `<!-- NAME -->` and `<!-- /NAME -->` in a page. With `--check` nothing is
+written, and the exit code is 1 when a page is out of date.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import sys
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Annotated, Any, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel
+
+from veduta.cli.facade_call import FacadeCall
+from veduta.facade.document import CLASSES
+from veduta.facade.outputs import COLOURS
+from veduta.facade.report import FILES
+
+DOCS = Path(__file__).parent
+_BOUNDS = {
+    "exclusiveMinimum": "> {}",
+    "minimum": ">= {}",
+    "exclusiveMaximum": "< {}",
+    "maximum": "<= {}",
+}
+_KINDS = {"number": "number", "integer": "integer", "boolean": "flag", "string": "text"}
+
+
+def options_table(call: type[Any]) -> str:
+    """All options of a verb's argument class: its own, and those of its option models."""
+    rows: list[Sequence[str]] = []
+    for name, annotation in get_type_hints(call, include_extras=True).items():
+        kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            rows += _model_rows(kind)
+        else:
+            rows.append(_argument_row(call, name, annotation))
+    return table(("option", "takes", "default", "what it is"), rows)
+
+
+def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
+    """A row per field, from the model's JSON schema."""
+    rows: list[Sequence[str]] = []
+    for name, schema in model.model_json_schema()["properties"].items():
+        kinds = [part for part in schema.get("anyOf", [schema]) if part.get("type") != "null"]
+        default = schema.get("default")
+        shown = "" if default in (None, False) else f"`{default}`"
+        rows.append((_flag(name), _takes(kinds[0]), shown, schema["description"]))
+    return rows
+
+
+def _takes(schema: dict[str, Any]) -> str:
+    if schema.get("type") == "array":
+        return f"{schema['minItems']} numbers"
+    bounds = [text.format(schema[key]) for key, text in _BOUNDS.items() if key in schema]
+    return " ".join([_KINDS[schema["type"]], ", ".join(bounds)]).strip()
+
+
+def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
+    """A row for an argument that is declared with `tyro.conf.arg`."""
+    settings = next(part for part in annotation.__metadata__ if getattr(part, "help", None))
+    default = next(field.default for field in dataclasses.fields(call) if field.name == name)
+    required = default is dataclasses.MISSING
+    flag = _flag(name)
+    if settings.aliases:
+        flag = ", ".join(f"`{alias}`" for alias in settings.aliases) + f", {flag}"
+    if settings.metavar and settings.metavar.endswith("..."):
+        flag = f"`{settings.metavar}`"
+    takes = "flag" if default is False else settings.metavar.removesuffix("...")
+    return flag, takes, "required" if required else "", settings.help
+
+
+def _flag(name: str) -> str:
+    return f"`--{name.replace('_', '-')}`"
+
+
+def files_table() -> str:
+    """The files of one image."""
+    reports = (
+        ("report.json", "steps, times, counts, measures, what was rejected and why"),
+        ("report.html", "the same with pictures, in one file"),
+    )
+    return table(("file", "what it is"), [(f"`{name}`", text) for name, text in FILES + reports])
+
+
+def classes_table() -> str:
+    """The label of each class and its colour."""
+    rows = [
+        (str(index), name, "#{:02x}{:02x}{:02x}".format(*COLOURS[name]))
+        for index, name in enumerate(CLASSES)
+    ]
+    return table(("label", "class", "colour"), rows)
+
+
+def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
+    """A markdown table."""
+    lines = [columns, ["---"] * len(columns), *rows]
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
+TABLES: dict[str, dict[str, Callable[[], str]]] = {
+    "facade.md": {
+        "options": lambda: options_table(FacadeCall),
+        "files": files_table,
+        "classes": classes_table,
+    },
+}
+
+
+def generated(page: str, text: str) -> str:
+    """The text of a page with its tables made anew."""
+    for name, make in TABLES[page].items():
+        start, end = f"<!-- {name} -->\n", f"<!-- /{name} -->"
+        before, found, rest = text.partition(start)
+        _, closed, after = rest.partition(end)
+        if not (found and closed):
+            raise SystemExit(f"{page}: has no place for the table `{name}`")
+        text = f"{before}{start}{make()}\n{end}{after}"
+    return text
+
+
+def main(arguments: Sequence[str]) -> int:
+    """Bring all pages up to date, or say which are not."""
+    stale = []
+    for page in TABLES:
+        path = DOCS / page
+        text = path.read_text("utf-8")
+        made = generated(page, text)
+        if made != text:
+            stale.append(page)
+            if "--check" not in arguments:
+                path.write_text(made, "utf-8")
+    if stale:
+        verb = "is out of date" if "--check" in arguments else "was brought up to date"
+        print("\n".join(f"{page} {verb}" for page in stale))
+    return 1 if stale and "--check" in arguments else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

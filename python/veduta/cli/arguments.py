@@ -1,0 +1,64 @@
+"""Reading a verb's arguments with tyro: flat names, and help that a person can read."""
+
+from __future__ import annotations
+
+import inspect
+import os
+import types
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
+
+import tyro
+
+T = TypeVar("T")
+
+os.environ.setdefault("PYDANTIC_ERRORS_INCLUDE_URL", "0")  # a wrong number needs no manual
+
+
+def parse(call: type[T], prog: str, arguments: list[str]) -> T:
+    """The arguments as a `call`; bad use exits with 2 and a hint."""
+    registry = tyro.constructors.ConstructorRegistry()
+    registry.primitive_rule(_optional_numbers)
+    with registry:
+        return tyro.cli(
+            call,
+            args=arguments,
+            prog=prog,
+            description=inspect.cleandoc(call.__doc__ or ""),
+            config=(tyro.conf.OmitArgPrefixes, tyro.conf.FlagCreatePairsOff),
+        )
+
+
+def _bare(kind: Any) -> Any:
+    """The type without its annotations; pydantic checks those."""
+    return get_args(kind)[0] if get_origin(kind) is Annotated else kind
+
+
+def _optional_numbers(
+    info: tyro.constructors.PrimitiveTypeInfo,
+) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
+    """An option that need not be given shows what it takes, and not that it takes None."""
+    if get_origin(info.type) not in (Union, types.UnionType):
+        return None
+    kinds = [_bare(kind) for kind in get_args(info.type) if kind is not type(None)]
+    if len(kinds) != 1:
+        return None
+    numbers = get_args(kinds[0]) if get_origin(kinds[0]) is tuple else kinds
+    if not all(number in (int, float) for number in numbers):
+        return None
+    several = get_origin(kinds[0]) is tuple
+
+    def read(words: list[str]) -> Any:
+        values = [number(word) for number, word in zip(numbers, words, strict=True)]
+        return tuple(values) if several else values[0]
+
+    return tyro.constructors.PrimitiveConstructorSpec(
+        nargs=len(numbers),
+        metavar=" ".join("INT" if number is int else "FLOAT" for number in numbers),
+        instance_from_str=read,
+        is_instance=lambda value: value is None or isinstance(value, int | float | tuple),
+        str_from_instance=lambda value: (
+            ["none"]
+            if value is None
+            else [str(part) for part in (value if several else [value])]
+        ),
+    )

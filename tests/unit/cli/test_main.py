@@ -1,0 +1,79 @@
+"""The dispatcher: what it imports, and how errors are told."""
+
+from __future__ import annotations
+
+import signal
+import subprocess
+import sys
+import types
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from veduta.cli import main as cli
+from veduta.run.errors import InputError, NotFoundError, UnfinishedError
+
+HEAVY = {"numpy", "cv2", "scipy", "pydantic", "tyro", "rich", "PIL", "fastapi", "jinja2", "trimesh"}
+
+
+def test_help_imports_nothing_heavy() -> None:
+    code = "import sys; from veduta.cli.main import main; main(['--help']); print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    *text, modules = done.stdout.splitlines()
+    assert HEAVY & set(modules.split()) == set()
+    for verb in cli.VERBS:
+        assert any(line.startswith(f"  {verb} ") for line in text)
+
+
+@pytest.fixture
+def run_verb(monkeypatch: pytest.MonkeyPatch) -> Callable[[BaseException | int], int]:
+    """Run a verb that raises this, or returns it."""
+
+    def run(outcome: BaseException | int) -> int:
+        def verb(arguments: list[str]) -> int:
+            if isinstance(outcome, BaseException):
+                raise outcome
+            return outcome
+
+        module = types.SimpleNamespace(run=verb, SUMMARY="")
+        monkeypatch.setitem(sys.modules, "veduta.cli.facade", module)
+        monkeypatch.setattr(signal, "signal", lambda *_: None)
+        return cli.main(["facade"])
+
+    return run
+
+
+@pytest.mark.parametrize(
+    ("outcome", "code", "told"),
+    [
+        (0, 0, ""),
+        (3, 3, ""),
+        (InputError("a.jpg", "is empty", "Copy it."), 2, "error: a.jpg: is empty. Copy it.\n"),
+        (NotFoundError("facade", "no lines", "Try."), 3, "error: facade not found: no lines"),
+        (KeyboardInterrupt(), 130, "stopped: "),
+        (UnfinishedError("by SIGTERM"), 143, "stopped: "),
+        (BrokenPipeError(), 0, ""),
+    ],
+)
+def test_outcomes(
+    run_verb: Callable[[BaseException | int], int],
+    capfd: pytest.CaptureFixture[str],
+    outcome: BaseException | int,
+    code: int,
+    told: str,
+) -> None:
+    assert run_verb(outcome) == code
+    assert capfd.readouterr().err.startswith(told)
+
+
+def test_a_bug_is_saved_and_named(
+    run_verb: Callable[[BaseException | int], int], capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run_verb(ZeroDivisionError("by zero")) == 1
+    error = capsys.readouterr().err
+    assert "a bug in veduta facade: ZeroDivisionError: by zero" in error
+    assert "Traceback" not in error
+    saved = Path(error.split()[-1])
+    assert "raise outcome" in saved.read_text()
+    saved.unlink()

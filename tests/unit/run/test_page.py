@@ -1,0 +1,64 @@
+"""The HTML report: self-contained, and nothing of a file's text is taken for markup."""
+
+from __future__ import annotations
+
+from html.parser import HTMLParser
+
+from veduta.run.page import Bars, Page, Picture, Table, render
+from veduta.run.report import Failure, Report, StepRecord
+
+EVIL = "<script>alert('x')</script>"
+
+
+class Reader(HTMLParser):
+    """All tags, links and text."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.tags: list[str] = []
+        self.links: list[str] = []
+        self.texts: list[str] = []
+
+    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
+        self.tags.append(tag)
+        self.links += [value or "" for name, value in attrs if name in {"src", "href"}]
+
+    def handle_data(self, data: str) -> None:
+        self.texts.append(data)
+
+
+def read(page: Page, **fields: object) -> Reader:
+    report = Report.model_validate(
+        {"verb": "facade", "subject": EVIL, "state": "done", "options": {"a": EVIL}, **fields}
+    )
+    reader = Reader()
+    reader.feed(render(report, page).decode())
+    return reader
+
+
+def test_text_of_files_is_escaped() -> None:
+    reader = read(
+        Page(
+            title=EVIL,
+            summary=EVIL,
+            facts=[(EVIL, EVIL)],
+            tables=[Table(EVIL, [EVIL], [[EVIL]], note=EVIL)],
+            bars=[Bars(EVIL, EVIL, [(EVIL, 1.0)])],
+        ),
+        notes=[EVIL],
+        failures=[Failure(subject=EVIL, kind="input", reason=EVIL)],
+        steps=[StepRecord(EVIL, 1.0, {EVIL: EVIL}, [EVIL])],
+    )
+    assert "script" not in reader.tags
+    assert sum(EVIL in text for text in reader.texts) >= 10
+
+
+def test_pictures_are_inside() -> None:
+    reader = read(Page("a", "b", pictures=[Picture("c", "d", b"\x89PNG", "image/png", "c.png")]))
+    assert reader.links == ["c.png", "data:image/png;base64,iVBORw=="]
+
+
+def test_bars_are_to_scale() -> None:
+    bars = Bars("t", "s", [("a", 2.0), ("b", 0.5), ("c", 0.0)])
+    assert [bars.width(value) for _, value in bars.values] == [100, 25, 0]
+    assert Bars("t", "s", [("a", 0.0)]).width(0.0) == 0
