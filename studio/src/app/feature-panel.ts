@@ -1,7 +1,7 @@
 /** What is known about the selected surface. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
-import { childrenOf, countClasses, type Feature, type FeatureTable } from "../core/features.ts";
+import { countCarried, type Feature, type FeatureTable } from "../core/features.ts";
 import { areaText, countText, sizeText } from "../core/wording.ts";
 import { icons } from "./icons.ts";
 import "./photo-region.ts";
@@ -170,7 +170,7 @@ export class FeaturePanel extends LitElement {
   #relations(shown: ShownFeature): TemplateResult | typeof nothing {
     const { feature, table } = shown;
     const parent = feature.parent === null ? undefined : table.rows[feature.parent];
-    const children = countClasses([{ rows: childrenOf(table, shown.row) }]);
+    const children = countCarried(table, shown.row);
     if (parent === undefined && children.size === 0) return nothing;
     return html`<section>
       ${parent === undefined

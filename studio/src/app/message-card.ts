@@ -54,6 +54,12 @@ export class MessageCard extends LitElement {
       dd:first-of-type {
         font-weight: 560;
       }
+      code {
+        font: 500 13px/1.4 ui-monospace, "SFMono-Regular", Menlo, Consolas, monospace;
+        padding: 2px 6px;
+        border-radius: 5px;
+        background: #eef1f3;
+      }
       .retry {
         padding: 10px 18px;
         border-radius: 10px;
@@ -100,11 +106,16 @@ export class MessageCard extends LitElement {
         <dt>What is wrong</dt>
         <dd>${sentence(fault.fault)}</dd>
         <dt>What to do</dt>
-        <dd>${fault.remedy}</dd>
+        <dd>${withCode(fault.remedy)}</dd>
       </dl>
       <button class="retry" @click=${() => location.reload()}>Try again</button>
     </article>`;
   }
+}
+
+/** What stands between backticks is something to type. */
+function withCode(words: string): (string | TemplateResult)[] {
+  return words.split("`").map((piece, i) => (i % 2 === 1 ? html`<code>${piece}</code>` : piece));
 }
 
 function sentence(words: string): string {

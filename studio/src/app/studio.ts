@@ -51,7 +51,12 @@ export class Studio extends LitElement {
     this.progress = { share: 0, file: "" };
     this.layersOpen = matchMedia("(min-width: 900px)").matches;
     this.notice = "";
-    this.#store.subscribe(() => this.requestUpdate());
+    this.#store.subscribe((now, before) => {
+      this.requestUpdate();
+      const opened = now.selected !== null && before.selected === null;
+      const closed = now.selected === null && before.selected !== null;
+      if (opened || closed) void this.#makeRoom();
+    });
   }
 
   override firstUpdated(): void {
@@ -93,6 +98,14 @@ export class Studio extends LitElement {
     }
   }
 
+  /** On a narrow page the panel covers the place's lower half: move the place up, and back. */
+  async #makeRoom(): Promise<void> {
+    if (this.session === null || !matchMedia("(max-width: 720px)").matches) return;
+    await this.updateComplete;
+    this.#leaveFree(this.session);
+    this.session.viewer.recentre();
+  }
+
   /** Tells the viewer which part of the picture the panels cover. */
   #leaveFree(session: Session): void {
     const { width, height } = this.#canvas.getBoundingClientRect();
@@ -100,12 +113,13 @@ export class Studio extends LitElement {
       this.renderRoot.querySelector(name)?.getBoundingClientRect() ?? null;
     const [brand, layers, tools] = [boxOf(".brand"), boxOf("veduta-layers"), boxOf("veduta-toolbar")];
     const panel = boxOf("veduta-feature-panel");
+    const below = panel !== null && panel.height > 0 && panel.width > 0.5 * width ? panel.top : null;
     const beside = (box: DOMRect | null): boolean => box !== null && box.width > 0 && box.width < 0.4 * width;
     session.viewer.setInsets({
       left: beside(layers) ? (layers?.right ?? 0) / width : 0,
       right: beside(panel) ? 1 - (panel?.left ?? width) / width : 0,
       top: beside(layers) ? 0 : (brand?.bottom ?? 0) / height,
-      bottom: 1 - (tools?.top ?? height) / height,
+      bottom: 1 - (below ?? tools?.top ?? height) / height,
     });
   }
 
@@ -152,7 +166,7 @@ export class Studio extends LitElement {
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
-      ${keyed(
+      ${shown !== null && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
         html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse) : this.notice}</p>`,
       )}

@@ -130,6 +130,13 @@ export function countClasses(tables: readonly FeatureTable[]): Map<SemanticClass
   return countBy(whole, (feature) => feature.class);
 }
 
+/** How many things a feature carries, by class; pieces of itself (of its own class) left out. */
+export function countCarried(table: FeatureTable, row: number): Map<SemanticClass, number> {
+  const own = table.rows[row]?.class;
+  const carried = childrenOf(table, row).filter((feature) => feature.class !== own);
+  return countBy([{ rows: carried }], (feature) => feature.class);
+}
+
 export function countProvenances(tables: readonly FeatureTable[]): Map<Provenance, number> {
   return countBy(tables, (feature) => feature.provenance);
 }

@@ -11,7 +11,7 @@ import {
 } from "three";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import { type Box, type Insets, NO_INSETS } from "../core/framing.ts";
+import { type Box, type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
@@ -149,6 +149,12 @@ export class Viewer {
   /** What lies over the picture; the next reset leaves it free. */
   setInsets(insets: Insets): void {
     this.#insets = insets;
+  }
+
+  /** Moves the picture so that its middle is the free part's middle. */
+  recentre(): void {
+    if (this.#store.value.mode !== "orbit") return;
+    this.#fly({ ...poseOf(this.#camera), shift: shiftOf(this.#insets) });
   }
 
   resetView(): void {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { childrenOf, countClasses, countProvenances, readFeatureTable } from "../../src/core/features.ts";
+import { childrenOf, countCarried, countClasses, countProvenances, readFeatureTable } from "../../src/core/features.ts";
 import { Fault } from "../../src/core/fault.ts";
 
 function columns(): Record<string, unknown[]> {
@@ -38,8 +38,17 @@ describe("the feature table", () => {
   it("knows children and counts", () => {
     const table = readFeatureTable(columns(), "model.glb");
     expect(childrenOf(table, 0).map(({ id }) => id)).toEqual(["window-1", "window-2"]);
+    expect([...countCarried(table, 0)]).toEqual([["window", 2]]);
+    expect(countCarried(table, 3).size).toBe(0);
     expect([...countClasses([table, table])]).toEqual([["wall", 2], ["window", 4], ["roof", 2]]);
     expect(countProvenances([table]).get("measured")).toBe(2);
+  });
+
+  it("counts a thing and its pieces of the same class once", () => {
+    const pieces = { ...columns(), class: ["wall", "window", "wall", "roof"] };
+    const table = readFeatureTable(pieces, "model.glb");
+    expect([...countClasses([table])]).toEqual([["wall", 1], ["window", 1], ["roof", 1]]);
+    expect([...countCarried(table, 0)]).toEqual([["window", 1]]);
   });
 
   it("ignores columns that it does not know", () => {
