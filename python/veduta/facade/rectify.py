@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -23,6 +24,9 @@ from veduta.imaging.warp import warp
 from veduta.run.errors import InputError
 
 MIN_SIDE_PX = 64
+
+JUDGED_LENGTH_PART = 0.02
+"""Of the diagonal: an end is known to about half a pixel, 30 px are known to about a degree."""
 
 MIN_VALID_PART = 0.3
 """Outer rows and columns with less of the photo in them are cut off."""
@@ -164,8 +168,13 @@ def framed(
 def residual_deg(
     plane: FacadePlane, region: PlaneRegion, rectified_from_source: Matrix
 ) -> float | None:
-    """Median angle (degrees) of the region's held-out segments to the nearest image axis."""
-    held_out = plane.segments.select(plane.held_out)
+    """Median angle (degrees) of the region's held-out segments to the nearest image axis.
+
+    Of those long enough that their own direction is known better than what is measured.
+    """
+    shortest = JUDGED_LENGTH_PART * math.hypot(*plane.fit.size_px)
+    long_enough = plane.segments.lengths() >= shortest
+    held_out = plane.segments.select(plane.held_out & long_enough)
     inside = polygon.contains(region.polygon_px, held_out.start)
     inside &= polygon.contains(region.polygon_px, held_out.end)
     mapped = held_out.select(inside).mapped(rectified_from_source)

@@ -64,7 +64,9 @@ def from_points(points_a: Points, points_b: Points) -> Matrix:
     rows_x = np.hstack([uh, zeros, -v[:, :1] * uh])
     rows_y = np.hstack([zeros, uh, -v[:, 1:] * uh])
     _, singular, vt = np.linalg.svd(np.vstack([rows_x, rows_y]))
-    if singular[7] < 1e-9 * singular[0]:
+    # vt[8] has norm 1: a determinant of zero maps the plane to a line.
+    flat = abs(float(np.linalg.det(vt[8].reshape(3, 3)))) < 1e-9
+    if flat or singular[7] < 1e-9 * singular[0]:
         raise ValueError("the points do not fix a homography: too many lie on one line")
     return normalised(np.linalg.inv(norm_b) @ vt[8].reshape(3, 3) @ norm_a)
 
