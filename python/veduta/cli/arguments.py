@@ -57,8 +57,6 @@ def _optional_numbers(
         instance_from_str=read,
         is_instance=lambda value: value is None or isinstance(value, int | float | tuple),
         str_from_instance=lambda value: (
-            ["none"]
-            if value is None
-            else [str(part) for part in (value if several else [value])]
+            ["none"] if value is None else [str(part) for part in (value if several else [value])]
         ),
     )

@@ -40,11 +40,12 @@ def _run(call: FacadeCall) -> int:
 def _tell_failures(result: CallResult) -> None:
     from veduta.cli.main import save_traceback
 
-    for name, failure in result.failed.items():
+    for failure in result.failed.values():
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
-        if name in result.tracebacks:
-            path = save_traceback(result.tracebacks[name])
-            print(f"Please report it with {path}", file=sys.stderr)
+    if result.tracebacks:
+        told = [f"{name}:\n{text}" for name, text in result.tracebacks.items()]
+        path = save_traceback("\n".join(told))
+        print(f"Please report it with {path}", file=sys.stderr)
 
 
 def _tell_results(result: CallResult) -> None:
