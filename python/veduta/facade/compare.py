@@ -6,11 +6,10 @@ part behind a balcony's railing belongs to the balcony, on both sides of the com
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import BaseModel, ConfigDict, Field
 
 from veduta.facade.document import Element, FacadeClass, FacadeDocument
 from veduta.facade.outputs import rasterise
@@ -23,19 +22,19 @@ MIN_IOU = 0.5
 _UNSEEN = 255
 
 
-@dataclass(frozen=True)
-class Windows:
-    """Windows matched one to one at an intersection over union of at least `MIN_IOU`.
+class _Record(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid")
 
-    `elsewhere` are found windows whose middle lies outside the facade and its roof (on a
-    neighbour); they count as wrong. `missed` are the names of windows that were not found.
-    """
+
+class Windows(_Record):
+    """Windows matched one to one at an intersection over union of at least `MIN_IOU`."""
 
     true: int
     found: int
     matched: int
-    elsewhere: int
-    missed: tuple[str, ...]
+    elsewhere: int = Field(description="found with the middle off the house; they count as wrong")
+    cut_off: int = Field(description="outside the rectified image, so that nothing could find them")
+    missed: tuple[str, ...] = Field(description="where the true windows are that were not found")
 
     @property
     def precision(self) -> float:
@@ -48,50 +47,67 @@ class Windows:
         return self.matched / self.true if self.true else 1.0
 
 
-@dataclass(frozen=True)
-class Comparison:
-    """The document's numbers beside the true ones.
+class Pair(_Record):
+    """A number of the document beside the true one."""
 
-    `off_m` (k, 4) is how far the corners of each matched window are from the true ones, in the
-    facade frames of document and truth (both begin at the lower left corner of the facade).
-    `accuracy` is the share of the photo's pixels with the right class, over those that the
-    rectified image covers and that show the facade, its roof or the sky; a chimney is roof.
-    """
+    found: float
+    true: float
+
+
+class Comparison(_Record):
+    """The document's numbers beside the true ones."""
 
     windows: Windows
-    storeys: tuple[int, int]
-    columns: tuple[int, int]
-    width_m: tuple[float, float]
-    height_m: tuple[float, float]
-    off_m: NDArray[np.float64]
-    accuracy: float
-    compared_share: float
+    storeys: Pair
+    columns: Pair
+    width_m: Pair
+    height_m: Pair
+    corners_off_m: tuple[float, ...] = Field(
+        description="distance of each corner of the matched windows, each in its own facade frame"
+    )
+    accuracy: float = Field(
+        description="share of the compared pixels with the right class; a chimney is roof"
+    )
+    compared: float = Field(
+        description="share of the photo's pixels with house or sky that the document covers"
+    )
     class_recall: dict[FacadeClass, float]
+
+    @property
+    def window_count(self) -> Pair:
+        """How many windows there are."""
+        return Pair(found=self.windows.found, true=self.windows.true)
+
+    def off_m(self, quantile: float) -> float:
+        """How far window corners are off (m) at a quantile, NaN where no window matches."""
+        return float(np.quantile(self.corners_off_m, quantile)) if self.corners_off_m else np.nan
 
 
 def compare(document: FacadeDocument, truth: FacadeTruth) -> Comparison:
-    """Compare; the first of each pair is the document's, the second the truth's."""
+    """Set a document beside the truth about its photo."""
     found = [(e, _visible_px(e, document)) for e in document.elements if e.class_ == "window"]
-    true = [(e, _rectified_box(e, document)) for e in truth.elements if e.label == "window"]
+    windows = [(e, _rectified_box(e, document)) for e in truth.elements if e.label == "window"]
+    true = [(e, box) for e, box in windows if _in_picture(box, document)]
     pairs = match([box for _, box in found], [box for _, box in true])
     matched = {j for _, j in pairs}
     off = [_off_m(found[i][0], found[i][1], true[j][0], document) for i, j in pairs]
-    accuracy, share, recall = _pixels(document, truth)
+    accuracy, compared, recall = _pixels(document, truth)
     return Comparison(
         windows=Windows(
             true=len(true),
             found=len(found),
             matched=len(pairs),
             elsewhere=sum(not _on_house(box, document, truth) for _, box in found),
+            cut_off=len(windows) - len(true),
             missed=tuple(_name(e) for j, (e, _) in enumerate(true) if j not in matched),
         ),
-        storeys=(document.storeys, truth.storeys),
-        columns=(_columns(document), truth.columns),
-        width_m=(document.facade.width_m, truth.width_m),
-        height_m=(document.facade.height_m, truth.height_m),
-        off_m=np.array(off).reshape(-1, 4),
+        storeys=Pair(found=document.storeys, true=truth.storeys),
+        columns=Pair(found=_columns(document), true=truth.columns),
+        width_m=Pair(found=document.facade.width_m, true=truth.width_m),
+        height_m=Pair(found=document.facade.height_m, true=truth.height_m),
+        corners_off_m=tuple(value for window in off for value in window),
         accuracy=accuracy,
-        compared_share=share,
+        compared=compared,
         class_recall=recall,
     )
 
@@ -135,6 +151,13 @@ def _rectified_box(element: TrueElement, document: FacadeDocument) -> Box:
     rectified_from_source = np.array(document.rectification.rectified_from_source)
     corners = homography.apply(rectified_from_source, element.quad_px)
     return np.concatenate([corners.min(axis=0), corners.max(axis=0)])
+
+
+def _in_picture(box: Box, document: FacadeDocument) -> bool:
+    """Whether at least half of a box is inside the rectified image."""
+    size = np.array([document.rectification.width_px, document.rectification.height_px])
+    inside = np.clip(np.minimum(box[2:], size) - np.maximum(box[:2], 0.0), 0.0, None)
+    return bool(np.prod(inside) >= 0.5 * np.prod(box[2:] - box[:2]))
 
 
 def _off_m(found: Element, box: Box, true: TrueElement, document: FacadeDocument) -> list[float]:

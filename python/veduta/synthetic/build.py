@@ -26,7 +26,11 @@ class Feature:
 
 @dataclass(frozen=True)
 class BuiltFacade:
-    """The mesh to look at, the gapless `screens` for labels, and the tables that both refer to."""
+    """The mesh to look at, flat `screens` for labels, and the tables that both refer to.
+
+    The screens are what a person who labels a photo would outline: an opening with its reveals, a
+    balcony with the gaps between its bars.
+    """
 
     mesh: Mesh
     screens: Mesh
@@ -58,6 +62,7 @@ def build(
         name = f"{opening.class_} {opening.floor}.{opening.column}"
         feature = table.add(Feature(opening.class_, name, opening.rect))
         _opening(builder, layout, opening, opening_material(number, opening, seed), wall, feature)
+        _cover(screens, opening, feature)
     for number, balcony in enumerate(layout.balconies):
         feature = table.add(Feature("balcony", f"balcony {number}", balcony.rect))
         add_balcony(builder, balcony, feature)
@@ -160,6 +165,13 @@ def _opening(
                 wall,
                 (0.0, 0.0, 1.0, 1.0),
             )
+
+
+def _cover(screens: MeshBuilder, opening: Opening, feature: int) -> None:
+    """The opening as a flat area in the wall's plane: its reveals belong to it in label images."""
+    r = opening.rect
+    origin = (r.x_m, -1e-3, r.y_m)
+    screens.quad(origin, (r.width_m, 0, 0), (0, 0, r.height_m), "trim", feature)
 
 
 def _surround(builder: MeshBuilder, layout: Layout, opening: Opening, wall: int) -> None:

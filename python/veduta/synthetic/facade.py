@@ -49,7 +49,7 @@ def make_facade(seed: int, options: SyntheticOptions | None = None) -> Synthetic
     built = build(layout, seed, _occluders(layout, seed, options))
     placed: list[PlacedPart] = [(to_part(built, "facade"), np.eye(4))]
     glass = mirrors(built, "facade")
-    if options.neighbours:
+    if not options.detached:
         for name, house, x_m in _neighbours(layout, seed):
             placed.append((to_part(house, name, as_other=True), _shift(x_m)))
             glass |= mirrors(house, name)
@@ -74,10 +74,8 @@ def make_facade(seed: int, options: SyntheticOptions | None = None) -> Synthetic
 def _truth(
     layout: Layout, built: BuiltFacade, placed: list[PlacedPart], camera: Camera
 ) -> FacadeTruth:
-    """Labels are cast against the place and the gapless screens of its balconies."""
-    parts = list(placed)
-    if len(built.screens.feature):
-        parts.append((to_part(built, "facade", screens=True), np.eye(4)))
+    """Labels are cast against the place and the screens of its openings and balconies."""
+    parts = [*placed, (to_part(built, "facade", screens=True), np.eye(4))]
     codes = np.concatenate([part.features.class_code for part, _ in parts])
     labels = label_image(measure(RayScene(parts), camera).feature, codes)
     return FacadeTruth(

@@ -14,7 +14,7 @@ Weather = Literal["sunny", "cloudy"]
 
 
 class SyntheticOptions(Options):
-    """What is built, and how it is photographed."""
+    """What stands in the street, and how it is photographed."""
 
     style: Style = Field(default="haussmann", description="the kind of building")
     floors: Annotated[int, Field(ge=1, le=20)] | None = Field(
@@ -24,13 +24,13 @@ class SyntheticOptions(Options):
         default=None, description="window axes; drawn from the seed if not given"
     )
     long_side_px: Annotated[int, Field(ge=64, le=8000)] = Field(
-        default=1400, description="longer side of the photo (px)"
+        default=1200, description="longer side of the photo (px)"
     )
     perspective: Perspective = Field(
         default="mild", description="how far the camera stands to the side, and how close"
     )
     weather: Weather = Field(default="sunny", description="sun and shadows, or an overcast sky")
-    neighbours: bool = Field(default=True, description="houses left and right of the facade")
+    detached: bool = Field(default=False, description="no houses left and right of the facade")
     occluders: bool = Field(default=False, description="a tree, a lamp post and a parked car")
     samples: Annotated[int, Field(ge=1, le=8)] = Field(
         default=2, description="rays per pixel and axis"

@@ -43,7 +43,7 @@ _LABEL_OF_SEMANTIC: dict[SemanticClass, Label] = {
 class TrueElement:
     """One window, door, shop or balcony.
 
-    `rect` is in facade metres; `visible` is what no balcony in front of it covers (a window's
+    `rect` is in facade metres; `visible` is what no railing hides from the camera (a window's
     upper part). `quad_px` (4, 2): the corners of `visible` in the photo, seen in the facade
     plane (upper left, upper right, lower right, lower left). `floor` is None in the roof.
     """
@@ -83,7 +83,9 @@ def facade_homography(camera: Camera) -> NDArray[np.float64]:
 def elements_of(layout: Layout, camera: Camera) -> tuple[TrueElement, ...]:
     """All windows, doors, shops and balconies of a layout, in the photo of a camera."""
     found = [
-        _element(o.class_, o.rect, _uncovered(o.rect, layout), o.floor, o.column, 0.0, camera)
+        _element(
+            o.class_, o.rect, _uncovered(o.rect, layout, camera), o.floor, o.column, 0.0, camera
+        )
         for o in layout.openings
     ]
     found += [
@@ -109,15 +111,25 @@ def _element(
     return TrueElement(label, rect, visible, floor, column, _corners_px(visible, y_m, camera))
 
 
-def _uncovered(rect: Rect, layout: Layout) -> Rect:
-    """A window without the part behind the railing of a balcony that spans it."""
+def _uncovered(rect: Rect, layout: Layout, camera: Camera) -> Rect:
+    """A window without the part that a railing hides from the camera, in the facade plane.
+
+    From below, the railing of a deep balcony hides more than what lies behind it.
+    """
     low = rect.y_m
     for balcony in layout.balconies:
         cover = balcony.rect
         spans = cover.x_m <= rect.x_m + 0.1 and cover.right_m >= rect.right_m - 0.1
         if spans and cover.y_m <= rect.y_m + 0.3 and rect.y_m < cover.top_m < rect.top_m:
-            low = max(low, cover.top_m)
+            low = max(low, _seen_height(cover.top_m, balcony.depth_m, camera))
+    low = min(low, rect.top_m)
     return Rect(rect.x_m, low, rect.width_m, rect.top_m - low)
+
+
+def _seen_height(z_m: float, depth_m: float, camera: Camera) -> float:
+    """Where, in the facade plane, one sees a point that is `depth_m` in front of it."""
+    _, y, z = camera.position_m
+    return float(z + (z_m - z) * -y / (-y - depth_m))
 
 
 def _corners_px(rect: Rect, y_m: float, camera: Camera) -> NDArray[np.float64]:

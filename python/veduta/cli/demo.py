@@ -1,0 +1,102 @@
+"""`veduta demo`: a synthetic street, rebuilt from its photo, beside the truth."""
+
+from __future__ import annotations
+
+import sys
+from typing import TYPE_CHECKING
+
+SUMMARY = "a synthetic street, rebuilt from its photo and compared with the truth"
+
+if TYPE_CHECKING:
+    from veduta.facade.compare import Comparison, Pair
+    from veduta.facade.demo import DemoRecord, DemoResult
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, make and rebuild the street, print both beside each other."""
+    from veduta.cli.arguments import parse
+    from veduta.cli.demo_call import DemoCall
+    from veduta.facade.demo import run_demo
+    from veduta.run.progress import Progress
+
+    call = parse(DemoCall, "veduta demo", arguments)
+    result = run_demo(
+        call.out, call.demo, call.street, Progress(quiet=call.quiet), force=call.force
+    )
+    if result.record is None:
+        return _tell_failure(result)
+    if not call.quiet:
+        print("\n".join(_lines(result.record, result)))
+    return 0
+
+
+def _tell_failure(result: DemoResult) -> int:
+    """Say why the photo gave no building; the exit code is that of the verb."""
+    if result.call is None:
+        return 0
+    for failure in result.call.failed.values():
+        print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
+    return result.call.exit_code
+
+
+def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
+    width, height = record.photo_px
+    again = "" if result.call else f" (was done; --force makes it anew in {result.out})"
+    return [
+        f"A {record.style} facade from seed {record.seed}{again}",
+        f"  photo     {result.out}/truth/street.jpg: {width} x {height} px, "
+        f"{record.focal_mm35:.0f} mm, from {record.distance_m:.0f} m away",
+        f"  given     {', '.join(record.given)}",
+        f"  seconds   {record.seconds_photo:.1f} for the photo, "
+        f"{record.seconds_rebuild:.1f} for the building",
+        "",
+        *_numbers(record.comparison),
+        *_windows(record.comparison),
+        "",
+        f"By eye:     {result.out}/comparison/comparison.png (photo, truth, found)",
+        f"Why:        {result.out}/place/street/report.html",
+        f"Walk in it: veduta view {result.out}/place",
+    ]
+
+
+def _numbers(comparison: Comparison) -> list[str]:
+    def row(name: str, pair: Pair, digits: int) -> str:
+        off = round(pair.found - pair.true, digits)
+        mark = f"{off:>+10.{digits}f}" if off else ""
+        return f"  {name:<10}{pair.found:>8.{digits}f}{pair.true:>8.{digits}f}{mark}"
+
+    return [
+        f"  {'':<10}{'found':>8}{'true':>8}{'off':>10}",
+        row("storeys", comparison.storeys, 0),
+        row("columns", comparison.columns, 0),
+        row("width m", comparison.width_m, 2),
+        row("height m", comparison.height_m, 2),
+        row("windows", comparison.window_count, 0),
+    ]
+
+
+def _windows(comparison: Comparison) -> list[str]:
+    windows = comparison.windows
+    lines = [
+        "",
+        f"  windows   {windows.matched} of {windows.true} found: recall {windows.recall:.2f}, "
+        f"precision {windows.precision:.2f} (IoU 0.5)",
+    ]
+    if comparison.corners_off_m:
+        lines.append(
+            f"  corners   {comparison.off_m(0.5):.2f} m off in the median, "
+            f"{comparison.off_m(0.9):.2f} m at nine of ten"
+        )
+    lines.append(
+        f"  pixels    {comparison.accuracy:.2f} right, of the {comparison.compared:.2f} "
+        "of house and sky that were kept"
+    )
+    classes = ", ".join(f"{name} {value:.2f}" for name, value in comparison.class_recall.items())
+    lines.append(f"  by class  {classes}")
+    if windows.missed:
+        lines.append(f"  missed    windows at {'; '.join(windows.missed)}")
+    if windows.elsewhere:
+        lines.append(f"  wrong     {windows.elsewhere} windows found beside the house")
+    if windows.cut_off:
+        lines.append(f"  cut off   {windows.cut_off} true windows lie outside the rectified photo")
+    return lines

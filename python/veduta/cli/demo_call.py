@@ -1,0 +1,35 @@
+"""The arguments of `veduta demo`: the street, what is known about it, and how to run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from veduta.facade.demo import DemoOptions
+from veduta.synthetic.options import SyntheticOptions
+
+Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]
+Force = Annotated[
+    bool, tyro.conf.arg(help="replace results of other options; edited files are always kept")
+]
+Quiet = Annotated[bool, tyro.conf.arg(aliases=["-q"], help="say nothing but errors")]
+
+
+@dataclass(frozen=True)
+class DemoCall:
+    """Make a street with known truth, photograph it, rebuild it from the photo, and compare.
+
+    OUT/truth has the photo, OUT/place what `veduta facade` makes of it, OUT/comparison both
+    beside each other.
+
+    Exit codes: 0 done (however well), 2 bad use, 3 no facade found, 1 a bug.
+    """
+
+    out: Out = Path("veduta-demo")
+    demo: DemoOptions = field(default_factory=DemoOptions)
+    street: SyntheticOptions = field(default_factory=SyntheticOptions)
+    force: Force = False
+    quiet: Quiet = False

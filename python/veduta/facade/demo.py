@@ -1,0 +1,177 @@
+"""A street made from a seed, its photo rebuilt by the verb, and the result beside the truth.
+
+OUT/truth has the photo and what is true about it, OUT/place is what `veduta facade` makes of the
+photo, OUT/comparison says how the two agree.
+"""
+
+from __future__ import annotations
+
+import json
+import time
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, Field
+
+from veduta.facade.batch import CallResult, run_call
+from veduta.facade.compare import Comparison, compare
+from veduta.facade.compare_picture import comparison_png, truth_png
+from veduta.facade.load import DOCUMENT, load_document
+from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
+from veduta.geometry import homography
+from veduta.run.digests import result_key
+from veduta.run.options import Options
+from veduta.run.outputs import OutFolder, Standing, open_out
+from veduta.run.progress import Progress
+from veduta.synthetic.facade import SyntheticFacade, make_facade
+from veduta.synthetic.options import SyntheticOptions
+from veduta.synthetic.truth import FacadeTruth
+
+VERSION = "1"
+TRUTH, PLACE, COMPARISON = "truth", "place", "comparison"
+PHOTO = "street.jpg"
+RECORD = "comparison.json"
+
+
+class DemoOptions(Options):
+    """Which street is made, and what its photographer is taken to know about it."""
+
+    seed: Annotated[int, Field(ge=0, lt=2**31)] = Field(
+        default=1, description="another seed is another house, street and light"
+    )
+    corners: bool = Field(
+        default=False,
+        description="name the wall's corners in the photo, to a pixel, with `--corners`",
+    )
+    unmeasured: bool = Field(
+        default=False,
+        description="leave out `--height-m` (the wall's height to 0.1 m): a storey is then 3.0 m",
+    )
+
+
+class DemoRecord(BaseModel):
+    """What the demo came to; `comparison.json`."""
+
+    model_config = ConfigDict(frozen=True, extra="forbid")
+
+    style: str
+    seed: int
+    photo_px: tuple[int, int]
+    focal_mm35: float
+    distance_m: float = Field(description="from the camera to the wall")
+    given: list[str] = Field(description="what the verb was told beside the photo")
+    comparison: Comparison
+    seconds_photo: float
+    seconds_rebuild: float
+
+
+@dataclass(frozen=True)
+class DemoResult:
+    """`record` is None where the photo gave no building; `call` (None when up to date) says why."""
+
+    out: Path
+    record: DemoRecord | None
+    call: CallResult | None = None
+
+
+def run_demo(
+    out: Path, options: DemoOptions, street: SyntheticOptions, progress: Progress, *, force: bool
+) -> DemoResult:
+    """Make the street, rebuild it from its photo, compare; the same call again is up to date."""
+    key = result_key("demo", VERSION, options, street.model_dump(mode="json"))
+    with open_out(out, "demo", key, force=force) as folder:
+        if folder.standing is Standing.UP_TO_DATE:
+            text = (out / COMPARISON / RECORD).read_text(encoding="utf-8")
+            return DemoResult(out, DemoRecord.model_validate_json(text))
+        started = time.perf_counter()
+        facade = make_facade(options.seed, street)
+        seconds_photo = time.perf_counter() - started
+        _publish_truth(folder, key, facade)
+        knowledge = what_the_user_knows(facade, options)
+        started = time.perf_counter()
+        photo = out / TRUTH / PHOTO
+        call = run_call([photo], out / PLACE, knowledge, progress, force=force)
+        seconds_rebuild = time.perf_counter() - started
+        if call.failed:
+            return DemoResult(out, None, call)
+        document = load_document(out / PLACE / photo.stem / DOCUMENT)
+        record = DemoRecord(
+            style=facade.truth.style,
+            seed=options.seed,
+            photo_px=(facade.camera.width_px, facade.camera.height_px),
+            focal_mm35=round(facade.camera.focal_mm35),
+            distance_m=round(-float(facade.camera.position_m[1]), 2),
+            given=_given(options),
+            comparison=compare(document, facade.truth),
+            seconds_photo=round(seconds_photo, 2),
+            seconds_rebuild=round(seconds_rebuild, 2),
+        )
+        work = folder.work_folder(COMPARISON)
+        (work / RECORD).write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
+        (work / "comparison.png").write_bytes(comparison_png(facade.photo, facade.truth, document))
+        folder.publish(COMPARISON, key, work)
+        folder.finish()
+        return DemoResult(out, record, call)
+
+
+def what_the_user_knows(facade: SyntheticFacade, options: DemoOptions) -> FacadeOptions:
+    """What a person with the photo in hand would type; nothing else of the truth is used."""
+    rectify, scale = RectifyOptions(), ScaleOptions()
+    if options.corners:
+        truth = facade.truth
+        wall = [
+            [0.0, truth.height_m],
+            [truth.width_m, truth.height_m],
+            [truth.width_m, 0.0],
+            [0.0, 0.0],
+        ]
+        clicked = np.rint(homography.apply(truth.photo_from_facade, np.array(wall))).ravel()
+        rectify = RectifyOptions.model_validate({"corners": clicked.tolist()})
+    if not options.unmeasured:
+        scale = ScaleOptions(height_m=round(facade.truth.height_m, 1))
+    return FacadeOptions(rectify=rectify, scale=scale)
+
+
+def _given(options: DemoOptions) -> list[str]:
+    given = ["the focal length (EXIF)"]
+    if not options.unmeasured:
+        given.append("the height of the wall to 0.1 m")
+    if options.corners:
+        given.append("the corners of the wall to a pixel")
+    return given
+
+
+def _publish_truth(folder: OutFolder, key: str, facade: SyntheticFacade) -> None:
+    work = folder.work_folder(TRUTH)
+    (work / PHOTO).write_bytes(facade.jpeg)
+    (work / "labels.png").write_bytes(truth_png(facade.truth))
+    (work / "truth.json").write_text(_truth_json(facade.truth), encoding="utf-8")
+    folder.publish(TRUTH, key, work)
+
+
+def _truth_json(truth: FacadeTruth) -> str:
+    elements = [
+        {
+            "class": element.label,
+            "floor": element.floor,
+            "column": element.column,
+            "x_m": element.rect.x_m,
+            "y_m": element.rect.y_m,
+            "width_m": element.rect.width_m,
+            "height_m": element.rect.height_m,
+            "visible_corners_px": element.quad_px.round(3).tolist(),
+        }
+        for element in truth.elements
+    ]
+    content = {
+        "style": truth.style,
+        "width_m": truth.width_m,
+        "height_m": truth.height_m,
+        "storeys": truth.storeys,
+        "columns": truth.columns,
+        "photo_from_facade": truth.photo_from_facade.tolist(),
+        "elements": elements,
+    }
+    return json.dumps(content, indent=1) + "\n"
