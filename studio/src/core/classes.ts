@@ -44,7 +44,7 @@ export const PROVENANCE_LOOKS: Readonly<Record<Provenance, ProvenanceLook>> = {
   },
   invented: {
     label: "Invented",
-    meaning: "Nothing in the photo shows it. It was added to complete the building.",
+    meaning: "Nothing in the photo shows it. It was added, or painted in, to complete the building.",
     colour: "#c2487a",
   },
 };

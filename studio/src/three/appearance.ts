@@ -3,9 +3,10 @@ import type { DataTexture } from "three";
 import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
 import type { Feature } from "../core/features.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
-import { addTint, setTint, showRows, tintTexture } from "./feature-mesh.ts";
+import { setTint, showRows, tintTexture } from "./feature-mesh.ts";
 import type { LoadedPart } from "./load.ts";
 import { ACCENT, Outline } from "./outline.ts";
+import { addTint } from "./tinted-material.ts";
 
 const SELECTED_STRENGTH = 0.34;
 const COLOURING_STRENGTH = 0.78;
@@ -14,6 +15,7 @@ export class Appearance {
   readonly outline = new Outline();
   readonly #parts: readonly LoadedPart[];
   readonly #tints: readonly DataTexture[];
+  readonly #maskStrength = { value: 0 };
 
   constructor(parts: readonly LoadedPart[]) {
     this.#parts = parts;
@@ -22,12 +24,16 @@ export class Appearance {
       const tints = this.#tints[index];
       if (tints === undefined) continue;
       for (const { mesh } of part.meshes) {
-        for (const material of [mesh.material].flat()) addTint(material, tints);
+        for (const material of [mesh.material].flat()) {
+          const mask = part.masks.get(material) ?? null;
+          addTint(material, { tints, mask, maskStrength: this.#maskStrength });
+        }
       }
     }
   }
 
   tint(state: StudioState): void {
+    this.#maskStrength.value = state.colouring === "provenance" ? 1 : 0;
     for (const [index, part] of this.#parts.entries()) {
       const tints = this.#tints[index];
       if (tints === undefined) continue;

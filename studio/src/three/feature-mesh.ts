@@ -2,7 +2,6 @@
 import {
   BufferAttribute,
   DataTexture,
-  type Material,
   type Mesh,
   NearestFilter,
   RGBAFormat,
@@ -14,7 +13,7 @@ import { Fault } from "../core/fault.ts";
 
 /** GLTFLoader writes the names of custom attributes in lower case. */
 const FEATURE_ATTRIBUTE = "_feature_id_0";
-const TINT_WIDTH = 256;
+export const TINT_WIDTH = 256;
 
 export interface FeatureMesh {
   readonly mesh: Mesh;
@@ -103,38 +102,4 @@ export function setTint(texture: DataTexture, row: number, colour: string, stren
   data[4 * row + 2] = value & 255;
   data[4 * row + 3] = Math.round(255 * strength);
   texture.needsUpdate = true;
-}
-
-/** The tint keeps a part of the surface's own light and dark, so that shapes stay readable. */
-export function addTint(material: Material, tints: DataTexture): void {
-  material.onBeforeCompile = (shader) => {
-    shader.uniforms.tints = { value: tints };
-    shader.vertexShader = shader.vertexShader
-      .replace(
-        "#include <common>",
-        `#include <common>
-        attribute float featureRow;
-        uniform sampler2D tints;
-        varying vec4 vTint;`,
-      )
-      .replace(
-        "#include <begin_vertex>",
-        `#include <begin_vertex>
-        int row = int(featureRow + 0.5);
-        vTint = texelFetch(tints, ivec2(row % ${TINT_WIDTH}, row / ${TINT_WIDTH}), 0);`,
-      );
-    shader.fragmentShader = shader.fragmentShader
-      .replace(
-        "#include <common>",
-        `#include <common>
-        varying vec4 vTint;`,
-      )
-      .replace(
-        "#include <color_fragment>",
-        `#include <color_fragment>
-        float ownLight = sqrt(dot(diffuseColor.rgb, vec3(0.2126, 0.7152, 0.0722)));
-        diffuseColor.rgb = mix(diffuseColor.rgb, vTint.rgb * (0.45 + 0.75 * ownLight), vTint.a);`,
-      );
-  };
-  material.customProgramCacheKey = () => "veduta-tint";
 }

@@ -1,18 +1,20 @@
 /** From the place to parts that can be drawn. */
 import { Group, Mesh, Texture } from "three";
-import { GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, type Part, type Place } from "../core/place.ts";
 import { fetchBytes } from "./fetch.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
+import { loadMasks, type Masks } from "./invented-mask.ts";
 
 export interface LoadedPart {
   readonly part: Part;
   readonly table: FeatureTable;
   readonly group: Group;
   readonly meshes: readonly FeatureMesh[];
+  readonly masks: Masks;
 }
 
 /** `share` in 0..1 of all parts; `file` is the one in hand. */
@@ -43,7 +45,8 @@ export async function loadParts(
 
 async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   checkContainer(bytes, part.model);
-  const scene = await parse(bytes, part.model);
+  const gltf = await parse(bytes, part.model);
+  const { scene } = gltf;
   const extras = scene.userData as { veduta?: { features?: unknown } };
   const table = readFeatureTable(extras.veduta?.features, part.model);
   const group = new Group();
@@ -58,7 +61,8 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   });
   if (meshes.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const { mesh } of meshes) sharpenTextures(mesh);
-  return { part, table, group, meshes };
+  const masks = await named(part.model, () => loadMasks(gltf, meshes.map(({ mesh }) => mesh)));
+  return { part, table, group, meshes, masks };
 }
 
 /** The loader trusts the lengths in the file; a truncated one must not reach it. */
@@ -77,10 +81,14 @@ function checkContainer(bytes: ArrayBuffer, file: string): void {
   }
 }
 
-async function parse(bytes: ArrayBuffer, file: string): Promise<Group> {
+async function parse(bytes: ArrayBuffer, file: string): Promise<GLTF> {
+  return await named(file, () => new GLTFLoader().parseAsync(bytes, ""));
+}
+
+/** What the loader throws, said about the file. */
+async function named<T>(file: string, read: () => Promise<T>): Promise<T> {
   try {
-    const gltf = await new GLTFLoader().parseAsync(bytes, "");
-    return gltf.scene;
+    return await read();
   } catch (error) {
     const words = error instanceof Error ? error.message : String(error);
     throw new Fault(file, `the model is broken (${words})`, REMEDY);

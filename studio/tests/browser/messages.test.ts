@@ -1,5 +1,6 @@
 import { readFileSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
+import { pathToFileURL } from "node:url";
 import type { Browser } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { launch, MISSING } from "./chromium.ts";
@@ -70,6 +71,14 @@ describe.skipIf(MISSING !== null)("what the studio says when it cannot show a pl
 
   it("refuses a place from another server", async () => {
     expect(await card("/?place=http://127.0.0.1:9/place.json")).toContain("only from the server");
+  });
+
+  it("asks for a web server when it is opened from the disk", async () => {
+    const page = await (await browser.newContext()).newPage();
+    await page.goto(pathToFileURL(join(site.folder, "index.html")).href);
+    expect(await page.getByRole("main").textContent()).toContain("python3 -m http.server");
+    expect(await stateOf(page)).toBe("error");
+    await page.context().close();
   });
 
   it("says so when there is no WebGL, and what to do", async () => {

@@ -92,6 +92,8 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     await settled(page);
     const wall = await look(page, around(await project(page, [0.5, 0, 2])));
     expect(wall.mean[2]).toBeGreaterThan(wall.mean[0] + 30);
+    const painted = await look(page, around(await project(page, [10.2, 0, 0.35]), 6));
+    expect(painted.mean[0]).toBeGreaterThan(painted.mean[2] + 10);
     const side = await look(page, around(await project(page, [0, 4, 6])));
     expect(side.mean[0]).toBeGreaterThan(side.mean[2] + 10);
     expect(await page.locator("veduta-layers .legend").textContent()).toContain("Invented");
