@@ -100,15 +100,16 @@ test-rust: $(PACKAGES)
 	@scripts/need cargo
 	@$(STAGE) "cargo test" cargo test --quiet --locked --workspace --exclude veduta-py
 
+# Chromium is brought here where it is missing and may be; without it only its tests are skipped.
 test-python: setup $(CJVAL)
-	@$(STAGE) "pytest" $(PY) -m pytest
+	@export CHROMIUM=$$(scripts/need chromium || true); $(STAGE) "pytest" $(PY) -m pytest
 
 test-studio: $(NODE_PACKAGES)
 	@cd studio && ../$(STAGE) "vitest" npm run --silent test
 
 test-browser: setup
-	@if chromium=$$(scripts/need chromium); then \
-		cd studio && CHROMIUM="$$chromium" ../$(STAGE) "browser tests" npm run --silent test:browser; \
+	@if CHROMIUM=$$(scripts/need chromium); then export CHROMIUM; \
+		cd studio && ../$(STAGE) "browser tests" npm run --silent test:browser; \
 	else echo "== browser tests: SKIPPED, there is no Chromium (see above)" >&2; fi
 
 bench: setup ## speed, memory and accuracy tables; dated results go to benchmarks/results

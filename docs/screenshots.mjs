@@ -1,0 +1,68 @@
+// Pictures of the studio: node docs/screenshots.mjs ADDRESS CHROMIUM FOLDER
+// Writes outside.png (the whole building), picked.png (a window selected), walking.png, and bare.png
+// (the building without the panels, cut to a portrait).
+import { createRequire } from "node:module";
+import { join } from "node:path";
+
+const require = createRequire(new URL("../studio/package.json", import.meta.url));
+const { chromium } = require("playwright-core");
+const [address, executablePath, folder] = process.argv.slice(2);
+const FLIGHT_MS = 2500;
+
+const browser = await chromium.launch({ executablePath, args: ["--no-sandbox"] });
+try {
+  const page = await browser.newPage({ viewport: { width: 1360, height: 850 } });
+  await page.goto(address);
+  await page.waitForSelector("html[data-veduta=ready]", { timeout: 60_000 });
+  // The frame that shows the keyboard's focus belongs to a person at the keyboard, not in a picture.
+  await page.evaluate(() => {
+    const studio = document.querySelector("veduta-studio");
+    studio.shadowRoot.querySelector("canvas").style.outline = "none";
+  });
+  const shoot = async (name) => {
+    await page.waitForTimeout(FLIGHT_MS);
+    await page.screenshot({ path: join(folder, name) });
+  };
+  await page.mouse.move(10, 840);
+  await shoot("outside.png");
+
+  const window = await page.evaluate(() => {
+    const middle = [innerWidth / 2, innerHeight / 2];
+    let best = null;
+    for (let y = 150; y < 650; y += 6) {
+      for (let x = 330; x < 1000; x += 6) {
+        const off = Math.hypot(x - middle[0] - 60, y - middle[1]);
+        const hit = best === null || off < best.off ? globalThis.veduta.under(x, y) : null;
+        if (hit?.feature.class === "window") best = { x, y, off };
+      }
+    }
+    return best;
+  });
+  if (window === null) throw new Error("no window to pick in the picture");
+  await page.mouse.click(window.x, window.y);
+  await page.mouse.move(10, 840);
+  await page.keyboard.press("KeyR"); // the whole building again, beside the panel
+  await shoot("picked.png");
+
+  await page.keyboard.press("Escape");
+  await page.keyboard.press("KeyL");
+  await page.keyboard.press("Digit2");
+  await page.keyboard.press("KeyR");
+  await page.waitForTimeout(FLIGHT_MS);
+  await page.keyboard.down("PageUp");
+  await page.waitForTimeout(150);
+  await page.keyboard.up("PageUp");
+  await shoot("walking.png");
+
+  await page.setViewportSize({ width: 700, height: 850 });
+  await page.keyboard.press("Digit1");
+  await page.keyboard.press("KeyR");
+  await page.waitForTimeout(FLIGHT_MS);
+  await page.evaluate(() => {
+    const studio = document.querySelector("veduta-studio");
+    for (const part of studio.shadowRoot.querySelectorAll(".sheet, .hint")) part.style.display = "none";
+  });
+  await page.screenshot({ path: join(folder, "bare.png") });
+} finally {
+  await browser.close();
+}
