@@ -236,7 +236,7 @@ export class Viewer {
 
   #advance(seconds: number): boolean {
     if (this.#flight !== null) {
-      if (this.#flight.advance(this.#camera, Math.min(seconds, 0.1))) this.#flight = null;
+      if (this.#flight.advance(this.#camera, Math.min(seconds, 0.35))) this.#flight = null;
       return true;
     }
     const turn = turnOf(this.#held);

@@ -67,6 +67,11 @@ describe("the pace", () => {
     expect(sharpnessOf(after(200, 1 / 60, slow))).toBe(1);
   });
 
+  it("goes straight to the fewest pixels where there is no graphics card", () => {
+    expect(sharpnessOf(after(3, 0.5))).toBe(0.4);
+    expect(sharpnessOf(after(3, 0.07))).toBe(0.75);
+  });
+
   it("does not waver in between", () => {
     const settled = after(100, 1 / 30, after(8, 0.2));
     expect(after(100, 1 / 30, settled).level).toBe(settled.level);
