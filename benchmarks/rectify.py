@@ -177,7 +177,8 @@ def _render(photo: Photo, background: str, rng: np.random.Generator) -> View:
     else:
         facade_from_view = _whole_in_view(camera, (width, height), view_size)
         judged = homography.apply(
-            np.linalg.inv(facade_from_view), polygon.rectangle(0, 0, width, height)
+            np.asarray(np.linalg.inv(facade_from_view), np.float64),
+            polygon.rectangle(0, 0, width, height),
         )
     pixels = _painted(photo.pixels, facade_from_view, view_size, background, rng)
     rendered = replace(photo, pixels=pixels, focal_mm35=None, focal_px=None)
@@ -229,25 +230,31 @@ def _painted(
     mask = cv2.warpPerspective(ones, matrix, view_size, flags=cv2.INTER_LINEAR)[:, :, None]
     behind = np.full_like(warped, 128)
     if background == "noise":
-        noise = cv2.GaussianBlur(rng.normal(0, 1, warped.shape), (0, 0), 2.0)
+        noise = cv2.GaussianBlur(np.asarray(rng.normal(0, 1, warped.shape)), (0, 0), 2.0)
         behind = np.clip(128 + 180 * noise, 0, 255).astype(np.uint8)
     return np.asarray((warped * (mask / 255) + behind * (1 - mask / 255)).round(), np.uint8)
 
 
 def _camera_row(views: list[View], known: bool) -> dict[str, float]:
-    corners, uniform, aspects, failed = [], [], [], 0
+    corners: list[float] = []
+    uniform: list[float] = []
+    aspects: list[float] = []
+    failed = 0
     for view in views:
         options = RectifyOptions(focal_mm35=view.focal_mm35 if known else None)
         try:
             found = rectify(view.photo, options)
         except NotFoundError:
             failed += 1
-            corners.append(np.inf), uniform.append(np.inf), aspects.append(np.inf)
+            for errors in (corners, uniform, aspects):
+                errors.append(np.inf)
             continue
         estimate = homography.apply(np.array(found.record.rectified_from_source), view.judged_px)
         truth = homography.apply(view.facade_from_view, view.judged_px)
-        errors = compared(estimate, truth)
-        corners.append(errors[0]), uniform.append(errors[1]), aspects.append(errors[2])
+        for errors, error in zip(
+            (corners, uniform, aspects), compared(estimate, truth), strict=True
+        ):
+            errors.append(error)
     return {
         "corners <= 1 %": float(np.mean(np.array(corners) <= 0.01)),
         "corners median %": 100 * float(np.median(corners)),

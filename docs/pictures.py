@@ -49,7 +49,7 @@ def main() -> None:
 def _photograph(place: Path, shots: Path) -> None:
     """Serve the place and take the studio's pictures of it."""
     chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or "/usr/bin/chromium"
-    command = [VEDUTA, "view", place, "--no-browser"]
+    command = [str(VEDUTA), "view", str(place), "--no-browser"]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
             line = server.stdout.readline() if server.stdout else ""
@@ -66,9 +66,9 @@ def _beside(*paths: Path) -> Image.Image:
     """Return the pictures side by side on white, each HEIGHT_PX high."""
     scaled = []
     for path in paths:
-        with Image.open(path) as image:
-            width = round(image.width * HEIGHT_PX / image.height)
-            scaled.append(image.convert("RGB").resize((width, HEIGHT_PX), Image.Resampling.LANCZOS))
+        with Image.open(path) as file:
+            width = round(file.width * HEIGHT_PX / file.height)
+            scaled.append(file.convert("RGB").resize((width, HEIGHT_PX), Image.Resampling.LANCZOS))
     total = sum(image.width for image in scaled) + GAP_PX * (len(scaled) - 1)
     strip = Image.new("RGB", (total, HEIGHT_PX), "white")
     x = 0
