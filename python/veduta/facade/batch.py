@@ -169,7 +169,7 @@ def _process(
         Task(
             source.name,
             Job(source, options, folder.work_folder(source.name), step),
-            memory_of(source),
+            memory_of(source, options.rectify),
         )
         for source in waiting
     ]

@@ -82,7 +82,7 @@ def test_a_dead_worker_is_named_and_the_rest_go_on() -> None:
     assert sorted(o.value for o in outcomes.values() if o.value is not None) == [0, 1, 3, 4]
 
 
-@pytest.mark.parametrize(("memory", "most"), [(0, 2), (800 * 1024**2, 1)])
+@pytest.mark.parametrize(("memory", "most"), [(0, 2), (900 * 1024**2, 1)])
 def test_memory_bounds_how_many_work_at_once(tmp_path: Path, memory: int, most: int) -> None:
     work = [Task(str(index), str(tmp_path), memory) for index in range(6)]
     together = [o.value for o in run_tasks(slow, work, jobs=2)]
