@@ -1,6 +1,7 @@
 /** Sun, sky and ground: calm daylight that leaves the photo's colours as they are. */
 import {
   BackSide,
+  type Box3,
   Color,
   DirectionalLight,
   Group,
@@ -41,7 +42,8 @@ export interface Scenery {
   follow(camera: { readonly position: Vector3 }): void;
 }
 
-export function makeScenery(bounds: Box, footprints: readonly Box[]): Scenery {
+/** `footprints` are the boxes of the buildings in the drawn frame. */
+export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
   const group = new Group();
   const sky = makeSky();
   const sun = makeSun(bounds);
@@ -122,12 +124,10 @@ function makeSun(bounds: Box): DirectionalLight {
   return sun;
 }
 
-function makeGround(footprints: readonly Box[]): Mesh {
-  const boxes = footprints.slice(0, MOST_FOOTPRINTS).map((box) => {
-    const [x0, , z0] = drawnFromWorld(box.min);
-    const [x1, , z1] = drawnFromWorld(box.max);
-    return new Vector4(Math.min(x0, x1), Math.min(z0, z1), Math.max(x0, x1), Math.max(z0, z1));
-  });
+function makeGround(footprints: readonly Box3[]): Mesh {
+  const boxes = footprints
+    .slice(0, MOST_FOOTPRINTS)
+    .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
   const material = new ShaderMaterial({
     defines: { FOOTPRINTS: boxes.length },
     uniforms: {

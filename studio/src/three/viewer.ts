@@ -1,5 +1,6 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import {
+  Box3,
   NeutralToneMapping,
   PCFShadowMap,
   PerspectiveCamera,
@@ -77,7 +78,7 @@ export class Viewer {
     this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
     this.solid = new Solid(soupOf(parts));
-    const footprints = parts.map((part) => new Solid(soupOf([part])).bounds);
+    const footprints = parts.map(({ group }) => new Box3().setFromObject(group));
     this.#scenery = makeScenery(this.solid.bounds, footprints);
     this.#appearance = new Appearance(parts);
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
