@@ -235,7 +235,8 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
         write_place(arrange(placed), work / "place.json")
     notes = [f"{name}/ is left from an earlier call" for name in result.left]
     notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
-    report, page = call_report(options, result.summaries, list(result.failures.values()), notes)
+    failures = list(result.failures.values())
+    report, page = call_report(folder.path, options, result.summaries, failures, notes)
     (work / "report.json").write_bytes(report.to_json())
     (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)

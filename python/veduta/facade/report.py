@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
@@ -17,11 +18,15 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
+from veduta.imaging.read import read_image
+from veduta.run.errors import InputError
 from veduta.run.options import Options
 from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord
 
 THUMBNAIL_PX = 1000
+SMALL_PX = 420
+MAX_THUMBNAILS = 60
 FILES = (
     ("facade.json", "everything that was found; edit it and rebuild"),
     ("rectified.jpg", "the fronto-parallel photo"),
@@ -79,6 +84,7 @@ def failure_report(
 
 
 def call_report(
+    out: Path,
     options: Options,
     summaries: Mapping[str, Mapping[str, JsonValue]],
     failures: Sequence[Failure],
@@ -109,6 +115,7 @@ def call_report(
     page = Page(
         title=f"{total} {'image' if total == 1 else 'images'}",
         summary=f"{len(summaries)} of {total} became buildings.",
+        pictures=_thumbnails(out, list(summaries)),
         tables=[table] if summaries else [],
         files=(("place.json", "the buildings as one place"),) if summaries else (),
     )
@@ -175,6 +182,22 @@ def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Pic
     image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
     image.save(file, format="JPEG", quality=85)
     return Picture(title, note, file.getvalue(), "image/jpeg", link)
+
+
+def _thumbnails(out: Path, names: Sequence[str]) -> list[Picture]:
+    """A small overlay of each of the first images, that leads to its report."""
+    pictures = []
+    for name in names[:MAX_THUMBNAILS]:
+        try:
+            image = Image.fromarray(read_image(out / name / "overlay.png").pixels)
+        except InputError:
+            continue  # somebody has put something else in its place
+        image.thumbnail((SMALL_PX, SMALL_PX))
+        file = io.BytesIO()
+        image.save(file, format="JPEG", quality=80)
+        link = f"{quote(name)}/report.html"
+        pictures.append(Picture(name, "", file.getvalue(), "image/jpeg", link))
+    return pictures
 
 
 def _elements(document: FacadeDocument) -> Table:

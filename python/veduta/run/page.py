@@ -81,11 +81,11 @@ def render(report: Report, page: Page) -> bytes:
 
 
 def _figure(value: object) -> str:
-    """A number as a person writes it: four digits that count; None as a dash."""
+    """A number as a person writes it: two decimals, or three digits that count; None as a dash."""
     if value is None:
         return "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
     if isinstance(value, float):
-        return f"{value:,.0f}" if abs(value) >= 1000 else f"{value:.4g}"
+        return f"{value:,.2f}" if abs(value) >= 1 or value == 0 else f"{value:.3g}"
     return f"{value:,}" if isinstance(value, int) else str(value)
