@@ -6,6 +6,8 @@ scopes are in facade metres.
 
 from __future__ import annotations
 
+from itertools import pairwise
+
 from veduta.facade.document import (
     DerivationNode,
     Element,
@@ -27,7 +29,7 @@ def rule_parameters(
     rows: list[float], ridge: float, facade: FacadeBox, elements: list[Element], m: float
 ) -> RuleParameters:
     """Sizes (metres) of the splits. `rows` are the boundaries, eaves first (rectified pixels)."""
-    heights = [(b - a) * m for a, b in zip(rows[:-1], rows[1:], strict=True)]
+    heights = [(b - a) * m for a, b in pairwise(rows)]
     ground = (facade.y_px + facade.height_px - rows[-1]) * m
     above = len(heights)
     return RuleParameters(
