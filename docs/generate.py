@@ -14,6 +14,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 from pydantic import BaseModel
 
+from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
@@ -55,6 +56,8 @@ def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
 def _takes(schema: dict[str, Any]) -> str:
     if schema.get("type") == "array":
         return f"{schema['minItems']} numbers"
+    if "enum" in schema:
+        return ", ".join(f"`{value}`" for value in schema["enum"])
     bounds = [text.format(schema[key]) for key, text in _BOUNDS.items() if key in schema]
     return " ".join([_KINDS[schema["type"]], ", ".join(bounds)]).strip()
 
@@ -102,6 +105,7 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
+    "demo.md": {"options": lambda: options_table(DemoCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),
         "files": files_table,
