@@ -21,6 +21,7 @@ Glazed = NDArray[np.uint8]
 WindowKind = Literal["casement", "sash", "fixed", "tilt"]
 Interior = Literal["dark", "sheer", "drapes", "blind"]
 PANE_PX_PER_M = 110.0
+SHOP_SIGNS = ("BOULANGERIE", "LIBRAIRIE", "PHARMACIE", "FLEURISTE", "EPICERIE", "TABAC")
 
 
 @dataclass(frozen=True)
@@ -177,30 +178,37 @@ def shop_front(
 
 
 def _goods(rng: np.random.Generator, display: NDArray[np.float32]) -> None:
+    """A dim, warm room behind the glass, with two lines of small things on show."""
     h, w = display.shape[:2]
-    glow = 0.16 + 0.16 * (1.0 - np.arange(h, dtype=np.float32) / h)
-    display[..., :3] = glow[:, None, None] * np.array([1.1, 1.0, 0.85], np.float32)
-    display[..., 3] = 0.85
-    for _ in range(9):
-        bw, bh = rng.uniform(0.08, 0.25) * w, rng.uniform(0.05, 0.3) * h
-        x0 = round(rng.uniform(0, max(1.0, w - bw)))
-        y1 = round(h * rng.choice([0.55, 0.8, 1.0]))
-        grey = float(rng.uniform(0.12, 0.6))
-        colour = np.clip(grey + 0.07 * rng.standard_normal(3), 0.05, 0.8)
-        display[max(0, round(y1 - bh)) : y1, x0 : round(x0 + bw), :3] = colour
+    glow = 0.09 + 0.12 * np.exp(-np.arange(h, dtype=np.float32) / (0.35 * h))
+    display[..., :3] = glow[:, None, None] * np.array([1.15, 1.0, 0.8], np.float32)
+    display[..., 3] = 1.0
+    for shelf, tallest in ((0.72, 0.10), (0.99, 0.16)):
+        base = round(shelf * h)
+        display[base - 2 : base, :, :3] = (0.24, 0.20, 0.15)
+        at = float(rng.uniform(0.0, 0.1)) * w
+        while at < 0.92 * w:
+            wide, high = (
+                float(rng.uniform(0.05, 0.13)) * w,
+                float(rng.uniform(0.4, 1)) * tallest * h,
+            )
+            grey = float(rng.uniform(0.12, 0.42))
+            colour = np.clip(grey * (1 + 0.18 * rng.standard_normal(3)), 0.04, 0.7)
+            display[round(base - 2 - high) : base - 2, round(at) : round(at + wide), :3] = colour
+            at += wide * float(rng.uniform(1.1, 2.2))
 
 
 def _sign(rng: np.random.Generator, board: NDArray[np.float32], colour: Colour) -> None:
-    """A lettered board; the letters are strokes that spell nothing."""
+    """A lettered board."""
     h, w = board.shape[:2]
     board[..., :3] *= 0.8
-    letters = int(rng.integers(5, 10))
-    pitch = min(0.75 * h, 0.8 * w / letters)
-    start = (w - pitch * letters) / 2
+    word = SHOP_SIGNS[int(rng.integers(len(SHOP_SIGNS)))]
+    font, thickness = cv2.FONT_HERSHEY_COMPLEX, 2
+    (width, height), _ = cv2.getTextSize(word, font, 1.0, thickness)
+    size = min(0.62 * h / height, 0.8 * w / width)
     canvas = np.zeros((h, w), np.uint8)
-    for i in range(letters):
-        ends = rng.uniform([0.1, 0.2], [0.8, 0.8], (4, 2)) * [pitch, h] + [start + i * pitch, 0]
-        cv2.polylines(canvas, [np.rint(ends).astype(np.int32)], False, 255, 3, cv2.LINE_AA)
+    corner = (round((w - size * width) / 2), round((h + size * height) / 2))
+    cv2.putText(canvas, word, corner, font, size, 255, thickness, cv2.LINE_AA)
     ink = (canvas.astype(np.float32) / 255.0)[..., None]
     board[..., :3] = board[..., :3] * (1.0 - ink) + np.asarray(colour, np.float32) * ink
 

@@ -81,16 +81,15 @@ def _camera_at(
 
 
 def _in_frame(layout: Layout, camera: Camera) -> bool:
-    """Whether ground, eaves and ridge lie within the frame, with a margin of 4 %."""
+    """Whether ground, eaves, ridge and chimneys lie within the frame, with a margin of 3 %."""
     top, run = layout.height_m + layout.roof.rise_m, layout.roof.run_m
-    corners = np.array(
-        [
-            [x, y, z]
-            for x in (0.0, layout.width_m)
-            for y, z in ((0.0, -0.3), (0.0, layout.height_m), (run, top))
-        ]
-    )
-    pixels, depth = camera.project(corners)
-    margin = 0.04 * min(camera.width_px, camera.height_px)
+    corners = [
+        (x, y, z)
+        for x in (0.0, layout.width_m)
+        for y, z in ((0.0, -0.3), (0.0, layout.height_m), (run, top))
+    ]
+    corners += [(c.x_m, c.back_m, c.y_m + c.height_m + 0.4) for c in layout.roof.chimneys]
+    pixels, depth = camera.project(np.array(corners))
+    margin = 0.03 * min(camera.width_px, camera.height_px)
     inside = (pixels > margin) & (pixels < np.array([camera.width_px, camera.height_px]) - margin)
     return bool(np.all(depth > 0.5) and np.all(inside))
