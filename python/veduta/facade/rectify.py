@@ -231,4 +231,4 @@ def _render(
         focal_px=focal_px,
         residual_deg=residual_deg,
     )
-    return Rectified(pixels=pixels, record=record, valid=valid, notes=photo.notes + notes)
+    return Rectified(pixels=pixels, record=record, valid=valid, notes=notes)
