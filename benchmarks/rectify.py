@@ -32,6 +32,7 @@ from veduta.run.errors import NotFoundError
 
 DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[2] / "shared" / "data"))
 BOUND_DEG = 1.0
+CORNERS_BOUND = 0.9
 LENGTHS_PX = (0, 20, 30, 60)
 JUDGED_LENGTH_PX = 30
 """The shortest segment whose own direction is known better than the bound (end noise 0.5 px)."""
@@ -120,7 +121,7 @@ class View:
     facade_from_view: Matrix
     judged_px: NDArray[np.float64]
     focal_mm35: float
-    yaw_deg: float
+    own_from_facade: Matrix
 
 
 def cameras(views: int) -> None:
@@ -130,16 +131,25 @@ def cameras(views: int) -> None:
         "cmp": sorted((DATA / "facades/cmp").glob("**/*.jpg")),
     }
     rows: list[Row] = []
+    pooled: dict[tuple[str, bool], list[NDArray[np.float64]]] = {}
     for set_name, paths in sets.items():
         rng = np.random.default_rng(7)
         chosen = [paths[i] for i in rng.choice(len(paths), size=views, replace=views > len(paths))]
-        rows.append({"set": set_name, "background": "(as given)", **_as_given_row(chosen)})
+        pictures = [read_image(path) for path in chosen]
+        owns = [_own_rectification(picture) for picture in pictures]
+        as_given = [_as_given(*pair) for pair in zip(pictures, owns, strict=True)]
+        rows.append(_row(set_name, "(as given)", False, _measured(as_given, False)))
         for background in ("noise", "plain", "inside"):
-            rendered = [_render(read_image(path), background, rng) for path in chosen]
+            rendered = [
+                _render(picture, own, background, rng)
+                for picture, own in zip(pictures, owns, strict=True)
+            ]
             for known in (True, False):
-                focal = "known" if known else "unknown"
-                row = _camera_row(rendered, known)
-                rows.append({"set": set_name, "background": background, "focal": focal, **row})
+                measured = _measured(rendered, known)
+                pooled.setdefault((background, known), []).append(measured)
+                rows.append(_row(set_name, background, known, measured))
+    for (background, known), parts in pooled.items():
+        rows.append(_row("both", background, known, np.vstack(parts)))
     notes = [
         f"{views} pictures of each set, drawn at random; yaw to 45, pitch to 25, roll to 8 "
         "degrees, focal length 24 to 50 mm (35 mm equivalent), all uniform; one view each.",
@@ -151,11 +161,33 @@ def cameras(views: int) -> None:
         "is judged by itself); `uniform`: after the best shift and one scale.",
         "as given: the pictures themselves, unturned, focal length unknown: what is 'off' here is "
         "mostly in the sets' own rectification, which is taken for the truth.",
+        "own lines: the corners against the rectification found for the unturned picture instead "
+        "of the picture's own frame: what turning it adds, without the sets' own errors.",
     ]
-    record("rectify-cameras", rows, notes)
+    record("rectify-cameras", rows, [*notes, *_bounds(rows)])
 
 
-def _render(photo: Photo, background: str, rng: np.random.Generator) -> View:
+def _bounds(rows: list[Row]) -> list[str]:
+    """Which rows reach the bounds: corners in 90 % of the views, aspect with a known focal."""
+    turned = [row for row in rows if row["background"] != "(as given)"]
+    missed = [
+        f"{row['set']} {row['background']} {row['focal']} {float(row['corners <= 1 %'] or 0):.2f}"
+        for row in turned
+        if float(row["corners <= 1 %"] or 0) < CORNERS_BOUND
+    ]
+    aspects = [float(row["aspect <= 5 %"] or 0) for row in turned if row["focal"] == "known"]
+    reason = (
+        "Pictures of cmp that are off by more than 1 % before they are turned (as given), and "
+        "their slanted frame lines, are most of what is missing there."
+    )
+    return [
+        f"Bound 'corners within 1 % in {CORNERS_BOUND:.0%} of the views' missed by: "
+        + (", ".join(missed) + f". {reason}" if missed else "none."),
+        f"Aspect within 5 % with a known focal length: in {min(aspects):.0%} of the views or more.",
+    ]
+
+
+def _render(photo: Photo, own: Matrix, background: str, rng: np.random.Generator) -> View:
     """A random view of a picture as a flat wall: 1200 px wide or high, the picture filling it."""
     height, width = photo.pixels.shape[:2]
     landscape = rng.random() < 0.5
@@ -182,7 +214,7 @@ def _render(photo: Photo, background: str, rng: np.random.Generator) -> View:
         )
     pixels = _painted(photo.pixels, facade_from_view, view_size, background, rng)
     rendered = replace(photo, pixels=pixels, focal_mm35=None, focal_px=None)
-    return View(rendered, facade_from_view, judged, focal_mm35, float(np.rad2deg(yaw)))
+    return View(rendered, facade_from_view, judged, focal_mm35, own)
 
 
 def _whole_in_view(camera: FacadeView, size: tuple[int, int], view_size: tuple[int, int]) -> Matrix:
@@ -235,45 +267,52 @@ def _painted(
     return np.asarray((warped * (mask / 255) + behind * (1 - mask / 255)).round(), np.uint8)
 
 
-def _camera_row(views: list[View], known: bool) -> dict[str, float]:
-    corners: list[float] = []
-    uniform: list[float] = []
-    aspects: list[float] = []
-    failed = 0
+def _measured(views: list[View], known: bool) -> NDArray[np.float64]:
+    """(views, 4): corners, uniform, aspect against the truth, corners against the own lines."""
+    rows = []
     for view in views:
         options = RectifyOptions(focal_mm35=view.focal_mm35 if known else None)
         try:
             found = rectify(view.photo, options)
         except NotFoundError:
-            failed += 1
-            for errors in (corners, uniform, aspects):
-                errors.append(np.inf)
+            rows.append([np.inf] * 4)
             continue
-        estimate = homography.apply(np.array(found.record.rectified_from_source), view.judged_px)
+        matrix = np.array(found.record.rectified_from_source)
+        estimate = homography.apply(matrix, view.judged_px)
         truth = homography.apply(view.facade_from_view, view.judged_px)
-        for errors, error in zip(
-            (corners, uniform, aspects), compared(estimate, truth), strict=True
-        ):
-            errors.append(error)
+        own = homography.apply(view.own_from_facade, truth)
+        rows.append([*compared(estimate, truth), compared(estimate, own)[0]])
+    return np.array(rows)
+
+
+def _row(set_name: str, background: str, known: bool, measured: NDArray[np.float64]) -> Row:
+    corners, uniform, aspect, own = measured.T
     return {
-        "corners <= 1 %": float(np.mean(np.array(corners) <= 0.01)),
-        "corners median %": 100 * float(np.median(corners)),
-        "corners 90th %": 100 * float(np.quantile(corners, 0.9, method="lower")),
-        "uniform <= 1 %": float(np.mean(np.array(uniform) <= 0.01)),
-        "aspect <= 5 %": float(np.mean(np.array(aspects) <= 0.05)),
-        "aspect median %": 100 * float(np.median(aspects)),
-        "not found": failed,
+        "set": set_name,
+        "background": background,
+        "focal": "known" if known else "unknown",
+        "corners <= 1 %": float(np.mean(corners <= 0.01)),
+        "median %": 100 * float(np.median(corners)),
+        "90th %": 100 * float(np.quantile(corners, 0.9, method="lower")),
+        "own lines <= 1 %": float(np.mean(own <= 0.01)),
+        "uniform <= 1 %": float(np.mean(uniform <= 0.01)),
+        "aspect <= 5 %": float(np.mean(aspect <= 0.05)),
+        "aspect median %": 100 * float(np.median(aspect)),
+        "not found": int(np.isinf(corners).sum()),
     }
 
 
-def _as_given_row(paths: list[Path]) -> dict[str, float]:
-    views = []
-    for path in paths:
-        photo = read_image(path)
-        height, width = photo.pixels.shape[:2]
-        corners = polygon.rectangle(0, 0, width, height)
-        views.append(View(photo, np.eye(3), corners, 32.0, 0.0))
-    return {**_camera_row(views, False)}
+def _own_rectification(photo: Photo) -> Matrix:
+    """What the picture's own lines say, without turning it; the identity where they say nothing."""
+    try:
+        return np.array(rectify(photo, RectifyOptions()).record.rectified_from_source)
+    except NotFoundError:
+        return np.eye(3)
+
+
+def _as_given(photo: Photo, own: Matrix) -> View:
+    height, width = photo.pixels.shape[:2]
+    return View(photo, np.eye(3), polygon.rectangle(0, 0, width, height), 32.0, own)
 
 
 def compared(
