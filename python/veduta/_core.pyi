@@ -29,11 +29,10 @@ def skyline_chain(unary: NDArray[np.float32], slope: float, jump: float) -> list
 def floor_chain(
     distance: NDArray[np.float32],
     scales: list[
-        tuple[list[int], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
+        tuple[list[int], float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
     ],
     similarity: float,
     height_change: float,
-    neutral: float,
     max_floors: int,
 ) -> list[list[tuple[float, list[int]] | None]]: ...
 def column_chain(

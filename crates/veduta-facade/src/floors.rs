@@ -14,7 +14,8 @@ pub struct FloorChain<'a> {
     pub heights: &'a [usize],
     /// Cost of the eaves at each row boundary, `rows + 1` values; infinite where not allowed.
     pub eaves: &'a [f64],
-    /// Cost of a boundary between two floors, `rows + 1` values (equation 7, centred).
+    /// Cost per row of floor of a boundary between two floors, `rows + 1` values (equation 7,
+    /// centred).
     pub boundary: &'a [f64],
     /// Cost of the ground floor's top, `rows + 1` values; infinite where not allowed.
     pub ground: &'a [f64],
@@ -73,10 +74,13 @@ impl FloorChain<'_> {
         Ok(solutions)
     }
 
-    /// The pairwise term of equation 5 for a floor `(top, above)` over one of height `below`.
+    /// The pairwise term of equation 5 for a floor `(top, above)` over one of height `below`, with
+    /// the boundary between them, which counts for the height of a floor.
     fn pair(&self, sums: &DiagonalSums, top: usize, above: usize, below: usize) -> f64 {
         let unlike = sums.mean(top, above, above.min(below)) - self.neutral;
-        self.similarity * unlike * below as f64 + self.height_change * above.abs_diff(below) as f64
+        self.similarity * unlike * below as f64
+            + self.height_change * above.abs_diff(below) as f64
+            + self.boundary[top + above] * (above + below) as f64 / 2.0
     }
 
     fn first(&self, rows: usize) -> Table {
@@ -110,7 +114,7 @@ impl FloorChain<'_> {
                     if below + g > rows {
                         break;
                     }
-                    let total = so_far + self.pair(sums, top, *h, *g) + self.boundary[below];
+                    let total = so_far + self.pair(sums, top, *h, *g);
                     let at = below * n + j;
                     if total < cost[at] {
                         cost[at] = total;
@@ -177,7 +181,7 @@ mod tests {
             let mut cost = so_far;
             if boundaries.len() >= 2 {
                 let before = boundaries[boundaries.len() - 2];
-                cost += chain.pair(sums, before, top - before, *h) + chain.boundary[top];
+                cost += chain.pair(sums, before, top - before, *h);
             }
             boundaries.push(top + h);
             search(chain, sums, rows, cost, boundaries, count, best);

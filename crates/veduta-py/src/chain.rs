@@ -39,13 +39,14 @@ fn skyline_chain(
 
 type Scale<'py> = (
     Vec<usize>,
+    f64,
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
     PyReadonlyArray1<'py, f64>,
 );
 type Chains = Vec<Vec<Option<(f64, Vec<usize>)>>>;
 
-/// The best chain of floors for every scale `(heights, eaves, boundary, ground)` and every count.
+/// The best chain of floors for every scale `(heights, neutral, eaves, boundary, ground)` and every count.
 #[pyfunction]
 fn floor_chain(
     py: Python<'_>,
@@ -53,16 +54,15 @@ fn floor_chain(
     scales: Vec<Scale<'_>>,
     similarity: f64,
     height_change: f64,
-    neutral: f64,
     max_floors: usize,
 ) -> PyResult<Chains> {
     let rows = distance.as_array().nrows();
     let matrix: Vec<f32> = distance.as_array().iter().copied().collect();
     let owned: Vec<_> = scales
         .iter()
-        .map(|(heights, e, b, g)| {
+        .map(|(heights, neutral, e, b, g)| {
             let [e, b, g] = [e, b, g].map(|a| a.as_array().to_vec());
-            (heights.as_slice(), e, b, g)
+            (heights.as_slice(), *neutral, e, b, g)
         })
         .collect();
     let tallest = owned
@@ -74,7 +74,7 @@ fn floor_chain(
         let sums = DiagonalSums::new(&matrix, rows, tallest)?;
         owned
             .par_iter()
-            .map(|(heights, eaves, boundary, ground)| {
+            .map(|(heights, neutral, eaves, boundary, ground)| {
                 let chain = FloorChain {
                     heights,
                     eaves,
@@ -82,7 +82,7 @@ fn floor_chain(
                     ground,
                     similarity,
                     height_change,
-                    neutral,
+                    neutral: *neutral,
                     max_floors,
                 };
                 chain.solve(&sums, rows)

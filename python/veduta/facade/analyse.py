@@ -12,6 +12,7 @@ from veduta.facade.floors import split_floors
 from veduta.facade.openings import find_openings
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
+from veduta.facade.rows import gather_rows
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
@@ -34,7 +35,7 @@ def analyse(
             step.rejected.append(f"sky: {skyline.reason}")
     with timed_step(steps, "floors") as step:
         progress("floors", 0.3)
-        floors = split_floors(evidence, skyline, histograms)
+        floors = split_floors(gather_rows(evidence, skyline, histograms))
         step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
     with timed_step(steps, "columns") as step:
         progress("columns", 0.6)

@@ -20,18 +20,23 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
-from veduta.facade.evidence import Evidence, Float, blur, blur_line
-from veduta.facade.extent import RowHistograms, Skyline
+from veduta.facade.evidence import blur_line
+from veduta.facade.rows import Rows
 from veduta.run.errors import NotFoundError
 
 # Heights in tenths of a metre for a mean storey of 3.0 m (section 3.2).
 _HEIGHTS_DM = range(24, 43)
 _MEAN_STOREY_DM = 30
 MAX_FLOORS = 12
+# Weights of equation 5 (alpha, beta), equation 7, and of the histograms' parting (equation 9).
 _SIMILARITY = 1.0
-_HEIGHT_CHANGE = 0.3
+_NEUTRAL = 0.85
+_HEIGHT_CHANGE = 1.2
 _BOUNDARY = 0.15
-_PARTING = 0.15
+_MEAN_OFF = 0.1
+_REACH = 0.8
+_EAVES = 0.07
+_GROUND_TOP = 0.02
 # In storeys: the range of the roof (eaves to ridge) and of the ground floor.
 _ROOF = (0.15, 1.7)
 _GROUND = (0.85, 1.9)
@@ -63,19 +68,16 @@ class Floors:
         return self.boundaries[-1]
 
 
-def split_floors(evidence: Evidence, skyline: Skyline, histograms: RowHistograms) -> Floors:
-    """Solve the chain for each storey height and keep the least energy per facade height."""
-    distance = row_distance(evidence, skyline)
-    profile = _edge_profile(evidence, skyline)
-    rows = evidence.height
-    storeys = range(rows // 14, round(rows / 3.2), max(1, rows // 280))
-    scales = [_scale(s, profile, histograms, skyline.level, rows) for s in storeys]
-    solved = _core.floor_chain(distance, scales, _SIMILARITY, _HEIGHT_CHANGE, 1.0, MAX_FLOORS)
+def split_floors(rows: Rows) -> Floors:
+    """Solve the chain for each storey height and keep the least energy of all."""
+    storeys = range(rows.count // 14, round(rows.count / 3.2))
+    scales = [_scale(s, rows) for s in storeys]
+    solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
-        (found[0], storey, i)
-        for storey, (i, counts) in zip(storeys, enumerate(solved), strict=True)
-        for found in counts[1:]
-        if found is not None
+        (found[0], index, count)
+        for index, counts in enumerate(solved)
+        for count, found in enumerate(counts[1:], start=2)
+        if found is not None and _is_mean(storeys[index], found[1])
     ]
     if not candidates:
         raise NotFoundError(
@@ -83,55 +85,40 @@ def split_floors(evidence: Evidence, skyline: Skyline, histograms: RowHistograms
             "no chain of floors fits between the skyline and the ground",
             "Give a photo in which the whole facade is seen, or its --corners.",
         )
-    energy, storey, index = min(candidates)
-    best = next(f for f in solved[index] if f is not None and f[0] == energy)
-    return Floors(best[1], float(storey), energy / rows, {}, len(scales[index][0]) * rows)
+    energy, index, count = min(candidates)
+    found = solved[index][count - 1]
+    boundaries = [b * rows.step for b in found[1]] if found is not None else []
+    labels = len(scales[index][0]) * rows.count
+    return Floors(boundaries, float(storeys[index] * rows.step), energy / rows.count, {}, labels)
 
 
-def row_distance(evidence: Evidence, skyline: Skyline) -> Float:
-    """Mean squared difference of any two rows (h, h), 1 for two rows of the facade at random.
-
-    Rows are compared by lightness against their surroundings and by their gradients, so that a
-    shadow across a floor does not make it another floor (equation 6 on these channels).
-    """
-    rows = evidence.height
-    building = (np.arange(rows)[:, None] >= skyline.rows[None]) & evidence.valid
-    lightness = evidence.lab[:, :, 0]
-    local = lightness - blur(lightness, rows / 40, rows / 40)
-    local /= np.sqrt(blur(local * local, rows / 20, rows / 20)) + 4
-    edges = [blur(np.minimum(np.abs(g), 25), 1.5, 1.0) for g in (evidence.gx, evidence.gy)]
-    channels = []
-    for channel, weight in zip([local, *edges], (1.0, 1.0, 0.5), strict=True):
-        masked = channel * building
-        spread = float(masked[skyline.level :].std()) + 1e-6
-        channels.append(blur(masked, 1.0, 1.0) * (np.sqrt(weight) / spread))
-    stacked = np.concatenate(channels, axis=1)
-    squares = (stacked * stacked).sum(1)
-    distance = squares[:, None] + squares[None] - 2 * stacked @ stacked.T
-    body = distance[skyline.level :, skyline.level :]
-    apart = np.abs(np.subtract.outer(np.arange(len(body)), np.arange(len(body)))) > rows / 25
-    return np.asarray(distance / max(float(body[apart].mean()), 1e-6), np.float32)
-
-
-def _edge_profile(evidence: Evidence, skyline: Skyline) -> Float:
-    building = np.arange(evidence.height)[:, None] >= skyline.rows[None]
-    return np.asarray((np.abs(evidence.gx) * building).mean(1), np.float32)
+def _is_mean(storey: int, boundaries: list[int]) -> bool:
+    """Whether the floors found at this scale have its storey as their mean."""
+    mean = (boundaries[-1] - boundaries[0]) / (len(boundaries) - 1)
+    return abs(mean / storey - 1) <= _MEAN_OFF
 
 
 def _scale(
-    storey: int, profile: Float, histograms: RowHistograms, ridge: int, rows: int
-) -> tuple[list[int], NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Heights and the three costs (h + 1,) of one storey height, in rows."""
+    storey: int, rows: Rows
+) -> tuple[list[int], float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Heights, neutral dissimilarity and the three costs (n + 1,) of one storey height, in grid rows."""
     heights = sorted({round(dm * storey / _MEAN_STOREY_DM) for dm in _HEIGHTS_DM})
-    boundary = np.zeros(rows + 1)
-    around = np.maximum(blur_line(profile, storey / 2), 1e-3)
-    boundary[:rows] = _BOUNDARY * storey * (blur_line(profile, storey / 25) / around - 1)
-    parting = histograms.parting(max(4, storey // 2))
-    parting = np.minimum(parting / (np.median(parting[ridge:]) + 1e-6), 4)
-    at = np.arange(rows + 1)
-    reward = -_PARTING * storey * parting
-    roof, ground = at - ridge, rows - at
+    boundary = np.zeros(rows.count + 1)
+    around = np.maximum(blur_line(rows.edges, storey / 2), 1e-3)
+    boundary[:-1] = _BOUNDARY * (blur_line(rows.edges, storey / 25) / around - 1)
+    parting = rows.parting(max(2, round(_REACH * storey)))
+    parting = np.minimum(parting / (np.median(parting[rows.ridge :]) + 1e-6), 4)
+    at = np.arange(rows.count + 1)
+    roof, ground = at - rows.ridge, rows.count - at
     roof_fits = (roof >= _ROOF[0] * storey) & (roof <= _ROOF[1] * storey)
     ground_fits = (ground >= _GROUND[0] * storey) & (ground <= _GROUND[1] * storey)
-    eaves = np.where(roof_fits, reward, np.inf)
-    return heights, eaves, boundary, np.where(ground_fits, reward, np.inf)
+    eaves = np.where(roof_fits, -_EAVES * rows.count * parting, np.inf)
+    ground_top = np.where(ground_fits, -_GROUND_TOP * rows.count * parting, np.inf)
+    return heights, _neutral(storey, rows), eaves, boundary, ground_top
+
+
+def _neutral(storey: int, rows: Rows) -> float:
+    """The dissimilarity of floors that are nothing alike: that of rows part of a storey apart."""
+    offsets = range(max(1, int(0.4 * storey)), max(2, int(0.9 * storey)))
+    body = rows.distance[rows.ridge :, rows.ridge :]
+    return _NEUTRAL * max(float(np.diagonal(body, k).mean()) for k in offsets)
