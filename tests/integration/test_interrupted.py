@@ -21,7 +21,8 @@ def items_done(out: Path) -> list[str]:
         record = read_json(out / ".veduta" / "run.json")
     except (FileNotFoundError, json.JSONDecodeError):
         return []
-    return [name for name, item in record["items"].items() if item["state"] == "done"]
+    items = record["items"].items()
+    return [name for name, item in items if item["state"] == "done" and name != "."]
 
 
 def wait_for(condition: Callable[[], object]) -> None:

@@ -1,0 +1,40 @@
+"""Progress: plain lines where nobody watches, a bar on a terminal, silence when asked."""
+
+from __future__ import annotations
+
+import time
+
+import pytest
+
+from veduta.run.pool import Task
+from veduta.run.progress import Progress
+from veduta.run.report import Failure
+
+
+def work(progress: Progress, names: list[str], pause_s: float = 0.0) -> None:
+    with progress.over(len(names)):
+        for name in names:
+            progress.started(Task(name, None))
+            progress.step("read", 0.5)
+            time.sleep(pause_s)
+            failure = Failure(subject=name, kind="input", reason="x") if name == "b" else None
+            progress.finished(name, failure)
+
+
+def test_lines(capsys: pytest.CaptureFixture[str]) -> None:
+    work(Progress(), ["a", "b"])
+    assert capsys.readouterr().err == "[1/2] a: done\n[2/2] b: failed\n"
+
+
+def test_quiet(capsys: pytest.CaptureFixture[str]) -> None:
+    work(Progress(quiet=True), ["a", "b"])
+    assert capsys.readouterr() == ("", "")
+
+
+def test_bar(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    work(Progress(), ["a", "[red]b"], pause_s=0.3)
+    shown = capsys.readouterr().err
+    assert "2/2" in shown
+    assert "[red]b" in shown  # a file's name is no markup
