@@ -39,7 +39,7 @@ class DemoOptions(Options):
     """Which street is made, and what its photographer is taken to know about it."""
 
     seed: Annotated[int, Field(ge=0, lt=2**31)] = Field(
-        default=1, description="another seed is another house, street and light"
+        default=2, description="another seed is another house, street and light"
     )
     corners: bool = Field(
         default=False,
