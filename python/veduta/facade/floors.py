@@ -101,7 +101,7 @@ def _is_mean(storey: int, boundaries: list[int]) -> bool:
 def _scale(
     storey: int, rows: Rows
 ) -> tuple[list[int], float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
-    """Heights, neutral dissimilarity and the three costs (n + 1,) of one storey height, in grid rows."""
+    """Heights, neutral dissimilarity and three costs (n + 1,) of a storey height, in grid rows."""
     heights = sorted({round(dm * storey / _MEAN_STOREY_DM) for dm in _HEIGHTS_DM})
     boundary = np.zeros(rows.count + 1)
     around = np.maximum(blur_line(rows.edges, storey / 2), 1e-3)
