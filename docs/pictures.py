@@ -41,7 +41,7 @@ def main() -> None:
         _beside(work / "truth" / "street.jpg", street / "overlay.png", shots / "bare.png"),
         "photo-to-building.jpg",
     )
-    for name in ("outside", "picked", "walking"):
+    for name in ("picked", "walking"):
         with Image.open(shots / f"{name}.png") as image:
             _save(image.convert("RGB"), f"{name}.jpg")
 

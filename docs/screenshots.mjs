@@ -1,6 +1,5 @@
 // Pictures of the studio: node docs/screenshots.mjs ADDRESS CHROMIUM FOLDER
-// Writes outside.png (the whole building), picked.png (a window selected), walking.png, and bare.png
-// (the building without the panels, cut to a portrait).
+// Writes picked.png (a window selected), walking.png, and bare.png (the building without the panels, cut to a portrait).
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
@@ -23,8 +22,7 @@ try {
     await page.waitForTimeout(FLIGHT_MS);
     await page.screenshot({ path: join(folder, name) });
   };
-  await page.mouse.move(10, 840);
-  await shoot("outside.png");
+  await page.waitForTimeout(FLIGHT_MS);
 
   const window = await page.evaluate(() => {
     const middle = [innerWidth / 2, innerHeight / 2];
