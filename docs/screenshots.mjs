@@ -1,5 +1,5 @@
 // Pictures of the studio: node docs/screenshots.mjs ADDRESS CHROMIUM FOLDER
-// Writes picked.png (a window selected), walking.png, and bare.png (the building without the panels, cut to a portrait).
+// Writes picked.png (a window selected), walking.png, and bare.png (the building without panels).
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
