@@ -65,8 +65,8 @@ def _sky_seeds(evidence: Evidence) -> Float | None:
     smooth = (_texture(evidence)[part] < 6) & evidence.valid[part]
     if smooth.sum() < 0.25 * evidence.valid[part].sum() or smooth.sum() < 9:
         return None
-    seeds: Float = cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0)[part][smooth]
-    return seeds
+    blurred = np.asarray(cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0), np.float32)
+    return blurred[part][smooth]
 
 
 def _sky_cost(evidence: Evidence, seeds: Float) -> Float:
