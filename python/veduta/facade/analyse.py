@@ -9,9 +9,11 @@ from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
 from veduta.facade.floors import split_floors
+from veduta.facade.ground import read_ground
 from veduta.facade.openings import find_openings
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
+from veduta.facade.roof_windows import find_roof_windows
 from veduta.facade.rows import gather_rows
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
@@ -42,12 +44,14 @@ def analyse(
         rows = floors.eaves, floors.ground_top
         wall = wall_colour(evidence, *rows, floors.mean_storey)
         scores = class_scores(evidence, wall, *rows, floors.mean_storey)
-        columns = split_columns(evidence, floors, scores)
+        columns = split_columns(evidence, *rows, floors.mean_storey, scores)
         step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
-        boxes = find_openings(evidence, floors, columns, scores)
-        for kind in ("window", "balcony"):
+        boxes = find_roof_windows(evidence, skyline, floors)
+        boxes += find_openings(evidence, floors, columns, scores)
+        boxes += read_ground(evidence, floors, wall)
+        for kind in ("window", "balcony", "door", "shop"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):
         document = compose(rectified, source, options, evidence, skyline, floors, columns, boxes)

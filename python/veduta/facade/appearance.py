@@ -16,9 +16,11 @@ from veduta.facade.evidence import Evidence, Float, blur
 
 # Cues in the order: texture across x, texture across y, unlikeness to wall; then the level at
 # which a pixel is as likely wall.
-_WINDOW = ((0.4, -0.55, 1.65), 0.65)
+_WINDOW = ((0.4, -0.55, 1.65), 0.85)
 _RAILING = ((1.05, 0.4, 0.25), 0.35)
 _CLIP = 1.5
+_SPREAD_X = 0.02
+_SPREAD_Y = 0.028
 
 
 @dataclass(frozen=True)
@@ -66,13 +68,13 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
     """Scores of every pixel between the eaves and the ground floor."""
     lightness = evidence.lab[top:bottom, :, 0]
     fine = storey / 48
-    spread = storey / 36
+    spread = storey * _SPREAD_X, storey * _SPREAD_Y
     textures = []
     for across_x in (True, False):
         sigma = (fine, 0.0) if across_x else (0.0, fine)
         detail = np.minimum(np.abs(lightness - blur(lightness, *sigma)), 30)
-        textures.append(_relative(blur(detail, spread, spread)))
-    cues = np.dstack([*textures, _relative(blur(wall.unlike, spread, spread))])
+        textures.append(_relative(blur(detail, *spread)))
+    cues = np.dstack([*textures, _relative(blur(wall.unlike, *spread))])
     window, railing = (
         np.clip(cues @ np.array(weights, np.float32) - level, -_CLIP, _CLIP).astype(np.float32)
         for weights, level in (_WINDOW, _RAILING)

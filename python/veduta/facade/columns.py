@@ -10,13 +10,17 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.facade.appearance import Scores
 from veduta.facade.evidence import Evidence, blur_line, two_class_threshold
-from veduta.facade.floors import Floors
 
 # In storeys (3 m): stripes of 0.55 to 2.4 m, gaps of 0.25 to 7.5 m.
 _WIDTH = (0.18, 0.8)
 _GAP = (0.08, 2.5)
-_JAMB = 0.018
-_WIDTH_CHANGE = 0.6
+_JAMB = 0.025
+_WIDTH_CHANGE = 1.0
+_SIMILARITY = 0.15
+_GAP_SYMMETRY = 0.2
+_STRIPE_SYMMETRY = 0.0
+_NEUTRAL = 0.6
+_STEPS = 36
 
 
 @dataclass(frozen=True)
@@ -28,34 +32,45 @@ class Columns:
     labels: int
 
 
-def split_columns(evidence: Evidence, floors: Floors, scores: Scores) -> Columns:
-    """Solve the chain of stripes on the evidence of all floors above the ground floor."""
-    storey = floors.mean_storey
-    profile, jambs = _profiles(evidence, floors, scores)
-    widths = list(range(max(3, int(_WIDTH[0] * storey)), int(_WIDTH[1] * storey) + 1))
+def split_columns(
+    evidence: Evidence, top: int, bottom: int, storey: float, scores: Scores
+) -> Columns:
+    """Solve the chain of stripes on the evidence of all rows from `top` to `bottom`."""
+    profile, jambs = _profiles(evidence, top, bottom, scores)
+    step = max(1, round(storey / _STEPS))
+    narrow, wide = (max(1, round(w * storey / step)) for w in _WIDTH)
+    widths = [step * i for i in range(narrow, wide + 1)]
     energy, stripes = _core.column_chain(
-        np.zeros((evidence.width, evidence.width), np.float32),
+        _distance(scores),
         profile,
         jambs,
         widths,
-        step=1,
+        step=step,
         gap_min=max(2, int(_GAP[0] * storey)),
         gap_max=int(_GAP[1] * storey),
         jamb_weight=_JAMB * storey,
-        similarity=0.0,
+        similarity=_SIMILARITY,
         width_change=_WIDTH_CHANGE / storey,
-        gap_symmetry=0.0,
-        stripe_symmetry=0.0,
-        neutral=0.0,
+        gap_symmetry=_GAP_SYMMETRY,
+        stripe_symmetry=_STRIPE_SYMMETRY,
+        neutral=_NEUTRAL,
     )
     return Columns(stripes, energy / evidence.width, len(widths) * evidence.width)
 
 
+def _distance(scores: Scores) -> NDArray[np.float32]:
+    """Mean squared difference of any two pixel columns (w, w), 1 for two at random."""
+    columns = scores.window.T
+    squares = (columns * columns).sum(1)
+    distance = squares[:, None] + squares[None] - 2 * columns @ columns.T
+    return np.asarray(distance / max(float(distance.mean()), 1e-6), np.float32)
+
+
 def _profiles(
-    evidence: Evidence, floors: Floors, scores: Scores
+    evidence: Evidence, top: int, bottom: int, scores: Scores
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Window evidence per pixel column (w,) and jamb evidence per column boundary (w + 1,)."""
-    edges = np.minimum(np.abs(evidence.gx[floors.eaves : floors.ground_top]), 20)
+    edges = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
     rows = np.maximum(scores.window.std(1), 1e-3)
     rows /= rows.sum()
     window = rows @ scores.window

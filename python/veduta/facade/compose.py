@@ -117,12 +117,11 @@ def _extents(
 ) -> list[Extent]:
     """Wall, ground, roof and sky; each covers what was painted before it."""
     right, bottom = float(width), float(height)
-    eaves, ground = rows[0], rows[-1]
+    eaves = rows[0]
     outline = _skyline_outline(skyline, k, right)
     regions = {
         "roof": [(0.0, 0.0), (right, 0.0), (right, eaves), (0.0, eaves)],
-        "wall": [(0.0, eaves), (right, eaves), (right, ground), (0.0, ground)],
-        "shop": [(0.0, ground), (right, ground), (right, bottom), (0.0, bottom)],
+        "wall": [(0.0, eaves), (right, eaves), (right, bottom), (0.0, bottom)],
     }
     if skyline.rows.any():
         regions["sky"] = [(0.0, 0.0), *outline, (right, 0.0)]

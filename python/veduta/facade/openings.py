@@ -39,7 +39,7 @@ class Box:
     y: int
     width: int
     height: int
-    floor: int
+    floor: int | None
     column: int | None
     score: float
 
@@ -87,8 +87,6 @@ def _floor(
         inside[x + w // 8 : x + w - w // 8] = True
     gaps = _gaps(stripes, window.shape[1])
     share = inside.sum() * storey
-    line = edges[:, inside].mean(1)
-    line = _EDGE * (line - line.mean()) / (float(line.std()) + 1e-6)
     through = np.stack(
         [_running(railing[:, a:b].sum(1) - _RUNS_ON * (b - a)) for a, b in gaps], axis=1
     )
@@ -96,7 +94,7 @@ def _floor(
         _running(window[:, inside].sum(1)) / share,
         _running(railing[:, inside].sum(1)) / share,
         through / share,
-        np.append(line, 0.0),
+        _line(edges, inside),
         storey,
     )
     boxes = [Box("window", x, top + t, w, k - t, floor, i, 0.5) for i, (x, w) in enumerate(stripes)]
@@ -122,10 +120,8 @@ def _best_rows(
     """The rows (t, k, b) of the greatest sum; b equals k where no railing shows."""
     n = len(window)
     at = np.arange(n)
-    # Best t for each k: the sum of the window's pixels between two edges.
     span = at[None, :] - at[:, None]
-    gain = window[None, :] - window[:, None] + line[:, None]
-    gain[(span < _WINDOW[0] * storey) | (span > _WINDOW[1] * storey)] = -np.inf
+    gain = _window_gain(window, line, storey, _WINDOW)
     t_of_k = gain.argmax(0)
     upper = gain.max(0)
     lower = railing[None, :] - railing[:, None] + line[None, :]
@@ -135,6 +131,36 @@ def _best_rows(
     total = upper[:, None] + line[:, None] + lower
     k, b = np.unravel_index(int(np.argmax(total)), total.shape)
     return int(t_of_k[k]), int(k), int(b)
+
+
+def _window_gain(window: Array, line: Array, storey: float, heights: tuple[float, float]) -> Array:
+    """Gain (n, n) of a window from row t to row k: its pixels, and the edge that it begins at."""
+    at = np.arange(len(window))
+    span = at[None, :] - at[:, None]
+    gain = window[None, :] - window[:, None] + line[:, None]
+    gain[(span < heights[0] * storey) | (span > heights[1] * storey)] = -np.inf
+    return np.asarray(gain, np.float64)
+
+
+def window_rows(
+    window: NDArray[np.float32],
+    edges: NDArray[np.float32],
+    inside: NDArray[np.bool_],
+    storey: float,
+    heights: tuple[float, float],
+) -> tuple[int, int]:
+    """Rows (t, b) of a row of windows without railings, in the stripes `inside` (w,)."""
+    line = _line(edges, inside)
+    summed = _running(window[:, inside].sum(1)) / (inside.sum() * storey)
+    gain = _window_gain(summed, line, storey, heights) + line[None, :]
+    t, b = np.unravel_index(int(np.argmax(gain)), gain.shape)
+    return (int(t), int(b)) if np.isfinite(gain[t, b]) else (0, 0)
+
+
+def _line(edges: NDArray[np.float32], inside: NDArray[np.bool_]) -> Array:
+    """Gain (n + 1,) of beginning or ending something at each row: its horizontal edges."""
+    line = edges[:, inside].mean(1).astype(np.float64)
+    return np.append(_EDGE * (line - line.mean()) / (float(line.std()) + 1e-6), 0.0)
 
 
 def _spans(
