@@ -14,6 +14,7 @@ import subprocess
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime
 from pathlib import Path
+from typing import Any
 
 RESULTS = Path(__file__).parent / "results"
 ROOT = Path(__file__).parent.parent
@@ -25,13 +26,7 @@ Row = Mapping[str, Value]
 def record(name: str, rows: Sequence[Row], notes: Sequence[str] = ()) -> Path:
     """Write and print one run; rows may have different keys. Returns the markdown file."""
     RESULTS.mkdir(exist_ok=True)
-    run = {
-        "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
-        **machine(),
-        **commit(),
-        "rows": [{key: _rounded(value) for key, value in row.items()} for row in rows],
-        "notes": list(notes),
-    }
+    run = _run(rows, notes)
     history = RESULTS / f"{name}.json"
     runs = json.loads(history.read_text())["runs"] if history.exists() else []
     same = ("cpu", "commit", "changed")
@@ -44,6 +39,24 @@ def record(name: str, rows: Sequence[Row], notes: Sequence[str] = ()) -> Path:
     path.write_text(table)
     print(table)
     return path
+
+
+def keep_or_print(name: str, rows: Sequence[Row], notes: Sequence[str], keep: bool) -> None:
+    """Record a run, or only print it: one over a part of the data is not for the history."""
+    if keep:
+        record(name, rows, notes)
+    else:
+        print(markdown(name, _run(rows, notes)))
+
+
+def _run(rows: Sequence[Row], notes: Sequence[str]) -> dict[str, Any]:
+    return {
+        "date": datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
+        **machine(),
+        **commit(),
+        "rows": [{key: _rounded(value) for key, value in row.items()} for row in rows],
+        "notes": list(notes),
+    }
 
 
 def machine() -> dict[str, Value]:
