@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.columns import split_columns
-from veduta.facade.compose import compose
+from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
@@ -15,6 +15,7 @@ from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
 from veduta.facade.roof_windows import find_roof_windows
 from veduta.facade.rows import gather_rows
+from veduta.facade.sides import crop, find_sides
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
@@ -31,8 +32,10 @@ def analyse(
         progress("extent", 0.0)
         evidence = gather(rectified.pixels, rectified.valid)
         skyline = find_skyline(evidence)
+        sides = find_sides(evidence, skyline)
+        whole, (evidence, skyline) = skyline, crop(evidence, skyline, sides)
         histograms = row_histograms(evidence, skyline)
-        step.counts["skyline_row"] = skyline.level
+        step.counts |= {"skyline_row": skyline.level, "left": sides.left, "right": sides.right}
         if skyline.reason:
             step.rejected.append(f"sky: {skyline.reason}")
     with timed_step(steps, "floors") as step:
@@ -54,6 +57,11 @@ def analyse(
         for kind in ("window", "balcony", "door", "shop"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):
-        document = compose(rectified, source, options, evidence, skyline, floors, columns, boxes)
+        document = compose(
+            Parse(evidence, whole, skyline, sides, floors, columns, boxes),
+            rectified,
+            source,
+            options,
+        )
     progress("document", 1.0)
     return document, steps

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from veduta.facade.columns import Columns
@@ -21,71 +23,89 @@ from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.rectify import Rectified
+from veduta.facade.sides import Sides
 
 ASSUMED_STOREY_M = 3.0
 
 
+@dataclass(frozen=True)
+class Parse:
+    """What the steps found, in analysis pixels; all but `sky` count from the left side."""
+
+    evidence: Evidence
+    sky: Skyline
+    skyline: Skyline
+    sides: Sides
+    floors: Floors
+    columns: Columns
+    boxes: list[Box]
+
+
 def compose(
-    rectified: Rectified,
-    source: Source,
-    options: FacadeOptions,
-    evidence: Evidence,
-    skyline: Skyline,
-    floors: Floors,
-    columns: Columns,
-    boxes: list[Box],
+    parse: Parse, rectified: Rectified, source: Source, options: FacadeOptions
 ) -> FacadeDocument:
     """Bring everything to rectified pixels and metres, and derive rules and tree from it."""
     record = rectified.record
-    k = 1.0 / evidence.px_per_rectified
-    rows = [round(b * k, 2) for b in floors.boundaries]
-    scale = metres(rows, record.height_px, options.scale)
+    k = 1.0 / parse.evidence.px_per_rectified
+    rows = [round(b * k, 2) for b in parse.floors.boundaries]
+    left = round(parse.sides.left * k, 2)
+    right = min(round(parse.sides.right * k, 2), float(record.width_px))
+    bottom = min(round(parse.sides.bottom * k, 2), float(record.height_px))
+    scale = metres(rows, bottom, options.scale)
     m = scale.metres_per_px
-    eaves = rows[0]
     facade = FacadeBox(
-        x_px=0,
-        y_px=eaves,
-        width_px=record.width_px,
-        height_px=record.height_px - eaves,
-        width_m=record.width_px * m,
-        height_m=(record.height_px - eaves) * m,
+        x_px=left,
+        y_px=rows[0],
+        width_px=right - left,
+        height_px=bottom - rows[0],
+        width_m=(right - left) * m,
+        height_m=(bottom - rows[0]) * m,
     )
-    elements = [_element(b, k, facade, m) for b in boxes]
-    rules = rule_parameters(rows, skyline.level * k, facade, elements, m)
-    notes = list(rectified.notes)
-    if scale.basis == "assumed-storey":
-        notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
-    if skyline.reason:
-        notes.append(f"no sky: {skyline.reason}")
+    elements = [_element(b, k, facade, m) for b in parse.boxes]
+    rules = rule_parameters(rows, parse.skyline.level * k, facade, elements, m)
     return FacadeDocument(
         source=source,
         rectification=record,
         scale=scale,
         facade=facade,
-        extents=_extents(skyline, rows, k, record.width_px, record.height_px),
+        extents=_extents(parse, rows[0], facade, (record.width_px, record.height_px)),
         elements=elements,
-        storeys=len(floors.boundaries),
+        storeys=len(parse.floors.boundaries),
         rules=rules,
         derivation=derivation(rules, facade, elements),
-        energy={
-            "floors": EnergyTerm(
-                total=floors.energy,
-                terms=floors.terms,
-                nodes=len(floors.boundaries) - 1,
-                labels=floors.labels,
-            ),
-            "columns": EnergyTerm(
-                total=columns.energy, terms={}, nodes=len(columns.stripes), labels=columns.labels
-            ),
-        },
-        notes=notes,
+        energy=_energies(parse),
+        notes=[*rectified.notes, *_notes(parse, scale)],
     )
 
 
-def metres(rows: list[float], height_px: int, options: ScaleOptions) -> Scale:
+def _energies(parse: Parse) -> dict[str, EnergyTerm]:
+    floors, columns = parse.floors, parse.columns
+    return {
+        "floors": EnergyTerm(
+            total=floors.energy,
+            terms=floors.terms,
+            nodes=len(floors.boundaries) - 1,
+            labels=floors.labels,
+        ),
+        "columns": EnergyTerm(
+            total=columns.energy, terms={}, nodes=len(columns.stripes), labels=columns.labels
+        ),
+    }
+
+
+def _notes(parse: Parse, scale: Scale) -> list[str]:
+    notes = list(parse.sides.reasons)
+    if scale.basis == "assumed-storey":
+        notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
+    if parse.skyline.reason:
+        notes.append(f"no sky: {parse.skyline.reason}")
+    return notes
+
+
+def metres(rows: list[float], bottom: float, options: ScaleOptions) -> Scale:
     """Metres per rectified pixel from the height, the storey, or an assumed storey of 3 m."""
     if options.height_m is not None:
-        return Scale(metres_per_px=options.height_m / (height_px - rows[0]), basis="height")
+        return Scale(metres_per_px=options.height_m / (bottom - rows[0]), basis="height")
     storey_px = (rows[-1] - rows[0]) / (len(rows) - 1)
     if options.storey_m is not None:
         return Scale(metres_per_px=options.storey_m / storey_px, basis="storey")
@@ -93,7 +113,10 @@ def metres(rows: list[float], height_px: int, options: ScaleOptions) -> Scale:
 
 
 def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
-    x, y, width, height = (round(v * k, 2) for v in (box.x, box.y, box.width, box.height))
+    y, width, height = (round(v * k, 2) for v in (box.y, box.width, box.height))
+    x = round(facade.x_px + box.x * k, 2)
+    width = min(width, facade.x_px + facade.width_px - x)
+    height = min(height, facade.y_px + facade.height_px - y)
     return Element.model_validate(
         {
             "class": box.kind,
@@ -112,19 +135,19 @@ def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
     )
 
 
-def _extents(
-    skyline: Skyline, rows: list[float], k: float, width: int, height: int
-) -> list[Extent]:
-    """Wall, ground, roof and sky; each covers what was painted before it."""
-    right, bottom = float(width), float(height)
-    eaves = rows[0]
-    outline = _skyline_outline(skyline, k, right)
-    regions = {
-        "roof": [(0.0, 0.0), (right, 0.0), (right, eaves), (0.0, eaves)],
-        "wall": [(0.0, eaves), (right, eaves), (right, bottom), (0.0, bottom)],
-    }
-    if skyline.rows.any():
-        regions["sky"] = [(0.0, 0.0), *outline, (right, 0.0)]
+def _extents(parse: Parse, eaves: float, facade: FacadeBox, size: tuple[int, int]) -> list[Extent]:
+    """Surroundings, roof, wall and sky; each covers what was painted before it."""
+    width, height = float(size[0]), float(size[1])
+    left, right = facade.x_px, facade.x_px + facade.width_px
+    bottom = facade.y_px + facade.height_px
+    k = 1.0 / parse.evidence.px_per_rectified
+    regions = {}
+    if left > 0 or right < width or bottom < height:
+        regions["other"] = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
+    regions["roof"] = [(left, 0.0), (right, 0.0), (right, eaves), (left, eaves)]
+    regions["wall"] = [(left, eaves), (right, eaves), (right, bottom), (left, bottom)]
+    if parse.sky.rows.any():
+        regions["sky"] = [(0.0, 0.0), *_skyline_outline(parse.sky, k, width), (width, 0.0)]
     return [
         Extent.model_validate({"class": name, "polygon_px": points})
         for name, points in regions.items()

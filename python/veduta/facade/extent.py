@@ -52,7 +52,12 @@ def find_skyline(evidence: Evidence) -> Skyline:
     if not (brighter or blue):
         return Skyline(none, 0, "the upper edge is neither brighter than the facade nor blue")
     rows = np.asarray(_core.skyline_chain(_sky_cost(evidence, seeds), _SLOPE, _JUMP), np.int64)
-    return Skyline(rows, int(np.percentile(rows, 60)))
+    return Skyline(rows, ridge_row(rows))
+
+
+def ridge_row(rows: NDArray[np.int64]) -> int:
+    """The row of the ridge: most of the skyline is there, chimneys are above."""
+    return int(np.percentile(rows, 60))
 
 
 def _texture(evidence: Evidence) -> Float:
