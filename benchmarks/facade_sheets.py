@@ -41,5 +41,7 @@ def _coloured(labels: Labels) -> NDArray[np.uint8]:
 
 
 def _fitted(picture: NDArray[np.uint8], like: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    height, width = like.shape[:2]
-    return np.asarray(Image.fromarray(picture).resize((width, height)), np.uint8)
+    """The picture at the height of another; the drawn photo has a legend beside it."""
+    height = like.shape[0]
+    size = (round(picture.shape[1] * height / picture.shape[0]), height)
+    return np.asarray(Image.fromarray(picture).resize(size), np.uint8)

@@ -1,0 +1,80 @@
+"""Bounds on labelled facades, from below and from above.
+
+`benchmarks/facade.py` measures the same and more, and says what each number means.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pytest
+from facade_measures import Matches, accuracy, class_table, confusion, match
+from facade_reading import Reading, read_facades
+from facade_truth import WINDOW, Labelled, artdeco, components, ecp, true_storeys
+
+pytestmark = pytest.mark.regression
+
+
+def _folder(data: Path, needed: str) -> Path:
+    if not (data / needed).is_dir():
+        pytest.skip(f"no {needed} in {data}")
+    return data
+
+
+def _read(examples: list[Labelled], count: int) -> tuple[list[Labelled], list[Reading]]:
+    assert len(examples) == count
+    return examples, read_facades([example.image for example in examples])
+
+
+def _accuracies(examples: Sequence[Labelled], readings: Sequence[Reading]) -> list[float]:
+    pairs = zip(examples, readings, strict=True)
+    return [accuracy(confusion(reading.labels, example.labels)) for example, reading in pairs]
+
+
+@pytest.mark.slow
+def test_ecp_facades_are_read(veduta_data: Path) -> None:
+    examples, readings = _read(ecp(_folder(veduta_data, "facades/ecp"), "val"), 20)
+    assert [reading.reason for reading in readings] == [""] * 20
+    accuracies = _accuracies(examples, readings)
+    assert 0.72 <= float(np.mean(accuracies)) <= 0.95
+    assert min(accuracies) > 0.55
+    windows = sum(
+        (
+            match(reading.windows, components(example.labels, WINDOW))
+            for example, reading in zip(examples, readings, strict=True)
+        ),
+        Matches(0, 0, 0),
+    )
+    assert 0.55 <= windows.f1 <= 0.90
+    assert windows.recall >= 0.5
+    assert 550 < windows.true < 700, "the truth itself"
+    storeys = [(r.document.storeys if r.document else 0) for r in readings]
+    right = sum(n == true_storeys(e.labels) for n, e in zip(storeys, examples, strict=True))
+    assert right >= 17
+    assert all(4 <= n <= 8 for n in storeys)
+    _every_large_class_is_seen(examples, readings)
+
+
+def _every_large_class_is_seen(examples: list[Labelled], readings: list[Reading]) -> None:
+    pairs = zip(examples, readings, strict=True)
+    rows = {r.name: r for r in class_table(sum(confusion(r.labels, e.labels) for e, r in pairs))}
+    for name, least in [("wall", 0.6), ("sky", 0.65), ("shop", 0.4), ("roof", 0.4)]:
+        assert least < rows[name].iou < 0.97, rows[name]
+    for name, least in [("window", 0.4), ("balcony", 0.35)]:
+        assert least < rows[name].iou < 0.85, rows[name]
+
+
+@pytest.mark.slow
+def test_artdeco_facades_are_read(veduta_data: Path) -> None:
+    examples, readings = _read(artdeco(_folder(veduta_data, "facades/artdeco")), 15)
+    accuracies = _accuracies(examples, readings)
+    assert 0.65 <= float(np.mean(accuracies)) <= 0.95
+    assert float(np.median(accuracies)) > 0.65
+
+
+def test_the_true_storeys(veduta_data: Path) -> None:
+    val = ecp(_folder(veduta_data, "facades/ecp"), "val")
+    other = {e.name: true_storeys(e.labels) for e in val if true_storeys(e.labels) != 6}
+    assert other == {"monge_91": 5}  # counted in the pictures
