@@ -12,6 +12,7 @@ from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
 from veduta.facade.openings import find_openings
 from veduta.facade.options import FacadeOptions
+from veduta.facade.presence import require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.roof_windows import find_roof_windows
 from veduta.facade.rows import gather_rows
@@ -31,6 +32,7 @@ def analyse(
     with timed_step(steps, "extent") as step:
         progress("extent", 0.0)
         evidence = gather(rectified.pixels, rectified.valid)
+        require_building(evidence)
         skyline = find_skyline(evidence)
         sides = find_sides(evidence, skyline)
         whole, (evidence, skyline) = skyline, crop(evidence, skyline, sides)
@@ -40,7 +42,7 @@ def analyse(
             step.rejected.append(f"sky: {skyline.reason}")
     with timed_step(steps, "floors") as step:
         progress("floors", 0.3)
-        floors = split_floors(gather_rows(evidence, skyline, histograms))
+        floors = split_floors(gather_rows(evidence, skyline, histograms), options.scale.height_m)
         step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
     with timed_step(steps, "columns") as step:
         progress("columns", 0.6)

@@ -71,7 +71,10 @@ def blur_line(values: NDArray[np.floating], sigma: float) -> Float:
 
 def two_class_threshold(values: NDArray[np.floating]) -> float:
     """The value that parts `values` (n,) best into low and high (Otsu 1979)."""
-    counts, edges = np.histogram(values, 64)
+    low_end, high_end = float(values.min()), float(values.max())
+    if high_end - low_end < 1e-6:
+        return high_end
+    counts, edges = np.histogram(values, 64, (low_end, high_end))
     centres = (edges[1:] + edges[:-1]) / 2
     low = np.cumsum(counts)
     mass = np.cumsum(counts * centres)

@@ -15,6 +15,7 @@ height (pixels) in a range, heights being 0.8 to 1.4 storeys, and the least ener
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,12 +35,18 @@ _NEUTRAL = 0.85
 _HEIGHT_CHANGE = 1.2
 _BOUNDARY = 0.15
 _MEAN_OFF = 0.1
+_HALVED = 0.9
 _REACH = 0.8
 _EAVES = 0.07
 _GROUND_TOP = 0.02
 # In storeys: the range of the roof (eaves to ridge) and of the ground floor.
 _ROOF = (0.15, 1.7)
 _GROUND = (0.85, 1.9)
+
+
+Costs = NDArray[np.float64]
+# Heights, neutral dissimilarity, and the costs of eaves, boundaries and the ground floor's top.
+Scale = tuple[list[int], float, Costs, Costs, Costs]
 
 
 @dataclass(frozen=True)
@@ -68,28 +75,82 @@ class Floors:
         return self.boundaries[-1]
 
 
-def split_floors(rows: Rows) -> Floors:
-    """Solve the chain for each storey height and keep the least energy of all."""
+def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
+    """Solve the chain for each storey height and keep the least energy of all.
+
+    With a known `height_m` (ground to eaves) the mean floor must have 2.4 to 4.2 m. Raises
+    NotFoundError where no chain fits.
+    """
     storeys = range(rows.count // 14, round(rows.count / 3.2))
     scales = [_scale(s, rows) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
         (found[0], index, count)
         for index, counts in enumerate(solved)
-        for count, found in enumerate(counts[1:], start=2)
-        if found is not None and _is_mean(storeys[index], found[1])
+        for count, found in enumerate(counts, start=1)
+        if found is not None
+        and _is_mean(storeys[index], found[1])
+        and (height_m is None or _fits_height(found[1], rows.count, height_m))
     ]
     if not candidates:
         raise NotFoundError(
             "a facade",
-            "no chain of floors fits between the skyline and the ground",
-            "Give a photo in which the whole facade is seen, or its --corners.",
+            "no chain of floors fits between the skyline and the ground"
+            + ("" if height_m is None else f" for a height of {height_m} m"),
+            "Give a photo in which the whole facade is seen, or its --corners, "
+            "and check --height-m where it is given.",
         )
-    energy, index, count = min(candidates)
+    energy, index, count = _not_halved(candidates)
     found = solved[index][count - 1]
-    boundaries = [b * rows.step for b in found[1]] if found is not None else []
-    labels = len(scales[index][0]) * rows.count
-    return Floors(boundaries, float(storeys[index] * rows.step), energy / rows.count, {}, labels)
+    boundaries = found[1] if found is not None else []
+    return Floors(
+        [b * rows.step for b in boundaries],
+        float(storeys[index] * rows.step),
+        energy / rows.count,
+        _terms(boundaries, rows, scales[index]),
+        len(scales[index][0]) * rows.count,
+    )
+
+
+def _fits_height(boundaries: list[int], bottom: int, height_m: float) -> bool:
+    """Whether the mean floor has 2.4 to 4.2 m where ground to eaves has `height_m`."""
+    mean = (boundaries[-1] - boundaries[0]) / (len(boundaries) - 1)
+    mean_dm = 10 * mean * height_m / (bottom - boundaries[0])
+    return _HEIGHTS_DM.start <= mean_dm < _HEIGHTS_DM.stop
+
+
+def _terms(boundaries: list[int], rows: Rows, scale: Scale) -> dict[str, float]:
+    """What each term adds to the energy (per row), summed up anew from the boundaries."""
+    _, neutral, eaves, boundary, ground = scale
+    similarity = change = edges = 0.0
+    for (top, middle), (_, bottom) in pairwise(pairwise(boundaries)):
+        above, below = middle - top, bottom - middle
+        shared = np.arange(min(above, below))
+        unlike = float(rows.distance[top + shared, middle + shared].mean()) - neutral
+        similarity += _SIMILARITY * unlike * below
+        change += _HEIGHT_CHANGE * abs(above - below)
+        edges += float(boundary[middle]) * (above + below) / 2
+    sums = {
+        "similarity": similarity,
+        "height_change": change,
+        "boundary": edges,
+        "eaves": float(eaves[boundaries[0]]),
+        "ground_top": float(ground[boundaries[-1]]),
+    }
+    return {name: total / rows.count for name, total in sums.items()}
+
+
+def _not_halved(candidates: list[tuple[float, int, int]]) -> tuple[float, int, int]:
+    """The least energy; but where floors of about twice the height do nearly as well, those.
+
+    Windows and spandrels that look alike repeat at half a storey as well as at a whole one.
+    """
+    best = min(candidates)
+    while True:
+        taller = [c for c in candidates if c[2] <= 0.6 * best[2]]
+        if not taller or min(taller)[0] > _HALVED * best[0]:
+            return best
+        best = min(taller)
 
 
 def _is_mean(storey: int, boundaries: list[int]) -> bool:
@@ -98,9 +159,7 @@ def _is_mean(storey: int, boundaries: list[int]) -> bool:
     return abs(mean / storey - 1) <= _MEAN_OFF
 
 
-def _scale(
-    storey: int, rows: Rows
-) -> tuple[list[int], float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def _scale(storey: int, rows: Rows) -> Scale:
     """Heights, neutral dissimilarity and three costs (n + 1,) of a storey height, in grid rows."""
     heights = sorted({round(dm * storey / _MEAN_STOREY_DM) for dm in _HEIGHTS_DM})
     boundary = np.zeros(rows.count + 1)
