@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 from veduta.facade.appearance import class_scores, wall_colour
-from veduta.facade.columns import split_columns
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
 from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
-from veduta.facade.openings import find_openings
+from veduta.facade.openings import find_openings, read_columns
 from veduta.facade.options import FacadeOptions
 from veduta.facade.presence import require_building
 from veduta.facade.rectify import Rectified
@@ -49,7 +48,7 @@ def analyse(
         rows = floors.eaves, floors.ground_top
         wall = wall_colour(evidence, *rows, floors.mean_storey)
         scores = class_scores(evidence, wall, *rows, floors.mean_storey)
-        columns = split_columns(evidence, *rows, floors.mean_storey, scores)
+        columns, scores = read_columns(evidence, floors, wall, scores)
         step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)

@@ -9,7 +9,8 @@ from veduta.facade.columns import split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
-from veduta.facade.openings import Box, window_rows
+from veduta.facade.opening_rows import window_rows
+from veduta.facade.openings import Box
 
 # In storeys: the least roof that can hold a window, and the heights of a window in it.
 _ROOF = 0.4
