@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.facade.evidence import Evidence, Float
+from veduta.facade.regions import region_colours
 
 # The sky is looked for in the upper part of the image only.
 _SEARCHED = 0.5
@@ -126,12 +127,13 @@ def _cumulative(counts: NDArray[np.float64]) -> NDArray[np.float64]:
 def row_histograms(evidence: Evidence, skyline: Skyline) -> RowHistograms:
     """Histograms of every row's smooth building pixels, ready for `parting`.
 
-    Smooth pixels are those of surfaces (wall, slate, awning) rather than of frames and railings.
+    Each pixel counts with the colour of its region (`regions.py`). Smooth pixels are those of surfaces (wall, slate, awning) rather than of frames and railings.
     """
     rows, columns = evidence.height, evidence.width
     building = (np.arange(rows)[:, None] >= skyline.rows[None]) & evidence.valid
     building &= np.abs(evidence.gx) < _SMOOTH
-    bins = np.clip(evidence.lab[:, :, 1:] / 256 * _BINS, 0, _BINS - 1).astype(np.int64)
+    chroma = region_colours(evidence)[:, :, 1:]
+    bins = np.clip(chroma / 256 * _BINS, 0, _BINS - 1).astype(np.int64)
     offset = np.broadcast_to(np.arange(rows)[:, None] * _BINS, (rows, columns))[building]
     running = np.zeros((2, rows + 1, _BINS))
     for channel in range(2):
