@@ -127,7 +127,8 @@ def _cumulative(counts: NDArray[np.float64]) -> NDArray[np.float64]:
 def row_histograms(evidence: Evidence, skyline: Skyline) -> RowHistograms:
     """Histograms of every row's smooth building pixels, ready for `parting`.
 
-    Each pixel counts with the colour of its region (`regions.py`). Smooth pixels are those of surfaces (wall, slate, awning) rather than of frames and railings.
+    Each pixel counts with the colour of its region (`regions.py`). Smooth pixels are those of
+    surfaces (wall, slate, awning) rather than of frames and railings.
     """
     rows, columns = evidence.height, evidence.width
     building = (np.arange(rows)[:, None] >= skyline.rows[None]) & evidence.valid
