@@ -52,7 +52,7 @@ def analyse(
         step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
-        boxes = find_roof_windows(evidence, skyline, floors)
+        boxes = find_roof_windows(evidence, skyline, floors, columns)
         boxes += find_openings(evidence, floors, columns, scores)
         boxes += read_ground(evidence, floors, wall)
         for kind in ("window", "balcony", "door", "shop"):

@@ -67,7 +67,12 @@ class _Part:
 def read_floors(
     evidence: Evidence, floors: Floors, stripes: Stripes, scores: Scores
 ) -> list[FloorRows]:
-    """Rows of every floor above the ground floor, eaves first; read twice, the floors tied."""
+    """Rows of every floor above the ground floor, eaves first; read twice, the floors then tied.
+
+    Without stripes there is nothing to read, and no floors are returned.
+    """
+    if not stripes:
+        return []
     free = [_read(evidence, floors, stripes, scores, n, None) for n in range(_count(floors))]
     heights = [b - a for a, b in pairwise(floors.boundaries)]
     begin, end = (

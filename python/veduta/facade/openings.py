@@ -17,7 +17,7 @@ from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import FloorRows, Stripes, read_floors
-from veduta.facade.own_look import look_again
+from veduta.facade.own_look import find_kinds, look_again
 from veduta.facade.railings import find_railings
 from veduta.facade.window_sides import refine_sides
 
@@ -47,10 +47,11 @@ def read_columns(
     """The stripes of windows, and scores by the look that windows and railings have here."""
     rows = floors.eaves, floors.ground_top
     columns, own = split_columns(evidence, *rows, floors.mean_storey, scores), scores
+    kinds = find_kinds(evidence, wall, floors)
     for again in (True, False):
         read = read_floors(evidence, floors, columns.stripes, own)
         labels = _labels(_boxes(read, columns.stripes, floors), scores.window.shape, floors.eaves)
-        own = look_again(evidence, wall, scores, labels, floors)
+        own = look_again(kinds, scores, labels, floors.mean_storey)
         if again:
             columns = split_columns(evidence, *rows, floors.mean_storey, own)
     return columns, own

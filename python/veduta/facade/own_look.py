@@ -33,16 +33,13 @@ _SEEN = 50
 
 
 def look_again(
-    evidence: Evidence, wall: Wall, scores: Scores, labels: NDArray[np.uint8], floors: Floors
+    kinds: NDArray[np.int64], scores: Scores, labels: NDArray[np.uint8], storey: float
 ) -> Scores:
-    """Scores from the kinds of pixels that the classes of a first reading hold.
+    """Scores from the kinds of pixels (see `find_kinds`) that the classes of a first reading hold.
 
-    `labels` (n, w) are 0 wall, 1 window, 2 railing; rows begin at the eaves. The general `scores`
-    keep a part, so that a first reading's faults can mend.
+    `labels` (n, w) are 0 wall, 1 window, 2 railing. The general `scores` keep a part, so that a
+    first reading's faults can mend.
     """
-    storey = floors.mean_storey
-    cues = _cues(evidence, wall, floors.eaves, storey)
-    kinds = _kinds(cues)
     counts = np.stack(
         [np.bincount(kinds[labels == c], minlength=_KINDS).astype(np.float64) for c in range(3)]
     )
@@ -76,8 +73,9 @@ def _cues(evidence: Evidence, wall: Wall, top: int, storey: float) -> Float:
     return np.dstack(cues).astype(np.float32)
 
 
-def _kinds(cues: Float) -> NDArray[np.int64]:
-    """The kind (n, w) of each pixel: the nearest of the centres that k-means finds in the image."""
+def find_kinds(evidence: Evidence, wall: Wall, floors: Floors) -> NDArray[np.int64]:
+    """The kind (n, w) of each pixel of the floors: the nearest of the image's k-means centres."""
+    cues = _cues(evidence, wall, floors.eaves, floors.mean_storey)
     pixels = cues.reshape(-1, cues.shape[-1])
     sample = np.ascontiguousarray(pixels[:: max(1, len(pixels) // _SAMPLE)])
     start = _median_cut(sample).astype(np.int32).reshape(-1, 1)

@@ -68,6 +68,9 @@ def _read_gap(floor: FloorRows, g: int, gap: tuple[int, int], storey: float) -> 
             return _Gap(0, 0, True)
         if reach_left + reach_right >= end - start:
             return _Gap(0, 0, True)
+    if reach_left + reach_right > end - start:
+        reach_left = (end - start) * reach_left // (reach_left + reach_right)
+        reach_right = end - start - reach_left
     return _Gap(reach_left, reach_right, False)
 
 
