@@ -16,6 +16,9 @@ from veduta.facade.regions import region_colours
 _SEARCHED = 0.5
 # Log-likelihood at which a pixel is as likely building as sky.
 _EVEN = 4.5
+# Gradient (lightness steps per pixel, doubled) below which a pixel is plain.
+_PLAIN = 6.0
+_CLUSTERS = 4
 # Cost per row of a step of the skyline, and of a jump of any height (chimneys).
 _SLOPE = 0.5
 _JUMP = 12.0
@@ -41,7 +44,9 @@ def find_skyline(evidence: Evidence) -> Skyline:
     """Part sky from building with one row per column, smooth from column to column.
 
     The sky's colours are those of the smooth pixels at the upper edge. Each pixel pays for being
-    unlike them or for being textured; the chain over columns is solved exactly.
+    unlike them or for being textured; the chain over columns is solved exactly. (Taking new seeds
+    from all that was found to be sky, and solving again, lost more to white walls than it gained
+    in clouds: error 1.51 % instead of 1.37 % of ECP's pixels.)
     """
     none = np.zeros(evidence.width, np.int64)
     seeds = _sky_seeds(evidence)
@@ -66,13 +71,13 @@ def _texture(evidence: Evidence) -> Float:
 
 
 def _sky_seeds(evidence: Evidence) -> Float | None:
-    rows = max(3, round(evidence.height * 0.02))
-    part = np.s_[1:rows]
-    smooth = (_texture(evidence)[part] < 6) & evidence.valid[part]
-    if smooth.sum() < 0.25 * evidence.valid[part].sum() or smooth.sum() < 9:
+    """Colours (n, 3) of the plain pixels at the upper edge of the photo, None where it has few."""
+    depth = np.cumsum(evidence.valid, axis=0)
+    edge = evidence.valid & (depth > 1) & (depth <= max(3, round(evidence.height * 0.02)))
+    plain = edge & (_texture(evidence) < _PLAIN)
+    if plain.sum() < max(9.0, 0.25 * edge.sum()):
         return None
-    blurred = np.asarray(cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0), np.float32)
-    return blurred[part][smooth]
+    return np.asarray(cv2.GaussianBlur(evidence.lab, (0, 0), 1.0)[plain], np.float32)
 
 
 def _sky_cost(evidence: Evidence, seeds: Float) -> Float:
@@ -81,9 +86,9 @@ def _sky_cost(evidence: Evidence, seeds: Float) -> Float:
     lab = cv2.GaussianBlur(evidence.lab[: rows + 4], (0, 0), 1.0)[:rows]
     stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_MAX_ITER, 20, 1.0)
     cv2.setRNGSeed(0)
-    _, labels, centres = cv2.kmeans(seeds, 3, np.empty(0), stop, 2, cv2.KMEANS_PP_CENTERS)
+    _, labels, centres = cv2.kmeans(seeds, _CLUSTERS, np.empty(0), stop, 2, cv2.KMEANS_PP_CENTERS)
     distance = np.full(lab.shape[:2], np.inf, np.float32)
-    for k in range(3):
+    for k in range(_CLUSTERS):
         members = seeds[labels.ravel() == k]
         if len(members) >= 0.05 * len(seeds):
             spread = members.var(0) + np.array([36, 6, 9], np.float32)
