@@ -147,7 +147,7 @@ def _not_halved(candidates: list[tuple[float, int, int]]) -> tuple[float, int, i
     """
     best = min(candidates)
     while True:
-        taller = [c for c in candidates if c[2] <= 0.6 * best[2]]
+        taller = [c for c in candidates if 0.4 * best[2] <= c[2] <= 0.6 * best[2]]
         if not taller or min(taller)[0] > _HALVED * best[0]:
             return best
         best = min(taller)
