@@ -35,7 +35,9 @@ _NEUTRAL = 0.85
 _HEIGHT_CHANGE = 1.2
 _BOUNDARY = 0.15
 _MEAN_OFF = 0.1
+# Share of the best energy at which floors of twice the height win, and the least count for that.
 _HALVED = 0.9
+_MANY = 6
 _REACH = 0.8
 _EAVES = 0.07
 _GROUND_TOP = 0.02
@@ -143,14 +145,14 @@ def _terms(boundaries: list[int], rows: Rows, scale: Scale) -> dict[str, float]:
 def _not_halved(candidates: list[tuple[float, int, int]]) -> tuple[float, int, int]:
     """The least energy; but where floors of about twice the height do nearly as well, those.
 
-    Windows and spandrels that look alike repeat at half a storey as well as at a whole one.
+    Windows and spandrels that look alike repeat at half a storey as well as at a whole one. Few
+    floors are taken as they are: there is too little of them to compare.
     """
     best = min(candidates)
-    while True:
-        taller = [c for c in candidates if 0.4 * best[2] <= c[2] <= 0.6 * best[2]]
-        if not taller or min(taller)[0] > _HALVED * best[0]:
-            return best
-        best = min(taller)
+    taller = [c for c in candidates if 0.4 * best[2] <= c[2] <= 0.6 * best[2]]
+    if best[2] >= _MANY and taller and min(taller)[0] <= _HALVED * best[0]:
+        return min(taller)
+    return best
 
 
 def _is_mean(storey: int, boundaries: list[int]) -> bool:
