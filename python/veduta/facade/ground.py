@@ -25,9 +25,13 @@ _LAB_WEIGHT = (0.5, 1.5, 1.5)
 # Colour distance at which a pixel is as likely wall as not, and that of one full vote.
 _EVEN = 22.0
 _VOTE = 14.0
-# The same for doors, which are at least as unlike wall as half of all that is not wall is.
-_DOOR_EVEN = 35.0
+# The same for doors: from that of a facade without shops to the most, for distances are cut at
+# _FAR, and a door among other dark things must still be able to pass.
+_DOOR_EVEN = (35.0, 70.0)
 _DOOR_VOTE = 20.0
+_FAR = 80.0
+# Votes are clipped to this: evidence against is surer than evidence for (stone-coloured shops).
+_CLIP = (-1.5, 1.0)
 _SPREAD = 0.04
 # In storeys of 3 m: cars stand up to 1 m above the street; what they leave to be seen counts less.
 _CARS = 0.35
@@ -52,7 +56,7 @@ _LINE = 0.04
 _SHOP_GAIN = 0.15
 _CHANGE = -0.08
 _DOOR_GAIN = -0.08
-_WINDOW_GAIN = -0.1
+_WINDOW_GAIN = -0.12
 
 
 @dataclass(frozen=True)
@@ -99,11 +103,10 @@ def _vote(evidence: Evidence, floors: Floors, wall: Wall) -> _Votes:
     ground = min(int(_SIGN[0] * storey), floors.ground_top)
     top = floors.ground_top - ground
     spread = _SPREAD * storey
-    unlike = blur(np.minimum(_unlike(evidence, wall, top, storey), 80), spread, spread)
-    for_wall = np.clip((_EVEN - unlike) / _VOTE, -1.5, 1.0)
-    other = unlike[ground:][for_wall[ground:] < 0]
-    even = max(_DOOR_EVEN, float(np.median(other))) if other.size else _DOOR_EVEN
-    for_door = np.clip((unlike - even) / _DOOR_VOTE, -1.5, 1.0) - _rough(evidence, top, storey)
+    unlike = blur(np.minimum(_unlike(evidence, wall, top, storey), _FAR), spread, spread)
+    for_wall = np.clip((_EVEN - unlike) / _VOTE, *_CLIP)
+    even = _door_even(unlike[ground:])
+    for_door = np.clip((unlike - even) / _DOOR_VOTE, *_CLIP) - _rough(evidence, top, storey)
     height = np.arange(len(unlike), 0, -1)[:, None] / storey
     weight = np.where(height < _CARS, _CARS_WEIGHT, 1.0) / storey**2 * evidence.valid[top:]
     return _Votes(
@@ -115,6 +118,20 @@ def _vote(evidence: Evidence, floors: Floors, wall: Wall) -> _Votes:
         _running(_lines(evidence, top) * _LINE / storey, 1),
         for_wall > 0,
     )
+
+
+def _door_even(unlike: Float) -> float:
+    """The distance at which a pixel of the ground floor is as likely door as not.
+
+    Where half or more is not wall, doors are told from shops by being as unlike wall as half of
+    that is; the less is not wall, the less there is to tell them from.
+    """
+    low, high = _DOOR_EVEN
+    other = unlike[unlike > _EVEN]
+    if not other.size:
+        return low
+    share = min(1.0, 2.0 * other.size / unlike.size)
+    return low + share * (float(np.clip(np.median(other), low, high)) - low)
 
 
 def _unlike(evidence: Evidence, wall: Wall, top: int, storey: float) -> Float:
