@@ -148,9 +148,10 @@ def _running(values: NDArray[np.floating]) -> Array:
 
 
 def _line(edges: Float, inside: NDArray[np.bool_]) -> Array:
-    """Gain (n + 1,) of beginning or ending something at each row: its horizontal edges."""
-    line = edges[:, inside].mean(1).astype(np.float64)
-    return np.append(_EDGE * (line - line.mean()) / (float(line.std()) + 1e-6), 0.0)
+    """Gain (n + 1,) of beginning or ending something between rows: the edge on either side."""
+    strength = edges[:, inside].mean(1).astype(np.float64)
+    line = np.concatenate([strength[:1], np.maximum(strength[:-1], strength[1:]), strength[-1:]])
+    return np.asarray(_EDGE * (line - line.mean()) / (float(line.std()) + 1e-6))
 
 
 def _best_rows(part: _Part, through: Array | None, tie: Span | None) -> Cell:
