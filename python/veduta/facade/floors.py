@@ -42,7 +42,7 @@ _REACH = 0.8
 _EAVES = 0.07
 _GROUND_TOP = 0.02
 # In storeys: the range of the roof (eaves to ridge) and of the ground floor.
-_ROOF = (0.15, 1.7)
+_ROOF = (0.15, 1.2)
 _GROUND = (0.85, 1.9)
 
 
@@ -148,7 +148,11 @@ def _not_halved(candidates: list[tuple[float, int, int]]) -> tuple[float, int, i
     Windows and spandrels that look alike repeat at half a storey as well as at a whole one. Few
     floors are taken as they are: there is too little of them to compare.
     """
+    several = [c for c in candidates if c[2] > 1]
     best = min(candidates)
+    # One floor has nothing to be like; it wins only where several are clearly worse.
+    if best[2] == 1 and several and min(several)[0] <= _HALVED * best[0]:
+        best = min(several)
     taller = [c for c in candidates if 0.4 * best[2] <= c[2] <= 0.6 * best[2]]
     if best[2] >= _MANY and taller and min(taller)[0] <= _HALVED * best[0]:
         return min(taller)

@@ -136,8 +136,8 @@ def _part(
     window: Float, railing: Float, edges: Float, inside: NDArray[np.bool_], storey: float
 ) -> _Part:
     share = max(1, inside.sum()) * storey
-    sums = (_running(v[:, inside].sum(1)) / share for v in (window, railing))
-    return _Part(*sums, _line(edges, inside), storey)
+    of_window, of_railing = (_running(v[:, inside].sum(1)) / share for v in (window, railing))
+    return _Part(of_window, of_railing, _line(edges, inside), storey)
 
 
 def _running(values: NDArray[np.floating]) -> Array:
@@ -158,7 +158,7 @@ def _best_rows(part: _Part, through: Array | None, tie: Span | None) -> Cell:
     """The rows (t, k, b) of the greatest sum; b equals k where no railing shows."""
     at = np.arange(len(part.line))
     span = at[None, :] - at[:, None]
-    begin, end = (np.zeros(len(at)) for _ in range(2))
+    begin, end = (np.zeros(len(at), np.float64) for _ in range(2))
     if tie is not None:
         begin, end = (_price(at - row, part.storey) for row in tie)
     gain = _window_gain(part.window, part.line, part.storey, _WINDOW) - begin[:, None]
@@ -173,8 +173,8 @@ def _best_rows(part: _Part, through: Array | None, tie: Span | None) -> Cell:
     return int(t_of_k[k]), int(k), int(b)
 
 
-def _price(off: Array | NDArray[np.int64], storey: float) -> Array:
-    return _UNLIKE_OTHERS * np.minimum(np.abs(off) / storey, _OTHERWISE)
+def _price(off: NDArray[np.floating] | NDArray[np.integer], storey: float) -> Array:
+    return np.asarray(_UNLIKE_OTHERS * np.minimum(np.abs(off) / storey, _OTHERWISE), np.float64)
 
 
 def _gain(part: _Part, cell: Cell) -> float:
