@@ -16,8 +16,8 @@ from veduta.facade.evidence import Evidence, Float, blur
 
 # Cues in the order: texture across x, texture across y, unlikeness to wall; then the level at
 # which a pixel is as likely wall.
-_WINDOW = ((0.4, -0.55, 1.65), 0.85)
-_RAILING = ((1.05, 0.4, 0.25), 0.35)
+_WINDOW = ((0.5, -0.5, 1.5), 0.85)
+_RAILING = ((1.0, 0.5, 0.25), 0.35)
 _CLIP = 1.5
 _SPREAD_X = 0.02
 _SPREAD_Y = 0.028
