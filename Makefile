@@ -116,7 +116,7 @@ bench: setup ## speed, memory and accuracy tables; dated results go to benchmark
 	@for file in $$(grep -l '^if __name__' benchmarks/*.py); do $(STAGE) "$$file" $(PY) "$$file"; done
 
 pictures: setup ## the README's pictures, made from the synthetic demo
-	$(PY) docs/pictures.py -- --corners
+	$(PY) docs/pictures.py
 
 # ---- locks ----------------------------------------------------------------------------------
 
