@@ -44,6 +44,7 @@ def element(
             "width_m": width_m,
             "height_m": height_m,
             "score": 1.0,
+            "provenance": "measured",
         }
     )
 

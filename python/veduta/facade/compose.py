@@ -74,7 +74,7 @@ def compose(
         rules=rules,
         derivation=derivation(rules, facade, elements),
         energy=_energies(parse),
-        notes=[*rectified.notes, *_notes(parse, scale)],
+        notes=[*rectified.notes, *_notes(parse, scale, options.scale)],
     )
 
 
@@ -93,8 +93,10 @@ def _energies(parse: Parse) -> dict[str, EnergyTerm]:
     }
 
 
-def _notes(parse: Parse, scale: Scale) -> list[str]:
+def _notes(parse: Parse, scale: Scale, asked: ScaleOptions) -> list[str]:
     notes = list(parse.sides.reasons)
+    if asked.height_m is not None and asked.storey_m is not None:
+        notes.append("scale: --height-m decides; --storey-m beside it is not used")
     if scale.basis == "assumed-storey":
         notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
     if parse.skyline.reason:
@@ -131,6 +133,7 @@ def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
             "score": box.score,
             "floor": box.floor,
             "column": box.column,
+            "provenance": "measured",
         }
     )
 

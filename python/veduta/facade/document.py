@@ -100,7 +100,9 @@ class Element(_Record):
     score: float = Field(ge=0.0, le=1.0)
     floor: int | None = Field(default=None, description="0 is the ground floor, None the roof")
     column: int | None = None
-    provenance: Provenance = "measured"
+    provenance: Provenance = Field(
+        default="inferred", description="what the analysis found says measured"
+    )
 
 
 class Split(_Record):
