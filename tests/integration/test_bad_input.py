@@ -155,3 +155,13 @@ def test_out_that_cannot_be_written(tmp_path: Path, photo: Path) -> None:
         assert done.returncode == 2
         assert done.stderr.startswith(f"error: {out}: ")
     assert (tmp_path / "file").read_text() == "in the way"
+
+
+def test_corners_of_one_facade_for_two_photos(tmp_path: Path, photo: Path) -> None:
+    other = tmp_path / "other.png"
+    other.write_bytes(photo.read_bytes())
+    corners = ["--corners", 10, 10, 200, 10, 200, 300, 10, 300]
+    done = veduta("facade", photo, other, *corners, "-o", tmp_path / "out")
+    assert done.returncode == 2
+    assert "--corners: are those of one facade, but 2 photos are named" in done.stderr
+    assert not (tmp_path / "out").exists()

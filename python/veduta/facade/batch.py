@@ -81,6 +81,12 @@ def run_call(
     call = plan_call(paths)
     if call.kind == "document":
         _check_documents(call, options)
+    elif options.rectify.corners is not None and len(call.inputs) > 1:
+        raise InputError(
+            "--corners",
+            f"are those of one facade, but {len(call.inputs)} photos are named",
+            "Make a call for each photo.",
+        )
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
