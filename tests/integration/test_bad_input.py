@@ -6,6 +6,7 @@ import struct
 import zlib
 from pathlib import Path
 
+import numpy as np
 import pytest
 from command_line import facade, read_json, veduta
 from PIL import Image
@@ -35,6 +36,8 @@ def bad_file(kind: str, folder: Path, photo: Path) -> Path:
     elif kind == "huge-header":
         path = path.with_suffix(".png")
         path.write_bytes(png_header(30_000, 30_000))
+    elif kind == "other-format":  # a DDS texture of no known pixel format
+        path.write_bytes(struct.pack("<4s7I44xI4x48x", b"DDS ", 124, 4111, 40, 40, 120, 0, 0, 32))
     elif kind == "empty":
         path.touch()
     return path
@@ -47,6 +50,7 @@ def bad_file(kind: str, folder: Path, photo: Path) -> Path:
         ("truncated", "truncated"),
         ("one-pixel", "1 x 1"),
         ("huge-header", "megapixels"),
+        ("other-format", "not an image that can be read"),
         ("empty", "empty"),
     ],
 )
@@ -64,8 +68,9 @@ def test_unreadable(tmp_path: Path, photo: Path, kind: str, fault: str) -> None:
     assert fault in failure["reason"]
 
 
-def test_the_others_of_a_call_are_done(tmp_path: Path, photo: Path) -> None:
-    bad = bad_file("truncated", tmp_path, photo)
+@pytest.mark.parametrize("kind", ["truncated", "other-format", "huge-header"])
+def test_the_others_of_a_call_are_done(tmp_path: Path, photo: Path, kind: str) -> None:
+    bad = bad_file(kind, tmp_path, photo)
     done = facade(bad, photo, "-o", tmp_path / "out")
     assert done.returncode == 3
     assert f"error: {bad}: " in done.stderr
@@ -92,6 +97,15 @@ def test_no_facade(
     report = read_json(tmp_path / "out" / path.stem / "report.json")
     assert (report["state"], report["failures"][0]["kind"]) == ("failed", "not-found")
     assert not (tmp_path / "out" / "place.json").exists()
+
+
+def test_a_strip_of_a_picture(tmp_path: Path) -> None:
+    path = tmp_path / "panorama.png"
+    pixels = np.random.default_rng(3).integers(0, 256, (11, 667, 3), dtype=np.uint8)
+    Image.fromarray(pixels).resize((4000, 66), Image.Resampling.NEAREST).save(path)
+    done = facade(path, "-o", tmp_path / "out")
+    assert done.returncode == 3, done.stderr
+    assert "not found" in done.stderr
 
 
 def test_nothing_there(tmp_path: Path) -> None:

@@ -130,6 +130,14 @@ def test_not_json(out: Path) -> None:
     assert "line 3" in done.stderr
 
 
+def test_a_number_of_too_many_digits(out: Path) -> None:
+    path = out / "house0" / "facade.json"
+    path.write_text(path.read_text().replace('"version": 1', '"version": ' + 5000 * "9"))
+    done = veduta("facade", path, "-o", out)
+    assert done.returncode == 2
+    assert f"error: {path}: is not usable JSON" in done.stderr
+
+
 def test_photo_is_missing(out: Path, tmp_path: Path) -> None:
     (out / "house0" / "rectified.jpg").unlink()
     done = veduta("facade", out / "house0" / "facade.json", "-o", tmp_path / "new")

@@ -29,6 +29,8 @@ from veduta.run.errors import NotFoundError
 _HEIGHTS_DM = range(24, 43)
 _MEAN_STOREY_DM = 30
 MAX_FLOORS = 12
+# Grid rows below which a storey shows nothing to compare.
+_LEAST_STOREY = 4
 # Weights of equation 5 (alpha, beta), equation 7, and of the histograms' parting (equation 9).
 _SIMILARITY = 1.0
 _NEUTRAL = 0.85
@@ -83,7 +85,7 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     With a known `height_m` (ground to eaves) the mean floor must have 2.4 to 4.2 m. Raises
     NotFoundError where no chain fits.
     """
-    storeys = range(rows.count // 14, round(rows.count / 3.2))
+    storeys = range(max(_LEAST_STOREY, rows.count // 14), round(rows.count / 3.2))
     scales = [_scale(s, rows) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import struct
 import warnings
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -15,6 +14,7 @@ from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.pipeline import Building, rebuild, reconstruct, write_building
 from veduta.facade.report import failure_report, image_report, measures
+from veduta.imaging.read import DAMAGE, FORMATS
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.options import Options
 from veduta.run.progress import StepProgress, no_progress
@@ -68,9 +68,9 @@ def memory_of(source: Input, options: RectifyOptions) -> int:
     """Bytes that a worker will need for the input, from its header; 0 where there is none."""
     path = source.path if source.kind == "photo" else source.path.with_name(PHOTO)
     try:
-        with warnings.catch_warnings(action="ignore"), Image.open(path) as image:
+        with warnings.catch_warnings(action="ignore"), Image.open(path, formats=FORMATS) as image:
             pixels = image.width * image.height
-    except (OSError, ValueError, SyntaxError, struct.error, Image.DecompressionBombError):
+    except (*DAMAGE, Image.DecompressionBombError):
         return 0  # the job will say what is wrong with it
     rectified = min(pixels, options.max_side_px**2)
     return BYTES_BESIDE + BYTES_PER_PHOTO_PIXEL * pixels + BYTES_PER_RECTIFIED_PIXEL * rectified

@@ -83,6 +83,8 @@ def _parse(path: Path, content: bytes) -> FacadeDocument:
         more = len(faults) - _SHOWN_FAULTS
         shown = "; ".join(faults[:_SHOWN_FAULTS]) + (f"; and {more} more" if more > 0 else "")
         raise InputError(path, shown, _REMEDY) from error
+    except ValueError as error:  # after its kinds above: a number of too many digits
+        raise InputError(path, f"is not usable JSON ({error})", "Check the file.") from error
 
 
 def _place(location: tuple[int | str, ...]) -> str:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from veduta.facade.evidence import Evidence, Float, blur_line
 from veduta.facade.extent import Skyline, ridge_row
+from veduta.run.errors import NotFoundError
 
 _BANDS = 8
 _BINS = 64
@@ -22,7 +23,7 @@ _BINS = 64
 _REACH = 0.2
 _NARROWEST = 0.2
 # Chroma steps between two walls that, with a step of the roof line (as a share of the height), tell
-# two buildings apart; and chroma steps that do so alone. On 45 pictures of single facades the
+# two buildings apart; and chroma steps that do so alone. On 45 pictures of single facades
 # neither is reached.
 _OTHER_WALL, _OTHER_ROOF = 15.0, 0.033
 _SURELY_OTHER_WALL = 25.0
@@ -32,6 +33,8 @@ _SEEN = 0.85
 _STREET_EDGES = 0.33
 _STREET = 0.03
 _SMOOTH = 3.0
+# Least height and width of what is left, as a share of the picture's height.
+_LEAST = 0.1
 
 
 @dataclass(frozen=True)
@@ -54,6 +57,12 @@ def find_sides(evidence: Evidence, skyline: Skyline) -> Sides:
         share = 100 * (right - left) / evidence.width
         reasons.append(f"sides: the building takes {share:.0f} % of the picture's width")
     bottom = _street(evidence, skyline, left, right)
+    if min(bottom - skyline.level, right - left) < _LEAST * evidence.height:
+        raise NotFoundError(
+            "a facade",
+            "next to nothing of the picture is a building that the photo shows",
+            "Give a photo in which the whole facade is seen, or its --corners.",
+        )
     if bottom < evidence.height:
         reasons.append(f"ground: the street begins at {100 * bottom / evidence.height:.0f} %")
     return Sides(left, right, bottom, tuple(reasons))

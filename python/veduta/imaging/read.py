@@ -27,7 +27,7 @@ FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
 SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp")
 
 # What Pillow raises on damaged files, found by cutting and flipping bytes of each format.
-_DAMAGE = (
+DAMAGE = (
     OSError,
     ValueError,
     SyntaxError,
@@ -128,7 +128,7 @@ def _damage_is_input_error(path: Path) -> Iterator[None]:
         raise _too_large(path, f"has more than {MAX_PIXELS // 10**6} megapixels") from None
     except MemoryError:
         raise _too_large(path, "needs more memory than there is") from None
-    except _DAMAGE as error:
+    except DAMAGE as error:
         reason = str(error) or type(error).__name__
         fault = f"is truncated or damaged ({reason})"
         raise InputError(path, fault, "Copy or export the image again.") from error
@@ -178,7 +178,7 @@ def _camera_tags(image: Image.Image) -> CameraTags:
     """EXIF, or nothing with a note where the block is damaged: the pixels are still good."""
     try:
         return read_camera_tags(image)
-    except _DAMAGE:
+    except DAMAGE:
         return CameraTags(notes=("the EXIF block is damaged: orientation and lens unknown",))
 
 

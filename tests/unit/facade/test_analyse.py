@@ -6,9 +6,11 @@ import math
 
 import numpy as np
 import pytest
-from drawn_facade import DrawnFacade, analysed, draw_facade
+from drawn_facade import DrawnFacade, analysed, draw_facade, rectified_of
 
-from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.analyse import analyse
+from veduta.facade.document import Element, FacadeDocument, Source
+from veduta.facade.options import FacadeOptions
 from veduta.run.errors import NotFoundError
 
 CASES = [(floors, shadow, floors) for floors in range(2, 8) for shadow in (False, True)]
@@ -91,3 +93,13 @@ def test_plain_and_noisy_pictures_hold_no_facade() -> None:
     for pixels in (noise, np.full((500, 400, 3), 127, np.uint8)):
         with pytest.raises(NotFoundError):
             analysed(pixels)
+
+
+def test_next_to_no_photo_holds_no_facade() -> None:
+    drawn = draw_facade(4)
+    rectified = rectified_of(drawn.pixels)
+    height, width = drawn.pixels.shape[:2]
+    source = Source(image="drawn.png", sha256="0" * 64, width_px=width, height_px=height)
+    rectified.valid[:, : round(0.95 * width)] = False
+    with pytest.raises(NotFoundError, match="facade"):
+        analyse(rectified, source, FacadeOptions())
