@@ -9,8 +9,9 @@ from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
 from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
-from veduta.facade.openings import find_openings, read_columns
+from veduta.facade.openings import find_openings, only_seen, read_columns
 from veduta.facade.options import FacadeOptions
+from veduta.facade.plausible import require_facade
 from veduta.facade.presence import require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.roof_windows import find_roof_windows
@@ -41,7 +42,8 @@ def analyse(
             step.rejected.append(f"sky: {skyline.reason}")
     with timed_step(steps, "floors") as step:
         progress("floors", 0.3)
-        floors = split_floors(gather_rows(evidence, skyline, histograms), options.scale.height_m)
+        lines = gather_rows(evidence, skyline, histograms)
+        floors = split_floors(lines, options.scale.height_m)
         step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
     with timed_step(steps, "columns") as step:
         progress("columns", 0.6)
@@ -54,7 +56,9 @@ def analyse(
         progress("openings", 0.8)
         boxes = find_roof_windows(evidence, skyline, floors, columns)
         boxes += find_openings(evidence, floors, columns, scores)
+        require_facade(lines, floors, wall, boxes)
         boxes += read_ground(evidence, floors, wall)
+        boxes = only_seen(boxes, evidence)
         for kind in ("window", "balcony", "door", "shop"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):

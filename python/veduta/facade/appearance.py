@@ -79,7 +79,15 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
         np.clip(cues @ np.array(weights, np.float32) - level, -_CLIP, _CLIP).astype(np.float32)
         for weights, level in (_WINDOW, _RAILING)
     )
-    return Scores(window, railing, cues[:, :, 0])
+    return where_seen(Scores(window, railing, cues[:, :, 0]), evidence, top)
+
+
+def where_seen(scores: Scores, evidence: Evidence, top: int) -> Scores:
+    """The scores, but 0 (nothing known) where the rectified image has no photo."""
+    seen = evidence.valid[top : top + len(scores.window)]
+    if seen.all():
+        return scores
+    return Scores(scores.window * seen, scores.railing * seen, scores.texture_x)
 
 
 def _relative(values: Float) -> Float:

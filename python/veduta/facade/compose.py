@@ -26,6 +26,8 @@ from veduta.facade.rectify import Rectified
 from veduta.facade.sides import Sides
 
 ASSUMED_STOREY_M = 3.0
+# Score under which the photo speaks rather against a box that its neighbours make likely.
+_SURE = 0.5
 
 
 @dataclass(frozen=True)
@@ -133,7 +135,7 @@ def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
             "score": box.score,
             "floor": box.floor,
             "column": box.column,
-            "provenance": "measured",
+            "provenance": "measured" if box.score >= _SURE else "inferred",
         }
     )
 

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.appearance import Scores, Wall
+from veduta.facade.appearance import Scores, Wall, where_seen
 from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.floors import Floors
@@ -23,6 +23,8 @@ from veduta.facade.window_sides import refine_sides
 
 # Mean log-odds under which a cell of the grid is blank.
 _BLANK = -0.5
+# Share of a box that must be photo, not outside of it.
+_SEEN = 0.5
 # Log-odds of pixels are not independent: how much their mean counts in a box's score.
 _CERTAINTY = 2.0
 
@@ -52,6 +54,7 @@ def read_columns(
         read = read_floors(evidence, floors, columns.stripes, own)
         labels = _labels(_boxes(read, columns.stripes, floors), scores.window.shape, floors.eaves)
         own = look_again(kinds, scores, labels, floors.mean_storey)
+        own = where_seen(own, evidence, floors.eaves)
         if again:
             columns = split_columns(evidence, *rows, floors.mean_storey, own)
     return columns, own
@@ -69,12 +72,21 @@ def find_openings(
     return _boxes(read, stripes, floors)
 
 
+def only_seen(boxes: list[Box], evidence: Evidence) -> list[Box]:
+    """The boxes of which at least half lies in the photo."""
+    return [
+        box
+        for box in boxes
+        if evidence.valid[box.y : box.y + box.height, box.x : box.x + box.width].mean() >= _SEEN
+    ]
+
+
 def _boxes(read: list[FloorRows], stripes: Stripes, floors: Floors) -> list[Box]:
     boxes: list[Box] = []
     for i, floor in enumerate(read):
         number = len(read) - i
         for c, ((x, w), (t, k, _)) in enumerate(zip(stripes, floor.cells, strict=True)):
-            sure = float(floor.window[t:k, x : x + w].mean())
+            sure = float(floor.window[t:k, x : x + w].mean()) if k > t else _BLANK
             if sure > _BLANK:
                 boxes.append(Box("window", x, floor.top + t, w, k - t, number, c, score(sure)))
         for x, end, k, b in find_railings(floor, stripes, floors.mean_storey):

@@ -53,6 +53,8 @@ def find_sides(evidence: Evidence, skyline: Skyline) -> Sides:
     seen = _seen(evidence, skyline)
     cuts = _cuts(evidence, skyline) & seen
     left, right = _main_part(seen, cuts, round(_NARROWEST * evidence.height))
+    if not seen.any():
+        reasons.append("sides: no column is mostly building and photo, so all of it is read")
     if left > 0 or right < evidence.width:
         share = 100 * (right - left) / evidence.width
         reasons.append(f"sides: the building takes {share:.0f} % of the picture's width")

@@ -94,6 +94,12 @@ def test_extents_paint_what_was_found(
     assert (rasterise(document) == true).all()
 
 
+def test_what_the_photo_speaks_against_is_inferred() -> None:
+    document = _document(np.full(160, 20), Sides(0, 160, 300))
+    found = [element.provenance for element in document.elements]
+    assert found == ["measured", "inferred", "measured", "measured"]
+
+
 def test_energies_and_storeys() -> None:
     document = _document(np.full(160, 20), Sides(0, 160, 300))
     assert document.storeys == len(BOUNDARIES)
