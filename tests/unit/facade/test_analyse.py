@@ -103,20 +103,3 @@ def test_next_to_no_photo_holds_no_facade() -> None:
     rectified.valid[:, : round(0.95 * width)] = False
     with pytest.raises(NotFoundError, match="facade"):
         analyse(rectified, source, FacadeOptions())
-
-
-def test_nothing_is_found_where_there_is_no_photo() -> None:
-    """The lower left corner of a turned photo is missing: black, and not valid."""
-    drawn = draw_facade(5)
-    height, width = drawn.pixels.shape[:2]
-    rows, columns = np.arange(height)[:, None], np.arange(width)[None]
-    missing = columns < 0.5 * (rows - 0.4 * height)
-    rectified = rectified_of(np.where(missing[..., None], 0, drawn.pixels).astype(np.uint8))
-    rectified.valid[missing] = False
-    source = Source(image="drawn.png", sha256="0" * 64, width_px=width, height_px=height)
-    document, _ = analyse(rectified, source, FacadeOptions())
-    assert document.storeys == drawn.storeys
-    for e in document.elements:
-        x, y = round(e.x_px), round(e.y_px)
-        part = missing[y : y + round(e.height_px), x : x + round(e.width_px)]
-        assert part.mean() <= 0.55, e

@@ -3,20 +3,22 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
-from drawn_facade import analysed, draw_facade
+from drawn_facade import analysed, draw_facade, rectified_of
 from hypothesis import given
 from hypothesis import strategies as st
 from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
-from veduta.facade.appearance import Scores
+from veduta.facade.appearance import Scores, class_scores, wall_colour
 from veduta.facade.document import Element
-from veduta.facade.evidence import Evidence
+from veduta.facade.evidence import Evidence, gather
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import gaps, read_floors
+from veduta.facade.openings import Box, only_seen
 
 STOREY, WIDTH = 24, 30
 STRIPE = (10, 8)
@@ -109,3 +111,23 @@ def test_the_ground_floor_is_a_shop() -> None:
     width = sum(e.width_px for e in shops)
     assert width > 0.9 * drawn.pixels.shape[1]
     assert all(abs(e.y_px - drawn.boundaries[-1]) < 10 for e in shops)
+
+
+def test_nothing_is_known_where_there_is_no_photo() -> None:
+    rectified = rectified_of(draw_facade(5).pixels)
+    rectified.valid[200:, :90] = False
+    evidence = gather(rectified.pixels, rectified.valid)
+    top, bottom, storey = 150, 400, 60.0
+    wall = wall_colour(evidence, top, bottom, storey)
+    scores = class_scores(evidence, wall, top, bottom, storey)
+    for score in (scores.window, scores.railing):
+        assert (score[50:, :90] == 0).all()
+        assert (score[:50] != 0).mean() > 0.9
+    inside, outside, across = (Box("window", x, 220, 40, 30, 1, 0, 0.9) for x in (100, 10, 69))
+    assert only_seen([inside, outside, across], evidence) == [inside]
+    assert only_seen([inside, outside, across], whole(evidence)) == [inside, outside, across]
+
+
+def whole(evidence: Evidence) -> Evidence:
+    """The same with all of it in the photo."""
+    return replace(evidence, valid=np.ones_like(evidence.valid))
