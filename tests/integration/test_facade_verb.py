@@ -32,6 +32,15 @@ def test_all_files_are_there(out: Path) -> None:
     assert {file.name for file in (out / ".veduta").iterdir()} == {"run.json", "lock"}
 
 
+def test_the_same_bytes_alone_and_with_others(
+    out: Path, tmp_path: Path, photos: list[Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The sums of matrix products depend on the number of threads, which is therefore fixed."""
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    assert facade(photos[0], "-o", tmp_path).returncode == 0
+    assert tree(tmp_path / "house0") == tree(out / "house0")
+
+
 def test_labels_are_drawn_from_the_document(out: Path) -> None:
     """Redrawn with OpenCV on a grid of 16 by 16 points per pixel, read at the centres."""
     document = FacadeDocument.model_validate(read_json(out / "house0" / "facade.json"))

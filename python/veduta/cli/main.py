@@ -19,6 +19,7 @@ from typing import NoReturn
 
 import veduta
 from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
+from veduta.run.threads import same_sums_anywhere
 
 VERBS = ("facade", "demo", "view", "export")
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
@@ -38,6 +39,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if verb not in VERBS:
         return _unknown(verb)
     signal.signal(signal.SIGTERM, _stop)
+    same_sums_anywhere()
     return _guarded(verb, words)
 
 

@@ -25,6 +25,7 @@ from multiprocessing.process import BaseProcess
 from typing import Any, Generic, TypeVar
 
 from veduta.run.errors import VedutaError
+from veduta.run.threads import share_cores
 
 T = TypeVar("T")
 
@@ -32,13 +33,6 @@ MEMORY_BUDGET = 2 * 1024**3
 """Bytes that all workers together may use."""
 WORKER_BASE = 120 * 1024**2
 """Bytes of a process before it holds any data (measured: 77 MiB with numpy, OpenCV and scipy)."""
-THREADS_OF = (
-    "RAYON_NUM_THREADS",
-    "OMP_NUM_THREADS",
-    "OPENBLAS_NUM_THREADS",
-    "OPENCV_FOR_THREADS_NUM",
-)
-"""Environment variables by which native libraries learn, when loaded, how many threads to use."""
 
 
 @dataclass(frozen=True)
@@ -184,8 +178,7 @@ def _work(pipe: Connection, module: str, name: str, threads: int) -> None:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all; the parent decides
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    for variable in THREADS_OF:  # before the import that loads the libraries
-        os.environ[variable] = str(threads)
+    share_cores(threads)  # before the import that loads the libraries
     function = getattr(importlib.import_module(module), name)
     while True:
         try:
