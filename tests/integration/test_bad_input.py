@@ -144,13 +144,18 @@ def test_names_that_cannot_be_a_folder(tmp_path: Path, photo: Path, name: str) -
         ["--corners", "1", "2", "3"],
         ["--setback-m", "7"],
         ["--jobs", "0"],
+        ["--storey-m", "3,2"],
+        ["--corners", "10,20,30,40,50,60,70,80"],
     ],
 )
 def test_bad_use(tmp_path: Path, photo: Path, arguments: list[str]) -> None:
     done = facade(photo, "-o", tmp_path / "out", *arguments)
     assert done.returncode == 2
-    assert done.stderr
+    assert arguments[0] in done.stderr
     assert "Traceback" not in done.stderr
+    if len(arguments) > 1:
+        assert done.stderr.startswith(f"error: {arguments[0]}: ")
+        assert done.stderr.count("\n") == 1
     assert not (tmp_path / "out").exists()
 
 

@@ -5,17 +5,32 @@ from __future__ import annotations
 import inspect
 import os
 import types
+from collections.abc import Sequence
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 import tyro
+
+from veduta.cli.numbers import require_numbers
 
 T = TypeVar("T")
 
 os.environ.setdefault("PYDANTIC_ERRORS_INCLUDE_URL", "0")  # a wrong number needs no manual
 
 
-def parse(call: type[T], prog: str, arguments: list[str]) -> T:
-    """The arguments as a `call`; bad use exits with 2 and a hint."""
+def parse(
+    call: type[T],
+    prog: str,
+    arguments: list[str],
+    *,
+    description: str = "",
+    config: Sequence[Any] = (tyro.conf.OmitArgPrefixes, tyro.conf.FlagCreatePairsOff),
+) -> T:
+    """The arguments as a `call`; bad use exits with 2 and a hint.
+
+    description: stands at the top of the help, in place of the call's docstring.
+    """
+    if not {"-h", "--help"} & set(arguments):
+        require_numbers(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
     registry.primitive_rule(_optional_numbers)
     with registry:
@@ -23,8 +38,8 @@ def parse(call: type[T], prog: str, arguments: list[str]) -> T:
             call,
             args=arguments,
             prog=prog,
-            description=inspect.cleandoc(call.__doc__ or ""),
-            config=(tyro.conf.OmitArgPrefixes, tyro.conf.FlagCreatePairsOff),
+            description=description or inspect.cleandoc(call.__doc__ or ""),
+            config=config,
         )
 
 

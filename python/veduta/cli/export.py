@@ -9,15 +9,16 @@ def run(argv: list[str]) -> int:
     """Parse the arguments and write the export; returns the exit code."""
     import tyro
 
+    from veduta.cli.arguments import parse
     from veduta.run.errors import InputError
     from veduta.studio.export import export_web
     from veduta.studio.options import ExportOptions
 
-    options = tyro.cli(
+    options = parse(
         ExportOptions,
-        prog="veduta export",
+        "veduta export",
+        argv,
         description=f"{SUMMARY}.",
-        args=argv,
         config=(tyro.conf.PositionalRequiredArgs,),
     )
     if options.web is None:

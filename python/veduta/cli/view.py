@@ -14,14 +14,15 @@ def run(argv: list[str]) -> int:
     """Parse the arguments and serve until Ctrl-C; returns the exit code."""
     import tyro
 
+    from veduta.cli.arguments import parse
     from veduta.studio.options import ViewOptions
     from veduta.studio.server import serve
 
-    options = tyro.cli(
+    options = parse(
         ViewOptions,
-        prog="veduta view",
+        "veduta view",
+        argv,
         description=f"{SUMMARY}: serves the studio from this machine until Ctrl-C.",
-        args=argv,
         config=(tyro.conf.PositionalRequiredArgs,),
     )
     serve(options, _announce)

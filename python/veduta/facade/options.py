@@ -18,8 +18,8 @@ class RectifyOptions(Options):
     corners: tuple[float, float, float, float, float, float, float, float] | None = Field(
         default=None,
         description=(
-            "facade corners in photo pixels, x y each: "
-            "upper left, upper right, lower right, lower left"
+            "facade corners in photo pixels: "
+            "x y of upper left, upper right, lower right, lower left"
         ),
     )
     focal_mm35: Metres | None = Field(

@@ -1,0 +1,175 @@
+"""Numbers on the command line, checked before the parser sees them.
+
+The parser and pydantic speak of types and validators; a person is told which option it is, what is
+wrong with its value, and what to write instead.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+import types
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+
+from pydantic import BaseModel
+
+from veduta.run.errors import InputError
+
+Bound = float | int | None
+_WORDS = {2: "two", 3: "three", 4: "four", 6: "six", 8: "eight"}
+
+
+@dataclass(frozen=True)
+class NumberOption:
+    """An option that takes one number or several, as its field declares it."""
+
+    flag: str
+    whole: bool
+    count: int = 1
+    least: Bound = None
+    most: Bound = None
+    above: Bound = None
+    below: Bound = None
+    order: str = ""
+    """What several numbers stand for, in their order."""
+
+    @property
+    def wanted(self) -> str:
+        """What the option takes, in words."""
+        kind = "whole number" if self.whole else "number"
+        if self.count > 1:
+            order = f": {self.order}" if self.order else ""
+            return f"{_count(self.count)} {kind}s with spaces between them{order}"
+        if self.least is not None and self.most is not None:
+            return f"a {kind} from {_short(self.least)} to {_short(self.most)}"
+        bounds = {
+            "at least": self.least,
+            "above": self.above,
+            "at most": self.most,
+            "below": self.below,
+        }
+        said = [f"{word} {_short(bound)}" for word, bound in bounds.items() if bound is not None]
+        return " ".join([f"a {kind}", " and ".join(said)]).strip()
+
+    def holds(self, value: float) -> bool:
+        """Whether the value is within the option's range."""
+        return (
+            (self.least is None or value >= self.least)
+            and (self.most is None or value <= self.most)
+            and (self.above is None or value > self.above)
+            and (self.below is None or value < self.below)
+        )
+
+
+def require_numbers(call: type[Any], arguments: Sequence[str]) -> None:
+    """InputError for the first option of `call` whose value is no number, or none of its range."""
+    options = {option.flag: option for option in number_options(call)}
+    for place, word in enumerate(arguments):
+        name, equals, joined = word.partition("=")
+        option = options.get(name.replace("_", "-"))
+        if option is not None:
+            following = _values(arguments[place + 1 :])
+            _require(option, [joined] if equals else following[: option.count])
+
+
+def number_options(call: type[Any]) -> list[NumberOption]:
+    """The options with numbers of a verb's arguments, and of the option models in them."""
+    if issubclass(call, BaseModel):
+        return _of_model(call)
+    found = []
+    for name, annotation in get_type_hints(call, include_extras=True).items():
+        kind = _plain(annotation)
+        if isinstance(kind, type) and issubclass(kind, BaseModel):
+            found += _of_model(kind)
+        elif kind in (int, float):
+            found.append(NumberOption(_flag(name), whole=kind is int))
+    return found
+
+
+def _of_model(model: type[BaseModel]) -> list[NumberOption]:
+    """From the JSON schema, as the tables in the docs."""
+    found = []
+    for name, schema in model.model_json_schema()["properties"].items():
+        kinds = [part for part in schema.get("anyOf", [schema]) if part.get("type") != "null"]
+        taken = kinds[0]
+        items = taken["prefixItems"][0] if taken.get("type") == "array" else taken
+        if items.get("type") not in ("integer", "number"):
+            continue
+        found.append(
+            NumberOption(
+                _flag(name),
+                whole=items["type"] == "integer",
+                count=taken.get("minItems", 1),
+                least=items.get("minimum"),
+                most=items.get("maximum"),
+                above=items.get("exclusiveMinimum"),
+                below=items.get("exclusiveMaximum"),
+                order=schema.get("description", "").partition(": ")[2],
+            )
+        )
+    return found
+
+
+def _plain(annotation: Any) -> Any:
+    """The type without annotations, and without the None of an option that need not be given."""
+    kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
+    if get_origin(kind) not in (Union, types.UnionType):
+        return kind
+    kinds = [_plain(part) for part in get_args(kind) if part is not type(None)]
+    return kinds[0] if len(kinds) == 1 else kind
+
+
+def _values(words: Sequence[str]) -> list[str]:
+    """The words up to the next option; a negative number is a value."""
+    found = []
+    for word in words:
+        if re.match(r"-[^\d.]", word) and _number(word, whole=False) is None:
+            break
+        found.append(word)
+    return found
+
+
+def _require(option: NumberOption, words: Sequence[str]) -> None:
+    given = " ".join(words)
+    if not words:
+        raise InputError(option.flag, "its value is missing", f"Give {option.wanted}.")
+    values = [_number(word, whole=option.whole) for word in words]
+    numbers = [value for value in values if value is not None]
+    if len(numbers) < option.count:
+        singular = "whole number" if option.whole else "number"
+        what = f"a {singular}" if option.count == 1 else f"{_count(option.count)} {singular}s"
+        raise InputError(option.flag, f'"{given}" is not {what}', _remedy(option, given))
+    if not all(option.holds(value) for value in numbers):
+        raise InputError(option.flag, f"{given} is out of range", f"Give {option.wanted}.")
+
+
+def _remedy(option: NumberOption, given: str) -> str:
+    """What to write; a decimal comma is the commonest slip."""
+    pointed = given.replace(",", ".")
+    value = _number(pointed, whole=option.whole) if option.count == 1 else None
+    if value is not None and option.holds(value):
+        return f"Write {pointed}, with a point."
+    return f"Give {option.wanted}."
+
+
+def _number(word: str, *, whole: bool) -> float | None:
+    """The number that the parser would read, None where it is none or not finite."""
+    try:
+        value = int(word) if whole else float(word)
+        return value if math.isfinite(value) else None
+    except (ValueError, OverflowError):
+        return None
+
+
+def _short(bound: float) -> str:
+    return str(int(bound)) if bound == int(bound) else str(bound)
+
+
+def _count(number: int) -> str:
+    return _WORDS.get(number, str(number))
+
+
+def _flag(name: str) -> str:
+    return f"--{name.replace('_', '-')}"
