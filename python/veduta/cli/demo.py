@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-SUMMARY = "a synthetic street, rebuilt from its photo and compared with the truth"
+SUMMARY = "Make a synthetic street, rebuild it from its photo, compare it with the truth"
 
 if TYPE_CHECKING:
     from veduta.facade.compare import Comparison, Pair

@@ -5,7 +5,7 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
-SUMMARY = "photos of facades become LoD3 buildings: floors, windows, balconies, roof"
+SUMMARY = "Turn photos of facades into LoD3 buildings: floors, windows, balconies, roof"
 
 if TYPE_CHECKING:
     from veduta.cli.facade_call import FacadeCall

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import importlib
 import signal
 import subprocess
 import sys
@@ -24,6 +25,15 @@ def test_help_imports_nothing_heavy() -> None:
     assert HEAVY & set(modules.split()) == set()
     for verb in cli.VERBS:
         assert any(line.startswith(f"  {verb} ") for line in text)
+
+
+@pytest.mark.parametrize("verb", cli.VERBS)
+def test_summaries_are_of_one_style(verb: str) -> None:
+    """An imperative with a capital, short enough for a line, without a full stop."""
+    summary = importlib.import_module(f"veduta.cli.{verb}").SUMMARY
+    assert summary.split()[0] in {"Turn", "Make", "Show", "Write"}
+    assert len(summary) < 80
+    assert not summary.endswith(".")
 
 
 @pytest.fixture
