@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
-from veduta.facade.document import CLASSES, Element, FacadeBox, FacadeDocument
+from veduta.facade.document import CLASSES, Element, Extent, FacadeBox, FacadeDocument
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 
@@ -18,6 +18,9 @@ DOCUMENT = "facade.json"
 PHOTO = "rectified.jpg"
 MAX_BYTES = 20_000_000
 MAX_ELEMENTS = 20_000
+MAX_EXTENTS = 64
+MAX_POINTS = 20_000
+"""Of the polygons of all extents together."""
 MAX_COORDINATE = 1e6
 """No number of a document (px or m) is larger than this, by amount."""
 TOLERANCE = 0.01
@@ -110,12 +113,28 @@ def _faults(document: FacadeDocument) -> list[str]:
         for side in ("width_px", "height_px"):
             if getattr(sized, side) <= 0:
                 found.append(f"{name}.{side}: must be above zero")
-    for index, extent in enumerate(document.extents):
-        if len(extent.polygon_px) < 3:
-            found.append(f"extents[{index}].polygon_px: needs at least three points")
+    found += _extent_faults(document.extents)
     rules = document.rules.facade
     if len(rules.symbols) != len(rules.sizes_m):
         found.append("rules.facade: needs as many sizes_m as symbols")
+    return found
+
+
+def _extent_faults(extents: list[Extent]) -> list[str]:
+    if len(extents) > MAX_EXTENTS:
+        return [f"extents: {len(extents)}, more than {MAX_EXTENTS}"]
+    sizes = [len(extent.polygon_px) for extent in extents]
+    found = [
+        f"extents[{index}].polygon_px: needs at least three points"
+        for index, size in enumerate(sizes)
+        if size < 3
+    ]
+    if sum(sizes) > MAX_POINTS:
+        largest = sizes.index(max(sizes))
+        found.append(
+            f"extents[{largest}].polygon_px: {sizes[largest]} points, {sum(sizes)} with the other"
+            f" extents, more than {MAX_POINTS}"
+        )
     return found
 
 

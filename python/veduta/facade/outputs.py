@@ -69,20 +69,28 @@ def _paint_polygon(labels: NDArray[np.uint8], polygon: NDArray[np.float64], labe
     """Paint an (n, 2) polygon by the even-odd rule, in the pixels' own frame.
 
     Each edge toggles, in every row whose centre line it crosses, all pixels whose centres lie on
-    or right of the crossing: what is toggled an odd number of times is inside.
+    or right of the crossing: what is toggled an odd number of times is inside. Only the rows and
+    columns that the polygon covers are looked at: a document may hold many small ones.
     """
     if len(polygon) < 3:
         return
-    height, width = labels.shape
-    toggles = np.zeros((height, width + 1), dtype=np.int32)
+    (left, top), (right, bottom) = polygon.min(axis=0), polygon.max(axis=0)
+    # One column more on either side: a crossing may be rounded past the end of its edge.
+    down, across = _centres_between(top, bottom), _centres_between(left - 1.0, right + 1.0)
+    part = labels[down, across]
+    if part.size == 0:
+        return
+    height, width = part.shape
+    toggles = np.zeros((height, width + 1), dtype=np.bool_)
     for (x0, y0), (x1, y1) in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        rows = np.arange(height)[_centres_between(min(y0, y1), max(y0, y1))]
+        covered = _centres_between(min(y0, y1), max(y0, y1))
+        rows = np.arange(covered.start, min(covered.stop, down.start + height))
         if len(rows) == 0:
             continue
         if y0 > y1:  # the same crossings, to the last bit, for both owners of a shared edge
             x0, y0, x1, y1 = x1, y1, x0, y0
         crossing = x0 + (rows + 0.5 - y0) * ((x1 - x0) / (y1 - y0))
-        columns = np.clip(np.ceil(crossing - 0.5), 0, width).astype(np.intp)
-        toggles[rows, columns] += 1
-    inside = np.cumsum(toggles[:, :-1], axis=1) % 2 == 1
-    labels[inside] = label
+        columns = np.clip(np.ceil(crossing - 0.5) - across.start, 0, width).astype(np.intp)
+        toggles[rows - down.start, columns] ^= True
+    inside = np.logical_xor.accumulate(toggles[:, :-1], axis=1)
+    part[inside] = label

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import io
+import itertools
+import tracemalloc
 from collections.abc import Callable
 from fractions import Fraction
 
@@ -65,6 +67,41 @@ name = st.sampled_from(CLASSES)
 def test_labels_are_redrawn_alike(make_document: Make, extents: list, elements: list) -> None:
     document = make_document((19, 17), (1, 1, 10, 10), extents, elements)
     assert (rasterise(document) == redrawn(document)).all()
+
+
+def near(value: Fraction, parts: int) -> tuple[Fraction, ...]:
+    return value - Fraction(1, parts), value, value + Fraction(1, parts)
+
+
+free = st.floats(-40.0, 60.0) | st.floats(-1e6, 1e6)
+
+
+@given(points=st.lists(st.tuples(free, free), min_size=3, max_size=9))
+def test_a_polygon_anywhere(make_document: Make, points: Points) -> None:
+    """Even-odd for each pixel's centre, whatever part of the polygon lies outside of the image."""
+    painted = rasterise(make_document((19, 17), extents=[("sky", points)])) == CLASSES.index("sky")
+    for row, column in np.ndindex(painted.shape):
+        x, y = Fraction(2 * column + 1, 2), Fraction(2 * row + 1, 2)
+        if painted[row, column] != holds(points, x, y):
+            # Only a border that passes this near to the centre may be rounded across it.
+            around = itertools.product(near(x, 10**6), near(y, 10**9))
+            assert len({holds(points, *each) for each in around}) == 2
+
+
+def test_a_small_polygon_takes_little_memory(make_document: Make) -> None:
+    """A document may hold many polygons: each costs what it covers, not a whole image."""
+    points = [(3000.2, 3000.2), (3090.7, 3000.2), (3090.7, 3095.3), (3000.2, 3095.3)]
+    document = make_document((4000, 4000), extents=[("sky", points)])
+    tracemalloc.start()
+    try:
+        labels = rasterise(document)
+        peak = tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+    assert peak - labels.nbytes < 200_000
+    rows, columns = np.nonzero(labels == CLASSES.index("sky"))
+    assert (rows.min(), rows.max()) == (3000, 3094)
+    assert (columns.min(), columns.max()) == (3000, 3090)
 
 
 @given(corners=st.lists(corner, min_size=4, max_size=4, unique=True))

@@ -1,0 +1,46 @@
+"""What a document may hold, and where in the file it says that something is wrong."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from veduta.facade.document import FacadeDocument
+from veduta.facade.load import MAX_EXTENTS, MAX_POINTS, load_document
+from veduta.run.errors import InputError
+
+Make = Callable[..., FacadeDocument]
+TRIANGLE = [(0.0, 0.0), (9.0, 0.0), (0.0, 9.0)]
+
+
+def written(document: FacadeDocument, folder: Path) -> Path:
+    """The document as a file."""
+    path = folder / "facade.json"
+    path.write_text(document.model_dump_json(by_alias=True), encoding="utf-8")
+    return path
+
+
+def fault_of(document: FacadeDocument, folder: Path) -> str:
+    """What is said about a document that is refused."""
+    path = written(document, folder)
+    with pytest.raises(InputError) as caught:
+        load_document(path)
+    assert caught.value.subject == str(path)
+    return caught.value.fault
+
+
+def test_extents_are_counted(make_document: Make, tmp_path: Path) -> None:
+    most = make_document(extents=[("sky", TRIANGLE)] * MAX_EXTENTS)
+    assert len(load_document(written(most, tmp_path)).extents) == MAX_EXTENTS
+    more = make_document(extents=[("sky", TRIANGLE)] * (MAX_EXTENTS + 1))
+    assert fault_of(more, tmp_path) == f"extents: {MAX_EXTENTS + 1}, more than {MAX_EXTENTS}"
+
+
+def test_points_are_counted_over_all_extents(make_document: Make, tmp_path: Path) -> None:
+    many = TRIANGLE * (MAX_POINTS // 3 - 1)
+    most = make_document(extents=[("sky", TRIANGLE), ("wall", many)])
+    assert len(load_document(written(most, tmp_path)).extents) == 2
+    more = make_document(extents=[("sky", TRIANGLE), ("wall", [*many, *TRIANGLE])])
+    assert fault_of(more, tmp_path).startswith(f"extents[1].polygon_px: {len(many) + 3} points")
