@@ -14,18 +14,17 @@ from veduta.facade.document import (
     Extent,
     FacadeBox,
     FacadeDocument,
-    Scale,
     Source,
 )
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
-from veduta.facade.options import FacadeOptions, ScaleOptions
+from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
+from veduta.facade.scale import metres, scale_notes
 from veduta.facade.sides import Sides
 
-ASSUMED_STOREY_M = 3.0
 # Score under which the photo speaks rather against a box that its neighbours make likely.
 _SURE = 0.5
 
@@ -65,6 +64,9 @@ def compose(
     )
     elements = [_element(b, k, facade, m) for b in parse.boxes]
     rules = rule_parameters(rows, parse.skyline.level * k, facade, elements, m)
+    notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
+    if parse.skyline.reason:
+        notes.append(f"no sky: {parse.skyline.reason}")
     return FacadeDocument(
         source=source,
         rectification=record,
@@ -76,7 +78,7 @@ def compose(
         rules=rules,
         derivation=derivation(rules, facade, elements),
         energy=_energies(parse),
-        notes=[*rectified.notes, *_notes(parse, scale, options.scale)],
+        notes=notes,
     )
 
 
@@ -93,27 +95,6 @@ def _energies(parse: Parse) -> dict[str, EnergyTerm]:
             total=columns.energy, terms={}, nodes=len(columns.stripes), labels=columns.labels
         ),
     }
-
-
-def _notes(parse: Parse, scale: Scale, asked: ScaleOptions) -> list[str]:
-    notes = list(parse.sides.reasons)
-    if asked.height_m is not None and asked.storey_m is not None:
-        notes.append("scale: --height-m decides; --storey-m beside it is not used")
-    if scale.basis == "assumed-storey":
-        notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
-    if parse.skyline.reason:
-        notes.append(f"no sky: {parse.skyline.reason}")
-    return notes
-
-
-def metres(rows: list[float], bottom: float, options: ScaleOptions) -> Scale:
-    """Metres per rectified pixel from the height, the storey, or an assumed storey of 3 m."""
-    if options.height_m is not None:
-        return Scale(metres_per_px=options.height_m / (bottom - rows[0]), basis="height")
-    storey_px = (rows[-1] - rows[0]) / (len(rows) - 1)
-    if options.storey_m is not None:
-        return Scale(metres_per_px=options.storey_m / storey_px, basis="storey")
-    return Scale(metres_per_px=ASSUMED_STOREY_M / storey_px, basis="assumed-storey")
 
 
 def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:

@@ -12,7 +12,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from veduta.facade.columns import Columns
-from veduta.facade.compose import ASSUMED_STOREY_M, Parse, compose, metres
+from veduta.facade.compose import Parse, compose
 from veduta.facade.document import CLASSES, FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import Skyline
@@ -20,6 +20,7 @@ from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.outputs import rasterise
+from veduta.facade.scale import ASSUMED_STOREY_M, metres
 from veduta.facade.sides import Sides
 
 BOUNDARIES = [60, 110, 165, 210]
