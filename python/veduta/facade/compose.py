@@ -14,6 +14,7 @@ from veduta.facade.document import (
     Extent,
     FacadeBox,
     FacadeDocument,
+    Rectification,
     Source,
 )
 from veduta.facade.evidence import Evidence
@@ -42,16 +43,23 @@ class Parse:
     boxes: list[Box]
 
 
+@dataclass(frozen=True)
+class _Enlargement:
+    """Rectified pixels per analysis pixel."""
+
+    across: float
+    down: float
+
+
 def compose(
     parse: Parse, rectified: Rectified, source: Source, options: FacadeOptions
 ) -> FacadeDocument:
     """Bring everything to rectified pixels and metres, and derive rules and tree from it."""
     record = rectified.record
-    k = 1.0 / parse.evidence.px_per_rectified
-    rows = [round(b * k, 2) for b in parse.floors.boundaries]
-    left = round(parse.sides.left * k, 2)
-    right = min(round(parse.sides.right * k, 2), float(record.width_px))
-    bottom = min(round(parse.sides.bottom * k, 2), float(record.height_px))
+    k = _enlargement(parse, record)
+    rows = [round(b * k.down, 2) for b in parse.floors.boundaries]
+    left, right = (round(x * k.across, 2) for x in (parse.sides.left, parse.sides.right))
+    bottom = round(parse.sides.bottom * k.down, 2)
     scale = metres(rows, bottom, options.scale)
     m = scale.metres_per_px
     facade = FacadeBox(
@@ -63,7 +71,7 @@ def compose(
         height_m=(bottom - rows[0]) * m,
     )
     elements = [_element(b, k, facade, m) for b in parse.boxes]
-    rules = rule_parameters(rows, parse.skyline.level * k, facade, elements, m)
+    rules = rule_parameters(rows, parse.skyline.level * k.down, facade, elements, m)
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
         notes.append(f"no sky: {parse.skyline.reason}")
@@ -72,7 +80,7 @@ def compose(
         rectification=record,
         scale=scale,
         facade=facade,
-        extents=_extents(parse, rows[0], facade, (record.width_px, record.height_px)),
+        extents=_extents(parse, k, rows[0], facade, record),
         elements=elements,
         storeys=len(parse.floors.boundaries),
         rules=rules,
@@ -80,6 +88,12 @@ def compose(
         energy=_energies(parse),
         notes=notes,
     )
+
+
+def _enlargement(parse: Parse, record: Rectification) -> _Enlargement:
+    """From sizes in whole pixels: the analysis image's are rounded, so the axes differ a little."""
+    height = round(record.height_px * parse.evidence.px_per_rectified)
+    return _Enlargement(record.width_px / len(parse.sky.rows), record.height_px / height)
 
 
 def _energies(parse: Parse) -> dict[str, EnergyTerm]:
@@ -97,9 +111,9 @@ def _energies(parse: Parse) -> dict[str, EnergyTerm]:
     }
 
 
-def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
-    y, width, height = (round(v * k, 2) for v in (box.y, box.width, box.height))
-    x = round(facade.x_px + box.x * k, 2)
+def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
+    x, width = round(facade.x_px + box.x * k.across, 2), round(box.width * k.across, 2)
+    y, height = round(box.y * k.down, 2), round(box.height * k.down, 2)
     width = min(width, facade.x_px + facade.width_px - x)
     height = min(height, facade.y_px + facade.height_px - y)
     return Element.model_validate(
@@ -121,32 +135,33 @@ def _element(box: Box, k: float, facade: FacadeBox, m: float) -> Element:
     )
 
 
-def _extents(parse: Parse, eaves: float, facade: FacadeBox, size: tuple[int, int]) -> list[Extent]:
+def _extents(
+    parse: Parse, k: _Enlargement, eaves: float, facade: FacadeBox, record: Rectification
+) -> list[Extent]:
     """Surroundings, roof, wall and sky; each covers what was painted before it."""
-    width, height = float(size[0]), float(size[1])
+    width, height = float(record.width_px), float(record.height_px)
     left, right = facade.x_px, facade.x_px + facade.width_px
     bottom = facade.y_px + facade.height_px
-    k = 1.0 / parse.evidence.px_per_rectified
     regions = {}
     if left > 0 or right < width or bottom < height:
         regions["other"] = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)]
     regions["roof"] = [(left, 0.0), (right, 0.0), (right, eaves), (left, eaves)]
     regions["wall"] = [(left, eaves), (right, eaves), (right, bottom), (left, bottom)]
     if parse.sky.rows.any():
-        regions["sky"] = [(0.0, 0.0), *_skyline_outline(parse.sky, k, width), (width, 0.0)]
+        regions["sky"] = [(0.0, 0.0), *_skyline_outline(parse.sky, k), (width, 0.0)]
     return [
         Extent.model_validate({"class": name, "polygon_px": points})
         for name, points in regions.items()
     ]
 
 
-def _skyline_outline(skyline: Skyline, k: float, right: float) -> list[tuple[float, float]]:
+def _skyline_outline(skyline: Skyline, k: _Enlargement) -> list[tuple[float, float]]:
     """The skyline as steps, left to right, in rectified pixels."""
     changes = np.flatnonzero(np.diff(skyline.rows)) + 1
     starts = [0, *changes.tolist()]
     ends = [*changes.tolist(), len(skyline.rows)]
     points: list[tuple[float, float]] = []
     for start, end in zip(starts, ends, strict=True):
-        y = round(float(skyline.rows[start]) * k, 2)
-        points += [(round(start * k, 2), y), (min(round(end * k, 2), right), y)]
+        y = round(float(skyline.rows[start]) * k.down, 2)
+        points += [(round(start * k.across, 2), y), (round(end * k.across, 2), y)]
     return points

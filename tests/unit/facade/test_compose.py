@@ -95,6 +95,26 @@ def test_extents_paint_what_was_found(
     assert (rasterise(document) == true).all()
 
 
+long_edges, ratios = st.integers(721, 2000), st.floats(0.5, 1.0)
+
+
+@given(long_edges, ratios, st.booleans())
+def test_the_edges_of_the_picture_are_reached(long: int, ratio: float, upright: bool) -> None:
+    """The analysis image has whole pixels: its last is not the last but one of the photo's."""
+    short = round(long * ratio)
+    width, height = size = (short, long) if upright else (long, short)
+    whole = gather(np.zeros((height, width, 3), np.uint8), np.ones((height, width), bool))
+    document = _document(np.full(whole.width, 20), Sides(0, whole.width, whole.height), size=size)
+    facade = document.facade
+    assert (facade.x_px, facade.x_px + facade.width_px) == (0, pytest.approx(width))
+    assert facade.y_px + facade.height_px == pytest.approx(height)
+    labels = rasterise(document)
+    assert (labels != CLASSES.index("other")).all()
+    for element, box in zip(document.elements, BOXES, strict=True):
+        assert element.x_px == pytest.approx(box.x * width / whole.width, abs=0.01)
+        assert element.y_px == pytest.approx(box.y * height / whole.height, abs=0.01)
+
+
 def test_what_the_photo_speaks_against_is_inferred() -> None:
     document = _document(np.full(160, 20), Sides(0, 160, 300))
     found = [element.provenance for element in document.elements]
