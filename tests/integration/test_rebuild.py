@@ -85,6 +85,21 @@ def test_pixels_decide_over_metres(out: Path, tmp_path: Path) -> None:
     assert labels[top, middle] == CLASSES.index("window")
 
 
+def test_what_does_not_fit_the_model_is_told(out: Path, tmp_path: Path) -> None:
+    document = out / "house0" / "facade.json"
+
+    def twice(content: Any) -> None:
+        windows = [item for item in content["elements"] if item["class"] == "window"]
+        content["elements"].append(windows[0])
+
+    edit(document, twice)
+    done = veduta("facade", document, "-o", tmp_path / "new")
+    page = tmp_path / "new" / "house0" / "report.html"
+    assert f"1 element left out of the model: {page}\n" in done.stdout
+    assert "left out, no room" in page.read_text()
+    assert read_json(page.with_suffix(".json"))["measures"]["left_out"] == 1
+
+
 def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
     def change(content: Any) -> None:
         for step in path[:-1]:

@@ -49,13 +49,16 @@ def _tell_failures(result: CallResult) -> None:
 
 
 def _tell_results(result: CallResult) -> None:
-    from veduta.facade.report import summary_line
+    from veduta.facade.report import adjusted_line, summary_line
 
     out = result.out
     done = [name for name in result.asked if name in result.summaries]
     for name in done:
         state = "" if name in result.fresh else " (was done)"
         print(f"{name}: {summary_line(result.summaries[name])}{state}")
+        adjusted = adjusted_line(result.summaries[name])
+        if adjusted:
+            print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for name in result.edited:
         if not (result.kind == "document" and name.split("/")[0] in result.asked):
             print(f"{out / name}: was edited and is left as it is")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from veduta.facade.adjusted import left_out
 from veduta.facade.layout import SMALLEST_M, Opening
 from veduta.facade.paint import Finish, Paint, photo_rect
 from veduta.facade.rectangles import Rectangle
@@ -38,7 +39,8 @@ def add_chimneys(
         allowed = Rectangle(inset, foot, width - inset, 2.0 * chimney.rectangle.z1 + foot)
         place = chimney.rectangle.common(allowed)
         if place.width < SMALLEST_M or place.height < SMALLEST_M:
-            builder.notes.append(f"chimney {number}: left out, it does not rise over the roof")
+            reason = "it does not rise over the roof"
+            builder.notes.append(left_out(chimney.element, chimney.number, reason))
             continue
         shell = builder.new_shell()
         front = builder.feature(

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from veduta.facade.adjusted import clipped, left_out
 from veduta.facade.front import opening_panel
 from veduta.facade.layout import SMALLEST_M, Opening
 from veduta.facade.paint import Finish, Paint
@@ -46,11 +47,10 @@ def plan_dormers(
 ) -> list[Dormer]:
     """Clip the dormers clear of each other and of the slope's edges; note what is left out."""
     if mansard is None:
-        if windows:
-            notes.append(f"{len(windows)} windows above the eaves left out: no roof to carry them")
+        notes.extend(left_out(w.element, w.number, "there is no roof to carry it") for w in windows)
         return []
     found: list[Dormer] = []
-    for number, window in enumerate(windows):
+    for window in windows:
         want = window.rectangle
         around = Rectangle(
             want.x0 - CHEEK_M, want.z0 - SILL_M, want.x1 + CHEEK_M, want.z1 + LINTEL_M
@@ -61,11 +61,11 @@ def plan_dormers(
             front.x0 + CHEEK_M, front.z0 + SILL_M, front.x1 - CHEEK_M, front.z1 - LINTEL_M
         )
         if inner.width < SMALLEST_M or inner.height < SMALLEST_M:
-            notes.append(f"dormer {number}: left out, no room on the slope")
+            notes.append(left_out(window.element, window.number, "no room on the slope"))
             continue
         if inner.area < 0.95 * want.area:
-            notes.append(f"dormer {number}: clipped to the slope")
-        found.append(Dormer(front, Opening(inner, window.element)))
+            notes.append(clipped(window.element, window.number, "to the slope"))
+        found.append(Dormer(front, Opening(inner, window.element, window.number)))
     return found
 
 

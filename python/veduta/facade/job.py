@@ -9,6 +9,7 @@ from pathlib import Path
 from PIL import Image
 from pydantic import JsonValue
 
+from veduta.facade.adjusted import count_adjusted
 from veduta.facade.call import Input
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
@@ -106,6 +107,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
     kept = ("storeys", "windows", "width_m", "height_m", "scale")
     return {
         **{name: found[name] for name in kept},
+        **count_adjusted(building.part.notes),
         "seconds": round(sum(step.seconds for step in steps), 3),
         "bounds_min": list(low),
         "bounds_max": list(high),

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from veduta.facade.adjusted import clipped, left_out
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.rectangles import Rectangle, carve
 
@@ -26,10 +27,11 @@ INSIDE_SHARE = 0.6
 
 @dataclass(frozen=True)
 class Opening:
-    """A hole in a wall, with the element that it was made from."""
+    """A hole in a wall, with the element that it was made from and that one's place in the list."""
 
     rectangle: Rectangle
     element: Element
+    number: int
     children: tuple[Opening, ...] = ()
 
 
@@ -56,16 +58,11 @@ class _Front:
         """Clip `wanted` clear of the border and of all before it; None where nothing is left."""
         inside = wanted.common(self.wall.grown(-GAP_M))
         found = carve(inside, self.placed, GAP_M)
-        name = f"{element.class_} {number}"
         if found.width < SMALLEST_M or found.height < SMALLEST_M:
-            self.notes.append(f"{name}: left out, no room beside other openings or the border")
+            reason = "no room beside other openings or the border"
+            self.notes.append(left_out(element, number, reason))
             return None
-        lost = max(wanted.width - found.width, wanted.height - found.height)
-        if lost > 2 * GAP_M:
-            self.notes.append(
-                f"{name}: clipped from {wanted.width:.2f} x {wanted.height:.2f} m "
-                f"to {found.width:.2f} x {found.height:.2f} m"
-            )
+        self.notes.extend(_lost(element, number, wanted, found))
         self.placed.append(found)
         return found
 
@@ -88,10 +85,10 @@ def lay_out(document: FacadeDocument) -> Layout:
     balconies = _balconies(numbered, document, front.notes)
     shops = _shops(numbered, front)
     doors = _doors(numbered, front, shops)
-    windows = _windows(numbered, front, [balcony.rectangle for balcony in balconies])
+    windows = _windows(numbered, front, shops, [balcony.rectangle for balcony in balconies])
     roof = [(n, e) for n, e in numbered if _is_above(e, wall)]
-    dormers = [Opening(rectangle_of(e), e) for _, e in roof if e.class_ == "window"]
-    chimneys = [Opening(rectangle_of(e), e) for _, e in numbered if e.class_ == "chimney"]
+    dormers = [Opening(rectangle_of(e), e, n) for n, e in roof if e.class_ == "window"]
+    chimneys = [Opening(rectangle_of(e), e, n) for n, e in numbered if e.class_ == "chimney"]
     return Layout(
         openings=(*shops, *doors, *windows),
         dormers=tuple(dormers),
@@ -118,7 +115,7 @@ def _shops(numbered: Numbered, front: _Front) -> list[Opening]:
         place = front.place(element, number, wanted)
         if place is not None:
             doors = _shop_doors(numbered, front, place)
-            found.append(Opening(place, element, doors))
+            found.append(Opening(place, element, number, doors))
     return found
 
 
@@ -133,7 +130,7 @@ def _shop_doors(numbered: Numbered, front: _Front, shop: Rectangle) -> tuple[Ope
                 continue
             place = inner.place(element, number, wanted)
             if place is not None:
-                found.append(Opening(place, element))
+                found.append(Opening(place, element, number))
     return tuple(found)
 
 
@@ -141,29 +138,40 @@ def _doors(numbered: Numbered, front: _Front, shops: Sequence[Opening]) -> list[
     found = []
     for number, element in numbered:
         wanted = rectangle_of(element)
-        if element.class_ != "door" or _is_above(element, front.wall):
+        if element.class_ != "door":
+            continue
+        if _is_above(element, front.wall):
+            front.notes.append(left_out(element, number, "it lies above the eaves"))
             continue
         if any(_share_inside(wanted, shop.rectangle) >= INSIDE_SHARE for shop in shops):
             continue
         place = front.place(element, number, _down_to_threshold(wanted, front.wall))
         if place is not None:
-            found.append(Opening(place, element))
+            found.append(Opening(place, element, number))
     return found
 
 
-def _windows(numbered: Numbered, front: _Front, balconies: Sequence[Rectangle]) -> list[Opening]:
+def _windows(
+    numbered: Numbered,
+    front: _Front,
+    shops: Sequence[Opening],
+    balconies: Sequence[Rectangle],
+) -> list[Opening]:
     """Windows from the ground up; one that opens onto a balcony reaches down to its floor."""
-    obstacles = list(front.placed)
+    doors = list(front.placed)[len(shops) :]
     found = []
     for number, element in sorted(numbered, key=lambda pair: (pair[1].y_m, pair[0])):
         wanted = rectangle_of(element)
         if element.class_ != "window" or _is_above(element, front.wall):
             continue
-        if any(_share_inside(wanted, shop) >= INSIDE_SHARE for shop in obstacles):
+        if any(_share_inside(wanted, shop.rectangle) >= INSIDE_SHARE for shop in shops):
+            continue
+        if any(_share_inside(wanted, door) >= INSIDE_SHARE for door in doors):
+            front.notes.append(left_out(element, number, "it lies in a door"))
             continue
         place = front.place(element, number, _down_to_balcony(wanted, balconies))
         if place is not None:
-            found.append(Opening(place, element))
+            found.append(Opening(place, element, number))
     return found
 
 
@@ -176,13 +184,23 @@ def _balconies(numbered: Numbered, document: FacadeDocument, notes: list[str]) -
     for number, element in numbered:
         if element.class_ != "balcony":
             continue
-        inside = rectangle_of(element).common(allowed)
-        place = carve(inside, [other.rectangle for other in found], GAP_M)
+        wanted = rectangle_of(element)
+        place = carve(wanted.common(allowed), [other.rectangle for other in found], GAP_M)
         if place.width < SMALLEST_M or place.height < SMALLEST_M:
-            notes.append(f"balcony {number}: left out, too small or off the facade")
+            notes.append(left_out(element, number, "too small or off the facade"))
             continue
-        found.append(Opening(place, element))
+        notes.extend(_lost(element, number, wanted, place))
+        found.append(Opening(place, element, number))
     return found
+
+
+def _lost(element: Element, number: int, wanted: Rectangle, found: Rectangle) -> list[str]:
+    """The note of a rectangle that lost more than the wall around it."""
+    if max(wanted.width - found.width, wanted.height - found.height) <= 2 * GAP_M:
+        return []
+    before = f"{wanted.width:.2f} x {wanted.height:.2f}"
+    after = f"{found.width:.2f} x {found.height:.2f}"
+    return [clipped(element, number, f"from {before} m to {after} m")]
 
 
 def _down_to_threshold(wanted: Rectangle, wall: Rectangle) -> Rectangle:

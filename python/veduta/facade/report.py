@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
+from veduta.facade.adjusted import count_adjusted
 from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
@@ -53,7 +54,7 @@ def image_report(
         state="done",
         options=options.model_dump(mode="json"),
         steps=steps,
-        measures=measures(document),
+        measures={**measures(document), **count_adjusted(building.part.notes)},
         notes=[*document.notes, *building.part.notes],
     )
     page = Page(
@@ -145,6 +146,22 @@ def summary_line(found: Mapping[str, Any]) -> str:
         f"{found['storeys']} storeys, {found['windows']} windows,"
         f" {found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})"
     )
+
+
+def adjusted_line(found: Mapping[str, Any]) -> str:
+    """What does not fit the model, in a line; empty where everything does."""
+    # A result of an older run may not say it.
+    lost, less = int(found.get("left_out", 0)), int(found.get("clipped", 0))
+    said = []
+    if lost:
+        said.append(f"{_elements_text(lost)} left out of the model")
+    if less:
+        said.append(f"{_elements_text(less) if not lost else less} clipped")
+    return ", ".join(said)
+
+
+def _elements_text(count: int) -> str:
+    return f"{count} element" if count == 1 else f"{count} elements"
 
 
 def _facts(document: FacadeDocument) -> list[tuple[str, str]]:

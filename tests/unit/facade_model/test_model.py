@@ -9,6 +9,7 @@ import pytest
 from closed_shells import assert_closed, shells
 from sample_document import FACADE_M, ROOF_M, element, sample_document, sample_photo
 
+from veduta.facade.adjusted import count_adjusted
 from veduta.facade.model import build_part
 from veduta.facade.options import ModelOptions
 from veduta.place.part import Part
@@ -135,9 +136,38 @@ def test_overlapping_windows_are_clipped_and_said_so() -> None:
     pair = [element("window", 4.0, 6.0, 1.2, 1.8), element("window", 4.6, 6.2, 1.2, 1.8)]
     document = sample_document(elements=pair)
     part = build_part(document, sample_photo(document), ModelOptions(), "x")
-    assert len(part.notes) == 1
-    assert "clipped" in part.notes[0]
+    assert part.notes == ("window (elements[1]): clipped from 1.20 x 1.80 m to 0.55 x 1.80 m",)
+    assert count_adjusted(part.notes) == {"left_out": 0, "clipped": 1}
     assert_closed(part)
+
+
+def test_every_element_that_has_no_room_is_named() -> None:
+    """What is in the document and not in the model is in the notes, each once."""
+    elements = [
+        element("door", 9.2, 0.0, 1.6, 2.8),
+        element("window", 9.4, 2.0, 1.0, 0.6),  # over the leaf of the door
+        element("door", 4.0, 15.2, 1.0, 2.0),  # on the roof
+        element("window", 4.0, 6.0, 1.2, 1.8),
+        element("window", 4.1, 6.1, 1.0, 1.6),  # on the window before it
+        element("balcony", 20.0, 6.0, 1.0, 1.0),  # beside the facade
+        element("window", 4.0, 15.6, 1.0, 1.5),  # on a roof that is flat
+        element("chimney", 2.0, 3.0, 1.0, 1.0),  # below the eaves
+    ]
+    document = sample_document(elements=elements, roof_m=0.0)
+    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    named = [f"{elements[n].class_} (elements[{n}]): left out, " for n in (5, 1, 2, 4, 6, 7)]
+    assert len(part.notes) == len(named)
+    assert all(sum(start in note for note in part.notes) == 1 for start in named)
+    assert count_adjusted(part.notes) == {"left_out": 6, "clipped": 0}
+    kinds = [part.features.semantic(row).value for row in range(len(part.features))]
+    assert (kinds.count("door"), kinds.count("window")) == (1, 1)
+    assert kinds.count("balcony") == kinds.count("chimney") == 0
+
+
+def test_a_balcony_over_the_border_is_clipped_and_said_so() -> None:
+    document = sample_document(elements=[element("balcony", 11.0, 6.0, 3.0, 1.0)])
+    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    assert part.notes == ("balcony (elements[0]): clipped from 3.00 x 1.00 m to 1.00 x 1.00 m",)
 
 
 def test_low_roof_is_flat_and_invented() -> None:
