@@ -1,4 +1,4 @@
-"""What the model could not take as the document has it: the notes about it, and how many they are."""
+"""What the model could not take as the document has it: the notes about it, and their count."""
 
 from __future__ import annotations
 
