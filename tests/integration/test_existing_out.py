@@ -70,7 +70,7 @@ def test_edited_picture_is_kept_and_named(out: Path, photo: Path) -> None:
     for arguments in ([], ["--force"], ["--force", "--depth-m", "7"]):
         done = facade(photo, "-o", out, *arguments)
         assert done.returncode == 0
-        assert f"{edited}: was edited" in done.stdout
+        assert f"{edited}: was edited and is left as it is\n" in done.stdout
         assert edited.read_bytes() == b"mine"
 
 
@@ -81,7 +81,10 @@ def test_edited_document_keeps_its_folder(out: Path, photo: Path) -> None:
     before = tree(out)
     done = facade(photo, "-o", out, "--force", "--depth-m", "7")
     assert done.returncode == 0
-    assert f"{edited}: was edited" in done.stdout
+    assert (
+        f"{edited}: was edited and is left as it is; to rebuild from it: "
+        f"veduta facade {edited} -o {out}\n"
+    ) in done.stdout
     assert tree(out) == before
     again = facade(photo, "-o", out, "--depth-m", "7")
     assert again.returncode == 0

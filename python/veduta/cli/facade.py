@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import shlex
 import sys
 from typing import TYPE_CHECKING
 
 SUMMARY = "Turn photos of facades into LoD3 buildings: floors, windows, balconies, roof"
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from veduta.cli.facade_call import FacadeCall
     from veduta.facade.batch import CallResult
 
@@ -61,7 +64,7 @@ def _tell_results(result: CallResult) -> None:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for name in result.edited:
         if not (result.kind == "document" and name.split("/")[0] in result.asked):
-            print(f"{out / name}: was edited and is left as it is")
+            print(f"{out / name}: was edited and is left as it is{_rebuild(out, name)}")
     for name in result.foreign:
         print(f"{out / name}: was not made by veduta and is left as it is")
     for name in result.left:
@@ -73,3 +76,13 @@ def _tell_results(result: CallResult) -> None:
         print(f"{len(done)} of {total} in {out}. Walk in it: veduta view {out}")
         page = out / done[0] / "report.html" if total == 1 else out / "report.html"
         print(f"What was done, and why: {page}")
+
+
+def _rebuild(out: Path, name: str) -> str:
+    """How an edited document becomes a building again; nothing for other files."""
+    from veduta.facade.load import DOCUMENT
+
+    if name.split("/")[-1] != DOCUMENT:
+        return ""
+    command = shlex.join(["veduta", "facade", str(out / name), "-o", str(out)])
+    return f"; to rebuild from it: {command}"
