@@ -23,7 +23,7 @@ from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
-from veduta.facade.scale import metres, scale_notes
+from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
 
 # Score under which the photo speaks rather against a box that its neighbours make likely.
@@ -54,7 +54,10 @@ class _Enlargement:
 def compose(
     parse: Parse, rectified: Rectified, source: Source, options: FacadeOptions
 ) -> FacadeDocument:
-    """Bring everything to rectified pixels and metres, and derive rules and tree from it."""
+    """Bring everything to rectified pixels and metres, and derive rules and tree from it.
+
+    InputError and NotFoundError where the facade would have a size that none has.
+    """
     record = rectified.record
     k = _enlargement(parse, record)
     rows = [round(b * k.down, 2) for b in parse.floors.boundaries]
@@ -70,6 +73,7 @@ def compose(
         width_m=(right - left) * m,
         height_m=(bottom - rows[0]) * m,
     )
+    require_possible(facade, record)
     elements = [_element(b, k, facade, m) for b in parse.boxes]
     rules = rule_parameters(rows, parse.skyline.level * k.down, facade, elements, m)
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]

@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
 from veduta.facade.document import CLASSES, Element, Extent, FacadeBox, FacadeDocument
+from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 
@@ -114,6 +115,7 @@ def _faults(document: FacadeDocument) -> list[str]:
             if getattr(sized, side) <= 0:
                 found.append(f"{name}.{side}: must be above zero")
     found += _extent_faults(document.extents)
+    found += _size_faults(document)
     rules = document.rules.facade
     if len(rules.symbols) != len(rules.sizes_m):
         found.append("rules.facade: needs as many sizes_m as symbols")
@@ -135,6 +137,23 @@ def _extent_faults(extents: list[Extent]) -> list[str]:
             f"extents[{largest}].polygon_px: {sizes[largest]} points, {sum(sizes)} with the other"
             f" extents, more than {MAX_POINTS}"
         )
+    return found
+
+
+def _size_faults(document: FacadeDocument) -> list[str]:
+    """Of the facade and the roof, in metres as the pixels and the scale say."""
+    m, roof_m = document.scale.metres_per_px, document.rules.roof_height_m
+    bounds = f"not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m"
+    found = [
+        f"facade.{side}: {size:g} px of {m:g} m (scale.metres_per_px) are {size * m:g} m, {bounds}"
+        for side, size in (
+            ("width_px", document.facade.width_px),
+            ("height_px", document.facade.height_px),
+        )
+        if size > 0 and m > 0 and not is_possible(size * m)
+    ]
+    if not 0.0 <= roof_m <= LARGEST_SIDE_M:
+        found.append(f"rules.roof_height_m: {roof_m:g} m, not between 0 and {LARGEST_SIDE_M:g} m")
     return found
 
 

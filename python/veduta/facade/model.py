@@ -15,6 +15,7 @@ from veduta.facade.layout import Layout, lay_out
 from veduta.facade.options import ModelOptions
 from veduta.facade.paint import make_paint
 from veduta.facade.roof import Mansard, plan_mansard
+from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.textures import make_atlas
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
@@ -22,8 +23,6 @@ from veduta.run.errors import InputError
 
 # Recesses may take this share of the building's depth.
 DEEPEST_SHARE = 0.4
-# Single precision, and what a building is: sides outside of this range are refused (m).
-SMALLEST_SIDE_M, LARGEST_SIDE_M = 0.5, 1000.0
 
 
 def build_part(
@@ -93,22 +92,21 @@ def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:
 
 
 def _check_sizes(document: FacadeDocument, options: ModelOptions) -> None:
-    sides = {
-        "the facade's width": document.facade.width_m,
-        "the facade's height": document.facade.height_m,
-        "the depth (--depth-m)": options.depth_m,
-    }
-    for name, side in sides.items():
-        if not SMALLEST_SIDE_M <= side <= LARGEST_SIDE_M:
-            raise InputError(
-                document.source.image,
-                f"{name} is {side:g} m, not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m",
-                "Give it a size that a building has.",
-            )
-    if not document.rules.roof_height_m <= LARGEST_SIDE_M or not document.scale.metres_per_px > 0:
+    bounds = f"not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m"
+    if not is_possible(options.depth_m):
+        fault = f"is {options.depth_m:g} m, {bounds}"
+        raise InputError("--depth-m", fault, "Give a depth that a building has.")
+    facade, roof_m = document.facade, document.rules.roof_height_m
+    # Whoever made the document has said so already, and named what is to be mended.
+    if not is_possible(facade.width_m) or not is_possible(facade.height_m):
         raise InputError(
             document.source.image,
-            f"the roof is {document.rules.roof_height_m:g} m high, "
-            f"a pixel {document.scale.metres_per_px:g} m",
+            f"the facade is {facade.width_m:g} m wide and {facade.height_m:g} m high, {bounds}",
+            "Mend facade, or scale.metres_per_px, in facade.json.",
+        )
+    if not roof_m <= LARGEST_SIDE_M or not document.scale.metres_per_px > 0:
+        raise InputError(
+            document.source.image,
+            f"the roof is {roof_m:g} m high, a pixel {document.scale.metres_per_px:g} m",
             "Mend both in facade.json.",
         )

@@ -2,10 +2,19 @@
 
 from __future__ import annotations
 
-from veduta.facade.document import Scale
+from veduta.facade.document import FacadeBox, Rectification, Scale
 from veduta.facade.options import ScaleOptions
+from veduta.run.errors import InputError, NotFoundError
 
 ASSUMED_STOREY_M = 3.0
+SMALLEST_SIDE_M, LARGEST_SIDE_M = 0.5, 1000.0
+"""What a building may measure, and single precision bear."""
+
+_MEND_ASPECT = {
+    "given": "Give a photo that shows one facade, and is as wide for its height as the facade is.",
+    "focal-length": "Check the focal length (--focal-mm35), or name the facade's --corners.",
+    "assumed": "Give the focal length (--focal-mm35), which tells width from height.",
+}
 
 
 def metres(rows: list[float], bottom: float, options: ScaleOptions) -> Scale:
@@ -30,3 +39,28 @@ def scale_notes(scale: Scale, options: ScaleOptions) -> list[str]:
     if scale.basis == "assumed-storey":
         notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
     return notes
+
+
+def is_possible(side_m: float) -> bool:
+    """Whether a side of a building can have this length (m)."""
+    return SMALLEST_SIDE_M <= side_m <= LARGEST_SIDE_M
+
+
+def require_possible(facade: FacadeBox, record: Rectification) -> None:
+    """Refuse a facade of a size that none has, by what its height or its proportions come from.
+
+    InputError names the option that gives the height. Where the width alone is at fault, the
+    photo was rectified wrongly, or shows no facade: NotFoundError.
+    """
+    bounds = f"not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m"
+    if not is_possible(facade.height_m):
+        raise InputError(
+            "--height-m",
+            f"makes the facade {facade.height_m:g} m high, {bounds}",
+            "Give the metres from the ground to the eaves.",
+        )
+    if not is_possible(facade.width_m):
+        size = f"{facade.width_m:.3g} m wide and {facade.height_m:.3g} m high"
+        raise NotFoundError(
+            "a facade", f"it would be {size}, {bounds}", _MEND_ASPECT[record.aspect]
+        )

@@ -22,6 +22,7 @@ from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.outputs import rasterise
 from veduta.facade.scale import ASSUMED_STOREY_M, metres
 from veduta.facade.sides import Sides
+from veduta.run.errors import InputError
 
 BOUNDARIES = [60, 110, 165, 210]
 BOXES = [
@@ -160,6 +161,11 @@ def test_scale_bases(options: ScaleOptions, basis: str, expected: float) -> None
     document = _document(np.full(160, 20), Sides(0, 160, 300), options)
     assert document.scale == scale
     assert any("assumed" in note for note in document.notes) == (basis == "assumed-storey")
+
+
+def test_a_size_that_no_facade_has() -> None:
+    with pytest.raises(InputError, match="--height-m: makes the facade 5000 m high"):
+        _document(np.full(160, 20), Sides(0, 160, 300), ScaleOptions(height_m=5000.0))
 
 
 def test_what_was_given_comes_out() -> None:

@@ -44,3 +44,21 @@ def test_points_are_counted_over_all_extents(make_document: Make, tmp_path: Path
     assert len(load_document(written(most, tmp_path)).extents) == 2
     more = make_document(extents=[("sky", TRIANGLE), ("wall", [*many, *TRIANGLE])])
     assert fault_of(more, tmp_path).startswith(f"extents[1].polygon_px: {len(many) + 3} points")
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "fault"),
+    [
+        (("scale", "metres_per_px"), 20.0, "facade.width_px: 100 px of 20 m (scale.metres_per_px)"),
+        (("scale", "metres_per_px"), 0.001, "facade.width_px: 100 px of 0.001 m"),
+        (("facade", "height_px"), 30_000.0, "facade.height_px: 30000 px of 0.05 m"),
+        (("rules", "roof_height_m"), -1.0, "rules.roof_height_m: -1 m"),
+        (("rules", "roof_height_m"), 1001.0, "rules.roof_height_m: 1001 m"),
+    ],
+)
+def test_sizes_that_no_building_has(
+    make_document: Make, tmp_path: Path, place: tuple[str, str], value: float, fault: str
+) -> None:
+    document = make_document()
+    setattr(getattr(document, place[0]), place[1], value)
+    assert fault_of(document, tmp_path).startswith(fault)
