@@ -104,7 +104,16 @@ def _write_report(folder: Path, report: tuple[Report, bytes]) -> None:
 def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue]:
     found = measures(building.document)
     low, high = building.part.bounds_m
-    kept = ("storeys", "windows", "width_m", "height_m", "scale")
+    kept = (
+        "storeys",
+        "windows",
+        "doubtful_windows",
+        "doubtful_elements",
+        "width_m",
+        "height_m",
+        "picture_share",
+        "scale",
+    )
     return {
         **{name: found[name] for name in kept},
         **count_adjusted(building.part.notes),

@@ -15,7 +15,7 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.facade.adjusted import count_adjusted
-from veduta.facade.document import FacadeDocument
+from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
@@ -41,6 +41,10 @@ _BASIS = {
     "storey": "from the storey given",
     "assumed-storey": "assumed",
 }
+SURE = 0.5
+"""An element of a lower score is doubtful."""
+WHOLE_WIDTH = 99.5
+"""Per cent of the picture's width from which nothing worth a word was cut off beside it."""
 
 
 def image_report(
@@ -102,8 +106,8 @@ def call_report(
         notes=notes,
         failures=list(failures),
     )
-    columns = ("image", "storeys", "windows", "width m", "height m", "scale", "seconds")
-    keys = ("storeys", "windows", "width_m", "height_m", "scale", "seconds")
+    columns = ("image", "storeys", "windows", "doubtful", "width m", "height m", "scale", "seconds")
+    keys = ("storeys", "windows", "doubtful_elements", "width_m", "height_m", "scale", "seconds")
     table = Table(
         title="Images",
         columns=columns,
@@ -126,10 +130,14 @@ def call_report(
 def measures(document: FacadeDocument) -> dict[str, Any]:
     """What was found, in numbers."""
     found = Counter(element.class_ for element in document.elements)
+    doubtful = Counter(element.class_ for element in document.elements if _is_doubtful(element))
     return {
         "storeys": document.storeys,
         "windows": found["window"],
         "elements": dict(sorted(found.items())),
+        "doubtful_windows": doubtful["window"],
+        "doubtful_elements": doubtful.total(),
+        "picture_share": round(document.facade.width_px / document.rectification.width_px, 3),
         "width_m": round(document.facade.width_m, 3),
         "height_m": round(document.facade.height_m, 3),
         "metres_per_px": document.scale.metres_per_px,
@@ -141,11 +149,19 @@ def measures(document: FacadeDocument) -> dict[str, Any]:
 
 
 def summary_line(found: Mapping[str, Any]) -> str:
-    """What was found, in a line."""
-    return (
-        f"{found['storeys']} storeys, {found['windows']} windows,"
-        f" {found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})"
-    )
+    """What was found, in a line, with what of it is in doubt."""
+    # A result of an older run may not say what is in doubt, nor what was cut off.
+    windows = int(found.get("doubtful_windows", 0))
+    others = int(found.get("doubtful_elements", 0)) - windows
+    share = 100 * float(found.get("picture_share", 1.0))
+    said = [
+        _counted(found["storeys"], "storey"),
+        _counted(found["windows"], "window") + _in_doubt(windows),
+        f"{_counted(others, 'other element')} doubtful" if others else "",
+        f"{found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})",
+        f"{share:.0f} % of the picture's width" if share < WHOLE_WIDTH else "",
+    ]
+    return ", ".join(part for part in said if part)
 
 
 def adjusted_line(found: Mapping[str, Any]) -> str:
@@ -154,23 +170,32 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
     lost, less = int(found.get("left_out", 0)), int(found.get("clipped", 0))
     said = []
     if lost:
-        said.append(f"{_elements_text(lost)} left out of the model")
+        said.append(f"{_counted(lost, 'element')} left out of the model")
     if less:
-        said.append(f"{_elements_text(less) if not lost else less} clipped")
+        said.append(f"{less if lost else _counted(less, 'element')} clipped")
     return ", ".join(said)
 
 
-def _elements_text(count: int) -> str:
-    return f"{count} element" if count == 1 else f"{count} elements"
+def _is_doubtful(element: Element) -> bool:
+    """Whether the photo does not show it, or speaks rather against it."""
+    return element.provenance != "measured" or element.score < SURE
+
+
+def _in_doubt(count: int) -> str:
+    return f" ({count} doubtful)" if count else ""
+
+
+def _counted(count: int, thing: str) -> str:
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
 def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
-    found = Counter(element.class_ for element in document.elements)
+    found = measures(document)
     size, box = document.rectification, document.facade
     residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° left"
     return [
         ("storeys", str(document.storeys)),
-        ("windows", str(found["window"])),
+        ("windows", f"{found['windows']}{_in_doubt(found['doubtful_windows'])}"),
         ("facade", f"{box.width_m:.1f} x {box.height_m:.1f} m"),
         ("scale", _BASIS[document.scale.basis]),
         ("rectified", f"{size.method}{residual}"),
@@ -225,9 +250,15 @@ def _elements(document: FacadeDocument) -> Table:
             width = float(np.median([item.width_m for item in items]))
             height = float(np.median([item.height_m for item in items]))
             score = float(np.mean([item.score for item in items]))
-            rows.append([name, len(items), round(width, 2), round(height, 2), round(score, 2)])
-    columns = ("class", "found", "median width m", "median height m", "mean score")
-    return Table("Elements", columns, rows)
+            doubtful = sum(_is_doubtful(item) for item in items)
+            sizes = round(width, 2), round(height, 2), round(score, 2)
+            rows.append([name, len(items), doubtful, *sizes])
+    columns = ("class", "found", "doubtful", "median width m", "median height m", "mean score")
+    note = (
+        "The score says how well the photo supports an element, from 0 to 1. Doubtful is what has"
+        " a score below 0.5, or was not measured in the photo."
+    )
+    return Table("Elements", columns, rows, note=note)
 
 
 def _provenance(building: Building) -> Table:
