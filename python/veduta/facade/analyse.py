@@ -44,7 +44,8 @@ def analyse(
         progress("floors", 0.3)
         lines = gather_rows(evidence, skyline, histograms)
         floors = split_floors(lines, options.scale.height_m)
-        step.counts |= {"floors": len(floors.boundaries) - 1, "energy": floors.energy}
+        floors_above_ground = len(floors.boundaries) - 1
+        step.counts |= {"floors_above_ground": floors_above_ground, "energy": floors.energy}
     with timed_step(steps, "columns") as step:
         progress("columns", 0.6)
         rows = floors.eaves, floors.ground_top

@@ -192,7 +192,7 @@ def _counted(count: int, thing: str) -> str:
 def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
     found = measures(document)
     size, box = document.rectification, document.facade
-    residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° left"
+    residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° off"
     return [
         ("storeys", str(document.storeys)),
         ("windows", f"{found['windows']}{_in_doubt(found['doubtful_windows'])}"),
@@ -209,7 +209,7 @@ def _pictures(building: Building) -> list[Picture]:
     return [
         _picture("Found", "Elements, regions and floor lines.", drawn, "overlay.png"),
         _picture("Photo", "The fronto-parallel view.", building.pixels, "rectified.jpg"),
-        _picture("Labels", "The class of each pixel, by the document.", labels, "labels.png"),
+        _picture("Labels", "Each pixel in the colour of its class.", labels, "labels.png"),
     ]
 
 
@@ -281,8 +281,12 @@ def _energy(document: FacadeDocument) -> list[Table]:
         rows.append([name, "total", field.total, field.nodes, field.labels])
         rows += [[name, term, value, None, None] for term, value in field.terms.items()]
     columns = ("chain", "term", "energy", "nodes", "labels")
-    note = "The minimum of each chain is exact: max-product without loops."
-    return [Table("Energy", columns, rows, note=note)] if rows else []
+    note = (
+        "How the floors and the window columns were chosen: each way to divide the facade has a"
+        " cost, its energy, and of all ways the one of least energy was taken. Nodes are the"
+        " floors or columns, labels the places and sizes that each could have had."
+    )
+    return [Table("Energy", columns, rows, note=note, for_experts=True)] if rows else []
 
 
 def _times(steps: list[StepRecord]) -> Bars:

@@ -57,7 +57,8 @@ def find_sides(evidence: Evidence, skyline: Skyline) -> Sides:
         reasons.append("sides: no column is mostly building and photo, so all of it is read")
     if left > 0 or right < evidence.width:
         share = 100 * (right - left) / evidence.width
-        reasons.append(f"sides: the building takes {share:.0f} % of the picture's width")
+        taken = f"the building takes {share:.0f} % of the picture's width"
+        reasons.append(f"sides: {taken}; what is left and right of it was not read")
     bottom = _street(evidence, skyline, left, right)
     if min(bottom - skyline.level, right - left) < _LEAST * evidence.height:
         raise NotFoundError(
@@ -66,7 +67,10 @@ def find_sides(evidence: Evidence, skyline: Skyline) -> Sides:
             "Give a photo in which the whole facade is seen, or its --corners.",
         )
     if bottom < evidence.height:
-        reasons.append(f"ground: the street begins at {100 * bottom / evidence.height:.0f} %")
+        share = 100 * bottom / evidence.height
+        reasons.append(
+            f"ground: the street begins {share:.0f} % down the picture, and was not read"
+        )
     return Sides(left, right, bottom, tuple(reasons))
 
 

@@ -30,13 +30,17 @@ class Picture:
 
 @dataclass(frozen=True)
 class Table:
-    """Rows under column names; numbers are set to the right. A row may link to its own page."""
+    """Rows under column names; numbers are set to the right. A row may link to its own page.
+
+    for_experts: stands folded at the end, among what nobody needs to use the result.
+    """
 
     title: str
     columns: Sequence[str]
     rows: Sequence[Sequence[Count | None]]
     links: Sequence[str | None] = ()
     note: str = ""
+    for_experts: bool = False
 
 
 @dataclass(frozen=True)

@@ -27,12 +27,16 @@ class Reader(HTMLParser):
         self.texts.append(data)
 
 
-def read(page: Page, **fields: object) -> Reader:
+def page_text(page: Page, **fields: object) -> str:
     report = Report.model_validate(
         {"verb": "facade", "subject": EVIL, "state": "done", "options": {"a": EVIL}, **fields}
     )
+    return render(report, page).decode()
+
+
+def read(page: Page, **fields: object) -> Reader:
     reader = Reader()
-    reader.feed(render(report, page).decode())
+    reader.feed(page_text(page, **fields))
     return reader
 
 
@@ -51,6 +55,19 @@ def test_text_of_files_is_escaped() -> None:
     )
     assert "script" not in reader.tags
     assert sum(EVIL in text for text in reader.texts) >= 10
+
+
+def test_what_is_for_experts_is_folded_after_the_rest() -> None:
+    """Nothing of it stands outside of a fold; a failed report opens it."""
+    tables = [Table("costs", ["x"], [[1]], note="why", for_experts=True), Table("sizes", ["y"], [])]
+    steps = [StepRecord("walk")]
+    for failures in ([], [Failure(subject="a", kind="input", reason="b")]):
+        text = page_text(Page("a", "b", tables=tables), steps=steps, failures=failures)
+        before, fold, after = text.partition("<details")
+        assert ("sizes" in before, "costs" in before, "walk" in before) == (True, False, False)
+        assert all(word in after for word in ("costs", "why", "walk"))
+        assert after.startswith(" open>" if failures else ">")
+        assert fold
 
 
 def test_pictures_are_inside() -> None:
