@@ -8,6 +8,8 @@ from veduta.run.errors import InputError
 
 STATIC = Path(__file__).parent / "static"
 MANIFEST = "place.json"
+SHOWN = 5
+"""How many other folders a message names."""
 
 
 def studio_folder(static: Path = STATIC) -> Path:
@@ -21,8 +23,11 @@ def studio_folder(static: Path = STATIC) -> Path:
     return static
 
 
-def place_folder(out: Path) -> Path:
-    """The resolved folder of a place; raises InputError where there is no `place.json`."""
+def place_folder(out: Path, verb: str = "view") -> Path:
+    """The resolved folder of a place; raises InputError where there is no `place.json`.
+
+    verb: the command that asks, for the hint at a folder that was perhaps meant.
+    """
     if not out.is_dir():
         raise InputError(
             out,
@@ -30,9 +35,26 @@ def place_folder(out: Path) -> Path:
             "Give the folder that `veduta facade -o OUT` wrote.",
         )
     if not (out / MANIFEST).is_file():
-        raise InputError(
-            out / MANIFEST,
-            "the folder holds no place",
-            "Give the folder that `veduta facade -o OUT` wrote; a single result has none.",
-        )
+        raise InputError(out / MANIFEST, "the folder holds no place", _remedy(out, verb))
     return out.resolve()
+
+
+def _remedy(out: Path, verb: str) -> str:
+    near = _places_near(out)
+    if not near:
+        return "Give the folder that `veduta facade -o OUT` wrote."
+    shown = ", ".join(map(str, near[:SHOWN]))
+    more = f" and {len(near) - SHOWN} more" if len(near) > SHOWN else ""
+    return f"Did you mean: veduta {verb} {shown}{more}"
+
+
+def _places_near(out: Path) -> list[Path]:
+    """Places one or two folders below, else the one that `out` is a part of."""
+    found = [
+        path.parent
+        for depth in ("*", "*/*")
+        for path in sorted(out.glob(f"{depth}/{MANIFEST}"))
+        if not any(part.startswith(".") for part in path.relative_to(out).parts)
+    ]
+    above = out.parent if out.name else out.resolve().parent
+    return found or ([above] if (above / MANIFEST).is_file() else [])

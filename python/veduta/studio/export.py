@@ -48,7 +48,7 @@ class ExportResult:
 
 def export_web(out: Path, web: Path, *, force: bool = False) -> ExportResult:
     """Write the place in `out` to the folder `web`; raises InputError where that may not be."""
-    place = place_folder(out)
+    place = place_folder(out, "export")
     sources = _sources(studio_folder(), place)
     record = WebRecord(files={name: file_digest(path) for name, path in sources.items()})
     target = _resolved_target(web, place)
