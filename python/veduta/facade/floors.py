@@ -9,7 +9,8 @@ the fewest floors win. Two changes make it fair across storey counts and scales:
 - the boundary term is centred in the same way, on the local mean of the vertical-edge profile.
 
 Without a known scale the storey is a further unknown: the chain is solved exactly for each storey
-height (pixels) in a range, heights being 0.8 to 1.4 storeys, and the least energy of all wins.
+height (pixels) in a range, heights being 0.8 to 1.4 storeys, and the least energy of all wins;
+energies at storeys that are much lower than the facade's bays are wide (`bays`) count for less.
 """
 
 from __future__ import annotations
@@ -31,6 +32,13 @@ _MEAN_STOREY_DM = 30
 MAX_FLOORS = 12
 # Grid rows below which a storey shows nothing to compare.
 _LEAST_STOREY = 4
+# Shares of the picture that one storey may take: at most, and where the bays say that it is so.
+_MOST, _MOST_BY_BAYS = 1 / 3.2, 1 / 1.9
+# Storeys up to which bays are wide (in 135 facades from straight in front: 0.4 to 1.4), and how
+# much of the energy counts at twice that, and at the least.
+_WIDE_BAY = 1.5
+_NARROW_BAY = 0.3
+_AT_TWICE, _AT_LEAST = 0.3, 0.1
 # Weights of equation 5 (alpha, beta), equation 7, and of the histograms' parting (equation 9).
 _SIMILARITY = 1.0
 _NEUTRAL = 0.85
@@ -85,11 +93,11 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     With a known `height_m` (ground to eaves) the mean floor must have 2.4 to 4.2 m. Raises
     NotFoundError where no chain fits.
     """
-    storeys = range(max(_LEAST_STOREY, rows.count // 14), round(rows.count / 3.2))
+    storeys = _storeys(rows)
     scales = [_scale(s, rows) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
-        (found[0], index, count)
+        (found[0] * _trust(storeys[index], rows.bay), index, count)
         for index, counts in enumerate(solved)
         for count, found in enumerate(counts, start=1)
         if found is not None
@@ -104,9 +112,8 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
             "Give a photo in which the whole facade is seen, or its --corners, "
             "and check --height-m where it is given.",
         )
-    energy, index, count = _not_halved(candidates)
-    found = solved[index][count - 1]
-    boundaries = found[1] if found is not None else []
+    _, index, count = _not_halved(candidates)
+    energy, boundaries = solved[index][count - 1] or (0.0, [])
     return Floors(
         [b * rows.step for b in boundaries],
         float(storeys[index] * rows.step),
@@ -114,6 +121,22 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
         _terms(boundaries, rows, scales[index]),
         len(scales[index][0]) * rows.count,
     )
+
+
+def _storeys(rows: Rows) -> list[int]:
+    """The storey heights to try, in grid rows."""
+    least, most = max(_LEAST_STOREY, rows.count // 14), round(rows.count * _MOST)
+    tall = range(max(least, most), round(rows.count * _MOST_BY_BAYS))
+    by_bays = [s for s in tall if rows.bay is not None and rows.bay >= _NARROW_BAY * s]
+    return [*range(least, most), *by_bays]
+
+
+def _trust(storey: int, bay: int | None) -> float:
+    """How much of a storey height's energy counts: less where bays are too wide for it."""
+    if bay is None:
+        return 1.0
+    octaves = float(np.log2(max(1.0, bay / (_WIDE_BAY * storey))))
+    return max(_AT_LEAST, 1 - (1 - _AT_TWICE) * octaves)
 
 
 def _fits_height(boundaries: list[int], bottom: int, height_m: float) -> bool:

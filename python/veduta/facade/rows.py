@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.bays import bay_width
 from veduta.facade.evidence import Evidence, Float, blur
 from veduta.facade.extent import RowHistograms, Skyline
 
@@ -20,7 +21,8 @@ class Rows:
     """Grid rows of `step` analysis pixels each; `ridge` is the grid row where the roof begins.
 
     `distance` (n, n) is the mean squared difference of two rows, 1 for two at random, `edges` (n,)
-    the mean strength of vertical edges, `histograms` are those of the analysis rows.
+    the mean strength of vertical edges, `histograms` are those of the analysis rows; `bay` is the
+    distance (in grid rows) at which the facade repeats sideways, where it does.
     """
 
     step: int
@@ -28,6 +30,7 @@ class Rows:
     distance: Float
     edges: Float
     histograms: RowHistograms
+    bay: int | None = None
 
     @property
     def count(self) -> int:
@@ -51,9 +54,14 @@ def gather_rows(evidence: Evidence, skyline: Skyline, histograms: RowHistograms)
     count = evidence.height // step
     building = (np.arange(evidence.height)[:, None] >= skyline.rows[None]) & evidence.valid
     ridge = skyline.level // step
+    details = _detail(evidence, building)
     channels = [
         _standard(_grid(channel, step, count), ridge) * np.sqrt(weight)
-        for channel, weight in zip(_detail(evidence, building), _CHANNELS, strict=True)
+        for channel, weight in zip(details, _CHANNELS, strict=True)
+    ]
+    across = [
+        _standard(channel[skyline.level :], 0) * np.sqrt(weight)
+        for channel, weight in zip(details, _CHANNELS, strict=True)
     ]
     stacked = np.concatenate(channels, axis=1)
     squares = (stacked * stacked).sum(1)
@@ -62,7 +70,7 @@ def gather_rows(evidence: Evidence, skyline: Skyline, histograms: RowHistograms)
     apart = np.abs(np.subtract.outer(np.arange(len(body)), np.arange(len(body)))) > count / 25
     distance = np.asarray(distance / max(float(body[apart].mean()), 1e-6), np.float32)
     edges = _grid((np.abs(evidence.gx) * building).mean(1, keepdims=True), step, count)
-    return Rows(step, ridge, distance, edges.ravel(), histograms)
+    return Rows(step, ridge, distance, edges.ravel(), histograms, bay_width(across, step))
 
 
 def _grid(values: Float, step: int, count: int) -> Float:

@@ -13,6 +13,9 @@ from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.facade.extent import RowHistograms
+from veduta.facade.floors import split_floors
+from veduta.facade.rows import Rows
 
 ROWS, HEIGHTS = 13, [2, 3, 5]
 SIMILARITY, HEIGHT_CHANGE = 0.7, 0.2
@@ -114,3 +117,23 @@ def test_a_periodic_facade_is_cut_at_its_period() -> None:
     (solved,) = _core.floor_chain(distance, [scale], 1.0, 1.2, 8)
     best = min(found for found in solved if found is not None)
     assert best[1] == [0, 12, 24, 36, 48, 60, 72]
+
+
+def test_wide_bays_speak_against_low_storeys() -> None:
+    """Rows that repeat at 20 and, in another part of their width, at 60: the bays decide."""
+    rng = np.random.default_rng(5)
+    third, storey = np.tile(rng.normal(size=(20, 30)), (3, 1)), rng.normal(size=(60, 12))
+    floors = np.tile(np.hstack([third, storey]), (2, 1))
+    lines = np.concatenate([rng.normal(size=(20, 42)), floors, rng.normal(size=(64, 42))])
+    squares = (lines * lines).sum(1)
+    distance = squares[:, None] + squares[None] - 2 * lines @ lines.T
+    distance = (distance / distance.mean()).astype(np.float32)
+
+    def storeys(bay: int | None) -> float:
+        histograms = RowHistograms(np.zeros((2, len(lines) + 1, 4)))
+        edges = np.ones(len(lines), np.float32)
+        return split_floors(Rows(1, 0, distance, edges, histograms, bay)).mean_storey
+
+    assert storeys(None) == pytest.approx(20, rel=0.1)
+    assert storeys(20) == pytest.approx(20, rel=0.1)
+    assert storeys(60) == pytest.approx(60, rel=0.1)
