@@ -31,28 +31,45 @@ def rule_parameters(
     """Sizes (metres) of the splits. `rows` are the boundaries, eaves first (rectified pixels)."""
     heights = [(b - a) * m for a, b in pairwise(rows)]
     ground = (facade.y_px + facade.height_px - rows[-1]) * m
-    above = len(heights)
     return RuleParameters(
         building_height_m=facade.height_m,
         roof_height_m=max(0.0, (rows[0] - ridge) * m),
-        facade=Split(
-            symbols=["Gf", *(f"Fl_{i + 1}" for i in range(above))],
-            sizes_m=[ground, *reversed(heights)],
-        ),
-        floors=[_floor_split(floor, facade.width_m, elements) for floor in range(1, above + 1)],
+        facade=facade_split([ground, *reversed(heights)]),
+        floors=floor_splits(len(heights), facade.width_m, elements),
     )
 
 
-def _floor_split(floor: int, width_m: float, elements: list[Element]) -> Split:
-    windows = sorted(
-        (e for e in elements if e.class_ == "window" and e.floor == floor), key=lambda e: e.x_m
-    )
-    symbols, sizes, at = [], [], 0.0
-    for k, window in enumerate(windows):
-        symbols += [f"Wa_{k + 1}", f"Win_{k + 1}"]
-        sizes += [max(0.0, window.x_m - at), window.width_m]
-        at = window.x_m + window.width_m
-    symbols.append(f"Wa_{len(windows) + 1}")
+def facade_split(sizes_m: list[float]) -> Split:
+    """The split of the facade into floors of these heights, from the ground floor up."""
+    symbols = ["Gf", *(f"Fl_{i}" for i in range(1, len(sizes_m)))]
+    return Split(symbols=symbols, sizes_m=sizes_m)
+
+
+def floor_splits(count: int, width_m: float, elements: list[Element]) -> list[Split]:
+    """The splits of the `count` floors above the ground floor into wall and windows."""
+    windows: dict[int, list[Element]] = {}
+    for element in elements:
+        if element.class_ == "window" and element.floor is not None:
+            windows.setdefault(element.floor, []).append(element)
+    return [_floor_split(windows.get(i, []), width_m) for i in range(1, count + 1)]
+
+
+def _floor_split(windows: list[Element], width_m: float) -> Split:
+    """A split has no overlaps: a window ends at the facade's side, and begins after the last."""
+    symbols: list[str] = []
+    sizes: list[float] = []
+    at = 0.0
+    for window in sorted(windows, key=lambda e: e.x_m):
+        right = window.x_m + window.width_m
+        start, end = max(window.x_m, at), min(right, width_m)
+        if start >= end:
+            continue
+        number = len(symbols) // 2 + 1
+        symbols += [f"Wa_{number}", f"Win_{number}"]
+        is_whole = start == window.x_m and end == right
+        sizes += [start - at, window.width_m if is_whole else end - start]
+        at = end
+    symbols.append(f"Wa_{len(symbols) // 2 + 1}")
     sizes.append(max(0.0, width_m - at))
     return Split(symbols=symbols, sizes_m=sizes)
 

@@ -10,7 +10,15 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import BaseModel, ValidationError
 
-from veduta.facade.document import CLASSES, Element, Extent, FacadeBox, FacadeDocument
+from veduta.facade.document import (
+    CLASSES,
+    Element,
+    Extent,
+    FacadeBox,
+    FacadeDocument,
+    RuleParameters,
+)
+from veduta.facade.reconcile import contradictions, reconciled
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
@@ -22,10 +30,9 @@ MAX_ELEMENTS = 20_000
 MAX_EXTENTS = 64
 MAX_POINTS = 20_000
 """Of the polygons of all extents together."""
+MAX_FLOORS = 200
 MAX_COORDINATE = 1e6
 """No number of a document (px or m) is larger than this, by amount."""
-TOLERANCE = 0.01
-"""Metres that differ from what the pixels say by no more than this are left alone."""
 
 _REMEDY = "Mend it there; docs/facade.md says what each field means."
 _SHOWN_FAULTS = 5
@@ -34,13 +41,13 @@ _SHOWN_FAULTS = 5
 def load_document(path: Path) -> FacadeDocument:
     """The document in `path`; InputError names each place in the file and its fault.
 
-    Pixels decide: where an element's metres disagree with them, the metres are made anew.
+    What an edit contradicts elsewhere in the document is made anew: see `reconcile`.
     """
     document = _parse(path, _read(path))
-    faults = _faults(document)
+    faults = _faults(document) or contradictions(document)
     if faults:
         raise InputError(path, "; ".join(faults[:_SHOWN_FAULTS]), _REMEDY)
-    return _with_metres(document)
+    return reconciled(document)
 
 
 def load_photo(document_path: Path, document: FacadeDocument) -> NDArray[np.uint8]:
@@ -116,10 +123,7 @@ def _faults(document: FacadeDocument) -> list[str]:
                 found.append(f"{name}.{side}: must be above zero")
     found += _extent_faults(document.extents)
     found += _size_faults(document)
-    rules = document.rules.facade
-    if len(rules.symbols) != len(rules.sizes_m):
-        found.append("rules.facade: needs as many sizes_m as symbols")
-    return found
+    return found + _rule_faults(document.rules)
 
 
 def _extent_faults(extents: list[Extent]) -> list[str]:
@@ -137,6 +141,24 @@ def _extent_faults(extents: list[Extent]) -> list[str]:
             f"extents[{largest}].polygon_px: {sizes[largest]} points, {sum(sizes)} with the other"
             f" extents, more than {MAX_POINTS}"
         )
+    return found
+
+
+def _rule_faults(rules: RuleParameters) -> list[str]:
+    found = []
+    if rules.building_height_m <= 0:
+        found.append("rules.building_height_m: must be above zero")
+    if not 1 <= len(rules.facade.sizes_m) <= MAX_FLOORS:
+        found.append(f"rules.facade.sizes_m: needs 1 to {MAX_FLOORS} floors")
+    floors = [(f"rules.floors[{index}]", split) for index, split in enumerate(rules.floors)]
+    for place, split in [("rules.facade", rules.facade), *floors]:
+        if len(split.symbols) != len(split.sizes_m):
+            found.append(f"{place}: needs as many sizes_m as symbols")
+        found += [
+            f"{place}.sizes_m[{index}]: must not be negative"
+            for index, size in enumerate(split.sizes_m)
+            if size < 0
+        ]
     return found
 
 
@@ -176,38 +198,3 @@ def _numbers(value: object, place: str = "") -> list[tuple[str, float]]:
     else:
         return []
     return [number for name, part in parts for number in _numbers(part, name)]
-
-
-def _with_metres(document: FacadeDocument) -> FacadeDocument:
-    """The document with all metres as the pixels and the scale say, and a note where they moved."""
-    scale, box = document.scale.metres_per_px, document.facade
-    moved: list[str] = []
-
-    def agreed(name: str, written: float, pixels: float) -> float:
-        if abs(written - pixels * scale) <= TOLERANCE:
-            return written
-        moved.append(name)
-        return pixels * scale
-
-    facade = box.model_copy(
-        update={
-            "width_m": agreed("the facade", box.width_m, box.width_px),
-            "height_m": agreed("the facade", box.height_m, box.height_px),
-        }
-    )
-    below = box.y_px + box.height_px
-    elements = []
-    for index, item in enumerate(document.elements):
-        name = f"{item.class_} (elements[{index}])"
-        metres = {
-            "x_m": agreed(name, item.x_m, item.x_px - box.x_px),
-            "y_m": agreed(name, item.y_m, below - item.y_px - item.height_px),
-            "width_m": agreed(name, item.width_m, item.width_px),
-            "height_m": agreed(name, item.height_m, item.height_px),
-        }
-        elements.append(item.model_copy(update=metres))
-    notes = list(document.notes)
-    if moved:
-        which = ", ".join(dict.fromkeys(moved))
-        notes.append(f"metres made anew from edited pixels: {which}")
-    return document.model_copy(update={"facade": facade, "elements": elements, "notes": notes})

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from veduta.facade.document import FacadeDocument
+from veduta.facade.document import FacadeDocument, Split
 from veduta.facade.load import MAX_EXTENTS, MAX_POINTS, load_document
 from veduta.run.errors import InputError
 
@@ -61,4 +62,30 @@ def test_sizes_that_no_building_has(
 ) -> None:
     document = make_document()
     setattr(getattr(document, place[0]), place[1], value)
+    assert fault_of(document, tmp_path).startswith(fault)
+
+
+@pytest.mark.parametrize(
+    ("change", "fault"),
+    [
+        ({"building_height_m": 0.0}, "rules.building_height_m: must be above zero"),
+        ({"facade": ([], [])}, "rules.facade.sizes_m: needs 1 to 200 floors"),
+        ({"facade": (["Gf"] * 201, [0.0] * 201)}, "rules.facade.sizes_m: needs 1 to 200 floors"),
+        ({"facade": (["Gf"], [3.0, 4.5])}, "rules.facade: needs as many sizes_m as symbols"),
+        ({"facade": (["Gf", "Fl_1"], [8.5, -1.0])}, "rules.facade.sizes_m[1]: must not be neg"),
+        ({"floors": [(["Wa"], [5.0]), (["Wa"], [])]}, "rules.floors[1]: needs as many"),
+        ({"floors": [(["Wa"], [-5.0])]}, "rules.floors[0].sizes_m[0]: must not be negative"),
+        ({"facade": (["Gf", "Fl_1"], [4.0, 4.0])}, "rules.facade.sizes_m: the floors are 8 m"),
+    ],
+)
+def test_rules_that_cannot_be(
+    make_document: Make, tmp_path: Path, change: dict[str, Any], fault: str
+) -> None:
+    document = make_document()
+    for name, value in change.items():
+        if name == "facade":
+            value = Split(symbols=value[0], sizes_m=value[1])
+        elif name == "floors":
+            value = [Split(symbols=symbols, sizes_m=sizes) for symbols, sizes in value]
+        setattr(document.rules, name, value)
     assert fault_of(document, tmp_path).startswith(fault)
