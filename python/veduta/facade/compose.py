@@ -22,6 +22,7 @@ from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions
+from veduta.facade.plausible import storey_doubts
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
@@ -79,6 +80,7 @@ def compose(
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
         notes.append(f"no sky: {parse.skyline.reason}")
+    notes += storey_doubts(parse.floors)
     return FacadeDocument(
         source=source,
         rectification=record,

@@ -21,6 +21,8 @@ from veduta.run.errors import NotFoundError
 
 # Energy per row at which no storey is like another (facades: at most -0.07).
 _NOTHING_ALIKE = -0.04
+# Energy per row above which their number is doubtful (as photos of mere parts of facades have it).
+_HARDLY_ALIKE = -0.2
 # Part of a storey in which a pattern may repeat, and the dissimilarity up to which it does
 # (facades: 0.38 and more at their best offset within a storey).
 _WITHIN = (0.12, 0.62)
@@ -41,6 +43,13 @@ def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> 
     reason = _pattern(rows, floors) or _no_windows(rows, floors, wall, boxes)
     if reason:
         raise NotFoundError("a facade", reason, _REMEDY)
+
+
+def storey_doubts(floors: Floors) -> list[str]:
+    """What to tell of storeys that are hardly like one another."""
+    if floors.energy <= _HARDLY_ALIKE:
+        return []
+    return ["storeys: they are hardly alike, so check their number, or give --height-m"]
 
 
 def _pattern(rows: Rows, floors: Floors) -> str | None:

@@ -20,6 +20,7 @@ from veduta.facade.floors import Floors
 from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.outputs import rasterise
+from veduta.facade.plausible import storey_doubts
 from veduta.facade.scale import ASSUMED_STOREY_M, metres
 from veduta.facade.sides import Sides
 from veduta.run.errors import InputError
@@ -114,6 +115,14 @@ def test_the_edges_of_the_picture_are_reached(long: int, ratio: float, upright: 
     for element, box in zip(document.elements, BOXES, strict=True):
         assert element.x_px == pytest.approx(box.x * width / whole.width, abs=0.01)
         assert element.y_px == pytest.approx(box.y * height / whole.height, abs=0.01)
+
+
+def test_storeys_that_are_hardly_alike_are_noted() -> None:
+    document = _document(np.full(160, 20), Sides(0, 160, 300))
+    assert not any("hardly alike" in note for note in document.notes)
+    unlike = Floors(BOUNDARIES, 50.0, -0.1, {"similarity": -0.1}, 100)
+    (note,) = storey_doubts(unlike)
+    assert "--height-m" in note
 
 
 def test_what_the_photo_speaks_against_is_inferred() -> None:
