@@ -50,7 +50,7 @@ def test_force_replaces(out: Path, photo: Path, photos: list[Path]) -> None:
     before = tree(out)
     assert facade(photo, "-o", out, "--depth-m", "7", "--force").returncode == 0
     after = tree(out)
-    assert after["house0/facade.json"] == before["house0/facade.json"]
+    assert after["house0/labels.png"] == before["house0/labels.png"]
     assert after["house0/model.glb"] != before["house0/model.glb"]
     done = facade(photos[1], "-o", out, "--force")
     assert done.returncode == 0

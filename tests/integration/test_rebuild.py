@@ -100,6 +100,73 @@ def test_what_does_not_fit_the_model_is_told(out: Path, tmp_path: Path) -> None:
     assert read_json(page.with_suffix(".json"))["measures"]["left_out"] == 1
 
 
+SIZES = ("--depth-m", 7, "--setback-m", 0.35)
+
+
+def test_a_rebuild_keeps_the_sizes_of_the_run_that_made_it(tmp_path: Path, photo: Path) -> None:
+    out, new, other = tmp_path / "out", tmp_path / "new", tmp_path / "other"
+    assert facade(photo, "-o", out, *SIZES).returncode == 0
+    document = out / "house0" / "facade.json"
+    assert read_json(document)["model"] == {"depth_m": 7.0, "setback_m": 0.35}
+    assert veduta("facade", document, "-o", new).returncode == 0
+    assert tree(new / "house0") == tree(out / "house0")
+    assert veduta("facade", document, "-o", other, "--depth-m", 8).returncode == 0
+    rebuilt = read_json(other / "house0" / "facade.json")
+    assert rebuilt["model"] == {"depth_m": 8.0, "setback_m": 0.35}
+    report = read_json(other / "house0" / "report.json")
+    assert report["options"] == rebuilt["model"]
+    assert depth_of(other / "house0") == pytest.approx(8.0)
+
+
+def depth_of(folder: Path) -> float:
+    city = read_json(folder / "model.city.json")
+    extent = city["metadata"]["geographicalExtent"]
+    return float(extent[4])
+
+
+def test_sizes_that_are_asked_for_in_place_are_kept(out: Path) -> None:
+    document = out / "house0" / "facade.json"
+    ask = ("facade", document, "-o", out, "--depth-m", 7)
+    assert veduta(*ask).returncode == 0
+    assert read_json(document)["model"]["depth_m"] == 7.0
+    assert depth_of(out / "house0") == pytest.approx(7.0)
+    assert "up to date" in veduta(*ask).stdout
+    before = tree(out)
+    assert veduta("facade", document, "-o", out).returncode == 0
+    assert tree(out) == before
+
+
+def test_an_edited_document_is_not_written_to(out: Path) -> None:
+    document = out / "house0" / "facade.json"
+    edit(document, set_at("model", "depth_m", value=6.0))
+    edited = document.read_bytes()
+    assert veduta("facade", document, "-o", out).returncode == 0
+    assert depth_of(out / "house0") == pytest.approx(6.0)
+    ask = ("facade", document, "-o", out, "--depth-m", 7)
+    assert veduta(*ask).returncode == 0
+    assert depth_of(out / "house0") == pytest.approx(7.0)
+    assert document.read_bytes() == edited
+    assert "up to date" in veduta(*ask).stdout
+
+
+def test_a_document_of_before_the_sizes_has_the_defaults(out: Path, tmp_path: Path) -> None:
+    document = out / "house0" / "facade.json"
+    edit(document, lambda content: content.pop("model"))
+    assert veduta("facade", document, "-o", tmp_path / "new").returncode == 0
+    assert tree(tmp_path / "new" / "house0") == tree_without_edit(out / "house0")
+
+
+def tree_without_edit(folder: Path) -> dict[str, bytes]:
+    """The files of a result as they were before its document was edited."""
+    files = tree(folder)
+    content = json.loads(files["facade.json"])
+    place = list(content).index("facade") + 1
+    items = list(content.items())
+    items.insert(place, ("model", {"depth_m": 10.0, "setback_m": 0.2}))
+    files["facade.json"] = (json.dumps(dict(items), indent=1, ensure_ascii=False) + "\n").encode()
+    return files
+
+
 def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
     def change(content: Any) -> None:
         for step in path[:-1]:
@@ -121,6 +188,8 @@ def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
         (set_at("extents", 0, "polygon_px", value=[[0, 0]]), "extents[0].polygon_px: "),
         (set_at("scale", "metres_per_px", value=0), "scale.metres_per_px: "),
         (set_at("version", value=7), "version: "),
+        (set_at("model", "depth_m", value=0), "model.depth_m: "),
+        (set_at("model", "setback_m", value=1.5), "model.setback_m: "),
         (set_at("classes", value=["window"]), "classes: "),
         (set_at("rectification", "width_px", value=20), "rectified.jpg: is "),
     ],

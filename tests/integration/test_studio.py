@@ -21,7 +21,6 @@ import pytest
 from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.place.manifest import Bounds, Place, PlacePart, Start
@@ -50,7 +49,7 @@ def place(tmp_path_factory: pytest.TempPathFactory) -> Path:
     folder = tmp_path_factory.mktemp("place")
     document = sample_document()
     pixels = sample_photo(document)
-    part = build_part(document, pixels, ModelOptions(), "sample")
+    part = build_part(document, pixels, "sample")
     (folder / "sample").mkdir()
     write_glb(part, folder / "sample" / "model.glb")
     Image.fromarray(pixels).save(folder / "sample" / "rectified.jpg")

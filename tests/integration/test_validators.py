@@ -13,7 +13,7 @@ from sample_document import element, sample_document, sample_photo
 
 from veduta.facade.document import FacadeDocument
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
+from veduta.facade.options import ModelSizes
 from veduta.formats.cityjson import write_cityjson
 from veduta.formats.gltf import write_glb
 
@@ -61,8 +61,9 @@ def validate_city(path: Path) -> dict[str, Any]:
 @pytest.mark.parametrize("name", list(documents()))
 @pytest.mark.parametrize("setback_m", [0.0, 0.2])
 def test_files_are_valid(tmp_path: Path, name: str, setback_m: float) -> None:
-    document = documents()[name]
-    part = build_part(document, sample_photo(document), ModelOptions(setback_m=setback_m), name)
+    sizes = ModelSizes(setback_m=setback_m)
+    document = documents()[name].model_copy(update={"model": sizes})
+    part = build_part(document, sample_photo(document), name)
     write_glb(part, tmp_path / "model.glb")
     write_cityjson(part, tmp_path / "model.city.json")
     issues = validate_gltf(tmp_path / "model.glb")
@@ -73,7 +74,7 @@ def test_files_are_valid(tmp_path: Path, name: str, setback_m: float) -> None:
 
 def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:
     document = sample_document()
-    part = build_part(document, sample_photo(document), ModelOptions(), "broken")
+    part = build_part(document, sample_photo(document), "broken")
     glb, city = tmp_path / "model.glb", tmp_path / "model.city.json"
     write_glb(part, glb)
     glb.write_bytes(glb.read_bytes().replace(b'"VEC3"', b'"VEC4"', 1))

@@ -20,6 +20,7 @@ from veduta.facade.document import (
     Source,
     Split,
 )
+from veduta.facade.options import ModelSizes
 
 METRES_PER_PX = 0.025
 FACADE_M = (12.0, 15.0)
@@ -70,6 +71,7 @@ def sample_document(
     elements: list[Element] | None = None,
     roof_m: float = ROOF_M,
     facade_m: tuple[float, float] = FACADE_M,
+    sizes: ModelSizes | None = None,
 ) -> FacadeDocument:
     """The document; its extents are sky, roof and wall."""
     width_px, height_px = PHOTO_PX
@@ -100,6 +102,7 @@ def sample_document(
             width_m=facade_m[0],
             height_m=facade_m[1],
         ),
+        model=sizes or ModelSizes(),
         extents=extents,
         elements=sample_elements() if elements is None else elements,
         storeys=5,

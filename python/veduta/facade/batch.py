@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import cast
 
@@ -17,7 +17,7 @@ from veduta.facade.options import FacadeOptions
 from veduta.facade.pipeline import VERSION
 from veduta.facade.report import call_report
 from veduta.formats.place_json import write_place
-from veduta.run.digests import result_key
+from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out
@@ -87,6 +87,8 @@ def run_call(
             f"are those of one facade, but {len(call.inputs)} photos are named",
             "Make a call for each photo.",
         )
+    if call.kind == "photo":
+        options = options.of_photo()
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
@@ -183,7 +185,7 @@ def _process(
         for outcome in run_tasks(run_job, tasks, jobs=jobs, started=progress.started):
             source = inputs[outcome.task.name]
             job_result = _result_of(outcome, source, result)
-            _publish(folder, source, _key("item", source.identity, call, options), job_result)
+            _publish(folder, source, call, options, job_result)
             result.fresh.append(source.name)
             if job_result.failure:
                 result.failures[source.name] = job_result.failure
@@ -203,15 +205,29 @@ def _result_of(outcome: Outcome[JobResult], source: Input, result: CallResult) -
     return JobResult(failure=Failure(subject=str(source.path), kind="crash", reason=reason))
 
 
-def _publish(folder: OutFolder, source: Input, key: str, job_result: JobResult) -> None:
+def _publish(
+    folder: OutFolder, source: Input, call: Call, options: FacadeOptions, job_result: JobResult
+) -> None:
     """Put the files in place. A failed rebuild leaves what was there."""
     failure = job_result.failure
     lasting = failure is None or failure.kind in LASTING
     if lasting and not (failure and folder.standing is Standing.AMENDED):
         work = folder.work_path(source.name)
+        key = _key("item", _lasting(source, folder, work).identity, call, options)
         folder.publish(source.name, key, work, job_result.summary, failure)
     elif folder.standing is not Standing.AMENDED:
         folder.forget(source.name)
+
+
+def _lasting(source: Input, folder: OutFolder, work: Path) -> Input:
+    """The input as the next call finds it: a rebuild in place may replace its own document.
+
+    It does where other sizes were asked for and the document is as Veduta wrote it.
+    """
+    document = f"{source.name}/{DOCUMENT}"
+    if folder.standing is not Standing.AMENDED or document in folder.edited(source.name):
+        return source
+    return replace(source, digests=(file_digest(work / DOCUMENT), *source.digests[1:]))
 
 
 def _collect(folder: OutFolder, call: Call, result: CallResult) -> None:

@@ -11,6 +11,8 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from veduta.facade.options import ModelSizes
+
 FacadeClass = Literal[
     "window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"
 ]
@@ -151,6 +153,9 @@ class FacadeDocument(_Record):
     rectification: Rectification
     scale: Scale
     facade: FacadeBox
+    model: ModelSizes = Field(
+        default=ModelSizes(), description="what the model has that no photo shows, in metres"
+    )
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")
     elements: list[Element] = Field(description="painted in order")

@@ -57,6 +57,8 @@ def run_job(job: Job) -> JobResult:
         failure = Failure(subject=str(job.source.path), kind=kind, reason=_reason(error, job))
         _write_report(job.folder, failure_report(job.source.path.name, failure, options, steps))
         return JobResult(failure=failure)
+    if job.source.kind == "document":
+        options = building.document.model
     try:
         write_building(building, job.folder, steps, job.progress)
         _write_report(job.folder, image_report(building, options, steps))

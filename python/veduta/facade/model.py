@@ -12,7 +12,6 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.dormers import plan_dormers, reach_m
 from veduta.facade.front import add_front
 from veduta.facade.layout import Layout, lay_out
-from veduta.facade.options import ModelOptions
 from veduta.facade.paint import make_paint
 from veduta.facade.roof import Mansard, plan_mansard
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
@@ -28,7 +27,6 @@ DEEPEST_SHARE = 0.4
 def build_part(
     document: FacadeDocument,
     rectified: NDArray[np.uint8],
-    options: ModelOptions,
     part_id: str,
 ) -> Part:
     """Build the part of one document.
@@ -38,10 +36,10 @@ def build_part(
     The body is shell 0 and closed; balconies, chimneys and lids are closed shells of their own.
     """
     _check(document, rectified)
-    _check_sizes(document, options)
+    _check_sizes(document)
     builder = PartBuilder(part_id)
-    footprint = (document.facade.width_m, options.depth_m, document.facade.height_m)
-    setback = min(options.setback_m, DEEPEST_SHARE * options.depth_m)
+    footprint = (document.facade.width_m, document.model.depth_m, document.facade.height_m)
+    setback = min(document.model.setback_m, DEEPEST_SHARE * document.model.depth_m)
 
     layout = lay_out(document)
     builder.notes.extend(layout.notes)
@@ -91,11 +89,12 @@ def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:
         )
 
 
-def _check_sizes(document: FacadeDocument, options: ModelOptions) -> None:
+def _check_sizes(document: FacadeDocument) -> None:
     bounds = f"not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m"
-    if not is_possible(options.depth_m):
-        fault = f"is {options.depth_m:g} m, {bounds}"
-        raise InputError("--depth-m", fault, "Give a depth that a building has.")
+    if not is_possible(document.model.depth_m):
+        fault = f"is {document.model.depth_m:g} m, {bounds}"
+        remedy = "Give a depth that a building has, there or as model.depth_m in facade.json."
+        raise InputError("--depth-m", fault, remedy)
     facade, roof_m = document.facade, document.rules.roof_height_m
     # Whoever made the document has said so already, and named what is to be mended.
     if not is_possible(facade.width_m) or not is_possible(facade.height_m):

@@ -9,6 +9,7 @@ from pydantic import Field
 from veduta.run.options import Options
 
 Metres = Annotated[float, Field(gt=0)]
+Setback = Annotated[float, Field(ge=0.0, le=1.0)]
 
 
 class RectifyOptions(Options):
@@ -39,13 +40,31 @@ class ScaleOptions(Options):
     )
 
 
-class ModelOptions(Options):
-    """How the document becomes a building."""
+class ModelSizes(Options):
+    """Sizes of a building that no photo of its front shows, as the document keeps them."""
 
-    depth_m: Metres = Field(default=10.0, description="depth of the footprint (m)")
-    setback_m: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
-        default=0.2, description="how far openings are set back into the wall (m)"
+    depth_m: Metres = Field(default=10.0, description="depth of the footprint")
+    setback_m: Setback = Field(default=0.2, description="how far openings are set back")
+
+
+class ModelOptions(Options):
+    """How the document becomes a building; what is not given is as the document has it."""
+
+    depth_m: Metres | None = Field(
+        default=None,
+        description="depth of the footprint (m); 10.0, or what the document has, if not given",
     )
+    setback_m: Setback | None = Field(
+        default=None,
+        description=(
+            "how far openings are set back into the wall (m);"
+            " 0.2, or what the document has, if not given"
+        ),
+    )
+
+    def over(self, known: ModelSizes) -> ModelSizes:
+        """The sizes that are known, with those that were asked for in their place."""
+        return known.model_copy(update=self.model_dump(exclude_none=True))
 
 
 class FacadeOptions(Options):
@@ -54,3 +73,8 @@ class FacadeOptions(Options):
     rectify: RectifyOptions = RectifyOptions()
     scale: ScaleOptions = ScaleOptions()
     model: ModelOptions = ModelOptions()
+
+    def of_photo(self) -> FacadeOptions:
+        """The effective options of a photo: nothing is known of its model but what is asked."""
+        sizes = self.model.over(ModelSizes())
+        return self.model_copy(update={"model": ModelOptions(**sizes.model_dump())})

@@ -62,8 +62,9 @@ def reconstruct(
     document, analysis = analyse(rectified, _source(photo), options, progress)
     steps.extend(analysis)
     document = _with_notes(document, (*photo.notes, *rectified.notes))
+    document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
-    part = _model(document, pixels, options.model, part_id, steps, progress)
+    part = _model(document, pixels, part_id, steps, progress)
     return Building(document, jpeg, pixels, part)
 
 
@@ -77,10 +78,10 @@ def rebuild(
     """The building of a document that somebody may have edited; its photo lies beside it."""
     progress("load", 0.0)
     with timed_step(steps, "load") as step:
-        document = load_document(document_path)
+        document = _sized(load_document(document_path), options)
         pixels = load_photo(document_path, document)
         step.counts["elements"] = len(document.elements)
-    part = _model(document, pixels, options, part_id, steps, progress)
+    part = _model(document, pixels, part_id, steps, progress)
     return Building(document, document_path.with_name(PHOTO).read_bytes(), pixels, part)
 
 
@@ -114,6 +115,11 @@ def _with_notes(document: FacadeDocument, notes: tuple[str, ...]) -> FacadeDocum
     return document.model_copy(update={"notes": list(dict.fromkeys((*notes, *document.notes)))})
 
 
+def _sized(document: FacadeDocument, asked: ModelOptions) -> FacadeDocument:
+    """The document with the sizes that the model gets, so that a rebuild has them too."""
+    return document.model_copy(update={"model": asked.over(document.model)})
+
+
 def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
     """The photo as JPEG, and (h, w, 3) as it is read back.
 
@@ -130,14 +136,13 @@ def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
 def _model(
     document: FacadeDocument,
     pixels: NDArray[np.uint8],
-    options: ModelOptions,
     part_id: str,
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> Part:
     progress("model", 0.0)
     with timed_step(steps, "model") as step:
-        part = build_part(document, pixels, options, part_id)
+        part = build_part(document, pixels, part_id)
         step.counts |= {"features": len(part.features), "materials": len(part.materials)}
         step.rejected.extend(part.notes)
     return part

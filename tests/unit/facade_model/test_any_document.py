@@ -11,7 +11,7 @@ from sample_document import element, sample_document, sample_photo
 from veduta.facade.document import Element, FacadeClass
 from veduta.facade.layout import GAP_M, Opening, lay_out
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
+from veduta.facade.options import ModelSizes
 
 PHOTO = sample_photo(sample_document())
 KINDS: list[FacadeClass] = ["window", "window", "window", "door", "shop", "balcony", "chimney"]
@@ -23,8 +23,8 @@ elements = st.builds(element, st.sampled_from(KINDS), positions, positions, size
 
 
 @st.composite
-def options(draw: st.DrawFn) -> ModelOptions:
-    return ModelOptions(
+def model_sizes(draw: st.DrawFn) -> ModelSizes:
+    return ModelSizes(
         depth_m=draw(st.sampled_from([0.5, 3.0, 10.0, 12.0, 40.0])),
         setback_m=draw(st.sampled_from([0.0, 0.05, 0.2, 1.0])),
     )
@@ -34,13 +34,13 @@ def options(draw: st.DrawFn) -> ModelOptions:
     items=st.lists(elements, max_size=24),
     roof_m=st.sampled_from([-1.0, 0.0, 0.4, 0.6, 3.6, 9.0]),
     facade_m=st.tuples(st.floats(0.5, 40.0), st.floats(0.5, 40.0)),
-    chosen=options(),
+    chosen=model_sizes(),
 )
 def test_every_document_closes(
-    items: list[Element], roof_m: float, facade_m: tuple[float, float], chosen: ModelOptions
+    items: list[Element], roof_m: float, facade_m: tuple[float, float], chosen: ModelSizes
 ) -> None:
-    document = sample_document(items, roof_m, facade_m)
-    part = build_part(document, PHOTO, chosen, "any")
+    document = sample_document(items, roof_m, facade_m, chosen)
+    part = build_part(document, PHOTO, "any")
     assert_closed(part)
     assert np.isfinite(part.uv).all()
     assert part.uv.min() >= 0.0

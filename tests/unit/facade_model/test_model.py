@@ -11,7 +11,7 @@ from sample_document import FACADE_M, ROOF_M, element, sample_document, sample_p
 
 from veduta.facade.adjusted import count_adjusted
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
+from veduta.facade.options import ModelSizes
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
@@ -22,7 +22,7 @@ DEPTH_M, SETBACK_M = 10.0, 0.2
 @pytest.fixture(scope="module")
 def part() -> Part:
     document = sample_document()
-    return build_part(document, sample_photo(document), ModelOptions(), "sample")
+    return build_part(document, sample_photo(document), "sample")
 
 
 def rows(part: Part, semantic: SemanticClass) -> list[int]:
@@ -43,7 +43,7 @@ def test_every_element_is_there_once(part: Part) -> None:
 
 def test_bare_building_has_the_volume_of_box_and_mansard() -> None:
     document = sample_document(elements=[])
-    part = build_part(document, sample_photo(document), ModelOptions(), "bare")
+    part = build_part(document, sample_photo(document), "bare")
     width, height = FACADE_M
     lower, upper = 0.85 * ROOF_M, 0.15 * ROOF_M
     inset = lower / tan(radians(72.0))
@@ -62,10 +62,7 @@ def test_openings_take_their_volume_out_of_the_wall() -> None:
     bare = sample_document(elements=[], roof_m=0.0)
     holed = sample_document(elements=[window], roof_m=0.0)
     photo = sample_photo(bare)
-    volumes = [
-        next(shells(build_part(document, photo, ModelOptions(), "x"))).volume
-        for document in (bare, holed)
-    ]
+    volumes = [next(shells(build_part(document, photo, "x"))).volume for document in (bare, holed)]
     glass = (1.2 - 0.12) * (1.8 - 0.12) * 0.25 * SETBACK_M
     assert volumes[0] - volumes[1] == pytest.approx(1.2 * 1.8 * SETBACK_M + glass, rel=1e-3)
 
@@ -73,7 +70,7 @@ def test_openings_take_their_volume_out_of_the_wall() -> None:
 def test_wall_area_is_the_facade_less_its_openings() -> None:
     windows = [element("window", 1.0 + 3 * k, 6.0, 1.2, 1.8) for k in range(3)]
     document = sample_document(elements=windows)
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     wall = part.features.name.index("front wall")
     assert part.feature_area_m2[wall] == pytest.approx(
         FACADE_M[0] * FACADE_M[1] - 3 * 1.2 * 1.8, rel=1e-5
@@ -82,7 +79,7 @@ def test_wall_area_is_the_facade_less_its_openings() -> None:
 
 def test_front_slope_leans_by_the_mansards_angle() -> None:
     document = sample_document(elements=[])
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     slope = part.features.name.index("front lower slope")
     polygon = int(np.flatnonzero(part.polygon_feature == slope)[0])
     normal = part.triangles.polygon_normal[polygon]
@@ -126,7 +123,7 @@ def test_window_behind_a_balcony_reaches_down_to_its_floor() -> None:
     window = element("window", 4.0, 7.0, 1.2, 1.5)
     balcony = element("balcony", 3.5, 6.0, 2.2, 1.0)
     document = sample_document(elements=[window, balcony])
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     row = rows(part, SemanticClass.WINDOW)[0]
     assert part.features.height_m[row] == pytest.approx(2.5 - 0.15)
     assert_closed(part)
@@ -135,7 +132,7 @@ def test_window_behind_a_balcony_reaches_down_to_its_floor() -> None:
 def test_overlapping_windows_are_clipped_and_said_so() -> None:
     pair = [element("window", 4.0, 6.0, 1.2, 1.8), element("window", 4.6, 6.2, 1.2, 1.8)]
     document = sample_document(elements=pair)
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     assert part.notes == ("window (elements[1]): clipped from 1.20 x 1.80 m to 0.55 x 1.80 m",)
     assert count_adjusted(part.notes) == {"left_out": 0, "clipped": 1}
     assert_closed(part)
@@ -154,7 +151,7 @@ def test_every_element_that_has_no_room_is_named() -> None:
         element("chimney", 2.0, 3.0, 1.0, 1.0),  # below the eaves
     ]
     document = sample_document(elements=elements, roof_m=0.0)
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     named = [f"{elements[n].class_} (elements[{n}]): left out, " for n in (5, 1, 2, 4, 6, 7)]
     assert len(part.notes) == len(named)
     assert all(sum(start in note for note in part.notes) == 1 for start in named)
@@ -166,13 +163,13 @@ def test_every_element_that_has_no_room_is_named() -> None:
 
 def test_a_balcony_over_the_border_is_clipped_and_said_so() -> None:
     document = sample_document(elements=[element("balcony", 11.0, 6.0, 3.0, 1.0)])
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     assert part.notes == ("balcony (elements[0]): clipped from 3.00 x 1.00 m to 1.00 x 1.00 m",)
 
 
 def test_low_roof_is_flat_and_invented() -> None:
     document = sample_document(elements=[element("window", 4.0, 15.5, 1.0, 1.0)], roof_m=0.0)
-    part = build_part(document, sample_photo(document), ModelOptions(), "x")
+    part = build_part(document, sample_photo(document), "x")
     row = part.features.name.index("flat roof")
     assert part.features.provenance(row) is Provenance.INVENTED
     assert any("no roof" in note for note in part.notes)
@@ -182,7 +179,7 @@ def test_low_roof_is_flat_and_invented() -> None:
 def test_photo_of_another_size_is_refused() -> None:
     document = sample_document()
     with pytest.raises(InputError, match=r"rectified\.jpg"):
-        build_part(document, np.zeros((10, 10, 3), dtype=np.uint8), ModelOptions(), "x")
+        build_part(document, np.zeros((10, 10, 3), dtype=np.uint8), "x")
 
 
 @pytest.mark.parametrize("width_m", [0.0, -3.0, 0.1, 2000.0, float("nan"), float("inf")])
@@ -191,19 +188,19 @@ def test_facade_of_no_building_is_refused(width_m: float) -> None:
     broken = document.model_copy(
         update={"facade": document.facade.model_copy(update={"width_m": width_m})}
     )
-    with pytest.raises(InputError, match="the facade is .* m wide"):
-        build_part(broken, sample_photo(document), ModelOptions(), "x")
+    with pytest.raises(InputError, match=r"the facade is .* m wide"):
+        build_part(broken, sample_photo(document), "x")
 
 
 def test_depth_of_no_building_is_refused() -> None:
-    document = sample_document(elements=[])
+    document = sample_document(elements=[], sizes=ModelSizes(depth_m=1e6))
     with pytest.raises(InputError, match="--depth-m"):
-        build_part(document, sample_photo(document), ModelOptions(depth_m=1e6), "x")
+        build_part(document, sample_photo(document), "x")
 
 
 def test_same_input_same_columns(part: Part) -> None:
     document = sample_document()
-    again = build_part(document, sample_photo(document), ModelOptions(), "sample")
+    again = build_part(document, sample_photo(document), "sample")
     assert again.positions_m.tobytes() == part.positions_m.tobytes()
     assert again.uv.tobytes() == part.uv.tobytes()
     assert again.features.id == part.features.id

@@ -12,7 +12,6 @@ import pytest
 from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
 from veduta.formats.cityjson import write_cityjson
 from veduta.place.part import Part
 
@@ -20,7 +19,7 @@ from veduta.place.part import Part
 @pytest.fixture(scope="module")
 def part() -> Part:
     document = sample_document()
-    return build_part(document, sample_photo(document), ModelOptions(), "sample")
+    return build_part(document, sample_photo(document), "sample")
 
 
 @pytest.fixture(scope="module")

@@ -13,7 +13,6 @@ import trimesh
 from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
-from veduta.facade.options import ModelOptions
 from veduta.formats.gltf import glb_bytes, read_glb, write_glb
 from veduta.place.part import Part
 from veduta.run.errors import InputError
@@ -22,7 +21,7 @@ from veduta.run.errors import InputError
 @pytest.fixture(scope="module")
 def part() -> Part:
     document = sample_document()
-    return build_part(document, sample_photo(document), ModelOptions(), "sample")
+    return build_part(document, sample_photo(document), "sample")
 
 
 @pytest.fixture(scope="module")
@@ -103,7 +102,7 @@ def test_feature_table_columns_have_one_length(root: dict[str, Any]) -> None:
 
 def test_same_part_same_bytes(part: Part) -> None:
     document = sample_document()
-    again = build_part(document, sample_photo(document), ModelOptions(), "sample")
+    again = build_part(document, sample_photo(document), "sample")
     assert glb_bytes(again) == glb_bytes(part)
 
 
