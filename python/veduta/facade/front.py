@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from veduta.facade.document import FacadeDocument
 from veduta.facade.layout import Layout, Opening
 from veduta.facade.paint import Finish, Paint, photo_rect
@@ -50,13 +52,15 @@ def opening_panel(
     rectangle, element = opening.rectangle, opening.element
     semantic = SemanticClass(element.class_)
     name = f"{element.class_} {builder.count(semantic) + 1}"
+    seen_m = opening.seen_height_m
     feature = builder.feature(
         semantic,
-        Provenance(element.provenance),
+        _provenance(opening),
         name,
         parent=parent,
         size_m=(rectangle.width, rectangle.height),
         photo_px=photo_rect(element),
+        seen_height_m=np.nan if seen_m is None else seen_m,
     )
     face = paint.surface(feature)
     if setback_m <= 0.0:
@@ -79,3 +83,10 @@ def opening_panel(
         glass = rectangle.grown(-FRAME_M)
         inner.append(Panel(glass, GLASS_SHARE * setback_m, face, lining))
     return Panel(rectangle, setback_m, face, lining, tuple(inner))
+
+
+def _provenance(opening: Opening) -> Provenance:
+    """That of the element; a size that a rule has added to is inferred, not measured."""
+    said = Provenance(opening.element.provenance)
+    extended = opening.seen_height_m is not None
+    return Provenance.INFERRED if extended and said is Provenance.MEASURED else said

@@ -21,6 +21,8 @@ SMALLEST_M = 0.2
 SLAB_M = 0.15
 # A window whose lower edge is at most this far above a balcony's railing opens onto it (m).
 RAILING_REACH_M = 0.4
+# An opening that is made to reach further down by no more than this counts as seen whole (m).
+HIDDEN_M = 0.1
 # Share of a door's area in a shop from which it counts as the shop's own door.
 INSIDE_SHARE = 0.6
 
@@ -33,6 +35,12 @@ class Opening:
     element: Element
     number: int
     children: tuple[Opening, ...] = ()
+
+    @property
+    def seen_height_m(self) -> float | None:
+        """Height of what the document has of it, where a rule makes it reach further down."""
+        seen = self.rectangle.common(rectangle_of(self.element)).height
+        return seen if self.rectangle.height - seen > HIDDEN_M else None
 
 
 @dataclass(frozen=True)

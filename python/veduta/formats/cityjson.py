@@ -125,8 +125,8 @@ def _surface(part: Part, feature: int, kind: str) -> dict[str, Any]:
         "class": features.semantic(feature).value,
         "provenance": features.provenance(feature).value,
     }
-    for name, column in (("width_m", features.width_m), ("height_m", features.height_m)):
-        size = float(column[feature])
+    for name in ("width_m", "height_m", "seen_height_m"):
+        size = float(getattr(features, name)[feature])
         if not math.isnan(size):
             surface[name] = round(size, 4)
     return surface

@@ -132,6 +132,7 @@ def feature_columns(part: Part) -> dict[str, list[Any]]:
             None if math.isnan(rect[0]) else [_rounded(value) for value in rect]
             for rect in features.photo_px.tolist()
         ],
+        "seen_height_m": [_rounded(value) for value in features.seen_height_m.tolist()],
         "shell": features.shell.tolist(),
     }
 

@@ -142,6 +142,8 @@ def _features(columns: dict[str, list[Any]]) -> Features:
         photo_px=np.array(
             [unseen if rect is None else rect for rect in columns["photo_px"]], dtype=np.float64
         ).reshape(-1, 4),
+        # A model of an older Veduta does not say it.
+        seen_height_m=_sizes(columns.get("seen_height_m", [None] * len(columns["id"]))),
     )
 
 

@@ -31,7 +31,7 @@ class PartBuilder:
         self._polygon_rings: list[int] = []
         self._polygon_feature: list[int] = []
         self._polygon_material: list[int] = []
-        self._rows: list[tuple[str, str, int, int, int, int, float, float, Rect]] = []
+        self._rows: list[tuple[str, str, int, int, int, int, float, float, Rect, float]] = []
         self._counts: Counter[SemanticClass] = Counter()
         self._shells = 1
 
@@ -55,6 +55,7 @@ class PartBuilder:
         shell: int = 0,
         size_m: tuple[float, float] = (np.nan, np.nan),
         photo_px: Rect = _NO_RECT,
+        seen_height_m: float = np.nan,
     ) -> int:
         """Add a row to the feature table; returns its number.
 
@@ -73,6 +74,7 @@ class PartBuilder:
                 size_m[0],
                 size_m[1],
                 photo_px,
+                seen_height_m,
             )
         )
         return row
@@ -102,7 +104,7 @@ class PartBuilder:
         if len({row[0] for row in self._rows}) < len(self._rows):
             raise ValueError(f"part {self.part_id!r} has two features of one name")
         ring_sizes = [len(ring) for ring in self._rings]
-        ids, names, classes, provenances, parents, shells, widths, heights, rects = zip(
+        ids, names, classes, provenances, parents, shells, widths, heights, rects, seen = zip(
             *self._rows, strict=True
         )
         return Part(
@@ -123,6 +125,7 @@ class PartBuilder:
                 width_m=np.array(widths, dtype=np.float64),
                 height_m=np.array(heights, dtype=np.float64),
                 photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
+                seen_height_m=np.array(seen, dtype=np.float64),
             ),
             materials=tuple(self._materials),
             attributes=dict(self.attributes),

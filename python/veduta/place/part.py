@@ -32,6 +32,8 @@ class Features:
     shell: (f,) int32, the closed surface that it belongs to; 0 is the body.
     width_m, height_m: (f,) float64, size along and up the surface, NaN where it has none.
     photo_px: (f, 4) float64, x, y, width, height in the rectified photo; NaN where unseen.
+    seen_height_m: (f,) float64, how much of height_m was seen, from the top, where a rule makes
+    the surface reach further down; NaN elsewhere.
     """
 
     id: tuple[str, ...]
@@ -43,6 +45,7 @@ class Features:
     width_m: NDArray[np.float64]
     height_m: NDArray[np.float64]
     photo_px: NDArray[np.float64]
+    seen_height_m: NDArray[np.float64]
 
     def __len__(self) -> int:
         return len(self.id)

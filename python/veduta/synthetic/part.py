@@ -70,4 +70,5 @@ def _table(features: tuple[Feature, ...], part_id: str, as_other: bool) -> Featu
         width_m=size[:, 0],
         height_m=size[:, 1],
         photo_px=np.full((count, 4), np.nan),
+        seen_height_m=np.full(count, np.nan),
     )

@@ -2,7 +2,7 @@
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
 import { countCarried, type Feature, type FeatureTable } from "../core/features.ts";
-import { areaText, countText, sizeText } from "../core/wording.ts";
+import { areaText, countText, seenText, sizeText } from "../core/wording.ts";
 import { icons } from "./icons.ts";
 import "./photo-region.ts";
 import { theme } from "./theme.ts";
@@ -77,6 +77,12 @@ export class FeaturePanel extends LitElement {
         font-weight: 560;
         font-variant-numeric: tabular-nums;
         white-space: nowrap;
+      }
+      .sizes .seen {
+        font-size: 12.5px;
+        font-weight: 400;
+        color: var(--ink-soft);
+        white-space: normal;
       }
       dt {
         font-size: 12px;
@@ -155,7 +161,7 @@ export class FeaturePanel extends LitElement {
           @click=${() => this.#emit("close-panel", null)}>${icons.close}</button>
       </header>
       <dl class="sizes">
-        <div><dt>Width × height</dt><dd data-field="size">${sizeText(feature.width_m, feature.height_m)}</dd></div>
+        <div><dt>Width × height</dt><dd data-field="size">${sizeText(feature.width_m, feature.height_m)}</dd>${seen(feature)}</div>
         <div><dt>Area</dt><dd data-field="area">${areaText(feature.area_m2)}</dd></div>
       </dl>
       ${provenance(feature)} ${this.#relations(shown)}
@@ -193,14 +199,24 @@ export class FeaturePanel extends LitElement {
   }
 }
 
+/** What inferred means where the upper part is in the photo. */
+const PARTLY_SEEN =
+  "The photo shows its upper part. That it goes on further down follows, by a rule.";
+
+function seen(feature: Feature): TemplateResult | typeof nothing {
+  const text = seenText(feature.seen_height_m);
+  return text === "" ? nothing : html`<dd class="seen" data-field="seen">${text}</dd>`;
+}
+
 function provenance(feature: Feature): TemplateResult {
   const look = PROVENANCE_LOOKS[feature.provenance];
+  const partly = feature.provenance === "inferred" && feature.seen_height_m !== null;
   return html`<section>
     <h3 class="eyebrow">How it is known</h3>
     <div class="provenance">
       <span class="swatch" .style=${`background:${look.colour}`}></span>
       <strong data-field="provenance">${look.label}</strong>
-      <p>${look.meaning}</p>
+      <p>${partly ? PARTLY_SEEN : look.meaning}</p>
     </div>
   </section>`;
 }

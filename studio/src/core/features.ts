@@ -22,6 +22,8 @@ export interface Feature {
   readonly height_m: number | null;
   readonly area_m2: number | null;
   readonly photo_px: PhotoRectangle | null;
+  /** How much of the height was seen, from the top, where a rule makes it reach further down. */
+  readonly seen_height_m: number | null;
 }
 
 /** The mesh's `_FEATURE_ID_0` is the row of the face's feature, as in EXT_mesh_features. */
@@ -40,7 +42,9 @@ const COLUMNS = [
   "area_m2",
   "photo_px",
 ] as const;
-type Column = (typeof COLUMNS)[number];
+/** Columns that a model of an older Veduta does not have: all of their cells are then null. */
+const LATER_COLUMNS = ["seen_height_m"] as const;
+type Column = (typeof COLUMNS)[number] | (typeof LATER_COLUMNS)[number];
 const REMEDY = "Write the model again with this version of Veduta.";
 
 /** Reads the columns that a GLB carries in `scenes[0].extras.veduta.features`. */
@@ -58,8 +62,11 @@ function readColumns(columns: unknown, file: string): Record<Column, unknown[]> 
     throw new Fault(file, "the model has no feature table", REMEDY);
   }
   const given = columns as Partial<Record<Column, unknown>>;
-  const entries = COLUMNS.map((name) => [name, given[name]] as const);
   const rows = Array.isArray(given.id) ? given.id.length : 0;
+  const entries = [
+    ...COLUMNS.map((name) => [name, given[name]] as const),
+    ...LATER_COLUMNS.map((name) => [name, given[name] ?? Array<null>(rows).fill(null)] as const),
+  ];
   for (const [name, column] of entries) {
     if (!Array.isArray(column) || column.length !== rows) {
       throw new Fault(file, `column "${name}" of its feature table is missing or cut short`, REMEDY);
@@ -93,11 +100,14 @@ function readRow(table: Record<Column, unknown[]>, row: number, file: string): F
     height_m: size("height_m"),
     area_m2: size("area_m2"),
     photo_px: readRectangle(table.photo_px[row], () => bad("photo_px")),
+    seen_height_m: size("seen_height_m"),
   };
 }
 
 function cells(table: Record<Column, unknown[]>, row: number): Record<Column, unknown> {
-  const entries = COLUMNS.map((column) => [column, table[column][row]] as const);
+  const entries = [...COLUMNS, ...LATER_COLUMNS].map(
+    (column) => [column, table[column][row]] as const,
+  );
   return Object.fromEntries(entries) as Record<Column, unknown>;
 }
 

@@ -12,6 +12,11 @@ export function sizeText(width_m: number | null, height_m: number | null): strin
   return `${side(width_m)} × ${side(height_m)} m`;
 }
 
+/** Of a surface that reaches further down than it was seen; empty where it was seen whole. */
+export function seenText(seen_height_m: number | null): string {
+  return seen_height_m === null ? "" : `(${seen_height_m.toFixed(2)} m of the height seen)`;
+}
+
 export function areaText(area_m2: number | null): string {
   if (area_m2 === null) return "–";
   return `${area_m2 < 100 ? area_m2.toFixed(2) : area_m2.toFixed(0)} m²`;

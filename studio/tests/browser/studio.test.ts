@@ -1,7 +1,7 @@
 import type { Browser, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
 import { DEFAULT_WALK } from "../../src/core/walking.ts";
-import { HOUSE, openings } from "../fixture/house.mjs";
+import { HOUSE, openings, PARTLY_SEEN } from "../fixture/house.mjs";
 import { launch, MISSING } from "./chromium.ts";
 import { around, look, open, picked, project, settled, stateOf, walkState } from "./page.ts";
 import { makeSite, type Site } from "./site.ts";
@@ -57,6 +57,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await field("size")).toBe("1.10 × 1.70 m");
     expect(await field("area")).toBe("1.87 m²");
     expect(await field("provenance")).toBe("Measured");
+    expect(await page.locator("[data-field=seen]").count()).toBe(0);
     const crop = page.locator("veduta-photo-region canvas");
     await crop.waitFor();
     await page.waitForTimeout(300);
@@ -67,6 +68,18 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await picked(page)).toMatchObject({ class: "wall", name: "Street wall" });
     await page.keyboard.press("Escape");
     expect(await picked(page)).toBeNull();
+  });
+
+  it("tells measured from guessed where a window goes on behind a railing", async () => {
+    const partly = openings().find(({ name }) => name === PARTLY_SEEN.name);
+    if (partly === undefined) throw new Error("the fixture has no such window");
+    const at = await project(page, [partly.x + 0.3, partly.recess, partly.z + 0.7]);
+    await page.mouse.click(at.x, at.y);
+    expect(await picked(page)).toMatchObject({ name: PARTLY_SEEN.name, provenance: "inferred" });
+    const panel = page.locator("veduta-feature-panel");
+    expect(await panel.locator("[data-field=size]").textContent()).toBe("1.10 × 1.70 m");
+    expect(await panel.locator("[data-field=seen]").textContent()).toBe("(1.20 m of the height seen)");
+    expect(await panel.locator(".provenance p").textContent()).toContain("shows its upper part");
   });
 
   it("hides the windows with their layer and brings them back", async () => {

@@ -30,6 +30,7 @@ describe("the feature table", () => {
       height_m: 1.8,
       area_m2: 1.98,
       photo_px: [40, 50, 44, 72],
+      seen_height_m: null,
     });
     expect(rows[3]?.width_m).toBeNull();
     expect(rows[0]?.parent).toBeNull();
@@ -49,6 +50,14 @@ describe("the feature table", () => {
     const table = readFeatureTable(pieces, "model.glb");
     expect([...countClasses([table])]).toEqual([["wall", 1], ["window", 1], ["roof", 1]]);
     expect([...countCarried(table, 0)]).toEqual([["window", 1]]);
+  });
+
+  it("says how much of a height was seen, where the model does", () => {
+    const read = (seen: unknown[]): unknown =>
+      readFeatureTable({ ...columns(), seen_height_m: seen }, "m").rows.map((row) => row.seen_height_m);
+    expect(read([null, 1.3, null, null])).toEqual([null, 1.3, null, null]);
+    expect(() => read([null, "much", null, null])).toThrow("seen_height_m");
+    expect(() => read([1.3])).toThrow("seen_height_m");
   });
 
   it("ignores columns that it does not know", () => {

@@ -10,6 +10,7 @@ from closed_shells import assert_closed, shells
 from sample_document import FACADE_M, ROOF_M, element, sample_document, sample_photo
 
 from veduta.facade.adjusted import count_adjusted
+from veduta.facade.document import FacadeClass
 from veduta.facade.model import build_part
 from veduta.facade.options import ModelSizes
 from veduta.place.part import Part
@@ -104,8 +105,11 @@ def test_openings_name_their_wall_and_their_photo(part: Part) -> None:
     shop = rows(part, SemanticClass.SHOP)[0]
     parents = [int(part.features.parent[row]) for row in rows(part, SemanticClass.DOOR)]
     assert sorted(parents) == sorted([wall, shop])
-    for row in rows(part, SemanticClass.WINDOW):
-        assert part.features.provenance(row) is Provenance.MEASURED
+    windows = rows(part, SemanticClass.WINDOW)
+    said = [part.features.provenance(row) for row in windows]
+    # The sample's second and third floors have balconies, which hide the foot of each window.
+    assert (said.count(Provenance.MEASURED), said.count(Provenance.INFERRED)) == (12, 8)
+    for row in windows:
         assert np.isfinite(part.features.photo_px[row]).all()
         assert part.features.width_m[row] == pytest.approx(1.2, abs=0.3)
 
@@ -126,7 +130,34 @@ def test_window_behind_a_balcony_reaches_down_to_its_floor() -> None:
     part = build_part(document, sample_photo(document), "x")
     row = rows(part, SemanticClass.WINDOW)[0]
     assert part.features.height_m[row] == pytest.approx(2.5 - 0.15)
+    assert part.features.seen_height_m[row] == pytest.approx(1.5)
+    assert part.features.provenance(row) is Provenance.INFERRED
     assert_closed(part)
+
+
+@pytest.mark.parametrize("kind", ["door", "shop"])
+@pytest.mark.parametrize(("foot_m", "seen_m"), [(0.0, np.nan), (0.1, np.nan), (0.4, 2.5)])
+def test_what_is_made_to_reach_the_ground_says_what_was_seen(
+    kind: FacadeClass, foot_m: float, seen_m: float
+) -> None:
+    document = sample_document(elements=[element(kind, 4.0, foot_m, 1.6, 2.5)])
+    part = build_part(document, sample_photo(document), "x")
+    row = rows(part, SemanticClass(kind))[0]
+    # The wall keeps 5 cm below, so 5 cm are added to a foot at 10 cm: too little to speak of.
+    assert part.features.height_m[row] == pytest.approx(2.5 + max(foot_m, 0.05) - 0.05, abs=0.06)
+    assert part.features.seen_height_m[row] == pytest.approx(seen_m, nan_ok=True)
+    extended = not np.isnan(seen_m)
+    assert (part.features.provenance(row) is Provenance.INFERRED) == extended
+
+
+def test_nothing_invented_becomes_inferred_by_reaching_down() -> None:
+    door = element("door", 4.0, 0.4, 1.6, 2.5)
+    door.provenance = "invented"
+    document = sample_document(elements=[door])
+    part = build_part(document, sample_photo(document), "x")
+    row = rows(part, SemanticClass.DOOR)[0]
+    assert part.features.provenance(row) is Provenance.INVENTED
+    assert part.features.seen_height_m[row] == pytest.approx(2.5)
 
 
 def test_overlapping_windows_are_clipped_and_said_so() -> None:

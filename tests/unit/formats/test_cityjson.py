@@ -68,6 +68,16 @@ def test_windows_and_doors_name_their_walls(city: dict[str, Any]) -> None:
     assert {item["provenance"] for item in surfaces} == {"measured", "inferred", "invented"}
 
 
+def test_a_window_behind_a_railing_says_how_much_was_seen(city: dict[str, Any]) -> None:
+    surfaces = city["CityObjects"]["sample"]["geometry"][0]["semantics"]["surfaces"]
+    partly = [item for item in surfaces if "seen_height_m" in item]
+    assert len(partly) == 8  # on the two floors with balconies
+    assert {item["class"] for item in partly} == {"window"}
+    assert {item["provenance"] for item in partly} == {"inferred"}
+    assert all(item["seen_height_m"] == pytest.approx(1.7) for item in partly)
+    assert all(item["height_m"] > 1.7 for item in partly)
+
+
 def test_balconies_are_installations_of_the_building(city: dict[str, Any]) -> None:
     objects = city["CityObjects"]
     balconies = [k for k, v in objects.items() if v["attributes"].get("class") == "balcony"]

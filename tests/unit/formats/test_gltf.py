@@ -40,7 +40,7 @@ def test_read_back_features_and_areas(part: Part, tmp_path: Path) -> None:
     assert back.features.name == part.features.name
     for column in ("class_code", "provenance_code", "parent", "shell"):
         assert np.array_equal(getattr(back.features, column), getattr(part.features, column))
-    for column in ("width_m", "height_m", "photo_px"):
+    for column in ("width_m", "height_m", "photo_px", "seen_height_m"):
         np.testing.assert_allclose(
             getattr(back.features, column), getattr(part.features, column), atol=1e-4
         )
