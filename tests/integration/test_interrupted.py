@@ -81,6 +81,32 @@ def test_killed_in_the_middle(
     assert {file.name for file in (out / ".veduta").iterdir()} == {"run.json", "lock"}
 
 
+@pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGTERM, 143)])
+def test_stopped_at_a_single_photo(
+    tmp_path: Path, photo: Path, number: signal.Signals, code: int
+) -> None:
+    """It is worked on without another process: nothing of it is a failed image."""
+    out = tmp_path / "out"
+    run = subprocess.Popen(
+        command("facade", "--rectified", photo, "-o", out),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    try:
+        wait_for(lambda: (out / ".veduta" / "work" / f"item-{photo.stem}").exists())
+        time.sleep(0.2)  # the photo is being read by then
+        run.send_signal(number)
+        _, error = run.communicate(timeout=DEADLINE_S)
+    finally:
+        run.kill()
+        run.wait()
+    assert run.returncode == code, error
+    assert "the same command goes on" in error
+    assert {file.name for file in out.iterdir()} == {".veduta"}
+    assert facade(photo, "-o", out).returncode == 0
+
+
 def test_two_runs_into_one_folder(tmp_path: Path, photos: list[Path]) -> None:
     out = tmp_path / "out"
     first = subprocess.Popen(

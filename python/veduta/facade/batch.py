@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import cast
@@ -20,7 +21,7 @@ from veduta.formats.place_json import write_place
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
 from veduta.run.options import Options
-from veduta.run.outputs import OutFolder, Standing, open_out
+from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Outcome, Task, run_tasks
 from veduta.run.progress import Progress, no_progress
 from veduta.run.record import CALL
@@ -176,13 +177,19 @@ def _process(
     tasks = [
         Task(
             source.name,
-            Job(source, options, folder.work_folder(source.name), step),
+            Job(source, options, folder.path, folder.work_folder(source.name), step),
             memory_of(source, options.rectify),
         )
         for source in waiting
     ]
-    with progress.over(len(tasks)):
-        for outcome in run_tasks(run_job, tasks, jobs=jobs, started=progress.started):
+    # Closed at once where nothing more can be written: no worker goes on for nothing.
+    with (
+        progress.over(len(tasks)),
+        closing(run_tasks(run_job, tasks, jobs=jobs, started=progress.started)) as outcomes,
+    ):
+        for outcome in outcomes:
+            if outcome.error is not None:
+                raise outcome.error
             source = inputs[outcome.task.name]
             job_result = _result_of(outcome, source, result)
             _publish(folder, source, call, options, job_result)
@@ -201,7 +208,7 @@ def _result_of(outcome: Outcome[JobResult], source: Input, result: CallResult) -
         last = outcome.traceback.strip().splitlines()[-1]
         reason = f"a bug in veduta: {last}"
         return JobResult(failure=Failure(subject=str(source.path), kind="bug", reason=reason))
-    reason = outcome.crash or str(outcome.error)
+    reason = outcome.crash or "the worker process gave no result"
     return JobResult(failure=Failure(subject=str(source.path), kind="crash", reason=reason))
 
 
@@ -253,14 +260,15 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
         Placed(name, _vector(summary["bounds_min"]), _vector(summary["bounds_max"]))
         for name, summary in result.summaries.items()
     ]
-    if placed:
-        write_place(arrange(placed), work / "place.json")
     notes = [f"{name}/ is left from an earlier call" for name in result.left]
     notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     failures = list(result.failures.values())
     report, page = call_report(folder.path, options, result.summaries, failures, notes)
-    (work / "report.json").write_bytes(report.to_json())
-    (work / "report.html").write_bytes(page)
+    with writing_to(folder.path):
+        if placed:
+            write_place(arrange(placed), work / "place.json")
+        (work / "report.json").write_bytes(report.to_json())
+        (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)
     retry = any(failure.kind not in LASTING for failure in result.failures.values())
     if not retry and folder.standing is not Standing.AMENDED:

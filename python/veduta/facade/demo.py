@@ -23,7 +23,7 @@ from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
 from veduta.geometry import homography
 from veduta.run.digests import result_key
 from veduta.run.options import Options
-from veduta.run.outputs import OutFolder, Standing, open_out
+from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.progress import Progress
 from veduta.synthetic.facade import SyntheticFacade, make_facade
 from veduta.synthetic.options import SyntheticOptions
@@ -109,8 +109,10 @@ def run_demo(
             seconds_rebuild=round(seconds_rebuild, 2),
         )
         work = folder.work_folder(COMPARISON)
-        (work / RECORD).write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
-        (work / "comparison.png").write_bytes(comparison_png(facade.photo, facade.truth, document))
+        with writing_to(folder.path):
+            (work / RECORD).write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
+            picture = comparison_png(facade.photo, facade.truth, document)
+            (work / "comparison.png").write_bytes(picture)
         folder.publish(COMPARISON, key, work)
         folder.finish()
         return DemoResult(out, record, call)
@@ -145,9 +147,10 @@ def _given(options: DemoOptions) -> list[str]:
 
 def _publish_truth(folder: OutFolder, key: str, facade: SyntheticFacade) -> None:
     work = folder.work_folder(TRUTH)
-    (work / PHOTO).write_bytes(facade.jpeg)
-    (work / "labels.png").write_bytes(truth_png(facade.truth))
-    (work / "truth.json").write_text(_truth_json(facade.truth), encoding="utf-8")
+    with writing_to(folder.path):
+        (work / PHOTO).write_bytes(facade.jpeg)
+        (work / "labels.png").write_bytes(truth_png(facade.truth))
+        (work / "truth.json").write_text(_truth_json(facade.truth), encoding="utf-8")
     folder.publish(TRUTH, key, work)
 
 

@@ -18,6 +18,7 @@ from veduta.facade.report import failure_report, image_report, measures
 from veduta.imaging.read import DAMAGE, FORMATS
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.options import Options
+from veduta.run.outputs import writing_to
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import Failure, Report, StepRecord
 
@@ -30,10 +31,11 @@ BYTES_BESIDE = 90 * 1024**2
 
 @dataclass(frozen=True)
 class Job:
-    """One input, and the empty folder that gets its files."""
+    """One input, the OUT that is asked for, and the empty folder in it that gets the files."""
 
     source: Input
     options: FacadeOptions
+    out: Path
     folder: Path
     progress: StepProgress = no_progress
 
@@ -47,7 +49,10 @@ class JobResult:
 
 
 def run_job(job: Job) -> JobResult:
-    """Fill the job's folder with the results, or with the report of why there are none."""
+    """Fill the job's folder with the results, or with the report of why there are none.
+
+    InputError where neither can be written: then no other job's result could be either.
+    """
     steps: list[StepRecord] = []
     options: Options = job.options if job.source.kind == "photo" else job.options.model
     try:
@@ -55,15 +60,15 @@ def run_job(job: Job) -> JobResult:
     except (InputError, NotFoundError) as error:
         kind = "input" if isinstance(error, InputError) else "not-found"
         failure = Failure(subject=str(job.source.path), kind=kind, reason=_reason(error, job))
-        _write_report(job.folder, failure_report(job.source.path.name, failure, options, steps))
+        report = failure_report(job.source.path.name, failure, options, steps)
+        with writing_to(job.out):
+            _write_report(job.folder, report)
         return JobResult(failure=failure)
     if job.source.kind == "document":
         options = building.document.model
-    try:
+    with writing_to(job.out):
         write_building(building, job.folder, steps, job.progress)
         _write_report(job.folder, image_report(building, options, steps))
-    except OSError as error:
-        return JobResult(failure=_not_written(job, error))
     return JobResult(summary=_summary(building, steps))
 
 
@@ -91,11 +96,6 @@ def _reason(error: InputError | NotFoundError, job: Job) -> str:
     if isinstance(error, InputError) and error.subject == str(job.source.path):
         return f"{error.fault}. {error.remedy}"
     return str(error)
-
-
-def _not_written(job: Job, error: OSError) -> Failure:
-    reason = f"the result cannot be written ({error.strerror}). Make room, or choose another -o."
-    return Failure(subject=str(job.source.path), kind="output", reason=reason)
 
 
 def _write_report(folder: Path, report: tuple[Report, bytes]) -> None:

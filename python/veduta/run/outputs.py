@@ -17,6 +17,7 @@ holds it, also by `kill -9`.
 
 from __future__ import annotations
 
+import errno
 import fcntl
 import os
 import shutil
@@ -25,6 +26,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
+from typing import Literal
 
 from pydantic import JsonValue
 
@@ -33,6 +35,8 @@ from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.record import CALL, PRIVATE, Item, RunRecord, load_record
 from veduta.run.report import Failure
+
+_NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 
 
 class Standing(Enum):
@@ -76,8 +80,9 @@ class OutFolder:
     def work_folder(self, item: str) -> Path:
         """The same folder, made and empty."""
         folder = self.work_path(item)
-        shutil.rmtree(folder, ignore_errors=True)
-        folder.mkdir(parents=True)
+        with writing_to(self.path):
+            shutil.rmtree(folder, ignore_errors=True)
+            folder.mkdir(parents=True)
         return folder
 
     def publish(
@@ -88,23 +93,30 @@ class OutFolder:
         summary: dict[str, JsonValue] | None = None,
         failure: Failure | None = None,
     ) -> None:
-        """Make the content of `work` the item's result; what the user edited stays."""
+        """Make the content of `work` the item's result; what the user edited stays.
+
+        InputError where the system refuses to write: the next run makes the item again.
+        """
+        state: Literal["failed", "done"] = "failed" if failure else "done"
+        result = Item(key=key, state=state, failure=failure, summary=summary or {})
+        with writing_to(self.path):
+            self._publish(item, work, result)
+
+    def _publish(self, item: str, work: Path, result: Item) -> None:
         new = _digests(work, "" if item == CALL else f"{item}/")
         users = [name for name in new if self._is_users(name)]
         stale = [name for name in self.record.files_of(item) if name not in new]
         ours = {name: digest for name, digest in new.items() if name not in users}
 
         self.record.pending = ours
-        self.record.items[item] = Item(key=key, state="publishing")
+        self.record.items[item] = Item(key=result.key, state="publishing")
         self.record.save(self.path)
         self._move_into_place(item, work, list(ours))
         for name in stale:
             self._remove_unless_users(name)
         self.record.files.update(ours)
         self.record.pending = {}
-        self.record.items[item] = Item(
-            key=key, state="failed" if failure else "done", failure=failure, summary=summary or {}
-        )
+        self.record.items[item] = result
         self.record.save(self.path)
         self.kept.extend(users)
 
@@ -114,18 +126,22 @@ class OutFolder:
         if known is None or known.state != "done":
             return False
         self.record.items[item] = known
-        self.record.save(self.path)
+        self._save()
         return True
 
     def forget(self, item: str) -> None:
         """Have the next run of the same call make the item again."""
         if self.record.items.pop(item, None) is not None:
-            self.record.save(self.path)
+            self._save()
 
     def finish(self) -> None:
         """Everything that the call asked for is there."""
         self.record.state = "finished"
-        self.record.save(self.path)
+        self._save()
+
+    def _save(self) -> None:
+        with writing_to(self.path):
+            self.record.save(self.path)
 
     def _move_into_place(self, item: str, work: Path, names: list[str]) -> None:
         sync_tree(work)
@@ -171,19 +187,37 @@ def open_out(
             path, f"cannot be written ({error.strerror})", "Choose another folder with -o."
         ) from error
     with lock:
-        _take(lock.fileno(), path)
-        record = load_record(path)
-        if record is not None:
-            _settle(record, path)
-        out = _open_locked(path, record, command, key, force=force, amend=amend)
         work = path / PRIVATE / "work"
-        shutil.rmtree(work, ignore_errors=True)
-        if out.standing is not Standing.UP_TO_DATE:
-            out.record.save(path)
+        with writing_to(path):
+            _take(lock.fileno(), path)
+            record = load_record(path)
+            if record is not None:
+                _settle(record, path)
+            out = _open_locked(path, record, command, key, force=force, amend=amend)
+            shutil.rmtree(work, ignore_errors=True)
+            if out.standing is not Standing.UP_TO_DATE:
+                out.record.save(path)
         try:
             yield out
         finally:
             shutil.rmtree(work, ignore_errors=True)
+
+
+@contextmanager
+def writing_to(out: Path) -> Iterator[None]:
+    """Turn what the system refuses (a full disk, a quota, permissions) into an InputError.
+
+    It stands wherever something is written into OUT; `out` is what the message names.
+    """
+    try:
+        yield
+    except OSError as error:
+        cure = "Make room there" if error.errno in _NO_ROOM else "Mend that"
+        raise InputError(
+            out,
+            f"cannot be written ({error.strerror or error})",
+            f"{cure}: what is finished is on disk, and the same command goes on from there.",
+        ) from error
 
 
 def _refuse_foreign(path: Path, force: bool) -> None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import errno
 import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -170,6 +172,75 @@ def test_killed_between_renames(
         make(out, "a", "three")
         out.finish()
     assert (tmp_path / "out" / "a" / "x.txt").read_text() == "three"
+
+
+class Disk:
+    """A disk on which, from some call of a function of `os` on, there is no room."""
+
+    def __init__(self, monkeypatch: pytest.MonkeyPatch, name: str, calls: int) -> None:
+        self.calls = calls
+        real = getattr(os, name)
+
+        def refuse(path: str, *arguments: Any, **named: Any) -> object:
+            needs_room = {
+                "open": lambda: arguments[0] & os.O_CREAT,
+                "mkdir": lambda: not Path(path).exists(),
+            }.get(name, lambda: True)
+            self.calls -= bool(needs_room())
+            if self.calls < 0 and needs_room():
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+            return real(path, *arguments, **named)
+
+        monkeypatch.setattr(os, name, refuse)
+
+
+def refusal(path: Path) -> InputError | None:
+    """What making a result anew is refused with."""
+    try:
+        with open_out(path, "facade", "k", force=True) as out:
+            make(out, "a", "two", "y.txt", "z.txt")
+            out.finish()
+    except InputError as error:
+        return error
+    return None
+
+
+@pytest.mark.parametrize("name", ["replace", "fsync", "mkdir", "open"])
+def test_a_full_disk(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str) -> None:
+    """Wherever it is full, it is said so, nothing is half there, and the next run goes on."""
+    for calls in range(100):
+        path = tmp_path / str(calls)
+        finished(path, content="one")
+        with monkeypatch.context() as patch:
+            disk = Disk(patch, name, calls)
+            error = refusal(path)
+        if disk.calls >= 0:
+            break
+        assert error is not None
+        assert error.subject == str(path)
+        assert "No space left on device" in error.fault
+        assert "the same command goes on" in error.remedy
+        assert {file.read_text() for file in (path / "a").iterdir()} <= {"one", "two"}
+        assert {file.name for file in (path / ".veduta").iterdir()} == {"run.json", "lock"}
+        with open_out(path, "facade", "k") as out:
+            assert out.edited() == []
+            if not out.is_current("a", "k"):
+                make(out, "a", "two", "y.txt", "z.txt")
+            out.finish()
+        assert load_record(path).state == "finished"
+    assert 0 < calls < 99
+
+
+def test_permissions_are_not_taken_for_a_full_disk(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def refuse(*arguments: object) -> None:
+        raise OSError(errno.EACCES, os.strerror(errno.EACCES))
+
+    with open_out(tmp_path, "facade", "k") as out:
+        monkeypatch.setattr(os, "replace", refuse)
+        with pytest.raises(InputError, match=r"Permission denied.*\. Mend that"):
+            make(out)
 
 
 def test_one_writer_at_a_time_and_a_dead_one_is_no_hindrance(tmp_path: Path) -> None:
