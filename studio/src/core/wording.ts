@@ -14,7 +14,7 @@ export function sizeText(width_m: number | null, height_m: number | null): strin
 
 /** Of a surface that reaches further down than it was seen; empty where it was seen whole. */
 export function seenText(seen_height_m: number | null): string {
-  return seen_height_m === null ? "" : `(${seen_height_m.toFixed(2)} m of the height seen)`;
+  return seen_height_m === null ? "" : `(height seen: ${metresText(seen_height_m)})`;
 }
 
 export function areaText(area_m2: number | null): string {

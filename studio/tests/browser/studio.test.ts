@@ -78,7 +78,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await picked(page)).toMatchObject({ name: PARTLY_SEEN.name, provenance: "inferred" });
     const panel = page.locator("veduta-feature-panel");
     expect(await panel.locator("[data-field=size]").textContent()).toBe("1.10 × 1.70 m");
-    expect(await panel.locator("[data-field=seen]").textContent()).toBe("(1.20 m of the height seen)");
+    expect(await panel.locator("[data-field=seen]").textContent()).toBe("(height seen: 1.20 m)");
     expect(await panel.locator(".provenance p").textContent()).toContain("shows its upper part");
   });
 

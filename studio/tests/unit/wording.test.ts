@@ -9,7 +9,7 @@ describe("sizes in words", () => {
   });
 
   it("says how much was seen only where not all was", () => {
-    expect(seenText(1.3)).toBe("(1.30 m of the height seen)");
+    expect(seenText(1.3)).toBe("(height seen: 1.30 m)");
     expect(seenText(null)).toBe("");
   });
 });
