@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import struct
+import subprocess
 import zlib
 from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import facade, read_json, veduta
+from command_line import command, facade, read_json, veduta
 from PIL import Image
 
 
@@ -114,6 +116,30 @@ def test_nothing_there(tmp_path: Path) -> None:
         assert done.returncode == 2
         assert done.stderr.startswith(f"error: {path}: ")
         assert not (tmp_path / "out").exists()
+
+
+@pytest.mark.parametrize("name", ["a.jpg", "facade.json", "rectified.jpg"])
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+def test_what_is_no_file_is_not_waited_for(tmp_path: Path, name: str, kind: str) -> None:
+    bad = tmp_path / name
+    if kind == "pipe":
+        os.mkfifo(bad)
+    else:
+        bad.symlink_to("/dev/zero")
+    given = bad
+    if name == "rectified.jpg":
+        given = tmp_path / "facade.json"
+        given.write_text("{}")
+    done = subprocess.run(
+        command("facade", given, "-o", tmp_path / "out"),
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+    assert done.returncode == 2
+    assert f"error: {bad}: is a {kind}, not a file" in done.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_two_images_of_one_name(tmp_path: Path, photo: Path) -> None:

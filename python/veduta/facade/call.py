@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -10,10 +11,11 @@ from typing import Literal
 
 from pydantic import JsonValue
 
-from veduta.facade.load import DOCUMENT, PHOTO
-from veduta.imaging.read import SUFFIXES
+from veduta.facade.load import DOCUMENT, MAX_BYTES, PHOTO
+from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 Kind = Literal["photo", "document"]
 RESERVED = {"place.json", "report.json", "report.html"}
@@ -62,11 +64,14 @@ def plan_call(paths: Sequence[Path]) -> Call:
 
 
 def _files(path: Path) -> list[Path]:
-    if not path.is_dir():
+    if not os.path.isdir(path):  # `Path.is_dir` raises where it may not look
         return [path]
-    images = sorted(
-        file for file in path.iterdir() if file.suffix.lower() in SUFFIXES and file.is_file()
-    )
+    try:
+        images = sorted(
+            file for file in path.iterdir() if file.suffix.lower() in SUFFIXES and file.is_file()
+        )
+    except OSError as error:
+        raise _unreadable(path, error) from error
     if not images:
         wanted = ", ".join(SUFFIXES)
         raise InputError(path, f"is a folder without images ({wanted})", "Name another folder.")
@@ -74,7 +79,8 @@ def _files(path: Path) -> list[Path]:
 
 
 def _each_once(files: list[Path]) -> list[Path]:
-    return list({file.resolve(): file for file in reversed(files)}.values())[::-1]
+    # `Path.resolve` raises RuntimeError at a link to itself.
+    return list({os.path.realpath(file): file for file in reversed(files)}.values())[::-1]
 
 
 def _kind(path: Path) -> Kind:
@@ -84,7 +90,7 @@ def _kind(path: Path) -> Kind:
 def _name(path: Path) -> str:
     """The image's stem; for `OUT/x/facade.json` it is `x`, as it was for the image."""
     if path.name == DOCUMENT:
-        return path.resolve().parent.name
+        return Path(os.path.realpath(path)).parent.name
     return path.stem
 
 
@@ -105,12 +111,18 @@ def _refuse_same_names(files: list[Path]) -> None:
 
 def _digests(path: Path) -> tuple[str, ...]:
     """The digest of the file, and for a document that of the photo beside it."""
-    files = [path] if _kind(path) == "photo" else [path, path.with_name(PHOTO)]
+    bounds = {path: MAX_FILE_BYTES}
+    if _kind(path) == "document":
+        bounds = {path: MAX_BYTES, path.with_name(PHOTO): MAX_FILE_BYTES}
     try:
-        return tuple(file_digest(file) for file in files)
+        for file, bound in bounds.items():
+            require_file(file, bound)
+        return tuple(file_digest(file) for file in bounds)
+    except FileNotFoundError as error:
+        raise InputError(error.filename or path, "does not exist", "Check its name.") from error
     except OSError as error:
-        name = Path(error.filename or path)
-        if isinstance(error, FileNotFoundError):
-            raise InputError(name, "does not exist", "Check its name.") from error
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(name, fault, "Check its permissions.") from error
+        raise _unreadable(Path(error.filename or path), error) from error
+
+
+def _unreadable(path: Path, error: OSError) -> InputError:
+    return InputError(path, f"cannot be read ({error.strerror})", "Check its permissions.")

@@ -22,6 +22,7 @@ from veduta.facade.reconcile import contradictions, reconciled
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 DOCUMENT = "facade.json"
 PHOTO = "rectified.jpg"
@@ -71,8 +72,7 @@ def load_photo(document_path: Path, document: FacadeDocument) -> NDArray[np.uint
 
 def _read(path: Path) -> bytes:
     try:
-        if path.stat().st_size > MAX_BYTES:
-            raise InputError(path, "is too large for a facade document", "Check the file.")
+        require_file(path, MAX_BYTES)
         return path.read_bytes()
     except FileNotFoundError:
         raise InputError(path, "does not exist", "Check its name.") from None

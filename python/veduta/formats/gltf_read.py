@@ -21,6 +21,7 @@ from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 LARGEST_BYTES = 2**31
 LARGEST_PIXELS = 64 * 2**20
@@ -59,8 +60,7 @@ class _Glb:
 def read_glb(path: Path) -> Part:
     """Read a GLB file that Veduta wrote; raises InputError on any other."""
     try:
-        if path.stat().st_size > LARGEST_BYTES:
-            raise InputError(path, f"larger than {LARGEST_BYTES} bytes", _REMEDY)
+        require_file(path, LARGEST_BYTES)
         data = path.read_bytes()
     except OSError as error:
         raise InputError(path, f"cannot be read ({error.strerror})", _REMEDY) from error

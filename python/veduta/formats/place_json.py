@@ -9,6 +9,7 @@ from pydantic import ValidationError
 from veduta.place.manifest import Place
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 # A manifest larger than this is refused before it is read (bytes).
 LARGEST_BYTES = 256 * 2**20
@@ -22,8 +23,7 @@ def write_place(place: Place, path: Path) -> None:
 def read_place(path: Path) -> Place:
     """Read and check a manifest; raises InputError with the field that is wrong."""
     try:
-        if path.stat().st_size > LARGEST_BYTES:
-            raise InputError(path, f"larger than {LARGEST_BYTES} bytes", "This is no place.json.")
+        require_file(path, LARGEST_BYTES)
         text = path.read_bytes()
     except OSError as error:
         raise InputError(

@@ -19,6 +19,7 @@ from PIL import Image, UnidentifiedImageError
 from veduta.imaging.colour import READABLE_MODES, srgb_on_white
 from veduta.imaging.exif import CameraTags, focal_px_from_mm35, read_camera_tags
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 MAX_PIXELS = 100_000_000
 MAX_SIDE_PX = 30_000
@@ -102,9 +103,7 @@ def _read_bytes(path: Path) -> bytes:
     if path.is_dir():
         raise InputError(path, "is a folder, not an image", f"Name its images: {path}/*.jpg")
     try:
-        size = path.stat().st_size
-        if size > MAX_FILE_BYTES:
-            raise InputError(path, f"is {size / 1e9:.1f} GB large", "Save it as a JPEG.")
+        require_file(path, MAX_FILE_BYTES)
         data = path.read_bytes()
     except FileNotFoundError:
         raise InputError(path, "does not exist", "Check the name of the image.") from None

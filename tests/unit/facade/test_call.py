@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+import os
 from pathlib import Path
 
 import pytest
 
 from veduta.facade.call import plan_call
+from veduta.facade.load import MAX_BYTES
+from veduta.imaging.read import MAX_FILE_BYTES
 from veduta.run.errors import InputError
 
 
@@ -44,8 +47,19 @@ def test_refused(tmp_path: Path) -> None:
     touch(tmp_path / "house" / "rectified.jpg")
     empty = tmp_path / "empty"
     empty.mkdir()
+    large = touch(tmp_path / "large.jpg")
+    os.truncate(large, MAX_FILE_BYTES + 1)
+    long = touch(tmp_path / "long" / "facade.json")
+    os.truncate(long, MAX_BYTES + 1)
+    loop = tmp_path / "loop" / "facade.json"
+    loop.parent.mkdir()
+    loop.symlink_to(loop)
     for paths, fault in [
         ([], "no image"),
+        ([large], r"large.jpg: is 1 GB large, more than 1 GB"),
+        ([long], r"facade.json: is 20 MB large, more than 20 MB"),
+        ([loop], r"facade.json: cannot be read \(Too many levels"),
+        ([tmp_path / (300 * "a") / "x.jpg"], r"cannot be read \(File name too long"),
         ([tmp_path / "none.jpg"], "does not exist"),
         ([empty], "without images"),
         ([photo, document], "between photos"),
