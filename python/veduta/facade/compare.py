@@ -14,7 +14,8 @@ from pydantic import BaseModel, ConfigDict, Field
 from veduta.facade.document import Element, FacadeClass, FacadeDocument
 from veduta.facade.outputs import rasterise
 from veduta.geometry import homography
-from veduta.synthetic.truth import LABELS, FacadeTruth, TrueElement
+from veduta.place.semantics import LABELS
+from veduta.synthetic.truth import FacadeTruth, TrueElement
 
 # left, top, right, bottom in rectified pixels, or left, bottom, right, top in facade metres
 Box = NDArray[np.float64]

@@ -12,7 +12,8 @@ from PIL import Image
 from veduta.facade.compare import labels_in_photo
 from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import COLOURS
-from veduta.synthetic.truth import LABELS, FacadeTruth
+from veduta.place.semantics import LABELS
+from veduta.synthetic.truth import FacadeTruth
 
 _FRACTION_BITS = 4
 _GAP_PX = 12

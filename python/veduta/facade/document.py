@@ -12,21 +12,10 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from veduta.facade.options import ModelSizes
+from veduta.place.semantics import LABELS, Label
 
-FacadeClass = Literal[
-    "window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"
-]
-CLASSES: tuple[FacadeClass, ...] = (
-    "window",
-    "wall",
-    "balcony",
-    "door",
-    "roof",
-    "chimney",
-    "sky",
-    "shop",
-    "other",
-)
+FacadeClass = Label
+CLASSES = LABELS
 Provenance = Literal["measured", "inferred", "invented"]
 
 

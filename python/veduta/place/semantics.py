@@ -3,6 +3,12 @@
 from __future__ import annotations
 
 from enum import StrEnum
+from typing import Literal, get_args
+
+Label = Literal["window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"]
+"""What a pixel of a facade's photo shows: the surfaces that are told apart there, and sky."""
+LABELS: tuple[Label, ...] = get_args(Label)
+"""In the order of label images: a pixel's value is its place here."""
 
 
 class SemanticClass(StrEnum):

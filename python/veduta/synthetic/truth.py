@@ -3,28 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.place.semantics import SemanticClass
+from veduta.place.semantics import LABELS, Label, SemanticClass
 from veduta.synthetic.camera import Camera
 from veduta.synthetic.layout import Layout, Rect
 from veduta.synthetic.roofs import DORMER_FRONT_M
 
-Label = Literal["window", "wall", "balcony", "door", "roof", "chimney", "sky", "shop", "other"]
-LABELS: tuple[Label, ...] = (
-    "window",
-    "wall",
-    "balcony",
-    "door",
-    "roof",
-    "chimney",
-    "sky",
-    "shop",
-    "other",
-)
 _LABEL_OF_SEMANTIC: dict[SemanticClass, Label] = {
     SemanticClass.WALL: "wall",
     SemanticClass.CORNICE: "wall",

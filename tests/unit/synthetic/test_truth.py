@@ -11,10 +11,10 @@ import pytest
 from PIL import Image
 
 from veduta.geometry import homography
+from veduta.place.semantics import LABELS
 from veduta.synthetic.facade import SyntheticFacade, make_facade
 from veduta.synthetic.layout import STYLES, Style
 from veduta.synthetic.options import SyntheticOptions
-from veduta.synthetic.truth import LABELS
 
 SMALL = {"long_side_px": 480, "samples": 1, "detached": True}
 
