@@ -1,4 +1,4 @@
-"""Makes the pictures of the README from the synthetic demo: `make pictures`.
+"""Makes the pictures of the README and the docs from the synthetic demo: `make pictures`.
 
 No photo of anybody goes into them: the street is designed and rendered by `veduta.synthetic`.
 """
@@ -11,8 +11,10 @@ import re
 import shutil
 import subprocess
 import sys
+from collections.abc import Sequence
 from pathlib import Path
 
+from edit_example import ground_floor, make_edit
 from PIL import Image
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -20,7 +22,9 @@ IMAGES = ROOT / "docs" / "images"
 VEDUTA = Path(sys.executable).parent / "veduta"
 HEIGHT_PX = 620
 GAP_PX = 12
-MAX_BYTES = 400_000
+EDIT_HEIGHT_PX = 320
+MAX_BYTES = 300_000
+LANCZOS = Image.Resampling.LANCZOS
 
 
 def main() -> None:
@@ -44,6 +48,23 @@ def main() -> None:
     for name in ("picked", "walking"):
         with Image.open(shots / f"{name}.png") as image:
             _save(image.convert("RGB"), f"{name}.jpg")
+    _show_edit(work, street)
+
+
+def _show_edit(work: Path, street: Path) -> None:
+    """The example of an edit: what was found, what it was corrected to, and the model then."""
+    edited = make_edit(work, work / "edit")
+    shots = work / "edit" / "shots"
+    shots.mkdir()
+    _photograph(edited, shots)
+    corrected = edited / "street"
+    with Image.open(shots / "ground.png") as model:
+        pictures = [
+            ground_floor(street / "overlay.png", street / "facade.json"),
+            ground_floor(corrected / "overlay.png", corrected / "facade.json"),
+            model.convert("RGB"),
+        ]
+    _save(_strip(pictures, EDIT_HEIGHT_PX), "edit.jpg")
 
 
 def _photograph(place: Path, shots: Path) -> None:
@@ -64,13 +85,20 @@ def _photograph(place: Path, shots: Path) -> None:
 
 def _beside(*paths: Path) -> Image.Image:
     """Return the pictures side by side on white, each HEIGHT_PX high."""
-    scaled = []
+    pictures = []
     for path in paths:
         with Image.open(path) as file:
-            width = round(file.width * HEIGHT_PX / file.height)
-            scaled.append(file.convert("RGB").resize((width, HEIGHT_PX), Image.Resampling.LANCZOS))
+            pictures.append(file.convert("RGB"))
+    return _strip(pictures, HEIGHT_PX)
+
+
+def _strip(pictures: Sequence[Image.Image], height_px: int) -> Image.Image:
+    scaled = [
+        image.resize((round(image.width * height_px / image.height), height_px), LANCZOS)
+        for image in pictures
+    ]
     total = sum(image.width for image in scaled) + GAP_PX * (len(scaled) - 1)
-    strip = Image.new("RGB", (total, HEIGHT_PX), "white")
+    strip = Image.new("RGB", (total, height_px), "white")
     x = 0
     for image in scaled:
         strip.paste(image, (x, 0))

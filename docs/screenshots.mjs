@@ -1,5 +1,6 @@
 // Pictures of the studio: node docs/screenshots.mjs ADDRESS CHROMIUM FOLDER
-// Writes picked.png (a window selected), walking.png, and bare.png (the building without panels).
+// Writes picked.png (a window selected), walking.png, bare.png (the building without panels), and
+// ground.png (its ground floor in the colours of the classes).
 import { createRequire } from "node:module";
 import { join } from "node:path";
 
@@ -61,6 +62,22 @@ try {
     for (const part of studio.shadowRoot.querySelectorAll(".sheet, .hint")) part.style.display = "none";
   });
   await page.screenshot({ path: join(folder, "bare.png") });
+
+  // The ground floor in the colours of its classes, as large as the screen allows.
+  const near = await browser.newPage({ viewport: { width: 1360, height: 850 }, deviceScaleFactor: 2 });
+  await near.goto(address);
+  await near.waitForSelector("html[data-veduta=ready]", { timeout: 60_000 });
+  await near.keyboard.press("KeyP");
+  await near.waitForTimeout(FLIGHT_MS);
+  const clip = await near.evaluate(() => {
+    const { min, max } = globalThis.veduta.bounds();
+    const corners = [min[0], max[0]].flatMap((x) => [min[2], min[2] + 5].map((z) => [x, 0, z]));
+    const points = corners.map((corner) => globalThis.veduta.project(corner));
+    const [xs, ys] = [points.map((p) => p.x), points.map((p) => p.y)];
+    const [x, y] = [Math.min(...xs), Math.min(...ys)];
+    return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
+  });
+  await near.screenshot({ path: join(folder, "ground.png"), clip });
 } finally {
   await browser.close();
 }

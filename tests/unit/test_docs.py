@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+import json
 import os
 import re
 import shlex
@@ -11,6 +12,8 @@ import sys
 from pathlib import Path
 
 import pytest
+
+from veduta.facade.document import Element
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted(
@@ -90,3 +93,17 @@ def test_commands_exist(document: Path) -> None:
                 wrong.append(f"veduta {rest[0]}")
             wrong += [f"veduta {rest[0]} {option}" for option in unknown]
     assert wrong == []
+
+
+def test_elements_of_the_example_are_elements() -> None:
+    """What the page tells people to write is what the program reads."""
+    fences = re.findall(
+        r"^```json\n(.*?)^```", (ROOT / "docs" / "facade.md").read_text("utf-8"), re.M | re.S
+    )
+    before, after = (
+        [Element.model_validate(item) for item in json.loads(f"[{f}]")] for f in fences
+    )
+    assert [item.class_ for item in before] == ["shop"]
+    assert [item.class_ for item in after] == ["shop", "door"]
+    shop, door = after
+    assert shop.x_px + shop.width_px < door.x_px < before[0].x_px + before[0].width_px
