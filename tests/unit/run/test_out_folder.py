@@ -78,6 +78,46 @@ def test_other_call_is_refused_without_force(tmp_path: Path) -> None:
         pass
 
 
+def test_unfinished_of_another_call_is_refused_without_force(tmp_path: Path) -> None:
+    with open_out(tmp_path, "facade", "k") as out:
+        make(out, "a")
+    with (
+        pytest.raises(InputError, match="unfinished result of other inputs or options"),
+        open_out(tmp_path, "facade", "other"),
+    ):
+        pass
+    assert (tmp_path / "a" / "x.txt").read_text() == "one"
+    with open_out(tmp_path, "facade", "other", force=True) as out:
+        assert out.standing is Standing.REPLACED
+        assert not out.is_current("a", "k")
+
+
+def test_a_run_that_resumes_keeps_what_was_edited(tmp_path: Path) -> None:
+    with open_out(tmp_path, "facade", "k") as out:
+        make(out, "a")
+    edited = tmp_path / "a" / "x.txt"
+    edited.write_text("mine")
+    (tmp_path / "a" / "y.txt").unlink()
+    with open_out(tmp_path, "facade", "k") as out:
+        assert (out.standing, out.edited()) == (Standing.RESUMED, ["a/x.txt"])
+        assert not out.is_current("a", "k")
+        make(out, "a", "two")
+    assert edited.read_text() == "mine"
+    assert (tmp_path / "a" / "y.txt").read_text() == "two"
+
+
+def test_only_a_run_can_be_amended(tmp_path: Path) -> None:
+    with (
+        pytest.raises(InputError, match="was not made by veduta"),
+        open_out(tmp_path / "new", "facade (rebuild)", "k", amend=True),
+    ):
+        pass
+    finished(tmp_path / "out")
+    with open_out(tmp_path / "out", "facade (rebuild)", "other", amend=True) as out:
+        assert out.standing is Standing.AMENDED
+        assert out.record.command == "facade"
+
+
 def test_force_replaces_and_forgets_what_is_left_over(tmp_path: Path) -> None:
     finished(tmp_path / "out")
     with open_out(tmp_path / "out", "facade", "other", force=True) as out:
