@@ -12,4 +12,4 @@ class Options(BaseModel):
     one-line description with its unit. Command line, JSON schema and docs derive from it.
     """
 
-    model_config = ConfigDict(frozen=True, extra="forbid", allow_inf_nan=False)
+    model_config = ConfigDict(frozen=True, extra="forbid")
