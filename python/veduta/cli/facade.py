@@ -73,7 +73,8 @@ def _tell_results(result: CallResult) -> None:
         print(f"{out} is up to date; --force makes it anew")
     if done:
         total = len(result.asked)
-        print(f"{len(done)} of {total} in {out}. Walk in it: veduta view {out}")
+        walk = shlex.join(["veduta", "view", str(out)])
+        print(f"{len(done)} of {total} in {out}. Walk in it: {walk}")
         page = out / done[0] / "report.html" if total == 1 else out / "report.html"
         print(f"What was done, and why: {page}")
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shlex
 from pathlib import Path
 
 from veduta.run.errors import InputError
@@ -43,7 +44,7 @@ def _remedy(out: Path, verb: str) -> str:
     near = _places_near(out)
     if not near:
         return "Give the folder that `veduta facade -o OUT` wrote."
-    shown = ", ".join(map(str, near[:SHOWN]))
+    shown = ", ".join(shlex.quote(str(path)) for path in near[:SHOWN])
     more = f" and {len(near) - SHOWN} more" if len(near) > SHOWN else ""
     return f"Did you mean: veduta {verb} {shown}{more}"
 

@@ -35,6 +35,11 @@ def test_places_below_are_named(tmp_path: Path) -> None:
     assert told(tmp_path, "export") == f"Did you mean: veduta export {names}"
 
 
+def test_names_can_be_typed_as_they_are_told(tmp_path: Path) -> None:
+    make_places(tmp_path / "my house")
+    assert told(tmp_path) == f"Did you mean: veduta view '{tmp_path}/my house'"
+
+
 def test_many_places_are_counted(tmp_path: Path) -> None:
     make_places(*(tmp_path / f"p{number}" for number in range(SHOWN + 3)))
     assert told(tmp_path).endswith(f"{tmp_path}/p{SHOWN - 1} and 3 more")
