@@ -18,7 +18,7 @@ from veduta.facade.evidence import Evidence, Float, blur
 # which a pixel is as likely wall.
 _WINDOW = ((0.5, -0.5, 1.5), 0.85)
 _RAILING = ((1.0, 0.5, 0.25), 0.35)
-_CLIP = 1.5
+LIMIT = 1.5
 _SPREAD_X = 0.02
 _SPREAD_Y = 0.028
 
@@ -76,7 +76,7 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
         textures.append(_relative(blur(detail, *spread)))
     cues = np.dstack([*textures, _relative(blur(wall.unlike, *spread))])
     window, railing = (
-        np.clip(cues @ np.array(weights, np.float32) - level, -_CLIP, _CLIP).astype(np.float32)
+        np.clip(cues @ np.array(weights, np.float32) - level, -LIMIT, LIMIT).astype(np.float32)
         for weights, level in (_WINDOW, _RAILING)
     )
     return where_seen(Scores(window, railing, cues[:, :, 0]), evidence, top)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.derive import derivation, rule_parameters
 from veduta.facade.document import (
@@ -20,7 +21,6 @@ from veduta.facade.document import (
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
-from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions
 from veduta.facade.plausible import storey_doubts
 from veduta.facade.rectify import Rectified

@@ -15,10 +15,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import Wall
+from veduta.facade.boxes import Box
 from veduta.facade.evidence import Evidence, Float, blur, blur_line
 from veduta.facade.floors import Floors
 from veduta.facade.ground_chain import Array, Gains, Kind, solve
-from veduta.facade.openings import Box
 
 # Lightness counts half of chroma times three, for shadows change the first and not the second.
 _LAB_WEIGHT = (0.5, 1.5, 1.5)

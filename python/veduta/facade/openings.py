@@ -7,12 +7,12 @@ stripes and rows again.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import Scores, Wall, where_seen
+from veduta.facade.bare_floors import bare_floors, without_railings
+from veduta.facade.boxes import Box, score
 from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.floors import Floors
@@ -25,39 +25,40 @@ from veduta.facade.window_sides import refine_sides
 _BLANK = -0.5
 # Share of a box that must be photo, not outside of it.
 _SEEN = 0.5
-# Log-odds of pixels are not independent: how much their mean counts in a box's score.
-_CERTAINTY = 2.0
-
-
-@dataclass(frozen=True)
-class Box:
-    """A rectangle in analysis pixels, with what says that it is there (0..1)."""
-
-    kind: str
-    x: int
-    y: int
-    width: int
-    height: int
-    floor: int | None
-    column: int | None
-    score: float
 
 
 def read_columns(
     evidence: Evidence, floors: Floors, wall: Wall, scores: Scores
 ) -> tuple[Columns, Scores]:
-    """The stripes of windows, and scores by the look that windows and railings have here."""
+    """The stripes of windows, and scores by the look that windows and railings have here.
+
+    Floors whose railings do not stand out are read again as having none.
+    """
+    kinds = find_kinds(evidence, wall, floors)
+    columns, own, boxes = _read_twice(evidence, floors, kinds, scores)
+    bare = bare_floors(boxes, evidence, floors, scores)
+    if bare:
+        scores = without_railings(scores, floors, bare)
+        columns, own, _ = _read_twice(evidence, floors, kinds, scores)
+        own = without_railings(own, floors, bare)
+    return columns, own
+
+
+def _read_twice(
+    evidence: Evidence, floors: Floors, kinds: NDArray[np.int64], scores: Scores
+) -> tuple[Columns, Scores, list[Box]]:
+    """Stripes, and rows in them, by the general cues and then by the image's own look."""
     rows = floors.eaves, floors.ground_top
     columns, own = split_columns(evidence, *rows, floors.mean_storey, scores), scores
-    kinds = find_kinds(evidence, wall, floors)
     for again in (True, False):
         read = read_floors(evidence, floors, columns.stripes, own)
-        labels = _labels(_boxes(read, columns.stripes, floors), scores.window.shape, floors.eaves)
+        boxes = _boxes(read, columns.stripes, floors)
+        labels = _labels(boxes, scores.window.shape, floors.eaves)
         own = look_again(kinds, scores, labels, floors.mean_storey)
         own = where_seen(own, evidence, floors.eaves)
         if again:
             columns = split_columns(evidence, *rows, floors.mean_storey, own)
-    return columns, own
+    return columns, own, boxes
 
 
 def find_openings(
@@ -95,11 +96,6 @@ def _boxes(read: list[FloorRows], stripes: Stripes, floors: Floors) -> list[Box]
                 Box("balcony", x, floor.top + k, end - x, b - k, number, None, score(sure))
             )
     return boxes
-
-
-def score(sure: float) -> float:
-    """A box's score (0..1) from the mean log-odds of its pixels."""
-    return float(1 / (1 + np.exp(-_CERTAINTY * sure)))
 
 
 def _labels(boxes: list[Box], shape: tuple[int, ...], top: int) -> NDArray[np.uint8]:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import Wall
+from veduta.facade.boxes import Box
 from veduta.facade.floors import MAX_FLOORS, Floors
-from veduta.facade.openings import Box
 from veduta.facade.rows import Rows
 from veduta.run.errors import NotFoundError
 

@@ -7,12 +7,12 @@ from dataclasses import dataclass
 import numpy as np
 
 from veduta.facade.appearance import Scores, class_scores, wall_colour
+from veduta.facade.boxes import Box, score
 from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import Stripes, window_rows
-from veduta.facade.openings import Box, score
 from veduta.facade.window_sides import refine_sides
 
 # In storeys: the least roof that can hold a window, and the heights of a window in it.

@@ -11,13 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import CLASSES, FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
-from veduta.facade.openings import Box
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.outputs import rasterise
 from veduta.facade.plausible import storey_doubts

@@ -9,11 +9,11 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import wall_colour
+from veduta.facade.boxes import Box
 from veduta.facade.evidence import gather
 from veduta.facade.floors import Floors
 from veduta.facade.ground import read_ground
 from veduta.facade.ground_chain import Gains, Kind, solve
-from veduta.facade.openings import Box
 
 STOREY = 70
 GROUND_TOP = 230

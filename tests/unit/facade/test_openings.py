@@ -14,11 +14,12 @@ from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import Scores, class_scores, wall_colour
+from veduta.facade.boxes import Box
 from veduta.facade.document import Element
 from veduta.facade.evidence import Evidence, gather
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import gaps, read_floors
-from veduta.facade.openings import Box, only_seen
+from veduta.facade.openings import only_seen
 
 STOREY, WIDTH = 24, 30
 STRIPE = (10, 8)

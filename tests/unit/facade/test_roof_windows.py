@@ -6,11 +6,11 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.evidence import gather
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
-from veduta.facade.openings import Box
 from veduta.facade.roof_windows import find_roof_windows
 
 WIDTH, RIDGE, EAVES, STOREY = 360, 20, 84, 60
