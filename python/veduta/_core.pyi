@@ -48,6 +48,5 @@ def column_chain(
     similarity: float,
     width_change: float,
     gap_symmetry: float,
-    stripe_symmetry: float,
     neutral: float,
 ) -> tuple[float, list[tuple[int, int]]]: ...

@@ -29,8 +29,6 @@ pub struct ColumnChain<'a> {
     pub width_change: f64,
     /// Weight of the mirror symmetry of a gap (equation 8).
     pub gap_symmetry: f64,
-    /// Weight of the mirror symmetry of a stripe.
-    pub stripe_symmetry: f64,
     /// The dissimilarity at which two stretches are as unlike as any two of the facade.
     pub neutral: f64,
 }
@@ -61,7 +59,6 @@ impl Terms<'_> {
         let c = self.chain;
         let end = at + width;
         -self.wall(at, end) - c.jamb_weight * (c.jamb[at] + c.jamb[end])
-            + c.stripe_symmetry * (self.mirror.mean(at, end) - c.neutral) * width as f64
     }
 
     /// Everything that joins stripe `a` to stripe `b` on its right, the gap included.
@@ -202,7 +199,7 @@ mod tests {
             let chain = ColumnChain {
                 evidence: &evidence, jamb: &jamb, widths: &[2, 3, 4], step, gap_min: 1, gap_max: 6,
                 jamb_weight: 0.3, similarity: 0.4, width_change: 0.1, gap_symmetry: 0.2,
-                stripe_symmetry: 0.3, neutral: 1.0,
+                neutral: 1.0,
             };
             let solved = chain.solve(&distance).unwrap();
             let mut running = vec![0.0; columns + 1];
@@ -240,7 +237,6 @@ mod tests {
             similarity: 0.0,
             width_change: 0.0,
             gap_symmetry: 0.0,
-            stripe_symmetry: 0.0,
             neutral: 1.0,
         };
         let solved = chain.solve(&[0.0; 144]).unwrap();

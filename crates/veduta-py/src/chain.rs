@@ -100,7 +100,7 @@ fn floor_chain(
 /// The best chain of window stripes: its energy and `(position, width)` of each.
 #[pyfunction]
 #[pyo3(signature = (distance, evidence, jamb, widths, *, step, gap_min, gap_max, jamb_weight,
-                    similarity, width_change, gap_symmetry, stripe_symmetry, neutral))]
+                    similarity, width_change, gap_symmetry, neutral))]
 #[allow(clippy::too_many_arguments)]
 fn column_chain(
     py: Python<'_>,
@@ -115,7 +115,6 @@ fn column_chain(
     similarity: f64,
     width_change: f64,
     gap_symmetry: f64,
-    stripe_symmetry: f64,
     neutral: f64,
 ) -> PyResult<(f64, Vec<(usize, usize)>)> {
     let matrix: Vec<f32> = distance.as_array().iter().copied().collect();
@@ -132,7 +131,6 @@ fn column_chain(
         similarity,
         width_change,
         gap_symmetry,
-        stripe_symmetry,
         neutral,
     };
     let solved = py.detach(|| chain.solve(&matrix)).map_err(to_python)?;

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +19,6 @@ _JAMB = 0.025
 _WIDTH_CHANGE = 1.0
 _SIMILARITY = 0.15
 _GAP_SYMMETRY = 0.2
-_STRIPE_SYMMETRY = 0.0
 _NEUTRAL = 0.6
 _STEPS = 36
 
@@ -29,6 +29,7 @@ class Columns:
 
     stripes: list[tuple[int, int]]
     energy: float
+    terms: dict[str, float]
     labels: int
 
 
@@ -40,8 +41,9 @@ def split_columns(
     step = max(1, round(storey / _STEPS))
     narrow, wide = (max(1, round(w * storey / step)) for w in _WIDTH)
     widths = [step * i for i in range(narrow, wide + 1)]
+    distance = _distance(scores)
     energy, stripes = _core.column_chain(
-        _distance(scores),
+        distance,
         profile,
         jambs,
         widths,
@@ -52,10 +54,40 @@ def split_columns(
         similarity=_SIMILARITY,
         width_change=_WIDTH_CHANGE / storey,
         gap_symmetry=_GAP_SYMMETRY,
-        stripe_symmetry=_STRIPE_SYMMETRY,
         neutral=_NEUTRAL,
     )
-    return Columns(stripes, energy / evidence.width, len(widths) * evidence.width)
+    terms = _terms(stripes, distance, profile, jambs, storey)
+    return Columns(stripes, energy / evidence.width, terms, len(widths) * evidence.width)
+
+
+def _terms(
+    stripes: list[tuple[int, int]],
+    distance: NDArray[np.float32],
+    profile: NDArray[np.float64],
+    jambs: NDArray[np.float64],
+    storey: float,
+) -> dict[str, float]:
+    """What each term adds to the energy (per pixel column), summed up anew from the stripes."""
+    sums = {
+        "evidence": float(profile.sum()),
+        "jambs": 0.0,
+        "similarity": 0.0,
+        "width_change": 0.0,
+        "gap_symmetry": 0.0,
+    }
+    for x, w in stripes:
+        sums["evidence"] -= 2 * float(profile[x : x + w].sum())
+        sums["jambs"] -= _JAMB * storey * float(jambs[x] + jambs[x + w])
+    for (x, w), (other, width) in pairwise(stripes):
+        shared = np.arange(min(w, width))
+        unlike = float(distance[x + shared, other + shared].mean(dtype=np.float64)) - _NEUTRAL
+        sums["similarity"] += _SIMILARITY * unlike * width
+        sums["width_change"] += _WIDTH_CHANGE / storey * abs(w - width)
+        half = np.arange((other - x - w) // 2)
+        mirrored = distance[x + w + half, other - 1 - half]
+        unlike = float(mirrored.mean(dtype=np.float64)) if len(half) else 0.0
+        sums["gap_symmetry"] += _GAP_SYMMETRY * (unlike - _NEUTRAL) * (other - x - w)
+    return {name: total / len(profile) for name, total in sums.items()}
 
 
 def _distance(scores: Scores) -> NDArray[np.float32]:

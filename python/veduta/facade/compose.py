@@ -112,7 +112,10 @@ def _energies(parse: Parse) -> dict[str, EnergyTerm]:
             labels=floors.labels,
         ),
         "columns": EnergyTerm(
-            total=columns.energy, terms={}, nodes=len(columns.stripes), labels=columns.labels
+            total=columns.energy,
+            terms=columns.terms,
+            nodes=len(columns.stripes),
+            labels=columns.labels,
         ),
     }
 

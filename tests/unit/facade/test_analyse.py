@@ -78,8 +78,8 @@ def _energy_is_stated(document: FacadeDocument, drawn: DrawnFacade) -> None:
         assert term.total < 0, "better than what is nothing alike"
         assert term.nodes == nodes
         assert term.labels > 100
-        if term.terms:
-            assert sum(term.terms.values()) == pytest.approx(term.total, abs=1e-6)
+        assert len(term.terms) == 5
+        assert sum(term.terms.values()) == pytest.approx(term.total, abs=1e-6)
 
 
 def test_the_same_picture_gives_the_same_document() -> None:

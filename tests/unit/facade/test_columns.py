@@ -20,7 +20,6 @@ WEIGHTS = {
     "similarity": 0.4,
     "width_change": 0.1,
     "gap_symmetry": 0.2,
-    "stripe_symmetry": 0.3,
     "neutral": 1.0,
 }
 Stripes = list[tuple[int, int]]
@@ -60,7 +59,6 @@ def _energy(
     for x, w in stripes:
         inside[x : x + w] = True
         total -= k["jamb_weight"] * (jamb[x] + jamb[x + w])
-        total += k["stripe_symmetry"] * (_mirror(distance, x, x + w) - k["neutral"]) * w
     total += evidence[~inside].sum() - evidence[inside].sum()
     for (x, w), (next_x, next_w) in pairwise(stripes):
         gap = x + w

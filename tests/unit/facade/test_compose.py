@@ -50,7 +50,7 @@ def _document(
         skyline=Skyline(cut, int(np.median(cut))),
         sides=sides,
         floors=Floors(BOUNDARIES, 50.0, -1.5, {"similarity": -1.5}, 100),
-        columns=Columns([(20, 22), (90, 22)], -0.5, 50),
+        columns=Columns([(20, 22), (90, 22)], -0.5, {}, 50),
         boxes=BOXES,
     )
     source = Source(image="a.png", sha256="0" * 64, width_px=width, height_px=height)

@@ -126,7 +126,7 @@ def test_railings_at_different_rows_part_in_the_gap() -> None:
 
 
 def test_blank_cells_hold_no_window() -> None:
-    columns = Columns(STRIPES, 0.0, 0)
+    columns = Columns(STRIPES, 0.0, {}, 0)
     boxes = find_openings(evidence_of(STOREY * FLOORS), floors_of(), columns, grid(blank=(1, 2)))
     windows = {(b.floor, b.column) for b in boxes if b.kind == "window"}
     every = {(f, c) for f in (1, 2, 3) for c in range(3)}
@@ -135,7 +135,7 @@ def test_blank_cells_hold_no_window() -> None:
 
 
 def test_no_stripes_no_openings() -> None:
-    columns = Columns([], 0.0, 0)
+    columns = Columns([], 0.0, {}, 0)
     assert find_openings(evidence_of(STOREY * FLOORS), floors_of(), columns, grid()) == []
 
 

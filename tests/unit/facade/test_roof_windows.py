@@ -40,7 +40,7 @@ def find(dormers: list[tuple[int, int]], columns: list[tuple[int, int]]) -> list
     evidence = gather(pixels, np.ones(pixels.shape[:2], bool))
     skyline = skyline_at(RIDGE)
     floors = Floors([EAVES, EAVES + STOREY, EAVES + 2 * STOREY], float(STOREY), 0.0, {}, 0)
-    return find_roof_windows(evidence, skyline, floors, Columns(columns, 0.0, 0))
+    return find_roof_windows(evidence, skyline, floors, Columns(columns, 0.0, {}, 0))
 
 
 def skyline_at(row: int) -> Skyline:
@@ -79,4 +79,4 @@ def test_no_window_fits_a_low_roof() -> None:
     evidence = gather(pixels, np.ones(pixels.shape[:2], bool))
     floors = Floors([EAVES, EAVES + STOREY], float(STOREY), 0.0, {}, 0)
     low = skyline_at(EAVES - 15)
-    assert find_roof_windows(evidence, low, floors, Columns([], 0.0, 0)) == []
+    assert find_roof_windows(evidence, low, floors, Columns([], 0.0, {}, 0)) == []
