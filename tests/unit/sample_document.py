@@ -112,7 +112,7 @@ def sample_document(
         derivation=DerivationNode(
             symbol="Footprint", x_m=0.0, y_m=0.0, width_m=facade_m[0], height_m=facade_m[1]
         ),
-        energy={"floors": EnergyTerm(total=0.0, terms={}, nodes=0, labels=0)},
+        energy={"floors": EnergyTerm(total=-0.5, terms={}, nodes=0, labels=0)},
     )
 
 

@@ -10,6 +10,7 @@ from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.derive import derivation, rule_parameters
 from veduta.facade.document import (
+    SURE_SCORE,
     Element,
     EnergyTerm,
     Extent,
@@ -26,9 +27,6 @@ from veduta.facade.plausible import storey_doubts
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
-
-# Score under which the photo speaks rather against a box that its neighbours make likely.
-_SURE = 0.5
 
 
 @dataclass(frozen=True)
@@ -139,7 +137,7 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
             "score": box.score,
             "floor": box.floor,
             "column": box.column,
-            "provenance": "measured" if box.score >= _SURE else "inferred",
+            "provenance": "measured" if box.score >= SURE_SCORE else "inferred",
         }
     )
 

@@ -17,6 +17,8 @@ from veduta.place.semantics import LABELS, Label
 FacadeClass = Label
 CLASSES = LABELS
 Provenance = Literal["measured", "inferred", "invented"]
+SURE_SCORE = 0.5
+"""Under this score the photo speaks rather against an element that its neighbours make likely."""
 
 
 class _Record(BaseModel):

@@ -108,6 +108,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
     low, high = building.part.bounds_m
     kept = (
         "storeys",
+        "storeys_doubtful",
         "windows",
         "doubtful_windows",
         "doubtful_elements",

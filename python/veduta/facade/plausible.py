@@ -47,9 +47,14 @@ def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> 
 
 def storey_doubts(floors: Floors) -> list[str]:
     """What to tell of storeys that are hardly like one another."""
-    if floors.energy <= _HARDLY_ALIKE:
+    if not are_storeys_doubtful(floors.energy):
         return []
     return ["storeys: they are hardly alike, so check their number, or give --height-m"]
+
+
+def are_storeys_doubtful(energy: float) -> bool:
+    """Whether the energy of the floors (per row) is one that mere parts of facades reach."""
+    return energy > _HARDLY_ALIKE
 
 
 def _pattern(rows: Rows, floors: Floors) -> str | None:

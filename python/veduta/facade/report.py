@@ -15,10 +15,11 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.facade.adjusted import count_adjusted
-from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.document import SURE_SCORE, Element, FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
+from veduta.facade.plausible import are_storeys_doubtful
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.options import Options
@@ -41,8 +42,6 @@ _BASIS = {
     "storey": "from the storey given",
     "assumed-storey": "assumed",
 }
-SURE = 0.5
-"""An element of a lower score is doubtful."""
 WHOLE_WIDTH = 99.5
 """Per cent of the picture's width from which nothing worth a word was cut off beside it."""
 
@@ -133,6 +132,7 @@ def measures(document: FacadeDocument) -> dict[str, Any]:
     doubtful = Counter(element.class_ for element in document.elements if _is_doubtful(element))
     return {
         "storeys": document.storeys,
+        "storeys_doubtful": _are_storeys_doubtful(document),
         "windows": found["window"],
         "elements": dict(sorted(found.items())),
         "doubtful_windows": doubtful["window"],
@@ -155,7 +155,8 @@ def summary_line(found: Mapping[str, Any]) -> str:
     others = int(found.get("doubtful_elements", 0)) - windows
     share = 100 * float(found.get("picture_share", 1.0))
     said = [
-        _counted(found["storeys"], "storey"),
+        _counted(found["storeys"], "storey")
+        + (" (doubtful)" if found.get("storeys_doubtful", False) else ""),
         _counted(found["windows"], "window") + _in_doubt(windows),
         f"{_counted(others, 'other element')} doubtful" if others else "",
         f"{found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})",
@@ -177,8 +178,13 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
 
 
 def _is_doubtful(element: Element) -> bool:
-    """Whether the photo does not show it, or speaks rather against it."""
-    return element.provenance != "measured" or element.score < SURE
+    """Whether the photo speaks rather against it. What a person adds is not in doubt."""
+    return element.score < SURE_SCORE
+
+
+def _are_storeys_doubtful(document: FacadeDocument) -> bool:
+    floors = document.energy.get("floors")
+    return floors is not None and are_storeys_doubtful(floors.total)
 
 
 def _in_doubt(count: int) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 from sample_document import FACADE_M, METRES_PER_PX, PHOTO_PX, sample_document
 
+from veduta.facade.document import EnergyTerm
 from veduta.facade.report import adjusted_line, measures, summary_line
 
 
@@ -23,15 +24,22 @@ def test_doubt_is_told() -> None:
     document = sample_document()
     windows = [item for item in document.elements if item.class_ == "window"]
     windows[0].score = 0.49
-    windows[1].provenance = "inferred"
+    windows[1].provenance = "inferred"  # as what a person adds
     windows[2].score, windows[2].provenance = 0.2, "inferred"
     windows[3].score = 0.5
     balcony = next(item for item in document.elements if item.class_ == "balcony")
-    balcony.provenance = "invented"
+    balcony.score = 0.3
     found = measures(document)
-    assert (found["doubtful_windows"], found["doubtful_elements"]) == (3, 4)
+    assert (found["doubtful_windows"], found["doubtful_elements"]) == (2, 3)
     line = summary_line(found)
-    assert "20 windows (3 doubtful), 1 other element doubtful, 12.0" in line
+    assert line.startswith("5 storeys, ")
+    assert "20 windows (2 doubtful), 1 other element doubtful, 12.0" in line
+
+
+def test_doubtful_storeys_are_told() -> None:
+    document = sample_document()
+    document.energy["floors"] = EnergyTerm(total=-0.1, terms={}, nodes=4, labels=10)
+    assert summary_line(measures(document)).startswith("5 storeys (doubtful), ")
 
 
 def test_a_whole_picture_needs_no_word() -> None:
