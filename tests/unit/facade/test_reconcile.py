@@ -106,6 +106,20 @@ def test_a_wider_window(found: FacadeDocument) -> None:
     ]
 
 
+def test_a_document_that_is_loaded_agrees(found: FacadeDocument, tmp_path: Path) -> None:
+    def change(content: Any) -> None:
+        content["elements"][index_of(found, windows(found, 1)[0])]["width_px"] -= 6
+        content["rules"]["floors"][1]["sizes_m"][0] += 1.0
+        content["derivation"]["children"] = []
+
+    path = tmp_path / "facade.json"
+    path.write_text(edited(found, change).model_dump_json(by_alias=True))
+    done = load_document(path)
+    assert_agrees(done)
+    assert done == reconciled(edited(found, change))
+    assert done.rules.floors[1:] == found.rules.floors[1:]
+
+
 def test_a_window_moved_to_the_next_floor(found: FacadeDocument) -> None:
     window = windows(found, 2)[1]
     above = windows(found, 3)[1]
