@@ -211,4 +211,5 @@ def _neutral(storey: int, rows: Rows) -> float:
     """The dissimilarity of floors that are nothing alike: that of rows part of a storey apart."""
     offsets = range(max(1, int(0.4 * storey)), max(2, int(0.9 * storey)))
     body = rows.distance[rows.ridge :, rows.ridge :]
-    return _NEUTRAL * max(float(np.diagonal(body, k).mean()) for k in offsets)
+    known = [float(np.diagonal(body, k).mean()) for k in offsets if k < len(body)]
+    return _NEUTRAL * max(known, default=1.0)

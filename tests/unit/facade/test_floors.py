@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import contextlib
 import math
+import warnings
 from collections.abc import Iterator
 
 import numpy as np
@@ -16,6 +18,7 @@ from veduta import _core
 from veduta.facade.extent import RowHistograms
 from veduta.facade.floors import split_floors
 from veduta.facade.rows import Rows
+from veduta.run.errors import NotFoundError
 
 ROWS, HEIGHTS = 13, [2, 3, 5]
 SIMILARITY, HEIGHT_CHANGE = 0.7, 0.2
@@ -117,6 +120,18 @@ def test_a_periodic_facade_is_cut_at_its_period() -> None:
     (solved,) = _core.floor_chain(distance, [scale], 1.0, 1.2, 8)
     best = min(found for found in solved if found is not None)
     assert best[1] == [0, 12, 24, 36, 48, 60, 72]
+
+
+def test_next_to_no_rows_below_the_ridge_end_in_an_answer() -> None:
+    """A storey may be higher than all that is left below the ridge."""
+    rng = np.random.default_rng(2)
+    distance = rng.random((90, 90)).astype(np.float32)
+    histograms = RowHistograms(np.zeros((2, 91, 4)))
+    for ridge in range(70, 90, 3):
+        rows = Rows(1, ridge, distance, np.ones(90, np.float32), histograms)
+        with contextlib.suppress(NotFoundError), warnings.catch_warnings():
+            warnings.simplefilter("error")
+            assert math.isfinite(split_floors(rows).energy)
 
 
 def test_wide_bays_speak_against_low_storeys() -> None:
