@@ -11,7 +11,7 @@ import numpy as np
 from facade_truth import Boxes, Labels
 
 from veduta.facade.analyse import analyse
-from veduta.facade.document import CLASSES, FacadeDocument, Source
+from veduta.facade.document import CLASSES, FacadeClass, FacadeDocument, Source
 from veduta.facade.options import FacadeOptions, RectifyOptions
 from veduta.facade.outputs import rasterise
 from veduta.facade.rectify import rectify
@@ -47,15 +47,15 @@ def read_facade(path: Path) -> Reading:
         seconds = time.perf_counter() - started
         return Reading(None, nothing, np.zeros((0, 4)), seconds, str(error))
     seconds = time.perf_counter() - started
-    return Reading(document, rasterise(document), windows_of(document), seconds)
+    return Reading(document, rasterise(document), boxes_of(document, "window"), seconds)
 
 
-def windows_of(document: FacadeDocument) -> Boxes:
-    """Boxes of the document's windows (rectified pixels)."""
+def boxes_of(document: FacadeDocument, kind: FacadeClass) -> Boxes:
+    """Boxes of the document's elements of one class (rectified pixels)."""
     boxes = [
         (e.x_px, e.y_px, e.x_px + e.width_px, e.y_px + e.height_px)
         for e in document.elements
-        if e.class_ == "window"
+        if e.class_ == kind
     ]
     return np.array(boxes, np.float64).reshape(-1, 4)
 

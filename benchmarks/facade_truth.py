@@ -38,6 +38,11 @@ _ECP: dict[tuple[int, int, int], FacadeClass] = {
     (128, 255, 255): "sky",
     (0, 255, 0): "shop",
 }
+# The set's numbers from 1: background, facade, window, door, cornice, sill, balcony, blind, deco,
+# molding, pillar, shop. Blinds (shutters too) lie on windows and beside them: left open.
+_CMP: tuple[FacadeClass | None, ...] = (
+    None, "wall", "window", "door", "wall", "wall", "balcony", None, "wall", "wall", "wall", "shop",
+)  # fmt: skip
 _ARTDECO: tuple[FacadeClass, ...] = ("door", "shop", "balcony", "window", "wall", "sky", "roof")
 # Least step between the lower edges of two rows of windows, part of the image height. The 80
 # facades are five to seven storeys high; their nearest true rows are 0.08 apart.
@@ -89,6 +94,24 @@ def artdeco(data: Path) -> list[Labelled]:
         indices = np.loadtxt(folder / f"labels/{path.stem}.txt", dtype=np.int64)
         found.append(Labelled(path.stem, path, resized(artdeco_labels(indices), size)))
     return found
+
+
+def cmp(data: Path) -> list[Labelled]:
+    """Every third picture of facades/cmp: those that no constant was chosen on."""
+    paths = sorted((data / "facades/cmp").glob("cmp_b*.png"))
+    kept = [path for path in paths if int(path.stem.removeprefix("cmp_b")) % 3 == 2]
+    return [Labelled(p.stem, p.with_suffix(".jpg"), cmp_labels(_indices(p))) for p in kept]
+
+
+def _indices(path: Path) -> NDArray[np.int64]:
+    with Image.open(path) as image:
+        return np.asarray(image, np.int64)
+
+
+def cmp_labels(indices: NDArray[np.int64]) -> Labels:
+    """Labels of an (h, w) image of the set's own numbers; sky and roof are not told apart in it."""
+    places = [IGNORED if name is None else CLASSES.index(name) for name in _CMP]
+    return np.array([IGNORED, *places], np.uint8)[indices]
 
 
 def artdeco_labels(indices: NDArray[np.int64]) -> Labels:

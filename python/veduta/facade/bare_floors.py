@@ -2,9 +2,9 @@
 
 The rows of a stripe read as wall, window, railing, wall, and the lower sash of a window or the wall
 below its sill fits the third as well. Real railings look more like railings than the panes over
-them do, and end in level lines: the slab and the handrail. The bounds were set on 175 facades; on
-75 others that have next to none, false balconies fell from 1323 to 350 and windows found rose by
-two fifths, while facades full of balconies lose one in fifty of their windows.
+them do, and end in level lines: the slab and the handrail. The bounds were set on 175 facades. On
+100 others, most of them without balconies, false ones fell from 1419 to 554 and the F1 of windows
+rose from 0.28 to 0.36, while facades full of balconies lose 0.02 of theirs.
 """
 
 from __future__ import annotations
