@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from veduta.facade.appearance import class_scores, wall_colour
+from veduta.facade.bare_floors import doubt_railings
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
@@ -50,16 +51,16 @@ def analyse(
         progress("columns", 0.6)
         rows = floors.eaves, floors.ground_top
         wall = wall_colour(evidence, *rows, floors.mean_storey)
-        scores = class_scores(evidence, wall, *rows, floors.mean_storey)
-        columns, scores = read_columns(evidence, floors, wall, scores)
+        cues = class_scores(evidence, wall, *rows, floors.mean_storey)
+        columns, scores = read_columns(evidence, floors, wall, cues)
         step.counts |= {"columns": len(columns.stripes), "energy": columns.energy}
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
         boxes = find_roof_windows(evidence, skyline, floors, columns)
-        boxes += find_openings(evidence, floors, columns, scores)
+        boxes += doubt_railings(find_openings(evidence, floors, columns, scores), cues, floors)
         require_facade(lines, floors, wall, boxes)
         boxes += read_ground(evidence, floors, wall)
-        boxes = only_seen(boxes, evidence)
+        boxes = only_seen(boxes, evidence, skyline)
         for kind in ("window", "balcony", "door", "shop"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):

@@ -10,11 +10,12 @@ rose from 0.28 to 0.36, while facades full of balconies lose 0.02 of theirs.
 from __future__ import annotations
 
 from collections import defaultdict
+from dataclasses import replace
 
 import numpy as np
 
 from veduta.facade.appearance import LIMIT, Scores
-from veduta.facade.boxes import Box
+from veduta.facade.boxes import Box, score
 from veduta.facade.evidence import Evidence, Float
 from veduta.facade.floors import Floors
 
@@ -36,11 +37,9 @@ def bare_floors(
     level = np.abs(evidence.gy[floors.eaves : floors.ground_top])
     found: dict[int, list[tuple[float, float]]] = defaultdict(list)
     for railing in boxes:
-        if railing.kind != "balcony" or railing.floor is None:
-            continue
         over = [box for box in boxes if _is_over(box, railing)]
-        if over:
-            gain = _mean(scores.railing, [railing], floors) - _mean(scores.railing, over, floors)
+        if railing.floor is not None and over:
+            gain = _gain(railing, over, scores, floors)
             lines = _mean(level, [railing], floors) / (_mean(level, over, floors) + 0.1)
             found[railing.floor].append((gain, lines))
     if not found:
@@ -51,6 +50,23 @@ def bare_floors(
         for floor, several in found.items()
         if not _stands_out(*(_OF_ALL * all_floors + (1 - _OF_ALL) * np.median(several, axis=0)))
     )
+
+
+def doubt_railings(boxes: list[Box], scores: Scores, floors: Floors) -> list[Box]:
+    """The boxes, railings with the score of how much more than their windows they look like one.
+
+    The image's own look is counted from what was called a railing, and so is sure of it; `scores`
+    are those of the general cues.
+    """
+    doubted = []
+    for box in boxes:
+        over = [other for other in boxes if _is_over(other, box)]
+        if over:
+            gain = _gain(box, over, scores, floors)
+            doubted.append(replace(box, score=min(box.score, score(gain))))
+        else:
+            doubted.append(box)
+    return doubted
 
 
 def without_railings(scores: Scores, floors: Floors, bare: frozenset[int]) -> Scores:
@@ -69,7 +85,12 @@ def _stands_out(gain: float, lines: float) -> bool:
 
 def _is_over(box: Box, railing: Box) -> bool:
     beside = box.x < railing.x + railing.width and railing.x < box.x + box.width
-    return box.kind == "window" and box.floor == railing.floor and beside
+    kinds = (box.kind, railing.kind) == ("window", "balcony")
+    return kinds and box.floor == railing.floor and beside
+
+
+def _gain(railing: Box, over: list[Box], scores: Scores, floors: Floors) -> float:
+    return _mean(scores.railing, [railing], floors) - _mean(scores.railing, over, floors)
 
 
 def _mean(values: Float, boxes: list[Box], floors: Floors) -> float:

@@ -115,13 +115,15 @@ def run_call(
 
 def _check_documents(call: Call, options: FacadeOptions) -> None:
     """Edited documents are checked before anything is written because of them."""
-    for given in (options.rectify, options.scale):
+    mend_scale = "Leave it out and edit scale.metres_per_px there; or name the photo."
+    remedies = (options.rectify, "Leave it out, or name the photo."), (options.scale, mend_scale)
+    for given, remedy in remedies:
         for name in type(given).model_fields:
             if getattr(given, name) != getattr(type(given)(), name):
                 raise InputError(
                     f"--{name.replace('_', '-')}",
                     "is for photos and changes nothing in a document",
-                    "Leave it out, or name the photo.",
+                    remedy,
                 )
     for source in call.inputs:
         load_photo(source.path, load_document(source.path))

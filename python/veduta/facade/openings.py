@@ -15,6 +15,7 @@ from veduta.facade.bare_floors import bare_floors, without_railings
 from veduta.facade.boxes import Box, score
 from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
+from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import FloorRows, Stripes, read_floors
 from veduta.facade.own_look import find_kinds, look_again
@@ -73,13 +74,10 @@ def find_openings(
     return _boxes(read, stripes, floors)
 
 
-def only_seen(boxes: list[Box], evidence: Evidence) -> list[Box]:
-    """The boxes of which at least half lies in the photo."""
-    return [
-        box
-        for box in boxes
-        if evidence.valid[box.y : box.y + box.height, box.x : box.x + box.width].mean() >= _SEEN
-    ]
+def only_seen(boxes: list[Box], evidence: Evidence, skyline: Skyline) -> list[Box]:
+    """The boxes of which at least half lies in the photo and below the sky."""
+    seen = evidence.valid & (np.arange(evidence.height)[:, None] >= skyline.rows[None])
+    return [box for box in boxes if seen[box.part()].mean() >= _SEEN]
 
 
 def _boxes(read: list[FloorRows], stripes: Stripes, floors: Floors) -> list[Box]:

@@ -262,7 +262,7 @@ def _elements(document: FacadeDocument) -> Table:
     columns = ("class", "found", "doubtful", "median width m", "median height m", "mean score")
     note = (
         "The score says how well the photo supports an element, from 0 to 1. Doubtful is what has"
-        " a score below 0.5, or was not measured in the photo."
+        " a score below 0.5: the photo speaks rather against it."
     )
     return Table("Elements", columns, rows, note=note)
 

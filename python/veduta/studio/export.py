@@ -59,7 +59,7 @@ def export_web(out: Path, web: Path, *, force: bool = False) -> ExportResult:
     if earlier is not None and not force:
         raise InputError(
             web,
-            "it holds an export of another place or of another version",
+            "it holds an export of another place, or of this one before it changed",
             "Use --force to replace it, or another folder.",
         )
     _write(sources, record, target)

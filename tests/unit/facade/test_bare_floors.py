@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from veduta.facade.appearance import LIMIT, Scores
-from veduta.facade.bare_floors import bare_floors, without_railings
+from veduta.facade.bare_floors import bare_floors, doubt_railings, without_railings
 from veduta.facade.boxes import Box
 from veduta.facade.evidence import Evidence, Float, gather
 from veduta.facade.floors import Floors
@@ -63,6 +63,16 @@ def test_no_railings_no_bare_floors() -> None:
     assert bare_floors(windows, evidence, FLOORS, scores) == frozenset()
     railings = [box for box in boxes() if box.kind == "balcony"]
     assert bare_floors(railings, evidence, FLOORS, scores) == frozenset()
+
+
+def test_railings_are_as_sure_as_they_stand_out() -> None:
+    _, scores = picture({1: -0.3, 2: 0.1, 3: 2.0}, {1: 1.0, 2: 1.0, 3: 1.0})
+    doubted = doubt_railings(boxes(), scores, FLOORS)
+    assert [box.score for box in doubted if box.kind == "window"] == [0.9] * 6
+    sure = {box.floor: box.score for box in doubted if box.kind == "balcony"}
+    assert sure[1] < 0.5 < sure[2] < sure[3] == 0.9
+    alone = [box for box in boxes() if box.kind == "balcony"]
+    assert doubt_railings(alone, scores, FLOORS) == alone
 
 
 def test_only_bare_floors_lose_their_railings() -> None:

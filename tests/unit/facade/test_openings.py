@@ -17,6 +17,7 @@ from veduta.facade.appearance import Scores, class_scores, wall_colour
 from veduta.facade.boxes import Box
 from veduta.facade.document import Element
 from veduta.facade.evidence import Evidence, gather
+from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import gaps, read_floors
 from veduta.facade.openings import only_seen
@@ -118,6 +119,10 @@ def test_nothing_is_known_where_there_is_no_photo() -> None:
     rectified = rectified_of(draw_facade(5).pixels)
     rectified.valid[200:, :90] = False
     evidence = gather(rectified.pixels, rectified.valid)
+
+    def skyline(row: int) -> Skyline:
+        return Skyline(np.full(evidence.width, row), row)
+
     top, bottom, storey = 150, 400, 60.0
     wall = wall_colour(evidence, top, bottom, storey)
     scores = class_scores(evidence, wall, top, bottom, storey)
@@ -125,8 +130,14 @@ def test_nothing_is_known_where_there_is_no_photo() -> None:
         assert (score[50:, :90] == 0).all()
         assert (score[:50] != 0).mean() > 0.9
     inside, outside, across = (Box("window", x, 220, 40, 30, 1, 0, 0.9) for x in (100, 10, 69))
-    assert only_seen([inside, outside, across], evidence) == [inside]
-    assert only_seen([inside, outside, across], whole(evidence)) == [inside, outside, across]
+    assert only_seen([inside, outside, across], evidence, skyline(10)) == [inside]
+    assert only_seen([inside, outside, across], whole(evidence), skyline(10)) == [
+        inside,
+        outside,
+        across,
+    ]
+    assert only_seen([inside], evidence, skyline(230)) == [inside]
+    assert only_seen([inside], evidence, skyline(240)) == []
 
 
 def whole(evidence: Evidence) -> Evidence:
