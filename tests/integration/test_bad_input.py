@@ -167,6 +167,8 @@ def test_names_that_cannot_be_a_folder(tmp_path: Path, photo: Path, name: str) -
         ["--no-such-option"],
         ["--height-m", "-3"],
         ["--height-m", "tall"],
+        ["--height-m", "1e9"],
+        ["--height-m", "1_9"],
         ["--corners", "1", "2", "3"],
         ["--setback-m", "7"],
         ["--jobs", "0"],

@@ -136,6 +136,19 @@ def test_sizes_that_are_asked_for_in_place_are_kept(out: Path) -> None:
     assert tree(out) == before
 
 
+def test_a_photos_call_knows_that_its_result_was_rebuilt_otherwise(
+    out: Path, photos: list[Path]
+) -> None:
+    document = out / "house0" / "facade.json"
+    assert veduta("facade", document, "-o", out, "--depth-m", "20").returncode == 0
+    again = facade(*photos[:2], "-o", out)
+    assert again.returncode == 2
+    assert "holds the finished result of other inputs or options" in again.stderr
+    assert read_json(document)["model"]["depth_m"] == 20
+    assert facade(*photos[:2], "-o", out, "--force").returncode == 0
+    assert read_json(document)["model"]["depth_m"] == 10
+
+
 def test_an_edited_document_is_not_written_to(out: Path) -> None:
     document = out / "house0" / "facade.json"
     edit(document, set_at("model", "depth_m", value=6.0))
@@ -188,6 +201,7 @@ def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
         (set_at("extents", 0, "polygon_px", value=[[0, 0]]), "extents[0].polygon_px: "),
         (set_at("scale", "metres_per_px", value=0), "scale.metres_per_px: "),
         (set_at("version", value=7), "version: "),
+        (set_at("storeys", value=0), "storeys: "),
         (set_at("model", "depth_m", value=0), "model.depth_m: "),
         (set_at("model", "setback_m", value=1.5), "model.setback_m: "),
         (set_at("classes", value=["window"]), "classes: "),

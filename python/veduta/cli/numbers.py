@@ -156,6 +156,8 @@ def _remedy(option: NumberOption, given: str) -> str:
 
 def _number(word: str, *, whole: bool) -> float | None:
     """The number that the parser would read, None where it is none or not finite."""
+    if "_" in word:  # Python reads 1_9 as 19; who types it means something else
+        return None
     try:
         value = int(word) if whole else float(word)
         return value if math.isfinite(value) else None

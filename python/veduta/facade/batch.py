@@ -98,6 +98,7 @@ def run_call(
         waiting = [
             source for source in call.inputs if _is_wanted(folder, source, call, options, result)
         ]
+        before = {name: folder.record.files.get(f"{name}/{DOCUMENT}") for name in result.asked}
         if folder.standing in {Standing.NEW, Standing.REPLACED}:
             folder.record.inputs = result.asked
         if waiting:
@@ -106,11 +107,26 @@ def run_call(
         elif amend:
             result.up_to_date = True
         _collect(folder, call, result)
+        _outdate(folder, before)
         if not result.up_to_date:
             _write_call(folder, options, key, result)
         result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
+
+
+def _outdate(folder: OutFolder, before: dict[str, str | None]) -> None:
+    """A rebuild that wrote another document leaves no result of the photos' own call.
+
+    What somebody edited is kept by that call, and told; `before` are the documents' digests.
+    """
+    if folder.standing is not Standing.AMENDED:
+        return
+    edited = folder.edited()
+    for name, digest in before.items():
+        document = f"{name}/{DOCUMENT}"
+        if digest != folder.record.files.get(document) and document not in edited:
+            folder.record.key = f"amended {document}"
 
 
 def _check_documents(call: Call, options: FacadeOptions) -> None:

@@ -115,6 +115,8 @@ def _faults(document: FacadeDocument) -> list[str]:
         found.append(f"classes: must be {', '.join(CLASSES)}")
     if len(document.elements) > MAX_ELEMENTS:
         found.append(f"elements: more than {MAX_ELEMENTS}")
+    if document.storeys < 1:
+        found.append(f"storeys: {document.storeys}, must be 1 or more")
     if document.scale.metres_per_px <= 0:
         found.append("scale.metres_per_px: must be above zero")
     for name, sized in _sized(document):

@@ -77,7 +77,7 @@ def find_openings(
 def only_seen(boxes: list[Box], evidence: Evidence, skyline: Skyline) -> list[Box]:
     """The boxes of which at least half lies in the photo and below the sky."""
     seen = evidence.valid & (np.arange(evidence.height)[:, None] >= skyline.rows[None])
-    return [box for box in boxes if seen[box.part()].mean() >= _SEEN]
+    return [box for box in boxes if seen[box.part()].sum() >= _SEEN * box.width * box.height]
 
 
 def _boxes(read: list[FloorRows], stripes: Stripes, floors: Floors) -> list[Box]:

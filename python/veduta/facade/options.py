@@ -34,7 +34,9 @@ class RectifyOptions(Options):
 class ScaleOptions(Options):
     """How pixels become metres."""
 
-    height_m: Metres | None = Field(default=None, description="ground to eaves (m)")
+    height_m: Annotated[float, Field(ge=2.0, le=1000.0)] | None = Field(
+        default=None, description="ground to eaves (m)"
+    )
     storey_m: Annotated[float, Field(ge=2.0, le=8.0)] | None = Field(
         default=None, description="mean storey height (m); assumed 3.0 where nothing is given"
     )

@@ -28,7 +28,10 @@ trees), a portal 0.53; rocks, noise and random lines at most 0.10, a drawn meado
 _MIN_NEAR_PART_EACH = 0.06
 """Grass and trunks run upwards but not along anything: 0.02 in the drawn meadow."""
 
-_REMEDY = "Give the four corners of the facade with --corners, or another photo."
+_REMEDY = (
+    "Give the four corners of the facade with --corners, or another photo; "
+    "--rectified where it is seen from straight in front already."
+)
 
 
 @dataclass(frozen=True)

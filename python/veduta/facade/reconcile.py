@@ -163,9 +163,9 @@ def _with_rules(
         floors=floor_splits(len(split.sizes_m) - 1, facade.width_m, elements),
     )
     tree = derivation(rules, facade, elements)
-    if _agree(rules.model_dump(), document.rules.model_dump()) and _agree(
-        tree.model_dump(), document.derivation.model_dump()
-    ):
+    same_rules = _agree(rules.model_dump(), document.rules.model_dump())
+    same_tree = _agree(tree.model_dump(), document.derivation.model_dump())
+    if same_rules and same_tree and elements == document.elements:
         return document
     storeys = document.storeys
     if before.floors_m is None or storeys == len(before.floors_m):
