@@ -173,8 +173,11 @@ def test_scale_bases(options: ScaleOptions, basis: str, expected: float) -> None
 
 
 def test_a_size_that_no_facade_has() -> None:
+    with pytest.raises(ValueError, match="less than or equal to 1000"):
+        ScaleOptions(height_m=5000.0)
+    unchecked = ScaleOptions.model_construct(height_m=5000.0, storey_m=None)
     with pytest.raises(InputError, match="--height-m: makes the facade 5000 m high"):
-        _document(np.full(160, 20), Sides(0, 160, 300), ScaleOptions(height_m=5000.0))
+        _document(np.full(160, 20), Sides(0, 160, 300), unchecked)
 
 
 def test_what_was_given_comes_out() -> None:
