@@ -122,10 +122,10 @@ def _outdate(folder: OutFolder, before: dict[str, str | None]) -> None:
     """
     if folder.standing is not Standing.AMENDED:
         return
-    edited = folder.edited()
     for name, digest in before.items():
         document = f"{name}/{DOCUMENT}"
-        if digest != folder.record.files.get(document) and document not in edited:
+        changed = digest != folder.record.files.get(document)
+        if changed and document not in folder.edited(name):
             folder.record.key = f"amended {document}"
 
 

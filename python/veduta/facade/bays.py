@@ -11,6 +11,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.dissimilarity import at_offsets, of_pairs
 from veduta.facade.evidence import Float
 
 # Bays that must be in the picture: two windows mirrored about the middle are no rhythm.
@@ -49,9 +50,6 @@ def _unlike_at_offsets(channels: list[Float], step: int) -> NDArray[np.float64]:
     count = channels[0].shape[1] // step
     stacked = np.concatenate(channels)[:, : count * step]
     columns = stacked.reshape(len(stacked), count, step).mean(2).T
-    squares = (columns * columns).sum(1)
-    distance = squares[:, None] + squares[None] - 2 * columns @ columns.T
-    reach = int(_WIDEST * count)
-    unlike = np.array([float(np.diagonal(distance, k).mean()) for k in range(reach)])
+    unlike = at_offsets(of_pairs(columns), int(_WIDEST * count))
     far = unlike[int(0.04 * count) + 2 :]
     return unlike / max(float(np.median(far)), 1e-6) if len(far) else unlike[:0]

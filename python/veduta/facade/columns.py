@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.facade.appearance import Scores
+from veduta.facade.dissimilarity import of_pairs
 from veduta.facade.evidence import Evidence, blur_line, two_class_threshold
 
 # In storeys (3 m): stripes of 0.55 to 2.4 m, gaps of 0.25 to 7.5 m.
@@ -92,9 +93,7 @@ def _terms(
 
 def _distance(scores: Scores) -> NDArray[np.float32]:
     """Mean squared difference of any two pixel columns (w, w), 1 for two at random."""
-    columns = scores.window.T
-    squares = (columns * columns).sum(1)
-    distance = squares[:, None] + squares[None] - 2 * columns @ columns.T
+    distance = of_pairs(scores.window.T)
     return np.asarray(distance / max(float(distance.mean()), 1e-6), np.float32)
 
 

@@ -22,6 +22,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.facade.dissimilarity import at_offsets
 from veduta.facade.evidence import blur_line
 from veduta.facade.rows import Rows
 from veduta.run.errors import NotFoundError
@@ -94,7 +95,9 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     NotFoundError where no chain fits.
     """
     storeys = _storeys(rows)
-    scales = [_scale(s, rows) for s in storeys]
+    body = rows.distance[rows.ridge :, rows.ridge :]
+    unlike = at_offsets(body, len(body))
+    scales = [_scale(s, rows, unlike) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
         (found[0] * _trust(storeys[index], rows.bay), index, count)
@@ -190,7 +193,7 @@ def _is_mean(storey: int, boundaries: list[int]) -> bool:
     return abs(mean / storey - 1) <= _MEAN_OFF
 
 
-def _scale(storey: int, rows: Rows) -> Scale:
+def _scale(storey: int, rows: Rows, unlike: NDArray[np.float64]) -> Scale:
     """Heights, neutral dissimilarity and three costs (n + 1,) of a storey height, in grid rows."""
     heights = sorted({round(dm * storey / _MEAN_STOREY_DM) for dm in _HEIGHTS_DM})
     boundary = np.zeros(rows.count + 1)
@@ -204,12 +207,10 @@ def _scale(storey: int, rows: Rows) -> Scale:
     ground_fits = (ground >= _GROUND[0] * storey) & (ground <= _GROUND[1] * storey)
     eaves = np.where(roof_fits, -_EAVES * rows.count * parting, np.inf)
     ground_top = np.where(ground_fits, -_GROUND_TOP * rows.count * parting, np.inf)
-    return heights, _neutral(storey, rows), eaves, boundary, ground_top
+    return heights, _neutral(storey, unlike), eaves, boundary, ground_top
 
 
-def _neutral(storey: int, rows: Rows) -> float:
+def _neutral(storey: int, unlike: NDArray[np.float64]) -> float:
     """The dissimilarity of floors that are nothing alike: that of rows part of a storey apart."""
     offsets = range(max(1, int(0.4 * storey)), max(2, int(0.9 * storey)))
-    body = rows.distance[rows.ridge :, rows.ridge :]
-    known = [float(np.diagonal(body, k).mean()) for k in offsets if k < len(body)]
-    return _NEUTRAL * max(known, default=1.0)
+    return _NEUTRAL * max(map(float, unlike[offsets.start : offsets.stop]), default=1.0)

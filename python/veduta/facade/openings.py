@@ -100,8 +100,7 @@ def _labels(boxes: list[Box], shape: tuple[int, ...], top: int) -> NDArray[np.ui
     """0 wall, 1 window, 2 railing for each pixel of the floors."""
     labels = np.zeros(shape, np.uint8)
     for box in boxes:
-        rows = np.s_[box.y - top : box.y - top + box.height]
-        labels[rows, box.x : box.x + box.width] = 1 if box.kind == "window" else 2
+        labels[box.part(top)] = 1 if box.kind == "window" else 2
     return labels
 
 

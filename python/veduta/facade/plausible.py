@@ -15,7 +15,9 @@ from numpy.typing import NDArray
 
 from veduta.facade.appearance import Wall
 from veduta.facade.boxes import Box
+from veduta.facade.dissimilarity import at_offsets
 from veduta.facade.floors import MAX_FLOORS, Floors
+from veduta.facade.presence import REMEDY
 from veduta.facade.rows import Rows
 from veduta.run.errors import NotFoundError
 
@@ -35,14 +37,15 @@ _UNLIKE = 10.0
 _UNLIKE_OF_COPIES = 18.0
 _RATIO_OF_COPIES = 1.3
 
-_REMEDY = "Give a photo of one facade; where there is one, name its --corners."
-
 
 def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> None:
     """Raise NotFoundError where rows, floors or windows (`boxes`) are not those of a facade."""
-    reason = _pattern(rows, floors) or _no_windows(rows, floors, wall, boxes)
+    # Grid rows in a storey, and how unlike rows are that lie apart.
+    storey, unlike = floors.mean_storey / rows.step, _unlike_at_offsets(rows, floors)
+    copies = len(floors.boundaries) > 2 and _are_copies(unlike, storey)
+    reason = _pattern(floors, unlike, storey) or _no_windows(floors, wall, boxes, copies)
     if reason:
-        raise NotFoundError("a facade", reason, _REMEDY)
+        raise NotFoundError("a facade", reason, REMEDY)
 
 
 def storey_doubts(floors: Floors) -> list[str]:
@@ -57,11 +60,9 @@ def are_storeys_doubtful(energy: float) -> bool:
     return energy > _HARDLY_ALIKE
 
 
-def _pattern(rows: Rows, floors: Floors) -> str | None:
+def _pattern(floors: Floors, unlike: NDArray[np.float64], storey: float) -> str | None:
     if floors.energy > _NOTHING_ALIKE:
         return "no part of the picture is like the part below it, as storeys are"
-    storey = floors.mean_storey / rows.step
-    unlike = _unlike_at_offsets(rows, floors)
     first, last = (round(part * storey) for part in _WITHIN)
     within = [
         k
@@ -77,29 +78,24 @@ def _pattern(rows: Rows, floors: Floors) -> str | None:
     return None
 
 
-def _no_windows(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> str | None:
+def _no_windows(floors: Floors, wall: Wall, boxes: list[Box], copies: bool) -> str | None:
     mask = np.zeros(wall.unlike.shape, bool)
     for box in boxes:
         if box.kind == "window" and box.floor:
-            top = box.y - floors.eaves
-            mask[top : top + box.height, box.x : box.x + box.width] = True
+            mask[box.part(floors.eaves)] = True
     if not mask.any():
         return "it shows no window between the eaves and the ground floor"
     windows = float(np.median(wall.unlike[mask]))
     if windows < _UNLIKE:
         return "what could be windows has the colour of what is beside them"
-    if _are_copies(rows, floors):
+    if copies:
         rest = float(np.median(wall.unlike[~mask])) if not mask.all() else windows
         if windows < _UNLIKE_OF_COPIES or windows < _RATIO_OF_COPIES * rest:
             return "all rows are copies of one pattern, in which nothing stands out as a window"
     return None
 
 
-def _are_copies(rows: Rows, floors: Floors) -> bool:
-    if len(floors.boundaries) < 3:
-        return False
-    storey = floors.mean_storey / rows.step
-    unlike = _unlike_at_offsets(rows, floors)
+def _are_copies(unlike: NDArray[np.float64], storey: float) -> bool:
     about = unlike[int(0.85 * storey) : int(1.15 * storey) + 1]
     return len(about) > 0 and float(about.min()) < _COPIES
 
@@ -109,5 +105,4 @@ def _unlike_at_offsets(rows: Rows, floors: Floors) -> NDArray[np.float64]:
     part = slice(floors.eaves // rows.step, floors.ground_top // rows.step)
     body = rows.distance[part, part]
     # Few pairs are far apart: what they say is chance.
-    reach = max(1, round(0.85 * len(body)))
-    return np.array([float(np.diagonal(body, k).mean()) for k in range(reach)])
+    return at_offsets(body, max(1, round(0.85 * len(body))))

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.bays import bay_width
+from veduta.facade.dissimilarity import of_pairs
 from veduta.facade.evidence import Evidence, Float, blur
 from veduta.facade.extent import RowHistograms, Skyline
 
@@ -64,8 +65,7 @@ def gather_rows(evidence: Evidence, skyline: Skyline, histograms: RowHistograms)
         for channel, weight in zip(details, _CHANNELS, strict=True)
     ]
     stacked = np.concatenate(channels, axis=1)
-    squares = (stacked * stacked).sum(1)
-    distance = squares[:, None] + squares[None] - 2 * stacked @ stacked.T
+    distance = of_pairs(stacked)
     body = distance[ridge:, ridge:]
     apart = np.abs(np.subtract.outer(np.arange(len(body)), np.arange(len(body)))) > count / 25
     distance = np.asarray(distance / max(float(body[apart].mean()), 1e-6), np.float32)
