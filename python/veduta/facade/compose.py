@@ -23,7 +23,7 @@ from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.options import FacadeOptions
-from veduta.facade.plausible import storey_doubts
+from veduta.facade.plausible import STOREY_DOUBT, are_storeys_doubtful
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
@@ -78,7 +78,9 @@ def compose(
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
         notes.append(f"no sky: {parse.skyline.reason}")
-    notes += storey_doubts(parse.floors)
+    doubtful = are_storeys_doubtful(parse.floors)
+    if doubtful:
+        notes.append(STOREY_DOUBT)
     return FacadeDocument(
         source=source,
         rectification=record,
@@ -87,6 +89,7 @@ def compose(
         extents=_extents(parse, k, rows[0], facade, record),
         elements=elements,
         storeys=len(parse.floors.boundaries),
+        storeys_doubtful=doubtful,
         rules=rules,
         derivation=derivation(rules, facade, elements),
         energy=_energies(parse),

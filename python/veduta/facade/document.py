@@ -56,7 +56,7 @@ class Scale(_Record):
     """Metres per rectified pixel, the same in x and y."""
 
     metres_per_px: float
-    basis: Literal["height", "storey", "assumed-storey"]
+    basis: Literal["height", "storey", "assumed-storey", "edited"]
 
 
 class FacadeBox(_Record):
@@ -151,6 +151,9 @@ class FacadeDocument(_Record):
     extents: list[Extent] = Field(description="painted in order, before the elements")
     elements: list[Element] = Field(description="painted in order")
     storeys: int = Field(description="the ground floor and the full floors below the eaves")
+    storeys_doubtful: bool = Field(
+        default=False, description="whether the floors found are hardly like one another"
+    )
     rules: RuleParameters
     derivation: DerivationNode
     energy: dict[str, EnergyTerm]

@@ -25,6 +25,9 @@ RAILING_REACH_M = 0.4
 HIDDEN_M = 0.1
 # Share of a door's area in a shop from which it counts as the shop's own door.
 INSIDE_SHARE = 0.6
+# What the extents are made of; as elements they have no place of their own in a building.
+_SURROUNDINGS = {"wall", "roof", "sky", "other"}
+_PAINTED_ONLY = "elements of this class are painted into labels.png alone"
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,7 @@ def lay_out(document: FacadeDocument) -> Layout:
     shops = _shops(numbered, front)
     doors = _doors(numbered, front, shops)
     windows = _windows(numbered, front, shops, [balcony.rectangle for balcony in balconies])
+    front.notes += [left_out(e, n, _PAINTED_ONLY) for n, e in numbered if e.class_ in _SURROUNDINGS]
     roof = [(n, e) for n, e in numbered if _is_above(e, wall)]
     dormers = [Opening(rectangle_of(e), e, n) for n, e in roof if e.class_ == "window"]
     chimneys = [Opening(rectangle_of(e), e, n) for n, e in numbered if e.class_ == "chimney"]

@@ -35,6 +35,8 @@ MAX_FLOORS = 200
 MAX_COORDINATE = 1e6
 """No number of a document (px or m) is larger than this, by amount."""
 
+_ROOF_OF_FACADE = 10
+"""A roof is at most this many times as high as the facade below it."""
 _REMEDY = "Mend it there; docs/facade.md says what each field means."
 _SHOWN_FAULTS = 5
 
@@ -176,8 +178,12 @@ def _size_faults(document: FacadeDocument) -> list[str]:
         )
         if size > 0 and m > 0 and not is_possible(size * m)
     ]
-    if not 0.0 <= roof_m <= LARGEST_SIDE_M:
-        found.append(f"rules.roof_height_m: {roof_m:g} m, not between 0 and {LARGEST_SIDE_M:g} m")
+    highest_m = min(LARGEST_SIDE_M, _ROOF_OF_FACADE * document.facade.height_px * m)
+    if not 0.0 <= roof_m <= highest_m:
+        found.append(
+            f"rules.roof_height_m: {roof_m:g} m, not between 0 and {highest_m:g} m, which is"
+            f" {_ROOF_OF_FACADE} times the facade or {LARGEST_SIDE_M:g} m"
+        )
     return found
 
 

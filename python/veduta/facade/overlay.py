@@ -127,7 +127,8 @@ def _legend(draw: ImageDraw.ImageDraw, document: FacadeDocument, left: int) -> N
         counts[element.class_] += 1
     painted = {extent.class_ for extent in document.extents}
     box = document.facade
-    given = "given" if document.scale.basis != "assumed-storey" else "assumed"
+    basis = document.scale.basis
+    given = {"assumed-storey": "assumed", "edited": "as edited"}.get(basis, "given")
     y = 24
     for line in (f"{box.width_m:.1f} x {box.height_m:.1f} m", f"{document.storeys} storeys"):
         draw.text((left, y), line, INK, _font(24))

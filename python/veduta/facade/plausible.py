@@ -37,6 +37,8 @@ _UNLIKE = 10.0
 _UNLIKE_OF_COPIES = 18.0
 _RATIO_OF_COPIES = 1.3
 
+STOREY_DOUBT = "storeys: they are hardly alike, so check their number, or give --height-m"
+
 
 def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> None:
     """Raise NotFoundError where rows, floors or windows (`boxes`) are not those of a facade."""
@@ -48,16 +50,9 @@ def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> 
         raise NotFoundError("a facade", reason, REMEDY)
 
 
-def storey_doubts(floors: Floors) -> list[str]:
-    """What to tell of storeys that are hardly like one another."""
-    if not are_storeys_doubtful(floors.energy):
-        return []
-    return ["storeys: they are hardly alike, so check their number, or give --height-m"]
-
-
-def are_storeys_doubtful(energy: float) -> bool:
+def are_storeys_doubtful(floors: Floors) -> bool:
     """Whether the energy of the floors (per row) is one that mere parts of facades reach."""
-    return energy > _HARDLY_ALIKE
+    return floors.energy > _HARDLY_ALIKE
 
 
 def _pattern(floors: Floors, unlike: NDArray[np.float64], storey: float) -> str | None:

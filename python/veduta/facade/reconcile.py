@@ -23,6 +23,7 @@ from veduta.facade.document import (
     RuleParameters,
     Split,
 )
+from veduta.facade.edit_notes import Edits, told
 
 TOLERANCE = 0.01
 """Metres that differ from what the pixels say by no more than this are left alone."""
@@ -50,12 +51,19 @@ class _Before:
 def contradictions(document: FacadeDocument) -> list[str]:
     """Edits that cannot all be kept, each with its place in the file."""
     sizes, height = document.rules.facade.sizes_m, _height_m(document)
-    if _same_sizes(sizes, _before(document).floors_m) or _adds_up(sizes, height):
-        return []
-    return [
-        f"rules.facade.sizes_m: the floors are {sum(sizes):g} m high together, but the facade"
-        f" {height:g} m (facade.height_px x scale.metres_per_px)"
-    ]
+    found_m = _before(document).floors_m
+    found = []
+    if not (_same_sizes(sizes, found_m) or _adds_up(sizes, height)):
+        found.append(
+            f"rules.facade.sizes_m: the floors are {sum(sizes):g} m high together, but the facade"
+            f" {height:g} m (facade.height_px x scale.metres_per_px)"
+        )
+    if document.storeys not in {len(sizes), len(found_m or sizes)}:
+        found.append(
+            f"storeys: {document.storeys}, but rules.facade.sizes_m has {len(sizes)} floors;"
+            " write their heights there"
+        )
+    return found
 
 
 def reconciled(document: FacadeDocument) -> FacadeDocument:
@@ -64,7 +72,16 @@ def reconciled(document: FacadeDocument) -> FacadeDocument:
     A document that agrees already comes back as it is, to the last digit.
     """
     before = _before(document)
-    return _with_rules(_with_metres(document), document, before)
+    with_metres, moved = _with_metres(document)
+    done = _with_rules(with_metres, document, before)
+    scale = document.scale.metres_per_px
+    edits = Edits(
+        metres=tuple(moved),
+        rules=done is not with_metres,
+        floors=_are_floors_edited(done, document, before),
+        scale=before.metres_per_px != scale,
+    )
+    return told(done, edits)
 
 
 def _before(document: FacadeDocument) -> _Before:
@@ -115,8 +132,8 @@ def _agree(one: JsonValue, other: JsonValue) -> bool:
     return one == other
 
 
-def _with_metres(document: FacadeDocument) -> FacadeDocument:
-    """The document with all metres as the pixels and the scale say, and a note where they moved."""
+def _with_metres(document: FacadeDocument) -> tuple[FacadeDocument, list[str]]:
+    """The document with all metres as the pixels and the scale say, and the names of what moved."""
     scale, box = document.scale.metres_per_px, document.facade
     moved: list[str] = []
 
@@ -143,11 +160,7 @@ def _with_metres(document: FacadeDocument) -> FacadeDocument:
             "height_m": agreed(name, item.height_m, item.height_px),
         }
         elements.append(item.model_copy(update=metres))
-    notes = list(document.notes)
-    if moved:
-        which = ", ".join(dict.fromkeys(moved))
-        notes.append(f"metres made anew from edited pixels: {which}")
-    return document.model_copy(update={"facade": facade, "elements": elements, "notes": notes})
+    return document.model_copy(update={"facade": facade, "elements": elements}), moved
 
 
 def _with_rules(
@@ -167,12 +180,16 @@ def _with_rules(
     same_tree = _agree(tree.model_dump(), document.derivation.model_dump())
     if same_rules and same_tree and elements == document.elements:
         return document
-    storeys = document.storeys
-    if before.floors_m is None or storeys == len(before.floors_m):
-        storeys = len(split.sizes_m)
-    note = "rules and derivation made anew from what was edited"
-    update = {"elements": elements, "rules": rules, "derivation": tree, "storeys": storeys}
-    return document.model_copy(update=update | {"notes": [*document.notes, note]})
+    update = {"elements": elements, "rules": rules, "derivation": tree}
+    return document.model_copy(update=update | {"storeys": len(split.sizes_m)})
+
+
+def _are_floors_edited(done: FacadeDocument, written: FacadeDocument, before: _Before) -> bool:
+    """Whether the floors are others than were found: not by the scale alone."""
+    if before.floors_m is None:
+        return False
+    sizes = _scaled(before.floors_m, written, before)
+    return not _same_sizes(done.rules.facade.sizes_m, sizes)
 
 
 def _with_floors(

@@ -19,7 +19,6 @@ from veduta.facade.document import SURE_SCORE, Element, FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
-from veduta.facade.plausible import are_storeys_doubtful
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.options import Options
@@ -41,6 +40,7 @@ _BASIS = {
     "height": "from the height given",
     "storey": "from the storey given",
     "assumed-storey": "assumed",
+    "edited": "as edited",
 }
 WHOLE_WIDTH = 99.5
 """Per cent of the picture's width from which nothing worth a word was cut off beside it."""
@@ -132,7 +132,7 @@ def measures(document: FacadeDocument) -> dict[str, Any]:
     doubtful = Counter(element.class_ for element in document.elements if _is_doubtful(element))
     return {
         "storeys": document.storeys,
-        "storeys_doubtful": _are_storeys_doubtful(document),
+        "storeys_doubtful": document.storeys_doubtful,
         "windows": found["window"],
         "elements": dict(sorted(found.items())),
         "doubtful_windows": doubtful["window"],
@@ -180,11 +180,6 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
 def _is_doubtful(element: Element) -> bool:
     """Whether the photo speaks rather against it. What a person adds is not in doubt."""
     return element.score < SURE_SCORE
-
-
-def _are_storeys_doubtful(document: FacadeDocument) -> bool:
-    floors = document.energy.get("floors")
-    return floors is not None and are_storeys_doubtful(floors.total)
 
 
 def _in_doubt(count: int) -> str:

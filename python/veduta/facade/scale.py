@@ -7,6 +7,7 @@ from veduta.facade.options import ScaleOptions
 from veduta.run.errors import InputError, NotFoundError
 
 ASSUMED_STOREY_M = 3.0
+ASSUMED_STOREY = f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m"
 SMALLEST_SIDE_M, LARGEST_SIDE_M = 0.5, 1000.0
 """What a building may measure, and single precision bear."""
 
@@ -37,7 +38,7 @@ def scale_notes(scale: Scale, options: ScaleOptions) -> list[str]:
     if options.height_m is not None and options.storey_m is not None:
         notes.append("scale: --height-m decides; --storey-m beside it is not used")
     if scale.basis == "assumed-storey":
-        notes.append(f"scale: the mean storey is assumed to be {ASSUMED_STOREY_M} m")
+        notes.append(ASSUMED_STOREY)
     return notes
 
 

@@ -55,6 +55,7 @@ def test_points_are_counted_over_all_extents(make_document: Make, tmp_path: Path
         (("facade", "height_px"), 30_000.0, "facade.height_px: 30000 px of 0.05 m"),
         (("rules", "roof_height_m"), -1.0, "rules.roof_height_m: -1 m"),
         (("rules", "roof_height_m"), 1001.0, "rules.roof_height_m: 1001 m"),
+        (("rules", "roof_height_m"), 75.2, "rules.roof_height_m: 75.2 m, not between 0 and 75 m"),
     ],
 )
 def test_sizes_that_no_building_has(

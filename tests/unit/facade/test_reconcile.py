@@ -101,7 +101,8 @@ def test_a_wider_window(found: FacadeDocument) -> None:
     assert done.rules.facade == found.rules.facade
     assert done.notes == [
         *found.notes,
-        f"metres made anew from edited pixels: window (elements[{index_of(found, window)}])",
+        "pixels and metres differed, and the pixels decided:"
+        f" window (elements[{index_of(found, window)}])",
         NOTE,
     ]
 
@@ -235,6 +236,7 @@ def test_a_floor_is_parted_in_two(found: FacadeDocument) -> None:
 
     done = after(found, part)
     assert done.storeys == found.storeys + 1
+    assert not done.storeys_doubtful
     assert window_sizes(done, 2) == []
     for floor in (2, 3, 4):
         assert window_sizes(done, floor + 1) == pytest.approx(window_sizes(found, floor))
@@ -250,6 +252,14 @@ def test_floors_that_do_not_add_up_are_refused(found: FacadeDocument, tmp_path: 
         load_document(path)
 
 
+def test_storeys_that_the_floors_are_not_are_refused(found: FacadeDocument, tmp_path: Path) -> None:
+    path = tmp_path / "facade.json"
+    wrong = edited(found, lambda content: content.update(storeys=found.storeys + 1))
+    path.write_text(wrong.model_dump_json(by_alias=True))
+    with pytest.raises(InputError, match=r"storeys: 6, but rules\.facade\.sizes_m has 5 floors"):
+        load_document(path)
+
+
 def test_the_scale_scales_everything(found: FacadeDocument) -> None:
     def double(content: Any) -> None:
         content["scale"]["metres_per_px"] *= 2
@@ -260,6 +270,7 @@ def test_the_scale_scales_everything(found: FacadeDocument) -> None:
     assert done.rules.facade.sizes_m == pytest.approx(twice)
     assert window_sizes(done, 1) == pytest.approx([2 * size for size in window_sizes(found, 1)])
     assert [e.floor for e in done.elements] == [e.floor for e in found.elements]
+    assert (found.scale.basis, done.scale.basis) == ("assumed-storey", "edited")
 
 
 def test_a_roof_that_was_edited_is_not_scaled(found: FacadeDocument) -> None:

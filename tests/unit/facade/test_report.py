@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from sample_document import FACADE_M, METRES_PER_PX, PHOTO_PX, sample_document
 
-from veduta.facade.document import EnergyTerm
 from veduta.facade.report import adjusted_line, measures, summary_line
 
 
@@ -38,7 +37,7 @@ def test_doubt_is_told() -> None:
 
 def test_doubtful_storeys_are_told() -> None:
     document = sample_document()
-    document.energy["floors"] = EnergyTerm(total=-0.1, terms={}, nodes=4, labels=10)
+    document.storeys_doubtful = True
     assert summary_line(measures(document)).startswith("5 storeys (doubtful), ")
 
 

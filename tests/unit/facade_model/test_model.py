@@ -180,13 +180,14 @@ def test_every_element_that_has_no_room_is_named() -> None:
         element("balcony", 20.0, 6.0, 1.0, 1.0),  # beside the facade
         element("window", 4.0, 15.6, 1.0, 1.5),  # on a roof that is flat
         element("chimney", 2.0, 3.0, 1.0, 1.0),  # below the eaves
+        element("wall", 6.0, 6.0, 1.0, 1.0),  # no part of a model by itself
     ]
     document = sample_document(elements=elements, roof_m=0.0)
     part = build_part(document, sample_photo(document), "x")
-    named = [f"{elements[n].class_} (elements[{n}]): left out, " for n in (5, 1, 2, 4, 6, 7)]
+    named = [f"{elements[n].class_} (elements[{n}]): left out, " for n in (5, 1, 2, 4, 6, 7, 8)]
     assert len(part.notes) == len(named)
     assert all(sum(start in note for note in part.notes) == 1 for start in named)
-    assert count_adjusted(part.notes) == {"left_out": 6, "clipped": 0}
+    assert count_adjusted(part.notes) == {"left_out": 7, "clipped": 0}
     kinds = [part.features.semantic(row).value for row in range(len(part.features))]
     assert (kinds.count("door"), kinds.count("window")) == (1, 1)
     assert kinds.count("balcony") == kinds.count("chimney") == 0
