@@ -110,7 +110,11 @@ def test_a_rebuild_keeps_the_sizes_of_the_run_that_made_it(tmp_path: Path, photo
     assert read_json(document)["model"] == {"depth_m": 7.0, "setback_m": 0.35}
     assert veduta("facade", document, "-o", new).returncode == 0
     assert tree(new / "house0") == tree(out / "house0")
+    assert read_json(new / "report.json")["options"] == {}
     assert veduta("facade", document, "-o", other, "--depth-m", 8).returncode == 0
+    call = read_json(other / "report.json")
+    assert call["options"] == {"depth_m": 8.0}
+    assert call["notes"] == ["rebuilt from facade.json: house0"]
     rebuilt = read_json(other / "house0" / "facade.json")
     assert rebuilt["model"] == {"depth_m": 8.0, "setback_m": 0.35}
     report = read_json(other / "house0" / "report.json")

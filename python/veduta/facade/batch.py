@@ -281,7 +281,12 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
     notes = [f"{name}/ is left from an earlier call" for name in result.left]
     notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     failures = list(result.failures.values())
-    report, page = call_report(folder.path, options, result.summaries, failures, notes)
+    effective = options.model_dump(mode="json")
+    if result.kind == "document":
+        # What is not given here is as each document has it: its own report says what that is.
+        effective = options.model.model_dump(mode="json", exclude_none=True)
+        notes.insert(0, f"rebuilt from facade.json: {', '.join(result.asked)}")
+    report, page = call_report(folder.path, effective, result.summaries, failures, notes)
     with writing_to(folder.path):
         if placed:
             write_place(arrange(placed), work / "place.json")

@@ -89,18 +89,21 @@ def failure_report(
 
 def call_report(
     out: Path,
-    options: Options,
+    options: dict[str, Any],
     summaries: Mapping[str, Mapping[str, JsonValue]],
     failures: Sequence[Failure],
     notes: list[str],
 ) -> tuple[Report, bytes]:
-    """The report of a call: a line for each image that is done, by its name; then the failures."""
+    """The report of a call: a line for each image that is done, by its name; then the failures.
+
+    `options` are those that the call's images share.
+    """
     total = len(summaries) + len(failures)
     report = Report(
         verb="facade",
         subject="call",
         state="done" if summaries else "failed",
-        options=options.model_dump(mode="json"),
+        options=options,
         measures={"images": total, "done": len(summaries), "results": dict(summaries)},
         notes=notes,
         failures=list(failures),
