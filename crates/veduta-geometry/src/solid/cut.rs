@@ -1,0 +1,280 @@
+//! A mesh to the two sides of a plane across an axis, exactly along shared points.
+//!
+//! Points within the tolerance of the plane count as above it, as if the plane were a hair lower;
+//! they are used as they are, so nothing is cut twice and no sliver appears. What is cut through
+//! gets its points once per edge, so both faces at that edge share them and solids stay closed.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::loops::close_in_plane;
+use super::mesh::{Face, Mesh};
+
+/// What lies below and above the plane.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Sides {
+    pub below: Piece,
+    pub above: Piece,
+}
+
+/// One side of a cut, with the face of the original that each face is a part of; None for a cap.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Piece {
+    pub mesh: Mesh,
+    pub sources: Vec<Option<u32>>,
+}
+
+/// Cuts `mesh` where the coordinate `axis` (0, 1, 2) is `at`; `tolerance` is in its unit.
+///
+/// With `solid`, the mesh is closed, and so are both sides: each cut surface gets a cap.
+pub fn cut(mesh: &Mesh, axis: usize, at: f64, tolerance: f64, solid: bool) -> Sides {
+    let mut cutter = Cutter::new(mesh, axis, at, tolerance);
+    let mut sides = [Builder::default(), Builder::default()];
+    for face in mesh.faces() {
+        cutter.cut_face(face, &mut sides, solid);
+    }
+    let [below, above] = sides;
+    Sides {
+        below: below.finish(&cutter, solid, 1.0),
+        above: above.finish(&cutter, solid, -1.0),
+    }
+}
+
+const BELOW: usize = 0;
+const ABOVE: usize = 1;
+
+struct Cutter {
+    axis: usize,
+    /// How far each point lies above the plane; 0 on it.
+    height: Vec<f64>,
+    /// All points, those of the cuts after those of the mesh.
+    points: Vec<DVec3>,
+    on_edge: HashMap<(u32, u32), u32>,
+}
+
+/// The faces of one side, in point numbers of the cutter.
+#[derive(Default)]
+struct Builder {
+    faces: Vec<(Vec<Vec<u32>>, u32)>,
+}
+
+/// A part of a ring on one side: it begins and ends on the plane.
+struct Chain {
+    points: Vec<u32>,
+}
+
+impl Cutter {
+    fn new(mesh: &Mesh, axis: usize, at: f64, tolerance: f64) -> Self {
+        let height = |p: &DVec3| {
+            let above = p[axis] - at;
+            if above.abs() <= tolerance {
+                0.0
+            } else {
+                above
+            }
+        };
+        Self {
+            axis,
+            height: mesh.points.iter().map(height).collect(),
+            points: mesh.points.clone(),
+            on_edge: HashMap::new(),
+        }
+    }
+
+    fn side(&self, point: u32) -> usize {
+        usize::from(self.height[point as usize] >= 0.0)
+    }
+
+    fn cut_face(&mut self, face: Face<'_>, sides: &mut [Builder; 2], solid: bool) {
+        let source = face.index() as u32;
+        let on_plane = face
+            .rings()
+            .flatten()
+            .all(|&p| self.height[p as usize] == 0.0);
+        if on_plane && solid {
+            return; // the caps are there instead
+        }
+        let mut whole: [Vec<Vec<u32>>; 2] = Default::default();
+        let mut chains: [Vec<Chain>; 2] = Default::default();
+        for ring in face.rings() {
+            self.cut_ring(ring, &mut whole, &mut chains);
+        }
+        for side in [BELOW, ABOVE] {
+            let parts = std::mem::take(&mut chains[side]);
+            let mut rings = self.joined(parts, face, side);
+            rings.append(&mut whole[side]);
+            for rings in self.nested(rings, face) {
+                sides[side].faces.push((rings, source));
+            }
+        }
+    }
+
+    /// A ring goes whole to its side, or in chains to both.
+    fn cut_ring(
+        &mut self,
+        ring: &[u32],
+        whole: &mut [Vec<Vec<u32>>; 2],
+        chains: &mut [Vec<Chain>; 2],
+    ) {
+        let count = ring.len();
+        let crossing = (0..count).find(|&k| self.side(ring[k]) != self.side(ring[(k + 1) % count]));
+        let Some(first) = crossing else {
+            whole[self.side(ring[0])].push(ring.to_vec());
+            return;
+        };
+        let mut at = self.crossing(ring[first], ring[(first + 1) % count]);
+        let mut points = vec![at];
+        for step in 1..=count {
+            let (here, next) = (
+                ring[(first + step) % count],
+                ring[(first + step + 1) % count],
+            );
+            push_new(&mut points, here);
+            if self.side(here) != self.side(next) {
+                at = self.crossing(here, next);
+                push_new(&mut points, at);
+                let done = std::mem::replace(&mut points, vec![at]);
+                chains[self.side(here)].push(Chain { points: done });
+            }
+        }
+    }
+
+    /// The point where an edge meets the plane: an end of it that lies there, or a new one.
+    fn crossing(&mut self, from: u32, to: u32) -> u32 {
+        let (a, b) = (self.height[from as usize], self.height[to as usize]);
+        if a == 0.0 {
+            return from;
+        }
+        if b == 0.0 {
+            return to;
+        }
+        let key = (from.min(to), from.max(to));
+        if let Some(&known) = self.on_edge.get(&key) {
+            return known;
+        }
+        let (low, high) = (self.points[key.0 as usize], self.points[key.1 as usize]);
+        let (h0, h1) = (self.height[key.0 as usize], self.height[key.1 as usize]);
+        let mut point = low + (high - low) * (h0 / (h0 - h1));
+        point[self.axis] = low[self.axis] - h0;
+        let number = self.points.len() as u32;
+        self.points.push(point);
+        self.height.push(0.0);
+        self.on_edge.insert(key, number);
+        number
+    }
+
+    /// Chains to rings: on the plane, an end is followed by the next beginning along the line.
+    ///
+    /// With the inside of the face on the left, ends and beginnings alternate along the line in
+    /// which the plane cuts the face; those at one place are taken in the order that alternates.
+    fn joined(&self, chains: Vec<Chain>, face: Face<'_>, side: usize) -> Vec<Vec<u32>> {
+        if chains.is_empty() {
+            return Vec::new();
+        }
+        let mut up = DVec3::ZERO;
+        up[self.axis] = if side == BELOW { 1.0 } else { -1.0 };
+        let along = up.cross(face.normal());
+        let place = |point: u32| self.points[point as usize].dot(along);
+        let mut stops: Vec<(f64, bool, usize)> = Vec::with_capacity(2 * chains.len());
+        for (index, chain) in chains.iter().enumerate() {
+            stops.push((place(chain.points[0]), true, index));
+            stops.push((place(chain.points[chain.points.len() - 1]), false, index));
+        }
+        stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let followers = alternating(stops, chains.len());
+        rings_of(chains, &followers)
+    }
+
+    /// Rings to faces: each hole into the outline around it.
+    fn nested(&self, rings: Vec<Vec<u32>>, face: Face<'_>) -> Vec<Vec<Vec<u32>>> {
+        if rings.len() <= 1 {
+            return rings.into_iter().map(|ring| vec![ring]).collect();
+        }
+        super::loops::nested(&self.points, rings, face.normal())
+    }
+}
+
+/// The chain that follows each chain, from the stops (place, whether a beginning, chain) in order.
+fn alternating(mut stops: Vec<(f64, bool, usize)>, count: usize) -> Vec<usize> {
+    let mut followers: Vec<usize> = (0..count).collect();
+    let mut k = 0;
+    while k + 1 < stops.len() {
+        for (offset, wanted) in [(0, false), (1, true)] {
+            let here = k + offset;
+            if stops[here].1 != wanted {
+                let swap = (here + 1..stops.len()).find(|&other| stops[other].1 == wanted);
+                if let Some(other) = swap {
+                    stops.swap(here, other);
+                }
+            }
+        }
+        followers[stops[k].2] = stops[k + 1].2;
+        k += 2;
+    }
+    followers
+}
+
+fn rings_of(chains: Vec<Chain>, followers: &[usize]) -> Vec<Vec<u32>> {
+    let mut used = vec![false; chains.len()];
+    let mut rings = Vec::new();
+    for start in 0..chains.len() {
+        let mut ring: Vec<u32> = Vec::new();
+        let mut at = start;
+        while !used[at] {
+            used[at] = true;
+            for &point in &chains[at].points {
+                push_new(&mut ring, point);
+            }
+            at = followers[at];
+        }
+        while ring.len() > 1 && ring.first() == ring.last() {
+            ring.pop();
+        }
+        if ring.len() >= 3 {
+            rings.push(ring);
+        }
+    }
+    rings
+}
+
+fn push_new(points: &mut Vec<u32>, point: u32) {
+    if points.last() != Some(&point) {
+        points.push(point);
+    }
+}
+
+impl Builder {
+    /// The faces with their points numbered anew; `outward` is the sign of a cap's normal.
+    fn finish(mut self, cutter: &Cutter, solid: bool, outward: f64) -> Piece {
+        let caps = if solid {
+            let edges = self.faces.iter().flat_map(|(rings, _)| rings);
+            let flat = |p: u32| cutter.height[p as usize] == 0.0;
+            let mut normal = DVec3::ZERO;
+            normal[cutter.axis] = outward;
+            close_in_plane(&cutter.points, edges, flat, normal)
+        } else {
+            Vec::new()
+        };
+        let parts = self.faces.len();
+        self.faces.extend(caps.into_iter().map(|rings| (rings, 0)));
+        let mut numbers: HashMap<u32, u32> = HashMap::new();
+        let mut piece = Piece::default();
+        for (index, (rings, source)) in self.faces.iter().enumerate() {
+            let renumbered: Vec<Vec<u32>> = rings
+                .iter()
+                .map(|ring| {
+                    let number = |&p: &u32| {
+                        *numbers
+                            .entry(p)
+                            .or_insert_with(|| piece.mesh.push_point(cutter.points[p as usize]))
+                    };
+                    ring.iter().map(number).collect()
+                })
+                .collect();
+            piece.mesh.push_face(&renumbered);
+            piece.sources.push((index < parts).then_some(*source));
+        }
+        piece
+    }
+}

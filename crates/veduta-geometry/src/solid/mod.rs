@@ -1,0 +1,12 @@
+//! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
+
+mod cut;
+mod extrude;
+mod loops;
+mod mesh;
+mod primitives;
+
+pub use cut::{cut, Piece, Sides};
+pub use extrude::extrude;
+pub use mesh::{Face, Mesh};
+pub use primitives::{cube, quad};
