@@ -1,0 +1,128 @@
+//! The geometric side of a shape: its scope, and what fills it.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use veduta_geometry::solid::{self, Mesh};
+
+use super::scope::{over, Scope};
+
+/// How far points may lie apart and still be one, as a share of the scope's size.
+pub const TOLERANCE: f64 = 1e-9;
+
+/// What a shape consists of, in shares of its scope's size: from 0 to 1 along each axis.
+///
+/// Most shapes of a building are rectangles and boxes that fill their scopes; they have no points
+/// of their own.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Geometry {
+    /// Nothing to see: a scope alone.
+    Nothing,
+    /// The rectangle that fills a flat scope; its normal is the axis (0, 1, 2) without extent.
+    Rectangle(usize),
+    /// The closed box that fills the scope.
+    Box,
+    /// Faces with holes; `solid` where they are closed.
+    Faces { mesh: Arc<Mesh>, solid: bool },
+}
+
+/// A scope with its geometry.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Form {
+    pub scope: Scope,
+    pub geometry: Geometry,
+}
+
+impl Form {
+    /// Faces in the world, in the smallest box along `axes` that holds them.
+    pub fn around(mesh: Mesh, axes: glam::DMat3, solid: bool) -> Self {
+        let local = axes.transpose();
+        let mesh = mesh.mapped(|point| local * point);
+        let (low, high) = mesh.bounds().unwrap_or_default();
+        let scope = Scope {
+            origin: axes * low,
+            axes,
+            size: without_dust(high - low),
+        };
+        let unit = mesh.mapped(|point| over(point - low, scope.size));
+        Self {
+            scope,
+            geometry: Geometry::of(unit, solid),
+        }
+    }
+
+    /// The faces in the world, in metres.
+    pub fn world_mesh(&self) -> Mesh {
+        self.geometry.mesh().mapped(|unit| self.scope.world(unit))
+    }
+
+    /// The same geometry in the smallest box along the same axes that holds it.
+    pub fn fitted(self) -> Self {
+        match self.geometry {
+            Geometry::Faces { solid, .. } => {
+                Self::around(self.world_mesh(), self.scope.axes, solid)
+            }
+            _ => self,
+        }
+    }
+}
+
+impl Geometry {
+    /// Faces in shares of a scope; a rectangle that fills it is told as such.
+    pub fn of(mesh: Mesh, solid: bool) -> Self {
+        if mesh.is_empty() {
+            return Self::Nothing;
+        }
+        if let Some(axis) = filled_axis(&mesh) {
+            return Self::Rectangle(axis);
+        }
+        Self::Faces {
+            mesh: Arc::new(mesh),
+            solid,
+        }
+    }
+
+    /// Whether the surface is closed.
+    pub fn is_solid(&self) -> bool {
+        matches!(self, Self::Box | Self::Faces { solid: true, .. })
+    }
+
+    /// The faces in shares of the scope.
+    pub fn mesh(&self) -> Mesh {
+        match self {
+            Self::Nothing => Mesh::new(),
+            Self::Rectangle(axis) => Mesh::polygon(&[rectangle(*axis)]),
+            Self::Box => solid::cube(),
+            Self::Faces { mesh, .. } => Mesh::clone(mesh),
+        }
+    }
+}
+
+/// The corners of the unit square across an axis, counter-clockwise around it.
+pub fn rectangle(axis: usize) -> [DVec3; 4] {
+    let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| {
+        let mut corner = DVec3::ZERO;
+        corner[u] = a;
+        corner[v] = b;
+        corner
+    })
+}
+
+/// The axis of the rectangle that a mesh is, if it is one that fills its scope.
+fn filled_axis(mesh: &Mesh) -> Option<usize> {
+    if mesh.face_count() != 1 || mesh.corner_count() != 4 {
+        return None;
+    }
+    let corners: Vec<DVec3> = mesh.face(0).points().collect();
+    (0..3).find(|&axis| {
+        let wanted = rectangle(axis);
+        (0..4).any(|turn| (0..4).all(|k| corners[(k + turn) % 4].abs_diff_eq(wanted[k], TOLERANCE)))
+    })
+}
+
+/// Sizes that are rounding alone are none.
+fn without_dust(size: DVec3) -> DVec3 {
+    let dust = size.max_element() * TOLERANCE;
+    DVec3::from_array(size.to_array().map(|s| if s <= dust { 0.0 } else { s }))
+}

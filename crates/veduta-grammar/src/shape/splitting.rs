@@ -1,0 +1,77 @@
+//! A shape to parts along one axis of its scope.
+
+use glam::DVec3;
+use veduta_geometry::solid::{cut, Mesh};
+
+use super::form::{Form, Geometry, TOLERANCE};
+use super::scope::{over, Scope};
+use super::sizes::Cell;
+
+/// The part of a shape in each cell along `axis`; a cell without geometry gives none.
+///
+/// Closed shapes give closed parts. With `adjust` the scope of each part is fitted to its
+/// geometry; otherwise it is the cell, so that the scopes fill that of the whole.
+pub fn split(form: &Form, axis: usize, cells: &[Cell], adjust: bool) -> Vec<(Cell, Form)> {
+    match &form.geometry {
+        Geometry::Faces { mesh, solid } => split_faces(&form.scope, mesh, *solid, axis, cells)
+            .into_iter()
+            .map(|(cell, part)| (cell, if adjust { part.fitted() } else { part }))
+            .collect(),
+        Geometry::Rectangle(normal) if *normal == axis => Vec::new(),
+        plain => cells
+            .iter()
+            .map(|&cell| {
+                let part = Form {
+                    scope: form.scope.part(axis, cell.start, cell.length),
+                    geometry: plain.clone(),
+                };
+                (cell, part)
+            })
+            .collect(),
+    }
+}
+
+fn split_faces(
+    scope: &Scope,
+    mesh: &Mesh,
+    solid: bool,
+    axis: usize,
+    cells: &[Cell],
+) -> Vec<(Cell, Form)> {
+    let size = scope.size[axis];
+    if size <= 0.0 {
+        return Vec::new();
+    }
+    let mut rest = mesh.clone();
+    let mut parts = Vec::with_capacity(cells.len());
+    for &cell in cells {
+        let end = (cell.start + cell.length) / size;
+        let piece = if end < 1.0 - TOLERANCE {
+            let sides = cut(&rest, axis, end, TOLERANCE, solid);
+            rest = sides.above.mesh;
+            sides.below.mesh
+        } else {
+            std::mem::take(&mut rest)
+        };
+        if !piece.is_empty() {
+            parts.push((cell, part_of(scope, piece, solid, axis, cell)));
+        }
+    }
+    parts
+}
+
+/// A piece in shares of the whole's scope, in shares of its own.
+fn part_of(scope: &Scope, piece: Mesh, solid: bool, axis: usize, cell: Cell) -> Form {
+    let part = scope.part(axis, cell.start, cell.length);
+    let mut offset = DVec3::ZERO;
+    offset[axis] = cell.start;
+    let own = piece.mapped(|unit| {
+        let mut point = over(unit * scope.size - offset, part.size);
+        point[axis] = point[axis].clamp(0.0, 1.0);
+        point
+    });
+    Form {
+        scope: part,
+        geometry: Geometry::of(own, solid),
+    }
+}
