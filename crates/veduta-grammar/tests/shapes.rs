@@ -1,5 +1,7 @@
 //! Shapes: split sizes against hand-worked truth, parts against what they came from.
 
+#![allow(clippy::unwrap_used)] // helpers of tests
+
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use veduta_geometry::solid::{extrude, Mesh};
