@@ -1,0 +1,348 @@
+//! Expressions to values, for the current shape.
+
+use std::sync::Arc;
+
+use crate::ast::{BinaryOp, UnaryOp};
+
+use super::fault::Fault;
+use super::program::{Choice, Expr, ExprKind};
+use super::random::Stream;
+use super::run::Run;
+use super::state::State;
+use super::value::{Array, Value};
+
+/// The most elements of an array, and of a string in bytes.
+const MAX_ELEMENTS: usize = 100_000;
+/// How deep functions may call one another.
+const MAX_CALLS: usize = 200;
+
+/// Where an expression is evaluated: the values in the rule's slots, the shape, its random
+/// numbers.
+pub struct Scene<'a> {
+    pub slots: &'a mut Vec<Value>,
+    pub state: &'a State,
+    pub stream: &'a mut Stream,
+    pub log_prior: &'a mut f64,
+}
+
+impl Run<'_> {
+    /// The value of an expression.
+    pub fn value(&mut self, expr: &Expr, scene: &mut Scene<'_>) -> Result<Value, Fault> {
+        match &expr.kind {
+            ExprKind::Number(number) => Ok(Value::Number(*number)),
+            ExprKind::Bool(is) => Ok(Value::Bool(*is)),
+            ExprKind::Text(text) => Ok(Value::Text(text.clone())),
+            ExprKind::Slot(slot) => Ok(scene.slots[*slot].clone()),
+            ExprKind::Global(global) => self.global(*global, scene.state),
+            ExprKind::Attribute(attribute) => Ok(attribute.of(scene.state)),
+            ExprKind::Call { function, args } => self.called(*function, args, expr, scene),
+            ExprKind::Builtin { function, args } => {
+                let values = self.values(args, scene)?;
+                function
+                    .call(&values, || scene.stream.next())
+                    .map_err(|message| Fault::at(expr.span, message))
+            }
+            ExprKind::Unary { op, operand } => {
+                let value = self.value(operand, scene)?;
+                unary(*op, value).map_err(|message| Fault::at(expr.span, message))
+            }
+            ExprKind::Binary { op, left, right } => self.binary(*op, left, right, expr, scene),
+            ExprKind::Array(rows) => self.array(rows, expr, scene),
+            ExprKind::Range { .. } => self.array(std::slice::from_ref(&vec![expr.clone()]), expr, scene),
+            ExprKind::Index { array, indices } => self.element(array, indices, expr, scene),
+            ExprKind::Choice(choice) => {
+                let taken = self.choose(choice, scene)?;
+                match taken {
+                    Some(index) => self.value(alternative(choice, index), scene),
+                    None => Err(Fault::at(expr.span, "no case holds, and there is no else")),
+                }
+            }
+        }
+    }
+
+    /// The value of an expression as a number.
+    pub fn number(&mut self, expr: &Expr, scene: &mut Scene<'_>) -> Result<f64, Fault> {
+        if let ExprKind::Number(number) = expr.kind {
+            return Ok(number);
+        }
+        let value = self.value(expr, scene)?;
+        let number = value.number();
+        number.ok_or_else(|| Fault::at(expr.span, format!("a number is needed, not {}", value.kind())))
+    }
+
+    pub fn values(&mut self, args: &[Expr], scene: &mut Scene<'_>) -> Result<Vec<Value>, Fault> {
+        args.iter().map(|arg| self.value(arg, scene)).collect()
+    }
+
+    /// Which alternative is taken: its number; that of `else` is the number of branches. None
+    /// where no condition holds and there is no `else`.
+    pub fn choose<T>(
+        &mut self,
+        choice: &Choice<T>,
+        scene: &mut Scene<'_>,
+    ) -> Result<Option<usize>, Fault> {
+        if choice.by_chance {
+            return self.drawn(choice, scene).map(Some);
+        }
+        for (index, (test, _)) in choice.branches.iter().enumerate() {
+            let value = self.value(test, scene)?;
+            let holds = value.truth();
+            let needed = || Fault::at(test.span, format!("a condition is needed, not {}", value.kind()));
+            if holds.ok_or_else(needed)? {
+                return Ok(Some(index));
+            }
+        }
+        Ok(choice.otherwise.as_ref().map(|_| choice.branches.len()))
+    }
+
+    /// An alternative at random. Where there is no `else`, the chances are taken in proportion.
+    fn drawn<T>(&mut self, choice: &Choice<T>, scene: &mut Scene<'_>) -> Result<usize, Fault> {
+        let mut chances = Vec::with_capacity(choice.branches.len() + 1);
+        for (test, _) in &choice.branches {
+            chances.push(self.number(test, scene)?.max(0.0) / 100.0);
+        }
+        let given: f64 = chances.iter().sum();
+        if choice.otherwise.is_some() {
+            chances.push((1.0 - given).max(0.0));
+        }
+        let sum: f64 = chances.iter().sum();
+        if !(sum > 0.0 && sum.is_finite()) {
+            return Err(Fault::at(choice.span, "the chances are all zero"));
+        }
+        let taken = self.forced_choice(chances.len()).unwrap_or_else(|| {
+            let mut rest = scene.stream.next() * sum;
+            let last = chances.iter().rposition(|&chance| chance > 0.0).unwrap_or(0);
+            let found = chances.iter().position(|&chance| {
+                rest -= chance;
+                rest < 0.0
+            });
+            found.unwrap_or(last)
+        });
+        *scene.log_prior += (chances[taken] / sum).ln();
+        Ok(taken)
+    }
+
+    fn called(
+        &mut self,
+        function: usize,
+        args: &[Expr],
+        expr: &Expr,
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        let mut slots = self.values(args, scene)?;
+        if self.calls >= MAX_CALLS {
+            return Err(Fault::at(expr.span, format!("functions call one another {MAX_CALLS} deep")));
+        }
+        self.calls += 1;
+        let program = self.program;
+        let called = &program.functions[function];
+        let mut inner = Scene {
+            slots: &mut slots,
+            state: scene.state,
+            stream: scene.stream,
+            log_prior: scene.log_prior,
+        };
+        let mut result = Ok(());
+        for local in &called.locals {
+            match self.value(local, &mut inner) {
+                Ok(value) => inner.slots.push(value),
+                Err(fault) => result = Err(fault),
+            }
+            if result.is_err() {
+                break;
+            }
+        }
+        let value = result.and_then(|()| self.value(&called.value, &mut inner));
+        self.calls -= 1;
+        value
+    }
+
+    fn binary(
+        &mut self,
+        op: BinaryOp,
+        left: &Expr,
+        right: &Expr,
+        expr: &Expr,
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        let a = self.value(left, scene)?;
+        if let (BinaryOp::And, Some(false)) | (BinaryOp::Or, Some(true)) = (op, a.truth()) {
+            return Ok(Value::Bool(op == BinaryOp::Or));
+        }
+        let b = self.value(right, scene)?;
+        let value = binary(op, &a, &b).map_err(|message| Fault::at(expr.span, message))?;
+        match &value {
+            Value::Text(text) if text.len() > MAX_ELEMENTS => {
+                Err(Fault::at(expr.span, format!("a string of {} bytes", text.len())))
+            }
+            _ => Ok(value),
+        }
+    }
+
+    fn array(
+        &mut self,
+        rows: &[Vec<Expr>],
+        expr: &Expr,
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        let mut array = Array::default();
+        for row in rows {
+            let before = array.values.len();
+            for element in row {
+                self.push_element(element, &mut array.values, scene)?;
+            }
+            let columns = array.values.len() - before;
+            if before > 0 && columns != array.columns {
+                let message = format!("a row has {columns} elements, the first {}", array.columns);
+                return Err(Fault::at(expr.span, message));
+            }
+            array.columns = columns;
+        }
+        Ok(Value::Array(Arc::new(array)))
+    }
+
+    fn push_element(
+        &mut self,
+        element: &Expr,
+        values: &mut Vec<Value>,
+        scene: &mut Scene<'_>,
+    ) -> Result<(), Fault> {
+        if let ExprKind::Range { from, step, to } = &element.kind {
+            let (from, to) = (self.number(from, scene)?, self.number(to, scene)?);
+            let step = match step {
+                Some(step) => self.number(step, scene)?,
+                None => 1.0,
+            };
+            let count = ((to - from) / step + 1e-9).floor() + 1.0;
+            if !count.is_finite() || count > MAX_ELEMENTS as f64 {
+                return Err(Fault::at(element.span, format!("a range of {count} elements")));
+            }
+            let numbers = (0..count.max(0.0) as usize).map(|k| from + step * k as f64);
+            values.extend(numbers.map(Value::Number));
+        } else {
+            values.push(self.value(element, scene)?);
+        }
+        if values.len() > MAX_ELEMENTS {
+            let message = format!("an array of more than {MAX_ELEMENTS} elements");
+            return Err(Fault::at(element.span, message));
+        }
+        Ok(())
+    }
+
+    fn element(
+        &mut self,
+        array: &Expr,
+        indices: &[Expr],
+        expr: &Expr,
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        let value = self.value(array, scene)?;
+        let Value::Array(array) = value else {
+            let message = format!("an array is needed before `[`, not {}", value.kind());
+            return Err(Fault::at(expr.span, message));
+        };
+        let mut places = Vec::with_capacity(indices.len());
+        for index in indices {
+            places.push(self.number(index, scene)?);
+        }
+        let flat = match places[..] {
+            [index] => index,
+            [row, column] if column >= 0.0 && column < array.columns as f64 => {
+                row.floor() * array.columns as f64 + column.floor()
+            }
+            _ => -1.0,
+        };
+        let found = (flat >= 0.0).then(|| array.values.get(flat as usize)).flatten();
+        found.cloned().ok_or_else(|| {
+            let message = format!("index {places:?} in an array of {}", array.values.len());
+            Fault::at(expr.span, message)
+        })
+    }
+}
+
+/// The alternative with this number.
+pub fn alternative<T>(choice: &Choice<T>, index: usize) -> &T {
+    match (choice.branches.get(index), &choice.otherwise) {
+        (Some((_, then)), _) => then,
+        (None, Some(otherwise)) => otherwise,
+        (None, None) => &choice.branches[choice.branches.len() - 1].1,
+    }
+}
+
+fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
+    if let Value::Array(array) = &value {
+        let values: Result<_, _> = array.values.iter().map(|v| unary(op, v.clone())).collect();
+        return Ok(Value::Array(Arc::new(Array {
+            columns: array.columns,
+            values: values?,
+        })));
+    }
+    let unusable = || format!("{} has no `{}`", value.kind(), op.sign());
+    match op {
+        UnaryOp::Not | UnaryOp::EachNot => value.truth().map(|is| Value::Bool(!is)).ok_or_else(unusable),
+        UnaryOp::Minus | UnaryOp::EachMinus => {
+            value.number().map(|number| Value::Number(-number)).ok_or_else(unusable)
+        }
+        UnaryOp::Plus | UnaryOp::EachPlus => {
+            value.number().map(Value::Number).ok_or_else(unusable)
+        }
+    }
+}
+
+fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
+    use BinaryOp as B;
+    if matches!(a, Value::Array(_)) || matches!(b, Value::Array(_)) {
+        return each(op, a, b);
+    }
+    if let (B::Add | B::EachAdd, Value::Text(_), _) | (B::Add | B::EachAdd, _, Value::Text(_)) = (op, a, b) {
+        return Ok(Value::text(&format!("{a}{b}")));
+    }
+    let ordered = match (a, b) {
+        (Value::Text(a), Value::Text(b)) => Some(a.cmp(b)),
+        _ => match (a.number(), b.number()) {
+            (Some(a), Some(b)) => a.partial_cmp(&b),
+            _ => None,
+        },
+    };
+    let truth = |value: &Value| value.truth().unwrap_or(false);
+    let number = |value: &Value| {
+        let needed = || format!("`{}` needs numbers, not {}", op.sign(), value.kind());
+        value.number().ok_or_else(needed)
+    };
+    Ok(match op {
+        B::Or | B::EachOr => Value::Bool(truth(a) || truth(b)),
+        B::And | B::EachAnd => Value::Bool(truth(a) && truth(b)),
+        B::Equal | B::EachEqual => Value::Bool(ordered.is_some_and(|o| o.is_eq())),
+        B::NotEqual | B::EachNotEqual => Value::Bool(!ordered.is_some_and(|o| o.is_eq())),
+        B::Less | B::EachLess => Value::Bool(ordered.is_some_and(|o| o.is_lt())),
+        B::LessEqual | B::EachLessEqual => Value::Bool(ordered.is_some_and(|o| o.is_le())),
+        B::Greater | B::EachGreater => Value::Bool(ordered.is_some_and(|o| o.is_gt())),
+        B::GreaterEqual | B::EachGreaterEqual => Value::Bool(ordered.is_some_and(|o| o.is_ge())),
+        B::Add | B::EachAdd => Value::Number(number(a)? + number(b)?),
+        B::Subtract | B::EachSubtract => Value::Number(number(a)? - number(b)?),
+        B::Multiply | B::EachMultiply => Value::Number(number(a)? * number(b)?),
+        B::Divide | B::EachDivide => Value::Number(number(a)? / number(b)?),
+        B::Remainder | B::EachRemainder => Value::Number(number(a)? % number(b)?),
+    })
+}
+
+/// Element by element; a single value goes with each element of the other side.
+fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
+    let (columns, values) = match (a, b) {
+        (Value::Array(a), Value::Array(b)) => {
+            if a.columns != b.columns || a.values.len() != b.values.len() {
+                return Err(format!("`{}` needs arrays of the same size", op.sign()));
+            }
+            let pairs = a.values.iter().zip(&b.values);
+            (a.columns, pairs.map(|(a, b)| binary(op, a, b)).collect())
+        }
+        (Value::Array(a), b) => {
+            let values: Result<Vec<_>, _> = a.values.iter().map(|a| binary(op, a, b)).collect();
+            (a.columns, values)
+        }
+        (a, Value::Array(b)) => (b.columns, b.values.iter().map(|b| binary(op, a, b)).collect()),
+        _ => return Err(format!("`{}` needs an array", op.sign())),
+    };
+    let values: Vec<Value> = values?;
+    Ok(Value::Array(Arc::new(Array { columns, values })))
+}

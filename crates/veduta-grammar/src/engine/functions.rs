@@ -1,0 +1,171 @@
+//! The functions of the language that need no shape. Angles are in degrees.
+
+use super::value::{Array, Value};
+
+/// A built-in function.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Function {
+    Math(fn(f64) -> f64),
+    Math2(fn(f64, f64) -> f64),
+    Test(fn(f64) -> bool),
+    /// Of all arguments, or of the elements of one array.
+    Fold(fn(f64, f64) -> f64),
+    Random,
+    Chance,
+    ToBool,
+    ToFloat,
+    ToText,
+    Length,
+    Count,
+    Find,
+    Part,
+    Replace,
+    Size,
+    Rows,
+    Columns,
+    Sum,
+}
+
+/// Names, functions, and the fewest and most arguments.
+const TABLE: &[(&str, Function, usize, usize)] = {
+    use Function as F;
+    &[
+        ("abs", F::Math(f64::abs), 1, 1),
+        ("acos", F::Math(|x| x.acos().to_degrees()), 1, 1),
+        ("asin", F::Math(|x| x.asin().to_degrees()), 1, 1),
+        ("atan", F::Math(|x| x.atan().to_degrees()), 1, 1),
+        ("ceil", F::Math(f64::ceil), 1, 1),
+        ("cos", F::Math(|x| x.to_radians().cos()), 1, 1),
+        ("exp", F::Math(f64::exp), 1, 1),
+        ("floor", F::Math(f64::floor), 1, 1),
+        ("ln", F::Math(f64::ln), 1, 1),
+        ("log10", F::Math(f64::log10), 1, 1),
+        ("rint", F::Math(f64::round), 1, 1),
+        ("sin", F::Math(|x| x.to_radians().sin()), 1, 1),
+        ("sqrt", F::Math(f64::sqrt), 1, 1),
+        ("tan", F::Math(|x| x.to_radians().tan()), 1, 1),
+        ("atan2", F::Math2(|y, x| y.atan2(x).to_degrees()), 2, 2),
+        ("pow", F::Math2(f64::powf), 2, 2),
+        ("isinf", F::Test(f64::is_infinite), 1, 1),
+        ("isnan", F::Test(f64::is_nan), 1, 1),
+        ("max", F::Fold(f64::max), 1, usize::MAX),
+        ("min", F::Fold(f64::min), 1, usize::MAX),
+        ("rand", F::Random, 0, 2),
+        ("p", F::Chance, 1, 1),
+        ("bool", F::ToBool, 1, 1),
+        ("float", F::ToFloat, 1, 1),
+        ("str", F::ToText, 1, 1),
+        ("len", F::Length, 1, 1),
+        ("count", F::Count, 2, 2),
+        ("find", F::Find, 3, 3),
+        ("substring", F::Part, 3, 3),
+        ("replace", F::Replace, 3, 3),
+        ("size", F::Size, 1, 1),
+        ("nRows", F::Rows, 1, 1),
+        ("nColumns", F::Columns, 1, 1),
+        ("sum", F::Sum, 1, 1),
+    ]
+};
+
+impl Function {
+    /// The function of this name, with its fewest and most arguments.
+    pub fn named(name: &str) -> Option<(Self, usize, usize)> {
+        let found = TABLE.iter().find(|entry| entry.0 == name)?;
+        Some((found.1, found.2, found.3))
+    }
+
+    /// The value for these arguments; Err says what is wrong with them. `random` gives the next
+    /// number of the shape's stream.
+    pub fn call(self, args: &[Value], mut random: impl FnMut() -> f64) -> Result<Value, String> {
+        match self {
+            Self::Math(map) => Ok(Value::Number(map(number(args, 0)?))),
+            Self::Math2(map) => Ok(Value::Number(map(number(args, 0)?, number(args, 1)?))),
+            Self::Test(test) => Ok(Value::Bool(test(number(args, 0)?))),
+            Self::Fold(fold) => folded(args, fold),
+            Self::Random => {
+                let (low, high) = match args.len() {
+                    0 => (0.0, 1.0),
+                    1 => (0.0, number(args, 0)?),
+                    _ => (number(args, 0)?, number(args, 1)?),
+                };
+                Ok(Value::Number(low + (high - low) * random()))
+            }
+            Self::Chance => Ok(Value::Bool(random() < number(args, 0)?)),
+            Self::ToBool => args[0].truth().map(Value::Bool).ok_or_else(|| no(&args[0])),
+            Self::ToFloat => Ok(Value::Number(args[0].number().unwrap_or(f64::NAN))),
+            Self::ToText => Ok(Value::text(&args[0].to_string())),
+            Self::Sum => folded(args, |a, b| a + b),
+            Self::Size => Ok(Value::Number(array(args)?.values.len() as f64)),
+            Self::Rows => Ok(Value::Number(array(args)?.rows() as f64)),
+            Self::Columns => Ok(Value::Number(array(args)?.columns as f64)),
+            Self::Length | Self::Count | Self::Find | Self::Part | Self::Replace => {
+                self.of_text(args)
+            }
+        }
+    }
+
+    /// The functions of strings. Places count characters from 0.
+    fn of_text(self, args: &[Value]) -> Result<Value, String> {
+        let all = text(args, 0)?;
+        Ok(match self {
+            Self::Length => Value::Number(all.chars().count() as f64),
+            Self::Count => {
+                let part = text(args, 1)?;
+                let times = if part.is_empty() {
+                    0
+                } else {
+                    all.matches(part).count()
+                };
+                Value::Number(times as f64)
+            }
+            Self::Find => {
+                let nth = number(args, 2)?.max(0.0) as usize;
+                let found = all.match_indices(text(args, 1)?).nth(nth);
+                let place = found.map(|(at, _)| all[..at].chars().count() as f64);
+                Value::Number(place.unwrap_or(-1.0))
+            }
+            Self::Part => {
+                let (from, to) = (number(args, 1)?.max(0.0), number(args, 2)?.max(0.0));
+                let length = (to - from).max(0.0) as usize;
+                let part: String = all.chars().skip(from as usize).take(length).collect();
+                Value::text(&part)
+            }
+            _ => Value::text(&all.replace(text(args, 1)?, text(args, 2)?)),
+        })
+    }
+}
+
+fn folded(args: &[Value], fold: fn(f64, f64) -> f64) -> Result<Value, String> {
+    let values = match args {
+        [Value::Array(array)] => &array.values[..],
+        several => several,
+    };
+    let mut numbers = values.iter().map(|value| value.number().ok_or_else(|| no(value)));
+    let first = numbers.next().unwrap_or(Ok(0.0))?;
+    let sum = numbers.try_fold(first, |sum, next| Ok::<f64, String>(fold(sum, next?)))?;
+    Ok(Value::Number(sum))
+}
+
+fn number(args: &[Value], index: usize) -> Result<f64, String> {
+    args[index]
+        .number()
+        .ok_or_else(|| format!("a number is needed, not {}", args[index].kind()))
+}
+
+fn text(args: &[Value], index: usize) -> Result<&str, String> {
+    match &args[index] {
+        Value::Text(text) => Ok(text),
+        other => Err(format!("a string is needed, not {}", other.kind())),
+    }
+}
+
+fn array(args: &[Value]) -> Result<&Array, String> {
+    match &args[0] {
+        Value::Array(array) => Ok(array),
+        other => Err(format!("an array is needed, not {}", other.kind())),
+    }
+}
+
+fn no(value: &Value) -> String {
+    format!("{} cannot be used here", value.kind())
+}

@@ -1,0 +1,110 @@
+//! What a shape looks like, and what it is.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use super::super::fault::Fault;
+use super::super::program::{Arg, Operation};
+use super::super::run::{Frame, Run};
+use super::super::value::Value;
+use super::{number, word};
+
+/// `NIL`: the shape is gone.
+pub fn nothing(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    frame.consumed();
+    Ok(())
+}
+
+/// `color("#rrggbb")`, `color(grey)`, `color(r, g, b)`, `color(r, g, b, opacity)`: 0 to 1.
+pub fn colour(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    if op.args.len() == 1 {
+        if let Arg::Value(_, expr) = &op.args[0] {
+            if let Value::Text(text) = run.evaluate(expr, frame)? {
+                let Some((colour, opacity)) = parsed(&text) else {
+                    let message = format!("`{text}` is no colour: #rrggbb or #rrggbbaa");
+                    return Err(Fault::at(expr.span, message));
+                };
+                let look = Arc::make_mut(&mut frame.state.look);
+                look.colour = colour;
+                look.opacity = opacity.unwrap_or(look.opacity);
+                frame.changed();
+                return Ok(());
+            }
+        }
+    }
+    let mut channels = [0.0f32; 4];
+    for index in 0..op.args.len() {
+        channels[index] = number(run, op, index, frame)?.clamp(0.0, 1.0) as f32;
+    }
+    let look = Arc::make_mut(&mut frame.state.look);
+    match op.args.len() {
+        1 => look.colour = [channels[0]; 3],
+        2 => return Err(Fault::at(op.span, "a colour has 1, 3 or 4 numbers")),
+        _ => look.colour = [channels[0], channels[1], channels[2]],
+    }
+    if op.args.len() == 4 {
+        look.opacity = channels[3];
+    }
+    frame.changed();
+    Ok(())
+}
+
+/// `texture(path)`; the empty string takes it away.
+pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let path = word(run, op, 0, frame)?;
+    let look = Arc::make_mut(&mut frame.state.look);
+    look.texture = (!path.is_empty()).then_some(path);
+    frame.changed();
+    Ok(())
+}
+
+/// `set(name, value)`: a material's property, an attribute of the rule file for this shape and its
+/// children, or `class`, which says what the surface is in the model.
+pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let Arg::Word(name) = &op.args[0] else {
+        return Err(Fault::at(op.span, "the name of an attribute is needed"));
+    };
+    let Arg::Value(_, expr) = &op.args[1] else {
+        return Err(Fault::at(op.span, "a value is needed"));
+    };
+    let value = run.evaluate(expr, frame)?;
+    let attribute = run.program.globals.iter().position(|global| global.name == *name);
+    let look = Arc::make_mut(&mut frame.state.look);
+    let channel = value.number().unwrap_or_default().clamp(0.0, 1.0) as f32;
+    match (name.as_ref(), attribute) {
+        (_, Some(index)) => {
+            let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
+            set.get_or_insert_with(BTreeMap::new).insert(index, value);
+            frame.state.set = set.map(Arc::new);
+        }
+        ("material.color.r", _) => look.colour[0] = channel,
+        ("material.color.g", _) => look.colour[1] = channel,
+        ("material.color.b", _) => look.colour[2] = channel,
+        ("material.color.a" | "material.opacity", _) => look.opacity = channel,
+        ("material.colormap", _) => {
+            let path = value.to_string();
+            look.texture = (!path.is_empty()).then(|| path.into());
+        }
+        ("class", _) => look.class = value.to_string().into(),
+        (other, _) => {
+            let message = format!("`{other}` is neither an attribute nor a property of materials");
+            return Err(Fault::at(op.span, message));
+        }
+    }
+    frame.changed();
+    Ok(())
+}
+
+/// `#rgb`-like notations with two digits a channel, and the opacity where it is given.
+fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
+    let digits = text.strip_prefix('#')?;
+    if !digits.is_ascii() || !(digits.len() == 6 || digits.len() == 8) {
+        return None;
+    }
+    let mut channels = Vec::with_capacity(4);
+    for at in (0..digits.len()).step_by(2) {
+        let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
+        channels.push(f32::from(value) / 255.0);
+    }
+    Some(([channels[0], channels[1], channels[2]], channels.get(3).copied()))
+}

@@ -1,0 +1,98 @@
+//! Solids from faces, and primitive shapes.
+
+use glam::DVec3;
+use veduta_geometry::solid;
+
+use super::super::fault::Fault;
+use super::super::program::Operation;
+use super::super::run::{Frame, Run};
+use super::{length, word};
+use crate::shape::{Form, Geometry};
+
+/// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
+/// (also `y`), or another axis of the scope. The scope holds the solid afterwards.
+pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let last = op.args.len() - 1;
+    let height = length(run, op, last, frame.state.form.scope.size.y, frame)?;
+    if !height.is_finite() {
+        return Err(Fault::at(op.span, format!("a height of {height} m")));
+    }
+    let direction = if last == 1 {
+        Some(word(run, op, 0, frame)?)
+    } else {
+        None
+    };
+    let form = &frame.state.form;
+    let axes = form.scope.axes;
+    let along = match direction.as_deref() {
+        None | Some("face.normal" | "vertex.normal") => normal(form),
+        Some("world.up" | "world.up.flatTop") => DVec3::Y,
+        Some("x") => axes.x_axis,
+        Some("y") => axes.y_axis,
+        Some("z") => axes.z_axis,
+        Some(other) => {
+            let message = format!("`{other}` is no direction: face.normal, world.up, x, y or z");
+            return Err(Fault::at(op.span, message));
+        }
+    };
+    frame.state.form = extruded(form, along, height);
+    frame.changed();
+    Ok(())
+}
+
+fn extruded(form: &Form, along: DVec3, height: f64) -> Form {
+    let by = along * height;
+    if let Geometry::Rectangle(axis) = form.geometry {
+        if height > 0.0 && along.abs_diff_eq(form.scope.axes.col(axis), 1e-12) {
+            let mut scope = form.scope;
+            scope.size[axis] = height;
+            return Form {
+                scope,
+                geometry: Geometry::Box,
+            };
+        }
+    }
+    let prism = solid::extrude(&form.world_mesh(), by);
+    Form::around(prism, form.scope.axes, true)
+}
+
+/// The direction of the faces: that of the sum of their area vectors.
+fn normal(form: &Form) -> DVec3 {
+    match form.geometry {
+        Geometry::Rectangle(axis) => form.scope.axes.col(axis),
+        _ => {
+            let mesh = form.world_mesh();
+            let sum: DVec3 = mesh.faces().map(|face| face.area_vector()).sum();
+            sum.normalize_or(form.scope.axes.y_axis)
+        }
+    }
+}
+
+/// `primitiveCube()`: a box that fills the scope, `primitiveCube(x, y, z)` of this size. A flat
+/// scope is 1 m high then.
+pub fn cube(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let now = frame.state.form.scope.size;
+    let mut size = DVec3::from_array(now.to_array().map(|s| if s > 0.0 { s } else { 1.0 }));
+    for axis in 0..op.args.len().min(3) {
+        size[axis] = length(run, op, axis, now[axis], frame)?;
+    }
+    frame.state.form.scope.size = size;
+    frame.state.form.geometry = Geometry::Box;
+    frame.changed();
+    Ok(())
+}
+
+/// `primitiveQuad()`: a rectangle in x and z that fills the scope, `primitiveQuad(x, z)` of this
+/// size, seen from above.
+pub fn quad(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let now = frame.state.form.scope.size;
+    let side = |size: f64| if size > 0.0 { size } else { 1.0 };
+    let mut size = DVec3::new(side(now.x), 0.0, side(now.z));
+    for (index, axis) in [0, 2].into_iter().enumerate().take(op.args.len()) {
+        size[axis] = length(run, op, index, now[axis], frame)?;
+    }
+    frame.state.form.scope.size = size;
+    frame.state.form.geometry = Geometry::Rectangle(1);
+    frame.changed();
+    Ok(())
+}

@@ -1,0 +1,31 @@
+//! `print` and `report`.
+
+use super::super::fault::Fault;
+use super::super::program::{Arg, Operation};
+use super::super::run::{Frame, Run};
+use super::word;
+
+/// The most messages and reports of a derivation; what is beyond is dropped.
+const MOST: usize = 100_000;
+
+/// `print(value)`
+pub fn print(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let text = word(run, op, 0, frame)?;
+    if run.tree.messages.len() < MOST {
+        run.tree.messages.push(text.to_string());
+    }
+    Ok(())
+}
+
+/// `report(key, value)`
+pub fn report(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let key = word(run, op, 0, frame)?;
+    let Arg::Value(_, expr) = &op.args[1] else {
+        return Err(Fault::at(op.span, "a value is needed"));
+    };
+    let value = run.evaluate(expr, frame)?;
+    if run.tree.reports.len() < MOST {
+        run.tree.reports.push((key, value));
+    }
+    Ok(())
+}

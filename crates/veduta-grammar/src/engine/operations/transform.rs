@@ -1,0 +1,158 @@
+//! Moving, turning and sizing the scope with what is in it.
+
+use glam::{DMat3, DVec3};
+
+use super::super::fault::Fault;
+use super::super::program::{Arg, Operation};
+use super::super::run::{Frame, Run};
+use super::{axes, length, number, word};
+use crate::shape::Form;
+
+/// `t(x, y, z)`: along the scope's axes.
+pub fn move_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let by = lengths(run, op, 0, frame)?;
+    frame.state.form.scope = frame.state.form.scope.moved(by);
+    frame.changed();
+    Ok(())
+}
+
+/// `s(x, y, z)`: the size of the scope; what is in it grows with it.
+pub fn resize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let size = lengths(run, op, 0, frame)?;
+    frame.state.form.scope.size = size.max(DVec3::ZERO);
+    frame.changed();
+    Ok(())
+}
+
+/// `r(x, y, z)`, `r(center, x, y, z)`: degrees about the scope's axes, x first.
+pub fn turn_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let first = op.args.len() - 3;
+    let about_centre = first == 1 && word(run, op, 0, frame)?.as_ref() == "scopeCenter";
+    let mut degrees = DVec3::ZERO;
+    for axis in 0..3 {
+        degrees[axis] = number(run, op, first + axis, frame)?;
+    }
+    let pivot = DVec3::splat(if about_centre { 0.5 } else { 0.0 });
+    frame.state.form.scope = frame.state.form.scope.turned(turn(degrees), pivot);
+    frame.changed();
+    Ok(())
+}
+
+/// `translate(mode, space, x, y, z)`: in the scope's directions or the world's.
+pub fn translate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let mode = word(run, op, 0, frame)?;
+    let space = word(run, op, 1, frame)?;
+    let given = lengths(run, op, 2, frame)?;
+    let scope = frame.state.form.scope;
+    let world = match space.as_ref() {
+        "world" => given,
+        _ => scope.axes * given,
+    };
+    let target = match (mode.as_ref(), space.as_ref()) {
+        ("abs", "world") => given,
+        ("abs", _) => return Err(fault(op, "an absolute place is one in the world")),
+        _ => scope.origin + world,
+    };
+    frame.state.form.scope.origin = target;
+    frame.changed();
+    Ok(())
+}
+
+/// `rotate(mode, space, x, y, z)`: degrees about the middle of the scope.
+pub fn rotate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let mode = word(run, op, 0, frame)?;
+    let space = word(run, op, 1, frame)?;
+    let mut degrees = DVec3::ZERO;
+    for axis in 0..3 {
+        degrees[axis] = number(run, op, 2 + axis, frame)?;
+    }
+    let scope = frame.state.form.scope;
+    let wanted = match (mode.as_ref(), space.as_ref()) {
+        ("abs", _) => scope.axes.transpose() * turn(degrees),
+        (_, "world") => scope.axes.transpose() * turn(degrees) * scope.axes,
+        _ => turn(degrees),
+    };
+    frame.state.form.scope = scope.turned(wanted, DVec3::splat(0.5));
+    frame.changed();
+    Ok(())
+}
+
+/// `center(axes)`: the middle of the scope to the middle of that of the shape the rule began with.
+pub fn center(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let word = word(run, op, 0, frame)?;
+    let around = run.start_of(frame).form.scope;
+    let middle = around.world(DVec3::splat(0.5));
+    let scope = frame.state.form.scope;
+    let away = scope.axes.transpose() * (middle - scope.world(DVec3::splat(0.5)));
+    let mut by = DVec3::ZERO;
+    for axis in axes(op, &word)? {
+        by[axis] = away[axis];
+    }
+    frame.state.form.scope = scope.moved(by);
+    frame.changed();
+    Ok(())
+}
+
+/// `alignScopeToAxes()`: the scope upright along the world's axes, `alignScopeToAxes(y)` with that
+/// axis alone as the world's. What is in it stays where it is.
+pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let form = &frame.state.form;
+    let wanted = if op.args.is_empty() {
+        DMat3::IDENTITY
+    } else {
+        let axis = axes(op, &word(run, op, 0, frame)?)?[0];
+        aligned(form.scope.axes, axis)
+    };
+    frame.state.form = Form::around(form.world_mesh(), wanted, form.geometry.is_solid());
+    frame.changed();
+    Ok(())
+}
+
+/// The frame with one axis as the world's, turned no more than that needs.
+fn aligned(now: DMat3, axis: usize) -> DMat3 {
+    let wanted = DMat3::IDENTITY.col(axis);
+    glam::DQuat::from_rotation_arc(now.col(axis).normalize(), wanted)
+        .normalize()
+        .mul_mat(now)
+}
+
+trait MulMat {
+    fn mul_mat(self, mat: DMat3) -> DMat3;
+}
+
+impl MulMat for glam::DQuat {
+    fn mul_mat(self, mat: DMat3) -> DMat3 {
+        DMat3::from_quat(self) * mat
+    }
+}
+
+fn lengths(
+    run: &mut Run<'_>,
+    op: &Operation,
+    first: usize,
+    frame: &mut Frame,
+) -> Result<DVec3, Fault> {
+    let size = frame.state.form.scope.size;
+    let mut found = DVec3::ZERO;
+    for axis in 0..3 {
+        found[axis] = length(run, op, first + axis, size[axis], frame)?;
+    }
+    if found.is_finite() {
+        Ok(found)
+    } else {
+        Err(fault(op, format!("lengths of {found} m")))
+    }
+}
+
+fn turn(degrees: DVec3) -> DMat3 {
+    let [x, y, z] = degrees.to_array().map(f64::to_radians);
+    DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
+}
+
+fn fault(op: &Operation, message: impl Into<String>) -> Fault {
+    let span = match op.args.first() {
+        Some(Arg::Value(_, expr)) => expr.span,
+        _ => op.span,
+    };
+    Fault::at(span, message)
+}

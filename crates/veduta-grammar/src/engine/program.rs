@@ -1,0 +1,166 @@
+//! Rule files as the engine runs them: every name is resolved to a number.
+
+use std::sync::Arc;
+
+use crate::ast::{BinaryOp, UnaryOp};
+use crate::{Span, Symbol};
+
+use super::functions::Function;
+use super::operations::OperationId;
+use super::shape_attributes::ShapeAttribute;
+
+/// A rule file with its imports, ready to run.
+#[derive(Debug, Clone, Default)]
+pub struct Program {
+    pub rules: Vec<Rule>,
+    /// Attributes and constants, each evaluated once for a start shape.
+    pub globals: Vec<Global>,
+    pub functions: Vec<UserFunction>,
+    /// The rule that a derivation begins with where none is named.
+    pub start: Option<usize>,
+}
+
+#[derive(Debug, Clone)]
+pub struct Rule {
+    pub name: Arc<str>,
+    pub symbol: Symbol,
+    pub params: usize,
+    /// Values of `with`, in the slots after the parameters.
+    pub locals: Vec<Expr>,
+    pub body: Body,
+}
+
+#[derive(Debug, Clone)]
+pub struct Global {
+    pub name: Arc<str>,
+    /// Whether it may be set from outside.
+    pub is_attribute: bool,
+    pub value: Expr,
+}
+
+#[derive(Debug, Clone)]
+pub struct UserFunction {
+    pub name: Arc<str>,
+    pub params: usize,
+    pub locals: Vec<Expr>,
+    pub value: Expr,
+}
+
+/// An expression with the place to name when it fails.
+#[derive(Debug, Clone)]
+pub struct Expr {
+    pub kind: ExprKind,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone)]
+pub enum ExprKind {
+    Number(f64),
+    Bool(bool),
+    Text(Arc<str>),
+    /// A parameter or a value of `with`.
+    Slot(usize),
+    Global(usize),
+    Attribute(ShapeAttribute),
+    Call {
+        function: usize,
+        args: Vec<Expr>,
+    },
+    Builtin {
+        function: Function,
+        args: Vec<Expr>,
+    },
+    Unary {
+        op: UnaryOp,
+        operand: Box<Expr>,
+    },
+    Binary {
+        op: BinaryOp,
+        left: Box<Expr>,
+        right: Box<Expr>,
+    },
+    Array(Vec<Vec<Expr>>),
+    Range {
+        from: Box<Expr>,
+        step: Option<Box<Expr>>,
+        to: Box<Expr>,
+    },
+    Index {
+        array: Box<Expr>,
+        indices: Vec<Expr>,
+    },
+    Choice(Box<Choice<Expr>>),
+}
+
+/// Alternatives of which one is taken.
+#[derive(Debug, Clone)]
+pub struct Choice<T> {
+    /// At random, by chances in per cent; else the first whose condition holds.
+    pub by_chance: bool,
+    pub branches: Vec<(Expr, T)>,
+    pub otherwise: Option<T>,
+    pub span: Span,
+}
+
+#[derive(Debug, Clone)]
+pub enum Body {
+    Steps(Vec<Step>),
+    Choice(Box<Choice<Body>>),
+}
+
+#[derive(Debug, Clone)]
+pub enum Step {
+    /// The current shape goes on under a rule.
+    Rule {
+        rule: usize,
+        args: Vec<Expr>,
+        span: Span,
+    },
+    /// The current shape is a leaf of this name.
+    Leaf { symbol: Symbol },
+    Push(Vec<Step>),
+    Operation(Box<Operation>),
+}
+
+#[derive(Debug, Clone)]
+pub struct Operation {
+    pub id: OperationId,
+    pub args: Vec<Arg>,
+    pub cells: Vec<Cell>,
+    /// `*` after the block.
+    pub repeat: bool,
+    pub span: Span,
+}
+
+/// An argument: a value, or a word that is none (`front`, `noAdjust`, `color.r`).
+#[derive(Debug, Clone)]
+pub enum Arg {
+    Value(Sizing, Expr),
+    Word(Arc<str>),
+}
+
+/// How a number is meant: `'` and `~`.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Sizing {
+    Absolute,
+    Relative,
+    Floating,
+    FloatingRelative,
+}
+
+#[derive(Debug, Clone)]
+pub enum Cell {
+    Part {
+        selector: Selector,
+        /// `=`: all that is selected becomes one shape.
+        combined: bool,
+        body: Body,
+    },
+    Repeat(Vec<Cell>),
+}
+
+#[derive(Debug, Clone)]
+pub enum Selector {
+    Word(Arc<str>),
+    Value(Sizing, Expr),
+}

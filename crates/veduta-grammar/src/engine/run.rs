@@ -1,0 +1,381 @@
+//! Rules to shapes: one derivation from a start shape.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+use std::time::Instant;
+
+use crate::Span;
+
+use super::evaluate::{alternative, Scene};
+use super::fault::Fault;
+use super::limits::Limits;
+use super::overrides::Overrides;
+use super::program::{Body, Expr, Operation, Program, Step};
+use super::random::Stream;
+use super::state::State;
+use super::tree::{Node, Tree};
+use super::value::Value;
+
+/// How often the clock is looked at: every so many shapes.
+const SHAPES_PER_LOOK: usize = 1024;
+
+/// What a derivation starts from, besides the shape.
+#[derive(Debug, Clone, Default)]
+pub struct Options {
+    pub seed: u64,
+    pub limits: Limits,
+    /// Values of attributes by name, instead of those in the file.
+    pub attributes: HashMap<String, Value>,
+    pub overrides: Overrides,
+}
+
+/// A derivation at work.
+pub struct Run<'a> {
+    pub(super) program: &'a Program,
+    pub(super) options: &'a Options,
+    pub(super) tree: Tree,
+    /// Functions being called now, one in another.
+    pub(super) calls: usize,
+    globals: Vec<Global>,
+    waiting: Vec<Waiting>,
+    started: Instant,
+    forced: Vec<u16>,
+}
+
+#[derive(Clone)]
+enum Global {
+    Unknown,
+    /// Being evaluated: a second look at it is a circle.
+    Open,
+    Known(Value),
+}
+
+/// A shape that its rule has still to be applied to.
+struct Waiting {
+    node: u32,
+    args: Vec<Value>,
+    stream: Stream,
+    depth: usize,
+}
+
+/// A rule at work on one shape.
+pub struct Frame {
+    pub node: u32,
+    pub state: State,
+    pub slots: Vec<Value>,
+    pub stream: Stream,
+    pub depth: usize,
+    /// Where the children's streams come from: the rule's own draws do not move them.
+    origin: Stream,
+    children: u32,
+    log_prior: f64,
+    choices: Vec<u16>,
+    /// Whether the current shape has not yet become a child: then it stays as a leaf.
+    pending: bool,
+}
+
+/// Derives the tree of `rule` from a start shape.
+pub fn derive(
+    program: &Program,
+    rule: usize,
+    start: State,
+    options: &Options,
+) -> Result<Tree, Fault> {
+    let mut run = Run {
+        program,
+        options,
+        tree: Tree::default(),
+        calls: 0,
+        globals: vec![Global::Unknown; program.globals.len()],
+        waiting: Vec::new(),
+        started: Instant::now(),
+        forced: Vec::new(),
+    };
+    run.start(rule, start)?;
+    while let Some(next) = run.waiting.pop() {
+        run.apply(next)?;
+    }
+    run.tree.leaves.sort_unstable_by_key(|&leaf| leaf);
+    Ok(run.tree)
+}
+
+impl Run<'_> {
+    fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
+        let called = &self.program.rules[rule];
+        if called.params > 0 {
+            let message = format!("{} needs {} arguments and cannot start", called.name, called.params);
+            return Err(Fault::at(Span::default(), message));
+        }
+        self.tree.nodes.push(Node {
+            parent: None,
+            place: 0,
+            name: called.name.clone(),
+            rule: Some(rule as u32),
+            choices: Vec::new(),
+            state,
+        });
+        self.waiting.push(Waiting {
+            node: 0,
+            args: Vec::new(),
+            stream: Stream::new(self.options.seed),
+            depth: 0,
+        });
+        Ok(())
+    }
+
+    /// Applies the rule of a waiting shape; its children wait in turn, the first on top.
+    fn apply(&mut self, next: Waiting) -> Result<(), Fault> {
+        let program = self.program;
+        let node = &self.tree.nodes[next.node as usize];
+        let Some(rule) = node.rule.map(|rule| &program.rules[rule as usize]) else {
+            return Ok(());
+        };
+        let mut frame = Frame {
+            node: next.node,
+            state: node.state.clone(),
+            slots: next.args,
+            stream: next.stream,
+            depth: next.depth,
+            origin: next.stream,
+            children: 0,
+            log_prior: 0.0,
+            choices: Vec::new(),
+            pending: true,
+        };
+        self.forced = self.options.overrides.choices(&self.tree, next.node);
+        let waiting = self.waiting.len();
+        for local in &rule.locals {
+            let value = self.evaluate(local, &mut frame)?;
+            frame.slots.push(value);
+        }
+        self.run_body(&rule.body, &mut frame)?;
+        if frame.pending {
+            self.leave(&rule.name, &mut frame)?;
+        }
+        self.waiting[waiting..].reverse();
+        self.tree.log_prior += frame.log_prior;
+        self.tree.nodes[next.node as usize].choices = frame.choices;
+        Ok(())
+    }
+
+    /// Runs a body on the frame's shape; `frame.pending` tells whether it is still there.
+    pub fn run_body(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
+        match body {
+            Body::Steps(steps) => self.run_steps(steps, frame),
+            Body::Choice(choice) => {
+                let mut scene = Scene {
+                    slots: &mut frame.slots,
+                    state: &frame.state,
+                    stream: &mut frame.stream,
+                    log_prior: &mut frame.log_prior,
+                };
+                match self.choose(choice, &mut scene)? {
+                    Some(taken) => {
+                        frame.choices.push(taken as u16);
+                        self.run_body(alternative(choice, taken), frame)
+                    }
+                    None => Ok(()),
+                }
+            }
+        }
+    }
+
+    fn run_steps(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
+        for step in steps {
+            match step {
+                Step::Rule { rule, args, span } => {
+                    let mut values = Vec::with_capacity(args.len());
+                    for arg in args {
+                        values.push(self.evaluate(arg, frame)?);
+                    }
+                    self.call(*rule, values, *span, frame)?;
+                    frame.pending = false;
+                }
+                Step::Leaf { symbol } => {
+                    let name = self.program.symbol_text(*symbol);
+                    self.leave(&name, frame)?;
+                    frame.pending = false;
+                }
+                Step::Push(inner) => self.run_pushed(inner, frame)?,
+                Step::Operation(operation) => self.operate(operation, frame)?,
+            }
+        }
+        Ok(())
+    }
+
+    /// `[ ... ]`: what is left of the copy at its end stays as a leaf, if anything was done to it.
+    fn run_pushed(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
+        let kept = (frame.state.clone(), frame.pending);
+        frame.pending = false;
+        self.run_steps(steps, frame)?;
+        if frame.pending {
+            self.leave_under_rule(frame)?;
+        }
+        (frame.state, frame.pending) = kept;
+        Ok(())
+    }
+
+    /// Runs a cell's body on a shape of its own; what is left of it stays as a leaf.
+    pub fn run_cell(&mut self, body: &Body, state: State, frame: &mut Frame) -> Result<(), Fault> {
+        let kept = std::mem::replace(&mut frame.state, state);
+        frame.pending = true;
+        self.run_body(body, frame)?;
+        if frame.pending {
+            self.leave_under_rule(frame)?;
+        }
+        frame.state = kept;
+        frame.pending = false;
+        Ok(())
+    }
+
+    pub fn evaluate(&mut self, expr: &Expr, frame: &mut Frame) -> Result<Value, Fault> {
+        let mut scene = Scene {
+            slots: &mut frame.slots,
+            state: &frame.state,
+            stream: &mut frame.stream,
+            log_prior: &mut frame.log_prior,
+        };
+        self.value(expr, &mut scene)
+    }
+
+    pub fn evaluate_number(&mut self, expr: &Expr, frame: &mut Frame) -> Result<f64, Fault> {
+        let mut scene = Scene {
+            slots: &mut frame.slots,
+            state: &frame.state,
+            stream: &mut frame.stream,
+            log_prior: &mut frame.log_prior,
+        };
+        self.number(expr, &mut scene)
+    }
+
+    fn call(
+        &mut self,
+        rule: usize,
+        args: Vec<Value>,
+        span: Span,
+        frame: &mut Frame,
+    ) -> Result<(), Fault> {
+        let depth = frame.depth + 1;
+        if depth > self.options.limits.depth {
+            let message = format!("rules apply one within another over {} deep", depth - 1);
+            return Err(Fault::at(span, message));
+        }
+        let name = self.program.rules[rule].name.clone();
+        let stream = frame.origin.child(frame.children);
+        let Some(node) = self.add(name, Some(rule as u32), frame, span)? else {
+            return Ok(());
+        };
+        self.waiting.push(Waiting {
+            node,
+            args,
+            stream,
+            depth,
+        });
+        Ok(())
+    }
+
+    fn leave_under_rule(&mut self, frame: &mut Frame) -> Result<(), Fault> {
+        let name = self.tree.nodes[frame.node as usize].name.clone();
+        self.leave(&name, frame)
+    }
+
+    /// The current shape stays as a leaf.
+    fn leave(&mut self, name: &Arc<str>, frame: &mut Frame) -> Result<(), Fault> {
+        if let Some(leaf) = self.add(name.clone(), None, frame, Span::default())? {
+            self.tree.leaves.push(leaf);
+        }
+        Ok(())
+    }
+
+    /// A child of the frame's node with its current shape; None where an override deletes it.
+    fn add(
+        &mut self,
+        name: Arc<str>,
+        rule: Option<u32>,
+        frame: &mut Frame,
+        span: Span,
+    ) -> Result<Option<u32>, Fault> {
+        let place = frame.children;
+        frame.children += 1;
+        if self.options.overrides.deletes(&self.tree, frame.node, place) {
+            return Ok(None);
+        }
+        let count = self.tree.nodes.len();
+        if count >= self.options.limits.shapes {
+            return Err(Fault::at(span, format!("more than {count} shapes")));
+        }
+        let limit = self.options.limits.seconds;
+        if count % SHAPES_PER_LOOK == 0 && self.started.elapsed().as_secs_f64() > limit {
+            return Err(Fault::at(span, format!("takes longer than {limit} s")));
+        }
+        self.tree.nodes.push(Node {
+            parent: Some(frame.node),
+            place,
+            name,
+            rule,
+            choices: Vec::new(),
+            state: frame.state.clone(),
+        });
+        Ok(Some(count as u32))
+    }
+
+    /// The value of an attribute or a constant for a shape.
+    pub(super) fn global(&mut self, index: usize, state: &State) -> Result<Value, Fault> {
+        if let Some(value) = state.set.as_ref().and_then(|set| set.get(&index)) {
+            return Ok(value.clone());
+        }
+        let program = self.program;
+        let global = &program.globals[index];
+        match &self.globals[index] {
+            Global::Known(value) => return Ok(value.clone()),
+            Global::Open => {
+                let message = format!("{} depends on itself", global.name);
+                return Err(Fault::at(global.value.span, message));
+            }
+            Global::Unknown => {}
+        }
+        let given = self.options.attributes.get(global.name.as_ref());
+        let value = if let Some(value) = given.filter(|_| global.is_attribute) {
+            value.clone()
+        } else {
+            self.globals[index] = Global::Open;
+            let start = self.tree.nodes[0].state.clone();
+            let mut scene = Scene {
+                slots: &mut Vec::new(),
+                state: &start,
+                stream: &mut Stream::new(self.options.seed).child(u32::MAX - index as u32),
+                log_prior: &mut 0.0,
+            };
+            let found = self.value(&global.value, &mut scene);
+            self.globals[index] = Global::Unknown;
+            found?
+        };
+        self.globals[index] = Global::Known(value.clone());
+        Ok(value)
+    }
+
+    /// The alternative that an override asks for, if there is one.
+    pub(super) fn forced_choice(&mut self, count: usize) -> Option<usize> {
+        if self.forced.is_empty() {
+            return None;
+        }
+        let choice = usize::from(self.forced.remove(0));
+        (choice < count).then_some(choice)
+    }
+
+    fn operate(&mut self, operation: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+        super::operations::run(self, operation, frame)
+    }
+}
+
+impl Frame {
+    /// The shape has been changed: it stays unless something follows.
+    pub fn changed(&mut self) {
+        self.pending = true;
+    }
+
+    /// The shape is gone: its parts have taken its place, or nothing has.
+    pub fn consumed(&mut self) {
+        self.pending = false;
+    }
+}
