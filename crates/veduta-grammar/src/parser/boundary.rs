@@ -47,8 +47,12 @@ impl Parser<'_> {
     /// Whether parsing can go on at a word after an error: a statement that is not part of a
     /// block (`{ front = A | …`) or of an import's list.
     pub fn resumes(&self, index: usize) -> bool {
-        let before = self.kind_at(index.saturating_sub(1));
-        let in_list = before.is_open() || matches!(before, TokenKind::Bar | TokenKind::Comma);
+        let before = |words| self.kind_at(index.saturating_sub(words));
+        let in_list = match before(1) {
+            TokenKind::OpenBrace | TokenKind::Bar | TokenKind::Comma => true,
+            TokenKind::OpenParen => before(2) == TokenKind::Text,
+            _ => false,
+        };
         self.starts_item(index) && self.starts_line(index) && !in_list
     }
 
