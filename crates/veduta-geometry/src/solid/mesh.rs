@@ -70,6 +70,19 @@ impl Mesh {
         self.points.len() as u32 - 1
     }
 
+    /// Adds all faces of another mesh, with points of their own.
+    pub fn append(&mut self, other: &Self) {
+        let offset = |numbers: &[u32], by: usize| -> Vec<u32> {
+            numbers.iter().map(|&number| number + by as u32).collect()
+        };
+        let (rings, faces) = (self.corners.len(), self.rings.len() - 1);
+        self.corners
+            .extend(offset(&other.corners, self.points.len()));
+        self.rings.extend(offset(&other.rings[1..], rings));
+        self.faces.extend(offset(&other.faces[1..], faces));
+        self.points.extend_from_slice(&other.points);
+    }
+
     pub fn face_count(&self) -> usize {
         self.faces.len() - 1
     }

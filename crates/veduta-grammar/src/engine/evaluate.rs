@@ -39,7 +39,7 @@ impl Run<'_> {
             ExprKind::Builtin { function, args } => {
                 let values = self.values(args, scene)?;
                 function
-                    .call(&values, || scene.stream.next())
+                    .call(&values, || scene.stream.draw())
                     .map_err(|message| Fault::at(expr.span, message))
             }
             ExprKind::Unary { op, operand } => {
@@ -48,7 +48,9 @@ impl Run<'_> {
             }
             ExprKind::Binary { op, left, right } => self.binary(*op, left, right, expr, scene),
             ExprKind::Array(rows) => self.array(rows, expr, scene),
-            ExprKind::Range { .. } => self.array(std::slice::from_ref(&vec![expr.clone()]), expr, scene),
+            ExprKind::Range { .. } => {
+                self.array(std::slice::from_ref(&vec![expr.clone()]), expr, scene)
+            }
             ExprKind::Index { array, indices } => self.element(array, indices, expr, scene),
             ExprKind::Choice(choice) => {
                 let taken = self.choose(choice, scene)?;
@@ -67,7 +69,12 @@ impl Run<'_> {
         }
         let value = self.value(expr, scene)?;
         let number = value.number();
-        number.ok_or_else(|| Fault::at(expr.span, format!("a number is needed, not {}", value.kind())))
+        number.ok_or_else(|| {
+            Fault::at(
+                expr.span,
+                format!("a number is needed, not {}", value.kind()),
+            )
+        })
     }
 
     pub fn values(&mut self, args: &[Expr], scene: &mut Scene<'_>) -> Result<Vec<Value>, Fault> {
@@ -87,7 +94,12 @@ impl Run<'_> {
         for (index, (test, _)) in choice.branches.iter().enumerate() {
             let value = self.value(test, scene)?;
             let holds = value.truth();
-            let needed = || Fault::at(test.span, format!("a condition is needed, not {}", value.kind()));
+            let needed = || {
+                Fault::at(
+                    test.span,
+                    format!("a condition is needed, not {}", value.kind()),
+                )
+            };
             if holds.ok_or_else(needed)? {
                 return Ok(Some(index));
             }
@@ -110,8 +122,11 @@ impl Run<'_> {
             return Err(Fault::at(choice.span, "the chances are all zero"));
         }
         let taken = self.forced_choice(chances.len()).unwrap_or_else(|| {
-            let mut rest = scene.stream.next() * sum;
-            let last = chances.iter().rposition(|&chance| chance > 0.0).unwrap_or(0);
+            let mut rest = scene.stream.draw() * sum;
+            let last = chances
+                .iter()
+                .rposition(|&chance| chance > 0.0)
+                .unwrap_or(0);
             let found = chances.iter().position(|&chance| {
                 rest -= chance;
                 rest < 0.0
@@ -131,7 +146,10 @@ impl Run<'_> {
     ) -> Result<Value, Fault> {
         let mut slots = self.values(args, scene)?;
         if self.calls >= MAX_CALLS {
-            return Err(Fault::at(expr.span, format!("functions call one another {MAX_CALLS} deep")));
+            return Err(Fault::at(
+                expr.span,
+                format!("functions call one another {MAX_CALLS} deep"),
+            ));
         }
         self.calls += 1;
         let program = self.program;
@@ -172,9 +190,10 @@ impl Run<'_> {
         let b = self.value(right, scene)?;
         let value = binary(op, &a, &b).map_err(|message| Fault::at(expr.span, message))?;
         match &value {
-            Value::Text(text) if text.len() > MAX_ELEMENTS => {
-                Err(Fault::at(expr.span, format!("a string of {} bytes", text.len())))
-            }
+            Value::Text(text) if text.len() > MAX_ELEMENTS => Err(Fault::at(
+                expr.span,
+                format!("a string of {} bytes", text.len()),
+            )),
             _ => Ok(value),
         }
     }
@@ -215,7 +234,10 @@ impl Run<'_> {
             };
             let count = ((to - from) / step + 1e-9).floor() + 1.0;
             if !count.is_finite() || count > MAX_ELEMENTS as f64 {
-                return Err(Fault::at(element.span, format!("a range of {count} elements")));
+                return Err(Fault::at(
+                    element.span,
+                    format!("a range of {count} elements"),
+                ));
             }
             let numbers = (0..count.max(0.0) as usize).map(|k| from + step * k as f64);
             values.extend(numbers.map(Value::Number));
@@ -252,7 +274,9 @@ impl Run<'_> {
             }
             _ => -1.0,
         };
-        let found = (flat >= 0.0).then(|| array.values.get(flat as usize)).flatten();
+        let found = (flat >= 0.0)
+            .then(|| array.values.get(flat as usize))
+            .flatten();
         found.cloned().ok_or_else(|| {
             let message = format!("index {places:?} in an array of {}", array.values.len());
             Fault::at(expr.span, message)
@@ -279,13 +303,15 @@ fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
     }
     let unusable = || format!("{} has no `{}`", value.kind(), op.sign());
     match op {
-        UnaryOp::Not | UnaryOp::EachNot => value.truth().map(|is| Value::Bool(!is)).ok_or_else(unusable),
-        UnaryOp::Minus | UnaryOp::EachMinus => {
-            value.number().map(|number| Value::Number(-number)).ok_or_else(unusable)
-        }
-        UnaryOp::Plus | UnaryOp::EachPlus => {
-            value.number().map(Value::Number).ok_or_else(unusable)
-        }
+        UnaryOp::Not | UnaryOp::EachNot => value
+            .truth()
+            .map(|is| Value::Bool(!is))
+            .ok_or_else(unusable),
+        UnaryOp::Minus | UnaryOp::EachMinus => value
+            .number()
+            .map(|number| Value::Number(-number))
+            .ok_or_else(unusable),
+        UnaryOp::Plus | UnaryOp::EachPlus => value.number().map(Value::Number).ok_or_else(unusable),
     }
 }
 
@@ -294,7 +320,9 @@ fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
     if matches!(a, Value::Array(_)) || matches!(b, Value::Array(_)) {
         return each(op, a, b);
     }
-    if let (B::Add | B::EachAdd, Value::Text(_), _) | (B::Add | B::EachAdd, _, Value::Text(_)) = (op, a, b) {
+    if let (B::Add | B::EachAdd, Value::Text(_), _) | (B::Add | B::EachAdd, _, Value::Text(_)) =
+        (op, a, b)
+    {
         return Ok(Value::text(&format!("{a}{b}")));
     }
     let ordered = match (a, b) {
@@ -340,7 +368,10 @@ fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
             let values: Result<Vec<_>, _> = a.values.iter().map(|a| binary(op, a, b)).collect();
             (a.columns, values)
         }
-        (a, Value::Array(b)) => (b.columns, b.values.iter().map(|b| binary(op, a, b)).collect()),
+        (a, Value::Array(b)) => (
+            b.columns,
+            b.values.iter().map(|b| binary(op, a, b)).collect(),
+        ),
         _ => return Err(format!("`{}` needs an array", op.sign())),
     };
     let values: Vec<Value> = values?;

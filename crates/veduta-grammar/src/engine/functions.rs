@@ -3,7 +3,7 @@
 use super::value::{Array, Value};
 
 /// A built-in function.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[derive(Debug, Clone, Copy)]
 pub enum Function {
     Math(fn(f64) -> f64),
     Math2(fn(f64, f64) -> f64),
@@ -140,7 +140,9 @@ fn folded(args: &[Value], fold: fn(f64, f64) -> f64) -> Result<Value, String> {
         [Value::Array(array)] => &array.values[..],
         several => several,
     };
-    let mut numbers = values.iter().map(|value| value.number().ok_or_else(|| no(value)));
+    let mut numbers = values
+        .iter()
+        .map(|value| value.number().ok_or_else(|| no(value)));
     let first = numbers.next().unwrap_or(Ok(0.0))?;
     let sum = numbers.try_fold(first, |sum, next| Ok::<f64, String>(fold(sum, next?)))?;
     Ok(Value::Number(sum))

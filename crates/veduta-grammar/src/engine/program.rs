@@ -18,6 +18,21 @@ pub struct Program {
     pub functions: Vec<UserFunction>,
     /// The rule that a derivation begins with where none is named.
     pub start: Option<usize>,
+    /// The texts of all symbols.
+    pub names: Vec<Arc<str>>,
+}
+
+impl Program {
+    pub fn symbol_text(&self, symbol: Symbol) -> Arc<str> {
+        self.names[symbol.index()].clone()
+    }
+
+    /// The number of the rule of this name.
+    pub fn rule_named(&self, name: &str) -> Option<usize> {
+        self.rules
+            .iter()
+            .position(|rule| rule.name.as_ref() == name)
+    }
 }
 
 #[derive(Debug, Clone)]
@@ -117,7 +132,9 @@ pub enum Step {
         span: Span,
     },
     /// The current shape is a leaf of this name.
-    Leaf { symbol: Symbol },
+    Leaf {
+        symbol: Symbol,
+    },
     Push(Vec<Step>),
     Operation(Box<Operation>),
 }

@@ -23,7 +23,7 @@ impl Stream {
     }
 
     /// The next number, from 0 up to, not including, 1.
-    pub fn next(&mut self) -> f64 {
+    pub fn draw(&mut self) -> f64 {
         self.state = self.state.wrapping_add(0x9e37_79b9_7f4a_7c15);
         (mixed(self.state) >> 11) as f64 / (1u64 << 53) as f64
     }

@@ -103,7 +103,10 @@ impl Run<'_> {
     fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
         let called = &self.program.rules[rule];
         if called.params > 0 {
-            let message = format!("{} needs {} arguments and cannot start", called.name, called.params);
+            let message = format!(
+                "{} needs {} arguments and cannot start",
+                called.name, called.params
+            );
             return Err(Fault::at(Span::default(), message));
         }
         self.tree.nodes.push(Node {
@@ -297,7 +300,11 @@ impl Run<'_> {
     ) -> Result<Option<u32>, Fault> {
         let place = frame.children;
         frame.children += 1;
-        if self.options.overrides.deletes(&self.tree, frame.node, place) {
+        if self
+            .options
+            .overrides
+            .deletes(&self.tree, frame.node, place)
+        {
             return Ok(None);
         }
         let count = self.tree.nodes.len();
@@ -361,6 +368,11 @@ impl Run<'_> {
         }
         let choice = usize::from(self.forced.remove(0));
         (choice < count).then_some(choice)
+    }
+
+    /// The shape as the frame's rule got it.
+    pub(super) fn start_of(&self, frame: &Frame) -> &State {
+        &self.tree.nodes[frame.node as usize].state
     }
 
     fn operate(&mut self, operation: &Operation, frame: &mut Frame) -> Result<(), Fault> {

@@ -68,7 +68,11 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         return Err(Fault::at(op.span, "a value is needed"));
     };
     let value = run.evaluate(expr, frame)?;
-    let attribute = run.program.globals.iter().position(|global| global.name == *name);
+    let attribute = run
+        .program
+        .globals
+        .iter()
+        .position(|global| global.name == *name);
     let look = Arc::make_mut(&mut frame.state.look);
     let channel = value.number().unwrap_or_default().clamp(0.0, 1.0) as f32;
     match (name.as_ref(), attribute) {
@@ -106,5 +110,8 @@ fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
         let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
         channels.push(f32::from(value) / 255.0);
     }
-    Some(([channels[0], channels[1], channels[2]], channels.get(3).copied()))
+    Some((
+        [channels[0], channels[1], channels[2]],
+        channels.get(3).copied(),
+    ))
 }

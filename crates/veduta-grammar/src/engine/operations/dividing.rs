@@ -74,8 +74,6 @@ fn size(
         Sizing::Absolute => Size::Absolute(number),
         Sizing::Relative => Size::Relative(number),
         Sizing::Floating => Size::Floating(number),
-        Sizing::FloatingRelative => {
-            Size::Floating(number * frame.state.form.scope.size[whole()?])
-        }
+        Sizing::FloatingRelative => Size::Floating(number * frame.state.form.scope.size[whole()?]),
     })
 }

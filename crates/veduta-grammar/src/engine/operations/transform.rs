@@ -1,6 +1,6 @@
 //! Moving, turning and sizing the scope with what is in it.
 
-use glam::{DMat3, DVec3};
+use glam::{DMat3, DQuat, DVec3};
 
 use super::super::fault::Fault;
 use super::super::program::{Arg, Operation};
@@ -96,13 +96,13 @@ pub fn center(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 /// `alignScopeToAxes()`: the scope upright along the world's axes, `alignScopeToAxes(y)` with that
 /// axis alone as the world's. What is in it stays where it is.
 pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let form = &frame.state.form;
     let wanted = if op.args.is_empty() {
         DMat3::IDENTITY
     } else {
         let axis = axes(op, &word(run, op, 0, frame)?)?[0];
-        aligned(form.scope.axes, axis)
+        aligned(frame.state.form.scope.axes, axis)
     };
+    let form = &frame.state.form;
     frame.state.form = Form::around(form.world_mesh(), wanted, form.geometry.is_solid());
     frame.changed();
     Ok(())
@@ -111,19 +111,8 @@ pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Re
 /// The frame with one axis as the world's, turned no more than that needs.
 fn aligned(now: DMat3, axis: usize) -> DMat3 {
     let wanted = DMat3::IDENTITY.col(axis);
-    glam::DQuat::from_rotation_arc(now.col(axis).normalize(), wanted)
-        .normalize()
-        .mul_mat(now)
-}
-
-trait MulMat {
-    fn mul_mat(self, mat: DMat3) -> DMat3;
-}
-
-impl MulMat for glam::DQuat {
-    fn mul_mat(self, mat: DMat3) -> DMat3 {
-        DMat3::from_quat(self) * mat
-    }
+    let turn = DQuat::from_rotation_arc(now.col(axis).normalize(), wanted);
+    DMat3::from_quat(turn.normalize()) * now
 }
 
 fn lengths(

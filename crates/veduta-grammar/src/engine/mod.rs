@@ -1,0 +1,33 @@
+//! Deriving: a rule file and a start shape to a tree of shapes.
+//!
+//! [`lower`] resolves a parsed file to a [`Program`] once; [`derive`] runs it for one start shape,
+//! and may be called from many threads. Frame of rule files: metres, right-handed, y up.
+
+mod evaluate;
+mod fault;
+mod functions;
+mod limits;
+mod lower;
+mod lower_body;
+mod lower_expression;
+mod operations;
+mod overrides;
+mod program;
+mod random;
+mod run;
+mod shape_attributes;
+mod state;
+mod tree;
+mod value;
+
+pub use fault::Fault;
+pub use limits::Limits;
+pub use lower::{lower, Lowered};
+pub use operations::names as operation_names;
+pub use overrides::{Edit, Overrides};
+pub use program::Program;
+pub use random::Stream;
+pub use run::{derive, Options};
+pub use state::{Look, Place, State};
+pub use tree::{Node, Tree};
+pub use value::{Array, Value};

@@ -1,0 +1,141 @@
+//! Operations with their arguments and blocks.
+
+use super::cursor::{Parsed, Parser};
+use crate::ast::{Block, Body, Call, Cell, Operation};
+use crate::token::TokenKind;
+
+/// Operations that work with the shapes of a rule: the operation that follows them, or a block.
+pub(crate) const TAKES_OPERATION: [&str; 4] = ["inline", "union", "subtract", "intersect"];
+
+impl Parser<'_> {
+    /// As many operations as there are; they end at what is none.
+    pub fn operations(&mut self) -> Parsed<Vec<Operation>> {
+        let mut operations = Vec::new();
+        while self.starts_operation() {
+            operations.push(self.operation()?);
+        }
+        Ok(operations)
+    }
+
+    fn starts_operation(&self) -> bool {
+        match self.kind() {
+            TokenKind::OpenBracket => true,
+            TokenKind::Name | TokenKind::Leaf => {
+                !self.starts_item(self.at()) && !self.starts_chance(self.at())
+            }
+            _ => false,
+        }
+    }
+
+    fn operation(&mut self) -> Parsed<Operation> {
+        if self.is(TokenKind::OpenBracket) {
+            return self.nested(Self::push);
+        }
+        self.call().map(Operation::Call)
+    }
+
+    fn push(&mut self) -> Parsed<Operation> {
+        let start = self.advance().span;
+        let operations = self.operations()?;
+        self.expect(TokenKind::CloseBracket, "at the end of `[ … ]`")?;
+        Ok(Operation::Push {
+            operations,
+            span: self.since(start),
+        })
+    }
+
+    fn call(&mut self) -> Parsed<Call> {
+        let leaf = self.is(TokenKind::Leaf);
+        let start = self.advance().span;
+        let name = self.ident(start);
+        let args = if self.is(TokenKind::OpenParen) && !leaf {
+            Some(self.list(TokenKind::CloseParen, Self::argument)?)
+        } else {
+            None
+        };
+        let block = if self.is(TokenKind::OpenBrace) {
+            Some(self.nested(Self::block)?)
+        } else if TAKES_OPERATION.contains(&self.slice(start)) {
+            Some(self.nested(Self::operation_as_block)?)
+        } else {
+            None
+        };
+        Ok(Call {
+            name,
+            leaf,
+            args,
+            block,
+            span: self.since(start),
+        })
+    }
+
+    fn operation_as_block(&mut self) -> Parsed<Block> {
+        if !self.starts_operation() || self.is(TokenKind::OpenBracket) {
+            return self.fail("expected a rule, an operation or `{`".to_string());
+        }
+        let operation = self.operation()?;
+        let span = operation.span();
+        let body = Box::new(Body::Operations(vec![operation]));
+        Ok(Block::Body { body, span })
+    }
+
+    fn block(&mut self) -> Parsed<Block> {
+        let open = self.span();
+        if !self.holds_cells(self.at()) {
+            self.advance();
+            let body = Box::new(self.body()?);
+            self.expect(TokenKind::CloseBrace, "at the end of a block")?;
+            let span = self.since(open);
+            return Ok(Block::Body { body, span });
+        }
+        let cells = self.cells(Self::body)?;
+        let repeat = self.eat(TokenKind::Star);
+        Ok(Block::Cells {
+            cells,
+            repeat,
+            span: self.since(open),
+        })
+    }
+
+    /// `{ cell | cell … }`; the brace is next.
+    pub fn cells<T>(&mut self, part: fn(&mut Self) -> Parsed<T>) -> Parsed<Vec<Cell<T>>> {
+        self.advance();
+        let mut cells = Vec::new();
+        loop {
+            cells.push(self.cell(part)?);
+            if self.eat(TokenKind::CloseBrace) {
+                return Ok(cells);
+            }
+            if !self.eat(TokenKind::Bar) {
+                return self.fail("expected `|` or `}` after a cell".to_string());
+            }
+        }
+    }
+
+    fn cell<T>(&mut self, part: fn(&mut Self) -> Parsed<T>) -> Parsed<Cell<T>> {
+        let start = self.span();
+        if self.is(TokenKind::OpenBrace) {
+            let cells = self.nested(|parser| parser.cells(part))?;
+            self.expect(
+                TokenKind::Star,
+                "after a group of cells, which repeats them",
+            )?;
+            let span = self.since(start);
+            return Ok(Cell::Repeat { cells, span });
+        }
+        let selector = self.selector()?;
+        let combined = match self.kind() {
+            TokenKind::Colon => false,
+            TokenKind::Assign => true,
+            _ => return self.fail("expected `:` or `=` after a selector or size".to_string()),
+        };
+        self.advance();
+        let body = part(self)?;
+        Ok(Cell::Part {
+            selector,
+            combined,
+            body,
+            span: self.since(start),
+        })
+    }
+}
