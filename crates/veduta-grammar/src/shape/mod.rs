@@ -7,7 +7,7 @@ mod sizes;
 mod splitting;
 
 pub use components::{components, is_selected, Component, Direction, Kind};
-pub use form::{Form, Geometry, TOLERANCE};
+pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};
 pub use sizes::{cells, Cell, Pattern, Size, TooManyParts, SHORTEST_M};
 pub use splitting::split;

@@ -1,0 +1,136 @@
+//! The leaves of a derivation as columns of polygons, in the frame of places.
+//!
+//! Frame of places: metres, right-handed, x east, y north, z up. Rule files have y up and z south.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use glam::DVec3;
+
+use super::state::Look;
+use super::tree::{Node, Tree};
+use crate::shape::Geometry;
+
+/// Polygons of all leaves. A polygon's first ring is its outline; each leaf with geometry is one
+/// feature, in the order of the tree.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Packed {
+    /// Vertices (m); each belongs to one ring.
+    pub positions: Vec<[f64; 3]>,
+    /// Texture coordinates from the lower left.
+    pub uv: Vec<[f32; 2]>,
+    /// The first vertex of each ring, with the end.
+    pub ring_offsets: Vec<i64>,
+    /// The first ring of each polygon, with the end.
+    pub polygon_offsets: Vec<i64>,
+    pub polygon_feature: Vec<i32>,
+    /// The node in the tree of each feature.
+    pub feature_node: Vec<u32>,
+    /// The place of each feature's look in `looks`.
+    pub feature_look: Vec<u32>,
+    /// Size of each feature's scope along x and y (m).
+    pub feature_size: Vec<[f64; 2]>,
+    pub looks: Vec<Arc<Look>>,
+}
+
+/// A place of rule files in the frame of places.
+pub fn to_place(point: DVec3) -> [f64; 3] {
+    [point.x, -point.z, point.y]
+}
+
+/// A place in the frame of places as rule files have it.
+pub fn from_place(point: [f64; 3]) -> DVec3 {
+    DVec3::new(point[0], point[2], -point[1])
+}
+
+/// Packs the leaves of a tree that have geometry.
+pub fn pack(tree: &Tree) -> Packed {
+    let mut packer = Packer {
+        packed: Packed {
+            ring_offsets: vec![0],
+            polygon_offsets: vec![0],
+            ..Packed::default()
+        },
+        known: HashMap::new(),
+    };
+    for &leaf in &tree.leaves {
+        packer.leaf(leaf, &tree.nodes[leaf as usize]);
+    }
+    packer.packed
+}
+
+struct Packer {
+    packed: Packed,
+    /// Looks by their address: children share that of their parent.
+    known: HashMap<*const Look, u32>,
+}
+
+impl Packer {
+    fn leaf(&mut self, number: u32, node: &Node) {
+        let form = &node.state.form;
+        let feature = self.packed.feature_node.len() as i32;
+        match &form.geometry {
+            Geometry::Nothing => return,
+            Geometry::Faces { mesh, .. } => self.faces(mesh, node, feature),
+            Geometry::Rectangle(axis) => {
+                let corners = crate::shape::rectangle(*axis);
+                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+                for corner in corners {
+                    self.vertex(form.scope.world(corner), [corner[u], corner[v]]);
+                }
+                self.end_ring();
+                self.end_polygon(feature);
+            }
+            Geometry::Box => self.faces(&form.geometry.mesh(), node, feature),
+        }
+        let look = self.look(&node.state.look);
+        let size = form.scope.size;
+        self.packed.feature_node.push(number);
+        self.packed.feature_look.push(look);
+        self.packed.feature_size.push([size.x, size.y]);
+    }
+
+    fn faces(&mut self, mesh: &veduta_geometry::solid::Mesh, node: &Node, feature: i32) {
+        let scope = &node.state.form.scope;
+        for face in mesh.faces() {
+            for ring in face.rings() {
+                for &point in ring {
+                    let unit = mesh.points[point as usize];
+                    self.vertex(scope.world(unit), [unit.x, unit.y]);
+                }
+                self.end_ring();
+            }
+            self.end_polygon(feature);
+        }
+    }
+
+    fn vertex(&mut self, point: DVec3, uv: [f64; 2]) {
+        self.packed.positions.push(to_place(point));
+        self.packed.uv.push(uv.map(|c| c as f32));
+    }
+
+    fn end_ring(&mut self) {
+        let end = self.packed.positions.len() as i64;
+        self.packed.ring_offsets.push(end);
+    }
+
+    fn end_polygon(&mut self, feature: i32) {
+        let end = self.packed.ring_offsets.len() as i64 - 1;
+        self.packed.polygon_offsets.push(end);
+        self.packed.polygon_feature.push(feature);
+    }
+
+    fn look(&mut self, look: &Arc<Look>) -> u32 {
+        if let Some(&known) = self.known.get(&Arc::as_ptr(look)) {
+            return known;
+        }
+        let looks = &mut self.packed.looks;
+        let place = looks.iter().position(|other| other == look);
+        let index = place.unwrap_or_else(|| {
+            looks.push(look.clone());
+            looks.len() - 1
+        }) as u32;
+        self.known.insert(Arc::as_ptr(look), index);
+        index
+    }
+}

@@ -1,0 +1,97 @@
+//! Leaves as columns: what was derived is what is there.
+
+#![allow(clippy::unwrap_used)] // helpers of tests
+
+use veduta_grammar::engine::{derive, lot_form, lower, pack, Options, Packed, State};
+use veduta_grammar::{parse, Names};
+
+fn packed(text: &str, rings: &[Vec<[f64; 3]>]) -> Packed {
+    let mut names = Names::new();
+    let parsed = parse(text, &mut names);
+    let program = lower(&parsed.file, &names).program;
+    let start = State::new(lot_form(rings).unwrap(), 0);
+    pack(&derive(&program, 0, start, &Options::default()).unwrap())
+}
+
+fn square(low: f64, high: f64, up: f64) -> Vec<[f64; 3]> {
+    vec![
+        [low, low, up],
+        [high, low, up],
+        [high, high, up],
+        [low, high, up],
+    ]
+}
+
+fn area(packed: &Packed, polygon: usize) -> [f64; 3] {
+    let mut sum = [0.0; 3];
+    let rings = packed.polygon_offsets[polygon]..packed.polygon_offsets[polygon + 1];
+    for ring in rings {
+        let from = packed.ring_offsets[ring as usize] as usize;
+        let to = packed.ring_offsets[ring as usize + 1] as usize;
+        for k in from..to {
+            let a = packed.positions[k];
+            let b = packed.positions[if k + 1 == to { from } else { k + 1 }];
+            for axis in 0..3 {
+                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+                sum[axis] += 0.5 * (a[u] * b[v] - a[v] * b[u]);
+            }
+        }
+    }
+    sum
+}
+
+#[test]
+fn a_lot_stays_where_it_is() {
+    let found = packed("Lot -->", &[square(2.0, 6.0, 3.0)]);
+    assert_eq!(found.positions.len(), 4);
+    assert_eq!(area(&found, 0), [0.0, 0.0, 16.0]);
+    for point in &found.positions {
+        assert!(square(2.0, 6.0, 3.0).contains(point), "{point:?}");
+    }
+}
+
+#[test]
+fn a_lot_that_runs_clockwise_looks_up_too() {
+    let mut ring = square(0.0, 4.0, 0.0);
+    ring.reverse();
+    assert_eq!(area(&packed("Lot -->", &[ring]), 0)[2], 16.0);
+}
+
+#[test]
+fn a_courtyard_stays_open() {
+    let mut hole = square(3.0, 5.0, 0.0);
+    hole.reverse();
+    let rings = [square(0.0, 8.0, 0.0), hole];
+    let found = packed("Lot --> extrude(10) color(1, 0, 0)", &rings);
+    assert_eq!(found.polygon_feature.len(), 2 + 8);
+    assert_eq!(found.looks.len(), 1);
+    assert_eq!(found.looks[0].colour, [1.0, 0.0, 0.0]);
+    let up: f64 = (0..10).map(|p| area(&found, p)[2].max(0.0)).sum();
+    assert!((up - 60.0).abs() < 1e-9);
+    let volume: f64 = (0..10)
+        .map(|p| {
+            let ring = found.polygon_offsets[p] as usize;
+            let first = found.positions[found.ring_offsets[ring] as usize];
+            let area = area(&found, p);
+            (0..3).map(|axis| first[axis] * area[axis]).sum::<f64>() / 3.0
+        })
+        .sum();
+    assert!((volume - 600.0).abs() < 1e-9, "{volume}");
+}
+
+#[test]
+fn fronts_look_away_from_the_lot() {
+    let text = "Lot --> extrude(3) comp(f) { front : F. | all : NIL }";
+    let found = packed(text, &[square(0.0, 4.0, 0.0)]);
+    // x of the scope runs along the first edge: the front is at the street, in the south.
+    assert_eq!(area(&found, 0), [0.0, -12.0, 0.0]);
+    assert_eq!(found.uv[2], [1.0, 1.0]);
+}
+
+#[test]
+fn what_encloses_nothing_is_no_lot() {
+    assert!(lot_form(&[]).is_none());
+    assert!(lot_form(&[vec![[0.0; 3], [1.0, 0.0, 0.0]]]).is_none());
+    let line = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
+    assert!(lot_form(&[line]).is_none());
+}
