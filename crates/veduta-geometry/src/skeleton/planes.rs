@@ -46,7 +46,7 @@ impl Plane {
     pub fn across(&self, point: [Dd; 2], ahead: bool, class: u32) -> Self {
         let turn = Dd::from(JITTER * chance(u64::from(class) | STEPS));
         let along = self.along();
-        let turned = [0, 1].map(|axis| along[axis] + self.normal[axis] * turn);
+        let turned = [0, 1].map(|axis| (along[axis] + self.normal[axis] * turn) * shrink(turn));
         let normal = if ahead { turned } else { turned.map(|c| -c) };
         Self::new(normal, -dot(normal, point), 0.0, class)
     }
@@ -185,10 +185,16 @@ fn moved_line(eaves: &Eaves, edge: usize, turn_rad: f64, shift_m: f64) -> ([Dd; 
     let length = dot(along, along).sqrt();
     let along = along.map(|c| c / length);
     let turn = Dd::from(turn_rad);
-    let normal = [along[0] * turn - along[1], along[1] * turn + along[0]];
+    let normal = [along[0] * turn - along[1], along[1] * turn + along[0]].map(|c| c * shrink(turn));
     let half = Dd::from(0.5);
     let middle = [(a[0] + b[0]) * half, (a[1] + b[1]) * half];
     (normal, Dd::from(shift_m) - dot(normal, middle))
+}
+
+/// What makes a unit vector of one that a small turn has made longer. Corners in a straight wall
+/// move along the normal, and would leave the wall by 1e-27 of their way without it.
+fn shrink(turn: Dd) -> Dd {
+    Dd::from(1.0) - Dd::from(0.5) * turn * turn
 }
 
 /// How far a corner between edges in one line is moved along the line, by chance (a share of the
