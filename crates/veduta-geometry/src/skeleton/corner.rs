@@ -56,8 +56,8 @@ pub enum Meeting {
     Same,
     /// They lie in one plane; their faces are parted by a line across the edge.
     Flat,
-    /// They are parallel and differ in speed: a standing step opens between them. The speed of
-    /// the second is higher where `up` is true.
+    /// They are parallel and differ in speed. At the eaves a standing step opens between them; on
+    /// the way the faster takes over. The speed of the second is higher where `up` is true.
     Step { up: bool },
     /// A corner as most are.
     Corner,

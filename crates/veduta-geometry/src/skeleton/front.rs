@@ -76,7 +76,7 @@ impl Front {
         let point = local(eaves, vertex).map(Dd::from);
         let place = match Meeting::of(&self.planes, before, after) {
             Meeting::Corner | Meeting::Same => {
-                self.crossing(before, after)
+                self.crossing(before, after, Dd::ZERO)
                     .ok_or(SkeletonError::NearlyParallel {
                         vertex,
                         shift_m: f64::INFINITY,
@@ -199,13 +199,15 @@ impl Front {
         self.sides.push(Side { face, from, to });
     }
 
-    /// Where two lines cross at time 0.
-    fn crossing(&self, before: u32, after: u32) -> Option<[Dd; 2]> {
+    /// Where the lines of two edges cross at a time.
+    pub fn crossing(&self, before: u32, after: u32, time: Dd) -> Option<[Dd; 2]> {
         let (a, b) = (&self.planes[before as usize], &self.planes[after as usize]);
         let turn = cross(a.normal, b.normal);
+        let ahead = |plane: &Plane| Dd::from(plane.speed) * time - plane.offset;
+        let (p, q) = (ahead(a), ahead(b));
         let place = [
-            (b.offset * a.normal[1] - a.offset * b.normal[1]) / turn,
-            (a.offset * b.normal[0] - b.offset * a.normal[0]) / turn,
+            (p * b.normal[1] - q * a.normal[1]) / turn,
+            (q * a.normal[0] - p * b.normal[0]) / turn,
         ];
         (place[0].is_finite() && place[1].is_finite()).then_some(place)
     }

@@ -1,6 +1,6 @@
 //! The run of a wavefront from the eaves to the top, or to a height to stop at.
 
-use super::corner::Corner;
+use super::corner::{Corner, Meeting};
 use super::double_double::Dd;
 use super::eaves::ring_area_m2;
 use super::events::{Event, Happening, Queue};
@@ -208,38 +208,78 @@ fn close(
     for &corner in ending {
         front.end(corner, node);
     }
-    let mut made = Vec::with_capacity(4);
-    let mut grown = Vec::new();
+    let (mut made, mut grown) = (Vec::with_capacity(2), Vec::new());
     for gap in gaps.into_iter().flatten() {
+        let (gap, place, node) = take_over(front, gap, place, node, time);
         match front.join(gap.before, gap.after, place, time, node)? {
             Some((first, last)) => {
                 front.link(gap.previous, first);
                 front.link(last, gap.next);
-                made.push(first);
-                if last != first {
-                    made.push(last);
-                }
+                made.push((first, node));
             }
             None => {
                 front.link(gap.previous, gap.next);
-                grown.push(gap.previous);
+                grown.push((gap.previous, node));
             }
         }
     }
-    for &corner in made.iter().chain(&grown) {
+    for &(corner, node) in made.iter().chain(&grown) {
         end_of_two(front, corner, node);
     }
-    for corner in made {
+    for (corner, _) in made {
         if front.corner(corner).alive {
             queue.add_corner(front, corner, time);
         }
     }
-    for start in grown {
+    for (start, _) in grown {
         if front.corner(start).alive {
             queue.add_edge(front, start, time);
         }
     }
     Ok(())
+}
+
+/// Where two parallel edges of different speeds meet, they lie in one line at that time: the
+/// faster takes the slower's part of the wavefront over, and the slower's face ends in a level
+/// side. (A standing step between them, as at the eaves, can wall a part of the inside in.)
+fn take_over(
+    front: &mut Front,
+    mut gap: Gap,
+    mut place: [Dd; 2],
+    mut node: u32,
+    time: Dd,
+) -> (Gap, [Dd; 2], u32) {
+    while let Meeting::Step { up } = Meeting::of(&front.planes, gap.before, gap.after) {
+        let far_end = if up { gap.previous } else { gap.next };
+        if gap.previous == gap.next {
+            break;
+        }
+        let far = *front.corner(far_end);
+        place = far.place_at(time);
+        let (slow, fast) = if up {
+            let fast = std::mem::replace(&mut gap.before, far.before);
+            gap.previous = far.previous;
+            (fast, gap.after)
+        } else {
+            let slow = std::mem::replace(&mut gap.after, far.after);
+            gap.next = far.next;
+            (slow, gap.before)
+        };
+        if let Meeting::Corner = Meeting::of(&front.planes, gap.before, gap.after) {
+            place = front.crossing(gap.before, gap.after, time).unwrap_or(place);
+        }
+        let far_node = front.add_node(place, time);
+        front.end(far_end, far_node);
+        let (first, last) = if up {
+            (far_node, node)
+        } else {
+            (node, far_node)
+        };
+        front.draw(fast, first, last);
+        front.draw(slow, last, first);
+        node = far_node;
+    }
+    (gap, place, node)
 }
 
 /// A chain of one or two corners encloses nothing: its corners are all at the node.
