@@ -37,8 +37,10 @@ pub enum SkeletonError {
          {shift_m} m"
     )]
     NearlyParallel { vertex: usize, shift_m: f64 },
-    #[error("the roof has no top: face {face} and others never meet (speed 0 all around)")]
+    #[error("the roof has no top: face {face} and others stand all around a part of the inside")]
     Unbounded { face: usize },
+    #[error("the wavefront got lost: face {face} moves on and meets nothing")]
+    Lost { face: usize },
     #[error("more than {most} events")]
     TooManyEvents { most: usize },
     #[error("two wavefront edges are parallel where they meet, at {x_m}, {y_m}")]

@@ -76,7 +76,7 @@ fn shaft(front: &mut Front, chain: &[u32], diagonal_m: f64) -> Result<Rest, Skel
         ring.push(corner.quick().place);
         let face = corner.after as usize;
         if front.planes[face].speed > 0.0 {
-            return Err(SkeletonError::Unbounded { face });
+            return Err(SkeletonError::Lost { face });
         }
     }
     if ring_area_m2(&ring).abs() > SAME_NODE_SHARE * diagonal_m * diagonal_m {
