@@ -8,6 +8,7 @@
 mod error;
 mod plane;
 mod polygon_set;
+pub mod skeleton;
 pub mod solid;
 mod triangulate;
 

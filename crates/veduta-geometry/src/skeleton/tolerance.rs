@@ -1,0 +1,50 @@
+//! Every tolerance of the roofs, in one place.
+//!
+//! Lengths are metres, or shares of the diagonal of the eaves' bounding box where the name says so.
+
+/// The most vertices that eaves may have: the time grows with vertices times reflex vertices.
+pub const MOST_VERTICES: usize = 20_000;
+
+/// The largest coordinate (m): beyond, a double no longer resolves a tenth of a millimetre.
+pub const LARGEST_COORDINATE_M: f64 = 1e11;
+
+/// The largest speed (m of ground per unit of time).
+pub const LARGEST_SPEED: f64 = 1e6;
+
+/// The shortest edge of eaves, as a share of the diagonal.
+pub const SHORTEST_EDGE_SHARE: f64 = 1e-8;
+
+/// Edges whose ends are this near to one line, as a share of the diagonal, lie on it.
+pub const SAME_LINE_SHARE: f64 = 4e-12;
+
+/// Sine of the angle below which two lines count as parallel.
+pub const PARALLEL: f64 = 1e-9;
+
+/// Relative difference below which two speeds are the same.
+pub const SAME_SPEED: f64 = 1e-12;
+
+/// How far each line is turned (radians) and shifted (share of the diagonal) before the wavefront
+/// moves, so that no two events happen at once; the nodes are put back on the true planes after.
+/// Some hundred times the rounding of the input, and 10^17 times that of the wavefront.
+pub const JITTER: f64 = 3e-14;
+
+/// How much larger the jitter of each further attempt is.
+pub const JITTER_GROWTH: f64 = 8.0;
+
+/// How often a wavefront is tried.
+pub const ATTEMPTS: u64 = 4;
+
+/// How far a corner of the moved lines may be from its vertex, as a share of its shorter edge.
+pub const CORNER_SHIFT_SHARE: f64 = 1e-3;
+
+/// Nodes nearer to each other than this, as a share of the diagonal, are one node.
+pub const SAME_NODE_SHARE: f64 = 2e-10;
+
+/// How far a node of a roof may lie off the plane of its face, as a share of the diagonal.
+pub const PLANE_SHARE: f64 = 1e-9;
+
+/// How much the areas of the faces may differ from the area of the eaves, as a share of it.
+pub const AREA_SHARE: f64 = 1e-7;
+
+/// How far two sides of a face may cross, as a share of the diagonal.
+pub const CROSSING_SHARE: f64 = 1e-9;
