@@ -12,3 +12,6 @@ pub const MAX_HEIGHT: u16 = 512;
 
 /// Errors and warnings that are kept of one file.
 pub const MAX_DIAGNOSTICS: usize = 100;
+
+/// Files of a program, and import statements of a file.
+pub const MAX_FILES: usize = 256;

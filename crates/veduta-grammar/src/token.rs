@@ -101,6 +101,7 @@ impl TokenKind {
             TokenKind::Bar => "`|`",
             TokenKind::Quote => "`'`",
             TokenKind::Tilde => "`~`",
+            TokenKind::Star => "`*`",
             TokenKind::Percent => "`%`",
             TokenKind::OpenParen => "`(`",
             TokenKind::CloseParen => "`)`",

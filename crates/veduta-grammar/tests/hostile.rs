@@ -1,16 +1,13 @@
 //! Text that no author would write: it is refused, without a panic, a full stack or a long wait.
 
 use proptest::prelude::*;
-use veduta_grammar::{limits, parse, Names};
+use veduta_grammar::{check, limits, Program, Source};
 
 /// The messages about a text.
 fn messages(text: &str) -> Vec<String> {
-    let parse = parse(text, &mut Names::new());
-    parse
-        .diagnostics
-        .into_iter()
-        .map(|one| one.message)
-        .collect()
+    let program = Program::single(Source::new("hostile.cga", text));
+    let faults = check(&program).diagnostics.remove(0);
+    faults.into_iter().map(|one| one.message).collect()
 }
 
 fn repeated(before: &str, part: &str) -> Vec<String> {
@@ -64,6 +61,33 @@ fn high_expressions_are_an_error() {
 fn a_file_has_a_largest_size() {
     let found = messages(&" ".repeat(limits::MAX_BYTES + 1));
     assert!(found[0].contains("bytes"));
+}
+
+/// What takes time with the square of its number would take minutes here.
+#[test]
+fn many_of_a_kind_are_read() {
+    let kinds = [
+        ("", "a = 1\n"),
+        ("", "A --> B\n"),
+        ("", "style a\n"),
+        ("", "import a : \"b\"\n"),
+        ("", "@A "),
+        ("a = [1", ", 1"),
+        ("a = [1", "; 1"),
+        ("a(b", ", b"),
+        ("a(b) = f(b", ", b"),
+        ("A --> comp(f) { 0 : B", " | 0 : B"),
+        ("A --> split(x) { 0 : B", " | { 0 : B }*"),
+        ("A --> ", "B "),
+        ("A --> ", "B { } "),
+        ("A --> ", "[ B ] "),
+        ("a = ", "case b : 1 "),
+        ("A --> ", "1% : B "),
+        ("a with ( b := 1 ", "b := 1 "),
+    ];
+    for (before, part) in kinds {
+        repeated(before, part);
+    }
 }
 
 #[test]

@@ -68,6 +68,8 @@ pub struct Call {
     /// `None` without parentheses.
     pub args: Option<Vec<Expr>>,
     pub block: Option<Block>,
+    /// The second block of `splitAndSetbackPerimeter`: `{ remainder : … }`.
+    pub rest: Option<Block>,
     pub span: Span,
 }
 
@@ -107,6 +109,8 @@ pub enum Cell<T> {
         /// What the cell is for: a selector (`front`, `isTagged("a") && top`), an index, or a
         /// size, which may be an [`ExprKind::Sized`](super::ExprKind::Sized).
         selector: Expr,
+        /// The second size of a cell of `splitAndSetbackPerimeter` (`length : depth : …`).
+        depth: Option<Expr>,
         /// `=`: all that is selected becomes one shape. `:`: one shape each.
         combined: bool,
         body: T,

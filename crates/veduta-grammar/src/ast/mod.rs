@@ -2,9 +2,10 @@
 //!
 //! **For an evaluator.** Every name is a [`Symbol`]: a small number that is the same in all files
 //! that were parsed with the same [`Names`](crate::Names), and serves as an index of a side table.
-//! The place of a name (`Ident::span.start`) is unique in its file: what a name refers to can be
-//! resolved once and kept beside the tree under that place. An evaluator lowers the tree once and
-//! never looks at text again.
+//! What a name refers to is resolved once, by [`check`](crate::check()): its
+//! [`Resolution`](crate::Resolution) maps the place of a name (`Ident::span.start`, unique in its
+//! file) to the slot of a parameter, the index of a definition, or an entry of the tables of
+//! built-in names. An evaluator lowers the tree once with these and never looks at text again.
 //!
 //! **Bounds.** No tree is nested deeper than [`MAX_NESTING`](crate::limits::MAX_NESTING) blocks
 //! and no expression higher than [`MAX_HEIGHT`](crate::limits::MAX_HEIGHT), so recursion is safe.

@@ -84,8 +84,10 @@ impl Parser<'_> {
     /// plain operations. The first sign between its own words tells.
     pub fn holds_cells(&self, open: usize) -> bool {
         let mut index = open + 1;
-        if matches!(self.kind_at(index), TokenKind::OpenBrace) {
-            return true;
+        match self.kind_at(index) {
+            TokenKind::OpenBrace => return true,
+            TokenKind::Number if self.kind_at(index + 1) != TokenKind::Percent => return true,
+            _ => {}
         }
         loop {
             match self.kind_at(index) {

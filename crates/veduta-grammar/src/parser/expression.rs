@@ -1,6 +1,7 @@
 //! Expressions: precedence climbing.
 
 use super::cursor::{Failed, Parsed, Parser};
+use super::operation::Sizes;
 use crate::ast::{BinaryOp, Expr, ExprKind, Size, UnaryOp};
 use crate::lexer::unescape;
 use crate::limits::MAX_HEIGHT;
@@ -150,7 +151,7 @@ impl Parser<'_> {
         if !self.is(TokenKind::OpenBrace) {
             return self.expr(ExprKind::Call { name, args }, span);
         }
-        let cells = self.nested(|parser| parser.cells(Self::value))?;
+        let cells = self.nested(|parser| parser.cells(Sizes::One, Self::value))?;
         self.expr(ExprKind::Cells { name, args, cells }, span)
     }
 

@@ -7,6 +7,16 @@ use crate::token::TokenKind;
 /// Operations that work with the shapes of a rule: the operation that follows them, or a block.
 pub(crate) const TAKES_OPERATION: [&str; 4] = ["inline", "union", "subtract", "intersect"];
 
+/// Has cells with two sizes (`length : depth : …`), and a second block.
+pub(crate) const TAKES_DEPTHS: &str = "splitAndSetbackPerimeter";
+
+/// Whether the cells of a block have one size or selector, or two sizes.
+#[derive(Clone, Copy, PartialEq)]
+pub(super) enum Sizes {
+    One,
+    Two,
+}
+
 impl Parser<'_> {
     /// As many operations as there are; they end at what is none.
     pub fn operations(&mut self) -> Parsed<Vec<Operation>> {
@@ -53,10 +63,19 @@ impl Parser<'_> {
         } else {
             None
         };
+        let sizes = match self.slice(start) {
+            TAKES_DEPTHS => Sizes::Two,
+            _ => Sizes::One,
+        };
         let block = if self.is(TokenKind::OpenBrace) {
-            Some(self.nested(Self::block)?)
+            Some(self.nested(|parser| parser.block(sizes))?)
         } else if TAKES_OPERATION.contains(&self.slice(start)) {
             Some(self.nested(Self::operation_as_block)?)
+        } else {
+            None
+        };
+        let rest = if sizes == Sizes::Two && self.is(TokenKind::OpenBrace) {
+            Some(self.nested(|parser| parser.block(Sizes::One))?)
         } else {
             None
         };
@@ -65,6 +84,7 @@ impl Parser<'_> {
             leaf,
             args,
             block,
+            rest,
             span: self.since(start),
         })
     }
@@ -79,7 +99,7 @@ impl Parser<'_> {
         Ok(Block::Body { body, span })
     }
 
-    fn block(&mut self) -> Parsed<Block> {
+    fn block(&mut self, sizes: Sizes) -> Parsed<Block> {
         let open = self.span();
         if !self.holds_cells(self.at()) {
             self.advance();
@@ -88,7 +108,7 @@ impl Parser<'_> {
             let span = self.since(open);
             return Ok(Block::Body { body, span });
         }
-        let cells = self.cells(Self::body)?;
+        let cells = self.cells(sizes, Self::body)?;
         let repeat = self.eat(TokenKind::Star);
         Ok(Block::Cells {
             cells,
@@ -98,11 +118,15 @@ impl Parser<'_> {
     }
 
     /// `{ cell | cell … }`; the brace is next.
-    pub fn cells<T>(&mut self, part: fn(&mut Self) -> Parsed<T>) -> Parsed<Vec<Cell<T>>> {
+    pub fn cells<T>(
+        &mut self,
+        sizes: Sizes,
+        part: fn(&mut Self) -> Parsed<T>,
+    ) -> Parsed<Vec<Cell<T>>> {
         self.advance();
         let mut cells = Vec::new();
         loop {
-            cells.push(self.cell(part)?);
+            cells.push(self.cell(sizes, part)?);
             if self.eat(TokenKind::CloseBrace) {
                 return Ok(cells);
             }
@@ -112,10 +136,10 @@ impl Parser<'_> {
         }
     }
 
-    fn cell<T>(&mut self, part: fn(&mut Self) -> Parsed<T>) -> Parsed<Cell<T>> {
+    fn cell<T>(&mut self, sizes: Sizes, part: fn(&mut Self) -> Parsed<T>) -> Parsed<Cell<T>> {
         let start = self.span();
         if self.is(TokenKind::OpenBrace) {
-            let cells = self.nested(|parser| parser.cells(part))?;
+            let cells = self.nested(|parser| parser.cells(sizes, part))?;
             self.expect(
                 TokenKind::Star,
                 "after a group of cells, which repeats them",
@@ -130,9 +154,15 @@ impl Parser<'_> {
             _ => return self.fail("expected `:` or `=` after a selector or size".to_string()),
         };
         self.advance();
+        let mut depth = None;
+        if sizes == Sizes::Two {
+            depth = Some(self.selector()?);
+            self.expect(TokenKind::Colon, "after the depth of a cell")?;
+        }
         let body = part(self)?;
         Ok(Cell::Part {
             selector,
+            depth,
             combined,
             body,
             span: self.since(start),
