@@ -3,14 +3,13 @@
 #![allow(clippy::unwrap_used)] // helpers of tests
 
 use veduta_grammar::engine::{derive, lot_form, lower, pack, Options, Packed, State};
-use veduta_grammar::{parse, Names};
+use veduta_grammar::{check, Program, Source};
 
 fn packed(text: &str, rings: &[Vec<[f64; 3]>]) -> Packed {
-    let mut names = Names::new();
-    let parsed = parse(text, &mut names);
-    let program = lower(&parsed.file, &names).program;
+    let program = Program::single(Source::new("test.cga", text));
+    let code = lower(&program, &check(&program)).code;
     let start = State::new(lot_form(rings).unwrap(), 0);
-    pack(&derive(&program, 0, start, &Options::default()).unwrap())
+    pack(&derive(&code, 0, start, &Options::default()).unwrap())
 }
 
 fn square(low: f64, high: f64, up: f64) -> Vec<[f64; 3]> {

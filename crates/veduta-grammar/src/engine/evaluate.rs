@@ -4,8 +4,8 @@ use std::sync::Arc;
 
 use crate::ast::{BinaryOp, UnaryOp};
 
+use super::code::{Choice, Expr, ExprKind};
 use super::fault::Fault;
-use super::program::{Choice, Expr, ExprKind};
 use super::random::Stream;
 use super::run::Run;
 use super::state::State;
@@ -152,27 +152,31 @@ impl Run<'_> {
             ));
         }
         self.calls += 1;
-        let program = self.program;
-        let called = &program.functions[function];
+        let code = self.code;
+        let called = &code.functions[function];
         let mut inner = Scene {
             slots: &mut slots,
             state: scene.state,
             stream: scene.stream,
             log_prior: scene.log_prior,
         };
-        let mut result = Ok(());
-        for local in &called.locals {
-            match self.value(local, &mut inner) {
-                Ok(value) => inner.slots.push(value),
-                Err(fault) => result = Err(fault),
-            }
-            if result.is_err() {
-                break;
-            }
-        }
-        let value = result.and_then(|()| self.value(&called.value, &mut inner));
+        let value = self.with_locals(&called.locals, &called.value, &mut inner);
         self.calls -= 1;
         value
+    }
+
+    /// The value of an expression after those of its `with`, which it may use.
+    pub(super) fn with_locals(
+        &mut self,
+        locals: &[Expr],
+        expr: &Expr,
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        for local in locals {
+            let value = self.value(local, scene)?;
+            scene.slots.push(value);
+        }
+        self.value(expr, scene)
     }
 
     fn binary(

@@ -1,188 +1,219 @@
-//! A syntax tree to a program: names become numbers, once for all derivations.
+//! Checked rule files to the code that runs: names become numbers, once for all derivations.
 
-use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::ast::{self, File, Ident, ItemKind, RuleKeyword, ValueKeyword};
-use crate::{Diagnostic, Names, Span, Symbol};
+use crate::ast::{self, Ident, ItemKind, Override};
+use crate::{Checked, Definition, Diagnostic, Program, Resolution, Role, Span, Target};
 
-use super::program::{Global, Program, Rule, UserFunction};
+use super::code::{Code, Global, Rule, UserFunction};
 
-/// A program, and what could not be resolved in it.
+/// The code, and what of the files does not derive yet, by file.
 #[derive(Debug, Clone, Default)]
 pub struct Lowered {
-    pub program: Program,
-    pub diagnostics: Vec<Diagnostic>,
+    pub code: Code,
+    pub diagnostics: Vec<Vec<Diagnostic>>,
 }
 
-/// Resolves the names of a file. Faults are told with their places; the program is usable when
-/// there are none.
-pub fn lower(file: &File, names: &Names) -> Lowered {
-    let mut lowering = Lowering::new(names);
-    lowering.declare(file);
-    lowering.define(file);
-    Lowered {
-        program: lowering.program,
-        diagnostics: lowering.diagnostics,
+impl Lowered {
+    pub fn has_errors(&self) -> bool {
+        self.diagnostics.iter().flatten().any(Diagnostic::is_error)
     }
 }
 
-/// What a name in an expression or a step can mean, beyond parameters and built-in names. Rules and
-/// functions come with the number of their parameters.
-#[derive(Debug, Clone, Copy)]
-pub(super) enum Meaning {
-    Rule(usize, usize),
-    Global(usize),
-    Function(usize, usize),
+/// Lowers a program that has been checked without errors. Of a definition with styles, the one
+/// of the style `Default` is taken.
+pub fn lower(program: &Program, checked: &Checked) -> Lowered {
+    let numbers = Numbers::of(checked);
+    let mut lowered = Lowered {
+        code: Code {
+            names: (0..program.names.len())
+                .map(|index| program.names.shared(index))
+                .collect(),
+            ..Code::default()
+        },
+        diagnostics: Vec::new(),
+    };
+    for unit in 0..program.units.len() {
+        let mut lowering = Lowering {
+            program,
+            resolution: &checked.resolutions[unit],
+            numbers: &numbers,
+            unit,
+            diagnostics: Vec::new(),
+        };
+        lowering.imports();
+        lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
+        lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
+        lowered.diagnostics.push(lowering.diagnostics);
+    }
+    if lowered.code.start.is_none()
+        && checked
+            .definitions
+            .first()
+            .is_some_and(|d| !d.rules.is_empty())
+    {
+        lowered.code.start = Some(0);
+    }
+    lowered
 }
 
+/// What a value is in the code.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Number {
+    /// Evaluated once for a start shape.
+    Global(usize),
+    Function(usize),
+}
+
+/// The numbers of all definitions in the code, file by file.
+pub(super) struct Numbers {
+    values: Vec<Vec<Number>>,
+    first_rule: Vec<usize>,
+}
+
+impl Numbers {
+    fn of(checked: &Checked) -> Self {
+        let (mut globals, mut functions, mut rules) = (0, 0, 0);
+        let (mut values, mut first_rule) = (Vec::new(), Vec::new());
+        let mut count = |definition: &Definition| {
+            let counter = if is_global(definition) {
+                &mut globals
+            } else {
+                &mut functions
+            };
+            *counter += 1;
+            if is_global(definition) {
+                Number::Global(*counter - 1)
+            } else {
+                Number::Function(*counter - 1)
+            }
+        };
+        for unit in &checked.definitions {
+            values.push(unit.values.iter().map(&mut count).collect());
+            first_rule.push(rules);
+            rules += unit.rules.len();
+        }
+        Self { values, first_rule }
+    }
+
+    pub fn value(&self, unit: usize, index: usize) -> Number {
+        self.values[unit][index]
+    }
+
+    pub fn rule(&self, unit: usize, index: usize) -> usize {
+        self.first_rule[unit] + index
+    }
+}
+
+/// Attributes, and constants without parameters.
+fn is_global(definition: &Definition) -> bool {
+    definition.role != Role::Function && definition.arity == 0
+}
+
+/// One file on its way.
 pub(super) struct Lowering<'a> {
-    pub names: &'a Names,
-    pub program: Program,
-    pub diagnostics: Vec<Diagnostic>,
-    pub meanings: HashMap<Symbol, Meaning>,
-    /// The parameters and `with` values of the definition at hand, by slot.
-    pub slots: Vec<Symbol>,
+    pub program: &'a Program,
+    pub numbers: &'a Numbers,
+    resolution: &'a Resolution,
+    unit: usize,
+    diagnostics: Vec<Diagnostic>,
 }
 
 impl<'a> Lowering<'a> {
-    fn new(names: &'a Names) -> Self {
-        let program = Program {
-            names: (0..names.len()).map(|index| names.shared(index)).collect(),
-            ..Program::default()
-        };
-        Self {
-            names,
-            program,
-            diagnostics: Vec::new(),
-            meanings: HashMap::new(),
-            slots: Vec::new(),
+    fn imports(&mut self) {
+        for item in &self.program.units[self.unit].parse.file.items {
+            if let ItemKind::Import(import) = &item.kind {
+                for change in import.overrides.iter().flatten() {
+                    let name = match change {
+                        Override::Protect(name)
+                        | Override::Value { name, .. }
+                        | Override::Rule { name, .. } => name,
+                    };
+                    self.fault(name.span, "changes of what is imported do not derive yet");
+                }
+            }
         }
     }
 
-    /// Gives each definition its number, so that definitions may use those after them.
-    fn declare(&mut self, file: &File) {
-        let (mut rules, mut globals, mut functions) = (0, 0, 0);
-        for item in &file.items {
-            let (name, meaning, next) = match &item.kind {
-                ItemKind::Rule(rule) => {
-                    let meaning = Meaning::Rule(rules, rule.params.len());
-                    (rule.name, meaning, &mut rules)
-                }
-                ItemKind::Value(value) if is_global(value) => {
-                    (value.name, Meaning::Global(globals), &mut globals)
-                }
-                ItemKind::Value(value) => {
-                    let meaning = Meaning::Function(functions, value.params.len());
-                    (value.name, meaning, &mut functions)
-                }
-                ItemKind::Import(import) => {
-                    self.fault(import.id.span, "imports do not derive yet");
-                    continue;
-                }
-                ItemKind::Version(_) | ItemKind::Style(_) => continue,
-            };
-            *next += 1;
-            self.meanings.insert(name.symbol, meaning);
-        }
-    }
-
-    fn define(&mut self, file: &File) {
-        for item in &file.items {
-            match &item.kind {
-                ItemKind::Rule(rule) => {
-                    let starts = rule.keyword == RuleKeyword::Start
-                        || item
-                            .annotations
-                            .iter()
-                            .any(|a| self.text(a.name) == "StartRule");
-                    self.rule(rule, starts);
-                }
-                ItemKind::Value(value) if is_global(value) => self.global(value),
-                ItemKind::Value(value) => self.function(value),
+    fn definitions(&mut self, definitions: &[Definition], code: &mut Code) {
+        for definition in definitions {
+            let default = definition
+                .variants
+                .iter()
+                .find(|variant| variant.style == 0);
+            let variant = default.unwrap_or(&definition.variants[0]);
+            match &self.program.units[self.unit].parse.file.items[variant.item].kind {
+                ItemKind::Rule(rule) => self.rule(rule, definition, code),
+                ItemKind::Value(value) => self.value(value, definition, code),
                 _ => {}
             }
         }
-        if self.program.start.is_none() && !self.program.rules.is_empty() {
-            self.program.start = Some(0);
-        }
     }
 
-    fn rule(&mut self, rule: &ast::Rule, starts: bool) {
-        if starts && self.program.start.is_none() {
-            self.program.start = Some(self.program.rules.len());
+    fn rule(&mut self, rule: &ast::Rule, definition: &Definition, code: &mut Code) {
+        if matches!(definition.role, Role::StartRule { .. })
+            && self.unit == 0
+            && code.start.is_none()
+        {
+            code.start = Some(code.rules.len());
         }
-        let locals = self.open(&rule.params, &rule.locals);
+        let locals = self.locals(&rule.locals);
         let body = self.body(&rule.body);
-        self.program.rules.push(Rule {
+        code.rules.push(Rule {
             name: self.shared(rule.name),
             symbol: rule.name.symbol,
-            params: rule.params.len(),
+            params: definition.arity,
             locals,
             body,
         });
     }
 
-    fn global(&mut self, value: &ast::Value) {
-        if !value.locals.is_empty() {
-            self.fault(
-                value.name.span,
-                "`with` before an attribute does not derive yet",
-            );
-        }
-        self.slots.clear();
+    fn value(&mut self, value: &ast::Value, definition: &Definition, code: &mut Code) {
+        let locals = self.locals(&value.locals);
         let expr = self.expr(&value.value);
-        self.program.globals.push(Global {
-            name: self.shared(value.name),
-            is_attribute: value.keyword == ValueKeyword::Attr,
-            value: expr,
-        });
+        let name = self.shared(value.name);
+        if is_global(definition) {
+            code.globals.push(Global {
+                name,
+                is_attribute: definition.role == Role::Attr,
+                locals,
+                value: expr,
+            });
+        } else {
+            code.functions.push(UserFunction {
+                name,
+                params: definition.arity,
+                locals,
+                value: expr,
+            });
+        }
     }
 
-    fn function(&mut self, value: &ast::Value) {
-        let locals = self.open(&value.params, &value.locals);
-        let expr = self.expr(&value.value);
-        self.program.functions.push(UserFunction {
-            name: self.shared(value.name),
-            params: value.params.len(),
-            locals,
-            value: expr,
-        });
+    fn locals(&mut self, locals: &[ast::Local]) -> Vec<super::code::Expr> {
+        locals.iter().map(|local| self.expr(&local.value)).collect()
     }
 
-    /// Fills the slots: parameters first, then each `with` value, which sees those before it.
-    fn open(&mut self, params: &[Ident], locals: &[ast::Local]) -> Vec<super::program::Expr> {
-        self.slots = params.iter().map(|param| param.symbol).collect();
-        let mut found = Vec::with_capacity(locals.len());
-        for local in locals {
-            found.push(self.expr(&local.value));
-            self.slots.push(local.name.symbol);
-        }
-        found
+    pub fn target(&self, name: Ident) -> Option<Target> {
+        self.resolution.target(&name)
     }
 
     pub fn text(&self, name: Ident) -> &'a str {
-        self.names.text(name.symbol)
+        self.program.names.text(name.symbol)
     }
 
     pub fn shared(&self, name: Ident) -> Arc<str> {
-        self.names.shared(name.symbol.index())
+        self.program.names.shared(name.symbol.index())
     }
 
     pub fn fault(&mut self, span: Span, message: impl Into<String>) {
         self.diagnostics.push(Diagnostic::error(span, message));
     }
 
-    /// Says so where a rule or a function does not get as many arguments as it has parameters.
-    pub fn check_count(&mut self, name: Ident, span: Span, params: usize, args: usize) {
-        if params != args {
-            let message = format!("`{}` takes {params} arguments, not {args}", self.text(name));
-            self.fault(span, message);
-        }
+    /// The fault of something that the checker knows and the engine does not.
+    pub fn unknown(&mut self, name: Ident) {
+        self.fault(
+            name.span,
+            format!("`{}` does not derive yet", self.text(name)),
+        );
     }
-}
-
-/// Attributes, and constants that are no functions: evaluated once for a start shape.
-fn is_global(value: &ast::Value) -> bool {
-    value.keyword != ValueKeyword::Function && value.params.is_empty()
 }

@@ -1,10 +1,13 @@
 //! Rules' bodies to steps.
 
-use crate::ast::{self, Block, Branches, Call, ExprKind, Size, Test};
+use std::sync::Arc;
 
-use super::lower::{Lowering, Meaning};
+use crate::ast::{self, Block, Branches, Call, ExprKind, Size, Test};
+use crate::Target;
+
+use super::code::{Arg, Body, Cell, Choice, Expr, Operation, Selector, Sizing, Step};
+use super::lower::Lowering;
 use super::operations::OperationId;
-use super::program::{Arg, Body, Cell, Choice, Expr, Operation, Selector, Sizing, Step};
 
 impl Lowering<'_> {
     pub fn body(&mut self, body: &ast::Body) -> Body {
@@ -49,35 +52,31 @@ impl Lowering<'_> {
 
     /// A rule, an operation, or, where the name is neither, a leaf.
     fn call(&mut self, call: &Call) -> Step {
-        if let (false, Some(Meaning::Rule(rule, params))) =
-            (call.leaf, self.meanings.get(&call.name.symbol).copied())
-        {
-            self.check_count(call.name, call.span, params, call.args().len());
-            let args = call.args().iter().map(|arg| self.expr(arg)).collect();
-            return Step::Rule {
-                rule,
-                args,
+        match self.target(call.name) {
+            Some(Target::Rule { unit, index }) => Step::Rule {
+                rule: self.numbers.rule(unit, index),
+                args: self.exprs(call.args()),
                 span: call.span,
-            };
-        }
-        if let (false, Some(id)) = (call.leaf, OperationId::named(self.text(call.name))) {
-            return Step::Operation(Box::new(self.operation(id, call)));
-        }
-        Step::Leaf {
-            symbol: call.name.symbol,
+            },
+            Some(Target::Operation(_)) => match OperationId::named(self.text(call.name)) {
+                Some(id) => Step::Operation(Box::new(self.operation(id, call))),
+                None => {
+                    self.unknown(call.name);
+                    Step::Push(Vec::new())
+                }
+            },
+            _ => Step::Leaf {
+                symbol: call.name.symbol,
+            },
         }
     }
 
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
-        let (args, entry) = (call.args(), id.entry());
-        if args.len() < entry.args.0 || args.len() > entry.args.1 {
-            let message = format!(
-                "`{}` takes {} to {} arguments, not {}",
-                self.text(call.name),
-                entry.args.0,
-                entry.args.1,
-                args.len()
-            );
+        let args = call.args();
+        let (fewest, most) = id.arguments();
+        if args.len() < fewest || args.len() > most {
+            let name = self.text(call.name);
+            let message = format!("`{name}` with {} arguments does not derive yet", args.len());
             self.fault(call.span, message);
         }
         let (cells, repeat) = match &call.block {
@@ -88,18 +87,22 @@ impl Lowering<'_> {
             }
             None => (Vec::new(), false),
         };
-        let lowered = args.iter().enumerate().map(|(index, arg)| match &arg.kind {
-            ExprKind::Name(name) if entry.is_word(index, args.len()) => {
-                Arg::Word(self.shared(*name))
-            }
-            _ => {
-                let (sizing, expr) = self.sized(arg);
-                Arg::Value(sizing, expr)
-            }
-        });
+        // `set` is about an attribute, not about its value.
+        let named = self.text(call.name) == "set";
+        let mut lowered = Vec::with_capacity(args.len());
+        for (index, arg) in args.iter().enumerate() {
+            lowered.push(match (&arg.kind, self.word(arg)) {
+                (ExprKind::Name(name), _) if named && index == 0 => Arg::Word(self.shared(*name)),
+                (_, Some(word)) => Arg::Word(word),
+                (_, None) => {
+                    let (sizing, expr) = self.sized(arg);
+                    Arg::Value(sizing, expr)
+                }
+            });
+        }
         Operation {
             id,
-            args: lowered.collect(),
+            args: lowered,
             cells,
             repeat,
             span: call.span,
@@ -126,15 +129,24 @@ impl Lowering<'_> {
         }
     }
 
-    /// A word, unless it is the name of a value.
     fn selector(&mut self, selector: &ast::Expr) -> Selector {
-        if let ExprKind::Name(name) = &selector.kind {
-            if !self.is_value(*name) {
-                return Selector::Word(self.shared(*name));
+        match self.word(selector) {
+            Some(word) => Selector::Word(word),
+            None => {
+                let (sizing, expr) = self.sized(selector);
+                Selector::Value(sizing, expr)
             }
         }
-        let (sizing, expr) = self.sized(selector);
-        Selector::Value(sizing, expr)
+    }
+
+    /// The word that an expression is, if it is one and no value.
+    fn word(&self, expr: &ast::Expr) -> Option<Arc<str>> {
+        match &expr.kind {
+            ExprKind::Name(name) if self.target(*name) == Some(Target::Word) => {
+                Some(self.shared(*name))
+            }
+            _ => None,
+        }
     }
 
     fn sized(&mut self, expr: &ast::Expr) -> (Sizing, Expr) {

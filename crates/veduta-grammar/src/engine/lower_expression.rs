@@ -1,11 +1,11 @@
 //! Expressions with their names resolved.
 
 use crate::ast::{self, ExprKind as Ast, Ident};
-use crate::Span;
+use crate::{Span, Target};
 
+use super::code::{Expr, ExprKind};
 use super::functions::Function;
-use super::lower::{Lowering, Meaning};
-use super::program::{Expr, ExprKind};
+use super::lower::{Lowering, Number};
 use super::shape_attributes::ShapeAttribute;
 
 impl Lowering<'_> {
@@ -15,7 +15,7 @@ impl Lowering<'_> {
             Ast::Text(text) => ExprKind::Text(text.as_str().into()),
             Ast::Bool(is) => ExprKind::Bool(*is),
             Ast::Name(name) => self.name(*name),
-            Ast::Call { name, args } => self.function_call(*name, args, expr.span),
+            Ast::Call { name, args } => self.function_call(*name, args),
             Ast::Unary { op, operand } => ExprKind::Unary {
                 op: *op,
                 operand: Box::new(self.expr(operand)),
@@ -49,69 +49,49 @@ impl Lowering<'_> {
         }
     }
 
-    fn exprs(&mut self, exprs: &[ast::Expr]) -> Vec<Expr> {
+    pub fn exprs(&mut self, exprs: &[ast::Expr]) -> Vec<Expr> {
         exprs.iter().map(|expr| self.expr(expr)).collect()
     }
 
-    /// Whether a name is that of a value here, and no word.
-    pub fn is_value(&self, name: Ident) -> bool {
-        self.slots.contains(&name.symbol)
-            || matches!(
-                self.meanings.get(&name.symbol),
-                Some(Meaning::Global(_) | Meaning::Function(..))
-            )
-            || ShapeAttribute::named(self.text(name)).is_some()
-    }
-
     fn name(&mut self, name: Ident) -> ExprKind {
-        if let Some(slot) = self.slots.iter().rposition(|slot| *slot == name.symbol) {
-            return ExprKind::Slot(slot);
-        }
-        match self.meanings.get(&name.symbol).copied() {
-            Some(Meaning::Global(global)) => return ExprKind::Global(global),
-            Some(Meaning::Function(function, params)) => {
-                self.check_count(name, name.span, params, 0);
-                return ExprKind::Call {
-                    function,
-                    args: Vec::new(),
-                };
-            }
-            _ => {}
-        }
-        match ShapeAttribute::named(self.text(name)) {
-            Some(attribute) => ExprKind::Attribute(attribute),
-            None => {
-                let message = format!("`{}` is not known here", self.text(name));
-                self.unresolved(name.span, message)
-            }
+        match self.target(name) {
+            Some(Target::Local(slot)) => ExprKind::Slot(slot),
+            Some(Target::Value { unit, index }) => self.defined(unit, index, Vec::new()),
+            Some(Target::Attribute) => match ShapeAttribute::named(self.text(name)) {
+                Some(attribute) => ExprKind::Attribute(attribute),
+                None => self.not_yet(name),
+            },
+            _ => self.not_yet(name),
         }
     }
 
-    fn function_call(&mut self, name: Ident, args: &[ast::Expr], span: Span) -> ExprKind {
+    fn function_call(&mut self, name: Ident, args: &[ast::Expr]) -> ExprKind {
         let lowered = self.exprs(args);
-        if let Some(Meaning::Function(function, params)) = self.meanings.get(&name.symbol).copied()
-        {
-            self.check_count(name, span, params, args.len());
-            return ExprKind::Call {
-                function,
-                args: lowered,
-            };
+        match self.target(name) {
+            Some(Target::Value { unit, index }) => self.defined(unit, index, lowered),
+            Some(Target::Function(_)) => match Function::named(self.text(name)) {
+                Some((function, fewest, most)) if args.len() >= fewest && args.len() <= most => {
+                    ExprKind::Builtin {
+                        function,
+                        args: lowered,
+                    }
+                }
+                _ => self.not_yet(name),
+            },
+            _ => self.not_yet(name),
         }
-        let text = self.text(name);
-        let Some((function, fewest, most)) = Function::named(text) else {
-            return self.unresolved(
-                name.span,
-                format!("the function `{text}` does not derive yet"),
-            );
-        };
-        if args.len() < fewest || args.len() > most {
-            let message = format!("`{text}` does not take {} arguments", args.len());
-            return self.unresolved(span, message);
+    }
+
+    fn defined(&self, unit: usize, index: usize, args: Vec<Expr>) -> ExprKind {
+        match self.numbers.value(unit, index) {
+            Number::Global(global) => ExprKind::Global(global),
+            Number::Function(function) => ExprKind::Call { function, args },
         }
-        ExprKind::Builtin {
-            function,
-            args: lowered,
-        }
+    }
+
+    fn not_yet(&mut self, name: Ident) -> ExprKind {
+        self.unknown(name);
+        ExprKind::Number(0.0)
     }
 
     fn unresolved(&mut self, span: Span, message: impl Into<String>) -> ExprKind {

@@ -1,8 +1,9 @@
 //! Deriving: a rule file and a start shape to a tree of shapes.
 //!
-//! [`lower`] resolves a parsed file to a [`Program`] once; [`derive`] runs it for one start shape,
-//! and may be called from many threads. Frame of rule files: metres, right-handed, y up.
+//! [`lower`] makes [`Code`] of checked files once; [`derive()`] runs it for one start shape, and may
+//! be called from many threads. Frame of rule files: metres, right-handed, y up.
 
+mod code;
 mod evaluate;
 mod fault;
 mod functions;
@@ -14,7 +15,6 @@ mod lower_expression;
 mod operations;
 mod overrides;
 mod pack;
-mod program;
 mod random;
 mod run;
 mod shape_attributes;
@@ -22,6 +22,7 @@ mod state;
 mod tree;
 mod value;
 
+pub use code::Code;
 pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
@@ -29,7 +30,6 @@ pub use lower::{lower, Lowered};
 pub use operations::names as operation_names;
 pub use overrides::{Edit, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
-pub use program::Program;
 pub use random::Stream;
 pub use run::{derive, Options};
 pub use state::{Look, Place, State};

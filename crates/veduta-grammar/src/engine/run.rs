@@ -6,11 +6,11 @@ use std::time::Instant;
 
 use crate::Span;
 
+use super::code::{Body, Code, Expr, Operation, Step};
 use super::evaluate::{alternative, Scene};
 use super::fault::Fault;
 use super::limits::Limits;
 use super::overrides::Overrides;
-use super::program::{Body, Expr, Operation, Program, Step};
 use super::random::Stream;
 use super::state::State;
 use super::tree::{Node, Tree};
@@ -31,7 +31,7 @@ pub struct Options {
 
 /// A derivation at work.
 pub struct Run<'a> {
-    pub(super) program: &'a Program,
+    pub(super) code: &'a Code,
     pub(super) options: &'a Options,
     pub(super) tree: Tree,
     /// Functions being called now, one in another.
@@ -75,18 +75,13 @@ pub struct Frame {
 }
 
 /// Derives the tree of `rule` from a start shape.
-pub fn derive(
-    program: &Program,
-    rule: usize,
-    start: State,
-    options: &Options,
-) -> Result<Tree, Fault> {
+pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Result<Tree, Fault> {
     let mut run = Run {
-        program,
+        code,
         options,
         tree: Tree::default(),
         calls: 0,
-        globals: vec![Global::Unknown; program.globals.len()],
+        globals: vec![Global::Unknown; code.globals.len()],
         waiting: Vec::new(),
         started: Instant::now(),
         forced: Vec::new(),
@@ -101,7 +96,7 @@ pub fn derive(
 
 impl Run<'_> {
     fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
-        let called = &self.program.rules[rule];
+        let called = &self.code.rules[rule];
         if called.params > 0 {
             let message = format!(
                 "{} needs {} arguments and cannot start",
@@ -128,9 +123,9 @@ impl Run<'_> {
 
     /// Applies the rule of a waiting shape; its children wait in turn, the first on top.
     fn apply(&mut self, next: Waiting) -> Result<(), Fault> {
-        let program = self.program;
+        let code = self.code;
         let node = &self.tree.nodes[next.node as usize];
-        let Some(rule) = node.rule.map(|rule| &program.rules[rule as usize]) else {
+        let Some(rule) = node.rule.map(|rule| &code.rules[rule as usize]) else {
             return Ok(());
         };
         let mut frame = Frame {
@@ -195,7 +190,7 @@ impl Run<'_> {
                     frame.pending = false;
                 }
                 Step::Leaf { symbol } => {
-                    let name = self.program.symbol_text(*symbol);
+                    let name = self.code.symbol_text(*symbol);
                     self.leave(&name, frame)?;
                     frame.pending = false;
                 }
@@ -263,7 +258,7 @@ impl Run<'_> {
             let message = format!("rules apply one within another over {} deep", depth - 1);
             return Err(Fault::at(span, message));
         }
-        let name = self.program.rules[rule].name.clone();
+        let name = self.code.rules[rule].name.clone();
         let stream = frame.origin.child(frame.children);
         let Some(node) = self.add(name, Some(rule as u32), frame, span)? else {
             return Ok(());
@@ -331,8 +326,8 @@ impl Run<'_> {
         if let Some(value) = state.set.as_ref().and_then(|set| set.get(&index)) {
             return Ok(value.clone());
         }
-        let program = self.program;
-        let global = &program.globals[index];
+        let code = self.code;
+        let global = &code.globals[index];
         match &self.globals[index] {
             Global::Known(value) => return Ok(value.clone()),
             Global::Open => {
@@ -353,7 +348,7 @@ impl Run<'_> {
                 stream: &mut Stream::new(self.options.seed).child(u32::MAX - index as u32),
                 log_prior: &mut 0.0,
             };
-            let found = self.value(&global.value, &mut scene);
+            let found = self.with_locals(&global.locals, &global.value, &mut scene);
             self.globals[index] = Global::Unknown;
             found?
         };

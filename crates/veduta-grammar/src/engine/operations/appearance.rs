@@ -3,8 +3,8 @@
 use std::collections::BTreeMap;
 use std::sync::Arc;
 
+use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::program::{Arg, Operation};
 use super::super::run::{Frame, Run};
 use super::super::value::Value;
 use super::{number, word};
@@ -69,7 +69,7 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
     };
     let value = run.evaluate(expr, frame)?;
     let attribute = run
-        .program
+        .code
         .globals
         .iter()
         .position(|global| global.name == *name);

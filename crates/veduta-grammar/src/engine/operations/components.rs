@@ -5,8 +5,8 @@ use std::sync::Arc;
 use glam::DMat3;
 use veduta_geometry::solid::Mesh;
 
+use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
-use super::super::program::{Body, Cell, Operation, Selector};
 use super::super::run::{Frame, Run};
 use super::super::state::{Place, State};
 use super::word;

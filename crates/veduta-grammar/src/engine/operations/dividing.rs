@@ -1,7 +1,7 @@
 //! `split`: a shape to parts along an axis.
 
+use super::super::code::{Body, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
-use super::super::program::{Body, Cell, Operation, Selector, Sizing};
 use super::super::run::{Frame, Run};
 use super::super::state::Place;
 use super::{axes, word};

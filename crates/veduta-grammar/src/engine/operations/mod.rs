@@ -9,8 +9,8 @@ mod transform;
 
 use std::sync::Arc;
 
+use super::code::{Arg, Operation, Sizing};
 use super::fault::Fault;
-use super::program::{Arg, Operation, Sizing};
 use super::run::{Frame, Run};
 
 /// An operation: its place in the table.
@@ -19,79 +19,43 @@ pub struct OperationId(usize);
 
 type Work = fn(&mut Run<'_>, &Operation, &mut Frame) -> Result<(), Fault>;
 
-/// What the table says of an operation.
-#[derive(Clone, Copy)]
-pub struct Entry {
-    name: &'static str,
-    work: Work,
-    /// The fewest and most arguments.
-    pub args: (usize, usize),
-    /// How many of the first arguments are words, not values, where there are as many arguments
-    /// as the operation can have, and where there are fewer.
-    words: (usize, usize),
-}
-
-const fn entry(
-    name: &'static str,
-    work: Work,
-    args: (usize, usize),
-    words: (usize, usize),
-) -> Entry {
-    Entry {
-        name,
-        work,
-        args,
-        words,
-    }
-}
-
-const TABLE: &[Entry] = &[
-    entry("NIL", appearance::nothing, (0, 0), (0, 0)),
-    entry("alignScopeToAxes", transform::align_to_axes, (0, 1), (1, 0)),
-    entry("center", transform::center, (1, 1), (1, 0)),
-    entry("color", appearance::colour, (1, 4), (0, 0)),
-    entry("comp", components::components, (1, 1), (1, 0)),
-    entry("extrude", solids::extrude, (1, 2), (1, 0)),
-    entry("primitiveCube", solids::cube, (0, 3), (0, 0)),
-    entry("primitiveQuad", solids::quad, (0, 2), (0, 0)),
-    entry("print", speech::print, (1, 1), (0, 0)),
-    entry("r", transform::turn_scope, (3, 4), (1, 0)),
-    entry("report", speech::report, (2, 2), (0, 0)),
-    entry("rotate", transform::rotate, (5, 5), (2, 0)),
-    entry("s", transform::resize, (3, 3), (0, 0)),
-    entry("set", appearance::set, (2, 2), (1, 0)),
-    entry("split", dividing::split, (1, 2), (2, 1)),
-    entry("t", transform::move_scope, (3, 3), (0, 0)),
-    entry("texture", appearance::texture, (1, 1), (0, 0)),
-    entry("translate", transform::translate, (5, 5), (2, 0)),
+/// All operations that derive, and the fewest and most arguments of each.
+const TABLE: &[(&str, Work, usize, usize)] = &[
+    ("NIL", appearance::nothing, 0, 0),
+    ("alignScopeToAxes", transform::align_to_axes, 0, 1),
+    ("center", transform::center, 1, 1),
+    ("color", appearance::colour, 1, 4),
+    ("comp", components::components, 1, 1),
+    ("extrude", solids::extrude, 1, 2),
+    ("primitiveCube", solids::cube, 0, 3),
+    ("primitiveQuad", solids::quad, 0, 2),
+    ("print", speech::print, 1, 1),
+    ("r", transform::turn_scope, 3, 4),
+    ("report", speech::report, 2, 2),
+    ("rotate", transform::rotate, 5, 5),
+    ("s", transform::resize, 3, 3),
+    ("set", appearance::set, 2, 2),
+    ("split", dividing::split, 1, 2),
+    ("t", transform::move_scope, 3, 3),
+    ("texture", appearance::texture, 1, 1),
+    ("translate", transform::translate, 5, 5),
 ];
 
 impl OperationId {
     /// The operation of this name.
     pub fn named(name: &str) -> Option<Self> {
-        TABLE.iter().position(|entry| entry.name == name).map(Self)
+        TABLE.iter().position(|entry| entry.0 == name).map(Self)
     }
 
-    pub fn entry(self) -> Entry {
-        TABLE[self.0]
-    }
-}
-
-impl Entry {
-    /// Whether the argument at `index` of `count` is a word.
-    pub fn is_word(&self, index: usize, count: usize) -> bool {
-        let words = if count == self.args.1 {
-            self.words.0
-        } else {
-            self.words.1
-        };
-        index < words
+    /// The fewest and most arguments.
+    pub fn arguments(self) -> (usize, usize) {
+        (TABLE[self.0].2, TABLE[self.0].3)
     }
 }
 
 /// The names of all operations that derive.
 pub fn names() -> impl Iterator<Item = &'static str> {
-    TABLE.iter().map(|entry| entry.name)
+    TABLE.iter().map(|entry| entry.0)
 }
 
 pub(super) fn run(
@@ -99,7 +63,7 @@ pub(super) fn run(
     operation: &Operation,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    (operation.id.entry().work)(run, operation, frame)
+    TABLE[operation.id.0].1(run, operation, frame)
 }
 
 /// The argument at `index` as metres; `'` takes it of `whole`.

@@ -3,8 +3,8 @@
 use glam::DVec3;
 use veduta_geometry::solid;
 
+use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::program::Operation;
 use super::super::run::{Frame, Run};
 use super::{length, word};
 use crate::shape::{Form, Geometry};

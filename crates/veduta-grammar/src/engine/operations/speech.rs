@@ -1,7 +1,7 @@
 //! `print` and `report`.
 
+use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::program::{Arg, Operation};
 use super::super::run::{Frame, Run};
 use super::word;
 

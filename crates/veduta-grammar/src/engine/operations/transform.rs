@@ -2,8 +2,8 @@
 
 use glam::{DMat3, DQuat, DVec3};
 
+use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::program::{Arg, Operation};
 use super::super::run::{Frame, Run};
 use super::{axes, length, number, word};
 use crate::shape::Form;

@@ -1,4 +1,4 @@
-//! Rule files as the engine runs them: every name is resolved to a number.
+//! Rule files as the engine runs them: every name is a number.
 
 use std::sync::Arc;
 
@@ -9,9 +9,9 @@ use super::functions::Function;
 use super::operations::OperationId;
 use super::shape_attributes::ShapeAttribute;
 
-/// A rule file with its imports, ready to run.
+/// Rule files that belong together, ready to run.
 #[derive(Debug, Clone, Default)]
-pub struct Program {
+pub struct Code {
     pub rules: Vec<Rule>,
     /// Attributes and constants, each evaluated once for a start shape.
     pub globals: Vec<Global>,
@@ -22,7 +22,7 @@ pub struct Program {
     pub names: Vec<Arc<str>>,
 }
 
-impl Program {
+impl Code {
     pub fn symbol_text(&self, symbol: Symbol) -> Arc<str> {
         self.names[symbol.index()].clone()
     }
@@ -50,6 +50,8 @@ pub struct Global {
     pub name: Arc<str>,
     /// Whether it may be set from outside.
     pub is_attribute: bool,
+    /// Values of `with`, by slot.
+    pub locals: Vec<Expr>,
     pub value: Expr,
 }
 
