@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 use proptest::prelude::*;
-use veduta_geometry::solid::{cube, cut, extrude, quad, Mesh};
+use veduta_geometry::solid::{cube, cut, extrude, quad, roofed, Mesh, RoofKind};
 
 const TOLERANCE: f64 = 1e-9;
 
@@ -121,6 +121,38 @@ fn faces_know_where_they_come_from() {
     assert_eq!(sources, [None, Some(0), Some(2), Some(3), Some(4), Some(5)]);
 }
 
+fn rectangle(x: f64, y: f64) -> Mesh {
+    let corner = |a: f64, b: f64| v(a * x, 1.0, -b * y);
+    Mesh::polygon(&[[
+        corner(0., 0.),
+        corner(1., 0.),
+        corner(1., 1.),
+        corner(0., 1.),
+    ]])
+}
+
+#[test]
+fn roofs_of_a_rectangle() {
+    let slope = 0.5;
+    // A hip roof is a gable roof without a pyramid at each end.
+    let (long, wide, high) = (12.0, 8.0, 4.0 * slope);
+    let hip = roofed(&rectangle(long, wide), RoofKind::Hip, slope).unwrap();
+    assert!(hip.is_closed());
+    assert!((hip.volume() - wide * high * (3.0 * long - wide) / 6.0).abs() < TOLERANCE);
+    let gable = roofed(&rectangle(long, wide), RoofKind::Gable, slope).unwrap();
+    assert!(gable.is_closed());
+    assert!((gable.volume() - wide * high * long / 2.0).abs() < TOLERANCE);
+    let (low, up) = gable.bounds().unwrap();
+    assert!((low.y - 1.0).abs() < TOLERANCE && (up.y - 1.0 - high).abs() < TOLERANCE);
+}
+
+#[test]
+fn a_square_has_two_gables() {
+    let gable = roofed(&rectangle(6.0, 6.0), RoofKind::Gable, 1.0).unwrap();
+    assert!((gable.volume() - 6.0 * 6.0 * 3.0 / 2.0).abs() < TOLERANCE);
+    assert_eq!(gable.face_count(), 5);
+}
+
 /// A simple polygon around a point, with its corners at growing angles.
 fn star() -> impl Strategy<Value = Mesh> {
     prop::collection::vec(0.2..5.0f64, 3..24).prop_map(|radii| {
@@ -135,6 +167,15 @@ fn star() -> impl Strategy<Value = Mesh> {
 }
 
 proptest! {
+    #[test]
+    fn roofs_close_over_any_outline(sheet in star(), slope in 0.1..3.0f64) {
+        for kind in [RoofKind::Hip, RoofKind::Gable] {
+            let solid = roofed(&sheet, kind, slope).unwrap();
+            prop_assert!(solid.is_closed());
+            prop_assert!(solid.volume() > 0.0);
+        }
+    }
+
     #[test]
     fn a_cut_keeps_the_area(sheet in star(), axis in prop::sample::select(vec![0usize, 2]), at in -5.0..5.0f64) {
         let sides = cut(&sheet, axis, at, TOLERANCE, false);

@@ -237,7 +237,10 @@ fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> split(x) { { 0.00001 : A. }* }").contains("a split into"));
     let circle = "attr a = f(0)\nf(x) = case x > 0 : 1 else : a\nLot --> s(a, 1, 1)";
     assert!(fault(circle).contains("depends on itself"));
-    assert!(fault("f(x) = case x > 0 : f(x) else : 0\nLot --> s(f(1), 1, 1)").contains("functions call one another"));
+    assert!(
+        fault("f(x) = case x > 0 : f(x) else : 0\nLot --> s(f(1), 1, 1)")
+            .contains("functions call one another")
+    );
     assert!(fault("Lot --> s([1, 2], 1, 1)").contains("a number is needed, not an array"));
     assert!(fault("Lot --> print([1, 2][5])").contains("in an array of 2"));
     assert!(fault("Lot --> s(1 / 0, 1, 1)").contains("lengths of"));
@@ -259,6 +262,23 @@ fn what_does_not_derive_yet_is_said_before_anything_is_derived() {
         ["`geometry.area` does not derive yet"]
     );
     assert_eq!(wrong("Lot --> s(abs(1), 1, 1)"), [""; 0]);
+}
+
+#[test]
+fn roofs_rise_over_what_lies() {
+    let text = "Lot --> extrude(3) comp(f) { top : Top | all : NIL }
+                Top --> roofGable(45) Roof.";
+    let found = tree(text);
+    let roof = &found.leaves().next().unwrap().state.form;
+    assert!((roof.scope.size.y - 3.0).abs() < 1e-9);
+    assert!((roof.world_mesh().volume() - 10.0 * 6.0 * 3.0 / 2.0).abs() < 1e-9);
+    let hip = tree("Lot --> roofHip(byHeight, 2)");
+    let form = &hip.leaves().next().unwrap().state.form;
+    assert_eq!(
+        form.scope.size.to_array().map(|s| (s * 1e6).round() / 1e6),
+        [10.0, 2.0, 6.0]
+    );
+    assert!(fault("Lot --> roofHip(90)").contains("a slope"));
 }
 
 #[test]

@@ -5,8 +5,10 @@ mod extrude;
 mod loops;
 mod mesh;
 mod primitives;
+mod roofs;
 
 pub use cut::{cut, Piece, Sides};
 pub use extrude::extrude;
 pub use mesh::{Face, Mesh};
 pub use primitives::{cube, quad};
+pub use roofs::{roofed, RoofKind};

@@ -3,6 +3,7 @@
 mod appearance;
 mod components;
 mod dividing;
+mod roofs;
 mod solids;
 mod speech;
 mod transform;
@@ -32,6 +33,8 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("print", speech::print, 1, 1),
     ("r", transform::turn_scope, 3, 4),
     ("report", speech::report, 2, 2),
+    ("roofGable", roofs::gable, 1, 2),
+    ("roofHip", roofs::hip, 1, 2),
     ("rotate", transform::rotate, 5, 5),
     ("s", transform::resize, 3, 3),
     ("set", appearance::set, 2, 2),
