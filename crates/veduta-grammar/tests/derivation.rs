@@ -86,6 +86,12 @@ fn what_nothing_follows_stays() {
     assert_eq!(names(&tree("Lot --> A. extrude(1)")), ["A", "Lot"]);
     assert_eq!(names(&tree("Lot --> [ extrude(1) ] A.")), ["Lot", "A"]);
     assert_eq!(names(&tree("Lot --> [ extrude(1) A. ] NIL")), ["A"]);
+    assert_eq!(names(&tree("Lot --> [ A. ] [ B. ]")), ["A", "B"]);
+    assert_eq!(names(&tree("Lot --> color(1) [ A. ]")), ["A", "Lot"]);
+    assert_eq!(
+        names(&tree("Lot --> split(x) { ~1 : [ A. ] | ~1 : }")),
+        ["A", "Lot"]
+    );
 }
 
 #[test]

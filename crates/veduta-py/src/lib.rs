@@ -3,10 +3,12 @@
 use pyo3::prelude::*;
 
 mod chain;
+mod grammar;
 mod polygons;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
+    grammar::register(m)?;
     polygons::register(m)
 }

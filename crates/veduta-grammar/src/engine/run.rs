@@ -70,8 +70,18 @@ pub struct Frame {
     children: u32,
     log_prior: f64,
     choices: Vec<u16>,
-    /// Whether the current shape has not yet become a child: then it stays as a leaf.
-    pending: bool,
+    fate: Fate,
+}
+
+/// What becomes of the current shape at the end of its body.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Fate {
+    /// Nothing has been done with it: it stays as a leaf, unless brackets made shapes in its place.
+    Untouched,
+    /// It has been changed since it was last handed on: it stays as a leaf.
+    Changed,
+    /// It lives on in its children, or is gone.
+    Done,
 }
 
 /// Derives the tree of `rule` from a start shape.
@@ -138,7 +148,7 @@ impl Run<'_> {
             children: 0,
             log_prior: 0.0,
             choices: Vec::new(),
-            pending: true,
+            fate: Fate::Untouched,
         };
         self.forced = self.options.overrides.choices(&self.tree, next.node);
         let waiting = self.waiting.len();
@@ -147,7 +157,7 @@ impl Run<'_> {
             frame.slots.push(value);
         }
         self.run_body(&rule.body, &mut frame)?;
-        if frame.pending {
+        if frame.stays(0) {
             self.leave(&rule.name, &mut frame)?;
         }
         self.waiting[waiting..].reverse();
@@ -156,7 +166,7 @@ impl Run<'_> {
         Ok(())
     }
 
-    /// Runs a body on the frame's shape; `frame.pending` tells whether it is still there.
+    /// Runs a body on the frame's shape; `frame.fate` tells what became of it.
     pub fn run_body(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
         match body {
             Body::Steps(steps) => self.run_steps(steps, frame),
@@ -187,12 +197,12 @@ impl Run<'_> {
                         values.push(self.evaluate(arg, frame)?);
                     }
                     self.call(*rule, values, *span, frame)?;
-                    frame.pending = false;
+                    frame.consumed();
                 }
                 Step::Leaf { symbol } => {
                     let name = self.code.symbol_text(*symbol);
                     self.leave(&name, frame)?;
-                    frame.pending = false;
+                    frame.consumed();
                 }
                 Step::Push(inner) => self.run_pushed(inner, frame)?,
                 Step::Operation(operation) => self.operate(operation, frame)?,
@@ -203,26 +213,27 @@ impl Run<'_> {
 
     /// `[ ... ]`: what is left of the copy at its end stays as a leaf, if anything was done to it.
     fn run_pushed(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
-        let kept = (frame.state.clone(), frame.pending);
-        frame.pending = false;
+        let kept = (frame.state.clone(), frame.fate);
+        frame.fate = Fate::Done;
         self.run_steps(steps, frame)?;
-        if frame.pending {
+        if frame.fate == Fate::Changed {
             self.leave_under_rule(frame)?;
         }
-        (frame.state, frame.pending) = kept;
+        (frame.state, frame.fate) = kept;
         Ok(())
     }
 
     /// Runs a cell's body on a shape of its own; what is left of it stays as a leaf.
     pub fn run_cell(&mut self, body: &Body, state: State, frame: &mut Frame) -> Result<(), Fault> {
         let kept = std::mem::replace(&mut frame.state, state);
-        frame.pending = true;
+        let children = frame.children;
+        frame.fate = Fate::Untouched;
         self.run_body(body, frame)?;
-        if frame.pending {
+        if frame.stays(children) {
             self.leave_under_rule(frame)?;
         }
         frame.state = kept;
-        frame.pending = false;
+        frame.consumed();
         Ok(())
     }
 
@@ -378,11 +389,20 @@ impl Run<'_> {
 impl Frame {
     /// The shape has been changed: it stays unless something follows.
     pub fn changed(&mut self) {
-        self.pending = true;
+        self.fate = Fate::Changed;
     }
 
     /// The shape is gone: its parts have taken its place, or nothing has.
     pub fn consumed(&mut self) {
-        self.pending = false;
+        self.fate = Fate::Done;
+    }
+
+    /// Whether the shape stays as a leaf; `children` is how many there were before its body.
+    fn stays(&self, children: u32) -> bool {
+        match self.fate {
+            Fate::Untouched => self.children == children,
+            Fate::Changed => true,
+            Fate::Done => false,
+        }
     }
 }

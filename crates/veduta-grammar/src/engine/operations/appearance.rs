@@ -59,7 +59,7 @@ pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
 }
 
 /// `set(name, value)`: a material's property, an attribute of the rule file for this shape and its
-/// children, or `class`, which says what the surface is in the model.
+/// children; `material.name` says what the surface is in the model.
 pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let Arg::Word(name) = &op.args[0] else {
         return Err(Fault::at(op.span, "the name of an attribute is needed"));
@@ -89,7 +89,7 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
             let path = value.to_string();
             look.texture = (!path.is_empty()).then(|| path.into());
         }
-        ("class", _) => look.class = value.to_string().into(),
+        ("material.name", _) => look.class = value.to_string().into(),
         (other, _) => {
             let message = format!("`{other}` is neither an attribute nor a property of materials");
             return Err(Fault::at(op.span, message));

@@ -33,6 +33,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("print", speech::print, 1, 1),
     ("r", transform::turn_scope, 3, 4),
     ("report", speech::report, 2, 2),
+    ("reverseNormals", solids::reverse, 0, 0),
     ("roofGable", roofs::gable, 1, 2),
     ("roofHip", roofs::hip, 1, 2),
     ("rotate", transform::rotate, 5, 5),

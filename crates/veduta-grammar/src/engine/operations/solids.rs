@@ -68,6 +68,17 @@ fn normal(form: &Form) -> DVec3 {
     }
 }
 
+/// `reverseNormals()`: the same faces seen from the other side. A closed shape is then a hollow.
+pub fn reverse(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let form = &frame.state.form;
+    frame.state.form.geometry = match &form.geometry {
+        Geometry::Nothing => Geometry::Nothing,
+        other => Geometry::of(other.mesh().reversed(), other.is_solid()),
+    };
+    frame.changed();
+    Ok(())
+}
+
 /// `primitiveCube()`: a box that fills the scope, `primitiveCube(x, y, z)` of this size. A flat
 /// scope is 1 m high then.
 pub fn cube(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {

@@ -1,0 +1,229 @@
+//! `veduta_grammar` for Python: rule files in, columns of polygons out, the GIL released between.
+
+use std::collections::HashMap;
+
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::create_exception;
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+use rayon::prelude::*;
+use veduta_grammar::engine::{
+    derive, lot_form, lower, pack, Code, Limits, Options, Packed, State, Value,
+};
+use veduta_grammar::{check, Program, Source};
+
+create_exception!(_core, GrammarFault, PyValueError);
+
+type Rings = Vec<Vec<[f64; 3]>>;
+
+/// Checked rule files, ready to derive.
+#[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
+struct GrammarRules {
+    code: Code,
+    text: Source,
+}
+
+#[pymethods]
+impl GrammarRules {
+    /// `files` are name and text of each file, the main one first; the others are what it may
+    /// import, under the names in its import statements.
+    #[new]
+    fn new(py: Python<'_>, files: Vec<(String, String)>) -> PyResult<Self> {
+        py.detach(|| read(&files)).map_err(GrammarFault::new_err)
+    }
+
+    /// Names of the rules that need no arguments, the start rule first.
+    #[getter]
+    fn starts(&self) -> Vec<String> {
+        let mut names: Vec<usize> = self.code.start.into_iter().collect();
+        let all = 0..self.code.rules.len();
+        names.extend(
+            all.filter(|rule| self.code.rules[*rule].params == 0 && Some(*rule) != self.code.start),
+        );
+        let name = |rule: usize| self.code.rules[rule].name.to_string();
+        names.into_iter().map(name).collect()
+    }
+
+    /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed beside it.
+    /// Per lot: the columns of its leaves, or the text of why there are none.
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0))]
+    fn derive<'py>(
+        &self,
+        py: Python<'py>,
+        lots: Vec<Rings>,
+        seeds: Vec<u64>,
+        start: Option<&str>,
+        attributes: Option<HashMap<String, Given>>,
+        seconds: f64,
+    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+        let rule = self.start_rule(start)?;
+        let given = attributes.unwrap_or_default();
+        let attributes: HashMap<String, Value> = given
+            .into_iter()
+            .map(|(name, value)| (name, value.into()))
+            .collect();
+        let limits = Limits {
+            seconds,
+            ..Limits::default()
+        };
+        let found: Vec<Result<Derived, String>> = py.detach(|| {
+            lots.par_iter()
+                .zip(&seeds)
+                .map(|(lot, &seed)| {
+                    let attributes = attributes.clone();
+                    let options = Options {
+                        seed,
+                        limits,
+                        attributes,
+                        ..Options::default()
+                    };
+                    self.one(lot, rule, &options)
+                })
+                .collect()
+        });
+        found.into_iter().map(|one| to_python(py, one)).collect()
+    }
+}
+
+/// A value given from outside.
+#[derive(FromPyObject)]
+enum Given {
+    Bool(bool),
+    Number(f64),
+    Text(String),
+}
+
+impl From<Given> for Value {
+    fn from(given: Given) -> Self {
+        match given {
+            Given::Bool(is) => Value::Bool(is),
+            Given::Number(number) => Value::Number(number),
+            Given::Text(text) => Value::text(&text),
+        }
+    }
+}
+
+struct Derived {
+    packed: Packed,
+    names: Vec<String>,
+    log_prior: f64,
+    messages: Vec<String>,
+}
+
+fn read(files: &[(String, String)]) -> Result<GrammarRules, String> {
+    let Some((name, text)) = files.first() else {
+        return Err("no rule file is given".to_string());
+    };
+    let main = Source::new(name.clone(), text.clone());
+    let program = Program::load(main, |path, _| {
+        let found = files.iter().find(|(name, _)| name == path);
+        let (name, text) = found.ok_or_else(|| "it is not there".to_string())?;
+        Ok(Source::new(name.clone(), text.clone()))
+    });
+    let checked = check(&program);
+    if checked.has_errors() {
+        return Err(checked.render(&program));
+    }
+    let lowered = lower(&program, &checked);
+    if lowered.has_errors() {
+        let files = program.units.iter().zip(&lowered.diagnostics);
+        let each = files.flat_map(|(unit, all)| all.iter().map(|one| one.render(&unit.source)));
+        return Err(each.collect());
+    }
+    Ok(GrammarRules {
+        code: lowered.code,
+        text: Source::new(name.clone(), text.clone()),
+    })
+}
+
+impl GrammarRules {
+    fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
+        let found = match name {
+            Some(name) => self.code.rule_named(name),
+            None => self.code.start,
+        };
+        let told = || match name {
+            Some(name) => format!("there is no rule `{name}`"),
+            None => "there is no rule to start with".to_string(),
+        };
+        found.ok_or_else(|| GrammarFault::new_err(told()))
+    }
+
+    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, String> {
+        let form = lot_form(lot).ok_or("the lot encloses nothing")?;
+        let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
+        let tree = derive(&self.code, rule, start, options).map_err(|fault| {
+            let place = self.text.position(fault.span.start);
+            format!(
+                "{}:{}:{}: {}",
+                self.text.name(),
+                place.line,
+                place.column,
+                fault.message
+            )
+        })?;
+        let packed = pack(&tree);
+        let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
+        Ok(Derived {
+            names: packed.feature_node.iter().map(name).collect(),
+            packed,
+            log_prior: tree.log_prior,
+            messages: tree.messages,
+        })
+    }
+}
+
+/// The columns of one lot.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+struct DerivedLot {
+    positions_m: Py<PyArray2<f64>>,
+    uv: Py<PyArray2<f32>>,
+    ring_offsets: Py<PyArray1<i64>>,
+    polygon_offsets: Py<PyArray1<i64>>,
+    polygon_feature: Py<PyArray1<i32>>,
+    feature_name: Vec<String>,
+    feature_look: Py<PyArray1<u32>>,
+    feature_size_m: Py<PyArray2<f64>>,
+    /// Red, green, blue, opacity (0 to 1), texture and class of each look.
+    looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
+    log_prior: f64,
+    messages: Vec<String>,
+}
+
+fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<Bound<'py, PyAny>> {
+    let derived = match found {
+        Ok(derived) => derived,
+        Err(why) => return Ok(why.into_pyobject(py)?.into_any()),
+    };
+    let packed = derived.packed;
+    let looks = packed.looks.iter().map(|look| {
+        let [r, g, b] = look.colour;
+        let texture = look.texture.as_ref().map(ToString::to_string);
+        (r, g, b, look.opacity, texture, look.class.to_string())
+    });
+    let lot = DerivedLot {
+        positions_m: rows(&packed.positions).into_pyarray(py).unbind(),
+        uv: rows(&packed.uv).into_pyarray(py).unbind(),
+        ring_offsets: packed.ring_offsets.into_pyarray(py).unbind(),
+        polygon_offsets: packed.polygon_offsets.into_pyarray(py).unbind(),
+        polygon_feature: packed.polygon_feature.into_pyarray(py).unbind(),
+        feature_name: derived.names,
+        feature_look: packed.feature_look.into_pyarray(py).unbind(),
+        feature_size_m: rows(&packed.feature_size).into_pyarray(py).unbind(),
+        looks: looks.collect(),
+        log_prior: derived.log_prior,
+        messages: derived.messages,
+    };
+    Ok(Bound::new(py, lot)?.into_any())
+}
+
+fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
+    Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
+}
+
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("GrammarFault", m.py().get_type::<GrammarFault>())?;
+    m.add_class::<GrammarRules>()?;
+    m.add_class::<DerivedLot>()
+}
