@@ -2,16 +2,19 @@
 //!
 //! [`parse`] makes a syntax tree ([`ast`]) of a text. [`Program::load`] parses a file with all
 //! that it imports, which the caller fetches; [`check`](check()) says what is wrong with a
-//! program, and what each of its names refers to. Nothing here reads files, prints or evaluates.
+//! program, and what each of its names refers to; [`format`](format()) lays a text out, and
+//! [`print`](print()) makes the text of a tree. Nothing here reads files, prints or evaluates.
 
 pub mod ast;
 pub mod builtins;
 mod check;
 mod diagnostic;
+mod format;
 mod lexer;
 pub mod limits;
 mod names;
 mod parser;
+mod print;
 mod program;
 mod source;
 mod suggest;
@@ -21,7 +24,9 @@ pub use check::{
     check, Checked, Definition, Definitions, Resolution, Role, Style, Target, Variant,
 };
 pub use diagnostic::{Diagnostic, Severity};
+pub use format::format;
 pub use names::{Names, Symbol};
 pub use parser::{parse, Parse};
+pub use print::print;
 pub use program::{Link, Program, Unit};
 pub use source::{Position, Source, Span};

@@ -1,10 +1,13 @@
 //! Text that no author would write: it is refused, without a panic, a full stack or a long wait.
 
 use proptest::prelude::*;
-use veduta_grammar::{check, limits, Program, Source};
+use veduta_grammar::{check, format, limits, Program, Source};
 
-/// The messages about a text.
+/// The messages about a text. It is formatted, too.
 fn messages(text: &str) -> Vec<String> {
+    if let Ok(formatted) = format(text) {
+        assert_eq!(format(&formatted).as_ref(), Ok(&formatted), "{text}");
+    }
     let program = Program::single(Source::new("hostile.cga", text));
     let faults = check(&program).diagnostics.remove(0);
     faults.into_iter().map(|one| one.message).collect()
