@@ -17,6 +17,8 @@ pub(super) enum Doc {
     Soft,
     /// A new line.
     Hard,
+    /// Nothing, but the groups around it do not stand on one line.
+    Tall,
     /// An empty line, unless the text begins here.
     Blank,
     /// A comment on the line of the word before it.
@@ -48,7 +50,7 @@ impl Doc {
     fn breaks(&self) -> Breaks {
         match self {
             Doc::Text(_) | Doc::Line | Doc::Soft => Breaks::Nowhere,
-            Doc::Hard | Doc::Blank | Doc::Own(_) => Breaks::Inside,
+            Doc::Hard | Doc::Tall | Doc::Blank | Doc::Own(_) => Breaks::Inside,
             Doc::Trailing { text, .. } if text.contains('\n') => Breaks::Inside,
             Doc::Trailing { to_line_end, .. } if *to_line_end => Breaks::AfterIt,
             Doc::Trailing { .. } => Breaks::Nowhere,
@@ -105,6 +107,7 @@ pub(super) fn write(doc: &Doc) -> String {
             Doc::Text(text) => writer.word(text, indent),
             Doc::Line if flat => writer.space(),
             Doc::Soft if flat => {}
+            Doc::Tall => {}
             Doc::Line | Doc::Soft | Doc::Hard => writer.line(indent),
             Doc::Blank => writer.blank(),
             Doc::Trailing { text, to_line_end } => writer.trailing(text, *to_line_end, indent),
@@ -225,6 +228,7 @@ fn fits(rest: &Rest, start: usize) -> bool {
             Doc::Text(text) => text.chars().count(),
             Doc::Line if flat => 1,
             Doc::Soft if flat => 0,
+            Doc::Tall => 0,
             Doc::Line | Doc::Soft | Doc::Hard | Doc::Blank | Doc::Own(_) => return true,
             Doc::Trailing { text, to_line_end } => {
                 if *to_line_end {

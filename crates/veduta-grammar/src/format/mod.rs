@@ -4,7 +4,8 @@
 //!
 //! - Lines have at most 100 columns where that is possible; four spaces per level.
 //! - A rule stands on one line if it fits; if not, each of its operations has its own line below
-//!   `-->`. Alternatives of a rule always have their own lines.
+//!   `-->`. Alternatives of a rule always have their own lines; those of values and cells have them
+//!   where one line is too short.
 //! - A block stands on one line if it fits; if not, each cell has its own line, and the bar is
 //!   before the cell.
 //! - Annotations stand on the line before their statement, or each on one if they do not fit.

@@ -14,6 +14,14 @@ pub(super) fn body(words: &mut Words, does: &Body) -> Doc {
     }
 }
 
+/// The right side of a rule: alternatives have lines of their own, those within them too.
+pub(super) fn tall_body(words: &mut Words, does: &Body) -> Doc {
+    match does {
+        Body::Operations(list) => operations(words, list),
+        Body::Branches(all) => Doc::Concat(vec![Doc::Tall, branches(words, all, tall_body)]),
+    }
+}
+
 fn operations(words: &mut Words, list: &[Operation]) -> Doc {
     let mut parts = Vec::new();
     for (index, one) in list.iter().enumerate() {

@@ -2,7 +2,7 @@
 
 use super::doc::Doc;
 use super::expression::{annotation_args, bracketed, expression};
-use super::operation::{body, branches};
+use super::operation::{body, branches, tall_body};
 use super::words::Words;
 use crate::ast::{
     Annotation, Body, ExprKind, Ident, Import, Item, ItemKind, Local, Override, Rule, RuleKeyword,
@@ -118,21 +118,22 @@ fn rule(words: &mut Words, rule: &Rule, parts: &mut Vec<Doc>) {
     params_of(words, &rule.params, parts);
     locals(words, &rule.locals, parts);
     parts.extend([Doc::text(" "), words.take()]);
-    match &rule.body {
-        Body::Branches(_) => {
-            let inside = vec![Doc::Hard, body(words, &rule.body)];
-            parts.push(Doc::group(vec![Doc::Indented(inside)]));
-        }
-        Body::Operations(_) => parts.push(right_side(words, &rule.body)),
+    if !is_empty(&rule.body) {
+        let inside = vec![Doc::Line, tall_body(words, &rule.body)];
+        parts.push(Doc::group(vec![Doc::Indented(inside)]));
     }
 }
 
-/// What follows `-->` or the `:` of a cell.
+fn is_empty(does: &Body) -> bool {
+    matches!(does, Body::Operations(list) if list.is_empty())
+}
+
+/// What follows the `:` of a cell, or `-->` in an import.
 pub(super) fn right_side(words: &mut Words, does: &Body) -> Doc {
-    match does {
-        Body::Operations(list) if list.is_empty() => Doc::Concat(Vec::new()),
-        _ => Doc::group(vec![Doc::Indented(vec![Doc::Line, body(words, does)])]),
+    if is_empty(does) {
+        return Doc::Concat(Vec::new());
     }
+    Doc::group(vec![Doc::Indented(vec![Doc::Line, body(words, does)])])
 }
 
 /// Parameters; also the empty parentheses of none.
