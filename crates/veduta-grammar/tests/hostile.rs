@@ -50,6 +50,30 @@ fn deep_nesting_is_an_error() {
     assert!(million[0].contains("within each other"));
 }
 
+/// As deep as is allowed, or nearly: the stack is enough for reading, checking and formatting.
+#[test]
+fn allowed_nesting_is_read() {
+    let depths = [
+        ("a = ", "(", "1", ")", 120),
+        ("a = ", "[", "1", "]", 120),
+        ("a = ", "sin(", "1", ")", 120),
+        ("a = ", "-", "1", "", 120),
+        ("a = ", "case 1 > 2 : ", "1", " else : 2", 60),
+        ("a = ", "comp(f) { all : ", "1", " }", 60),
+        ("A --> ", "[ ", "B.", " ]", 120),
+        ("A --> ", "split(x) { 1 : ", "B.", " }", 120),
+        ("A --> split(x) { ", "{ ", "1 : B.", " }*", 120),
+        ("A --> ", "inline(append) ", "B.", "", 120),
+        ("A --> ", "30% : ", "B.", " else : C.", 120),
+    ];
+    for (before, open, inside, close, depth) in depths {
+        let (open, close) = (open.repeat(depth), close.repeat(depth));
+        let end = if before.ends_with("{ ") { " }" } else { "" };
+        let text = format!("{before}{open}{inside}{close}{end}");
+        assert_eq!(messages(&text), Vec::<String>::new(), "{before}{open}");
+    }
+}
+
 #[test]
 fn high_expressions_are_an_error() {
     for part in ["1 + ", "f + ", "1 || ", "x[0] * "] {
