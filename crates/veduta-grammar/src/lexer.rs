@@ -229,8 +229,12 @@ impl Lexer<'_> {
         self.push(kind, length + usize::from(is_leaf));
     }
 
+    /// An operator with a dot. A dot before a comment is none.
     fn each_sign(&self, ahead: usize) -> Option<(&'static str, EachOperator)> {
         let rest = self.rest().get(ahead..)?;
+        if rest.starts_with(".//") || rest.starts_with("./*") {
+            return None;
+        }
         let found = EACH_SIGNS.iter().find(|(sign, _)| rest.starts_with(sign));
         found.copied()
     }

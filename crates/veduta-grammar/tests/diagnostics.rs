@@ -235,9 +235,13 @@ fn blocks_and_cells() {
             &["2:7 error: `'` is for sizes of operations and cells"],
         ),
         (
+            "A --> set(scope.sx, 1) set(comp.index, 1)",
+            &["1:28 error: `comp.index` is no attribute that can be set"],
+        ),
+        (
             "const a = 1\nA --> set(a, 2) set(B, 1)\nB --> NIL",
             &[
-                "2:11 error: `a` is no attribute and cannot be set",
+                "2:11 error: `a` is no attribute that can be set",
                 "2:21 error: `B` is a rule, not a value",
                 "3:1 warning: nothing calls the rule `B`",
             ],

@@ -1,10 +1,13 @@
 //! Text that no author would write: it is refused, without a panic, a full stack or a long wait.
 
 use proptest::prelude::*;
-use veduta_grammar::{check, limits, Program, Source};
+use veduta_grammar::{check, format, limits, Program, Source};
 
-/// The messages about a text.
+/// The messages about a text. It is formatted, too.
 fn messages(text: &str) -> Vec<String> {
+    if let Ok(formatted) = format(text) {
+        assert_eq!(format(&formatted).as_ref(), Ok(&formatted), "{text}");
+    }
     let program = Program::single(Source::new("hostile.cga", text));
     let faults = check(&program).diagnostics.remove(0);
     faults.into_iter().map(|one| one.message).collect()
@@ -45,6 +48,30 @@ fn deep_nesting_is_an_error() {
     }
     let million = messages(&format!("a = {}", "(".repeat(1_000_000)));
     assert!(million[0].contains("within each other"));
+}
+
+/// As deep as is allowed, or nearly: the stack is enough for reading, checking and formatting.
+#[test]
+fn allowed_nesting_is_read() {
+    let depths = [
+        ("a = ", "(", "1", ")", 120),
+        ("a = ", "[", "1", "]", 120),
+        ("a = ", "sin(", "1", ")", 120),
+        ("a = ", "-", "1", "", 120),
+        ("a = ", "case 1 > 2 : ", "1", " else : 2", 60),
+        ("a = ", "comp(f) { all : ", "1", " }", 60),
+        ("A --> ", "[ ", "B.", " ]", 120),
+        ("A --> ", "split(x) { 1 : ", "B.", " }", 120),
+        ("A --> split(x) { ", "{ ", "1 : B.", " }*", 120),
+        ("A --> ", "inline(append) ", "B.", "", 120),
+        ("A --> ", "30% : ", "B.", " else : C.", 120),
+    ];
+    for (before, open, inside, close, depth) in depths {
+        let (open, close) = (open.repeat(depth), close.repeat(depth));
+        let end = if before.ends_with("{ ") { " }" } else { "" };
+        let text = format!("{before}{open}{inside}{close}{end}");
+        assert_eq!(messages(&text), Vec::<String>::new(), "{before}{open}");
+    }
 }
 
 #[test]

@@ -10,7 +10,8 @@
 //! **Bounds.** No tree is nested deeper than [`MAX_NESTING`](crate::limits::MAX_NESTING) blocks
 //! and no expression higher than [`MAX_HEIGHT`](crate::limits::MAX_HEIGHT), so recursion is safe.
 //!
-//! Parentheses of expressions are not kept: the tree's shape says what they said.
+//! Parentheses of expressions are no nodes: the tree's shape says what they said. They are part of
+//! the span of what they enclose.
 
 mod block;
 mod expression;

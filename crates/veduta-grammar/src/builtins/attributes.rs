@@ -14,12 +14,12 @@ const PLAIN: &[&str] = &[
     "seedian", "trim.horizontal", "trim.vertical",
     "material.name", "material.shader", "material.opacity", "material.shininess",
     "material.reflectivity", "material.bumpValue", "material.metallic", "material.roughness",
-    "material.color.r", "material.color.g", "material.color.b", "material.color.a",
+    "material.color.r", "material.color.g", "material.color.b",
     "material.color.rgb",
     "material.ambient.r", "material.ambient.g", "material.ambient.b",
     "material.specular.r", "material.specular.g", "material.specular.b",
     "material.emissive.r", "material.emissive.g", "material.emissive.b",
-    "material.opacitymap.mode",
+    "material.opacitymap.mode", "material.opacitymap.cutoff",
 ];
 
 /// Texture layers, in the order of their uv sets. Each is an attribute, with [`LAYER_PARTS`].
@@ -43,6 +43,12 @@ pub fn is_attribute(name: &str) -> bool {
             .is_some_and(|part| LAYER_PARTS.contains(&part)),
         None => false,
     })
+}
+
+/// Whether `set` may change an attribute of the current shape.
+pub fn is_settable(name: &str) -> bool {
+    let read_only = ["comp.", "split.", "initialShape.", "scope.elevation"];
+    !read_only.iter().any(|start| name.starts_with(start))
 }
 
 /// All names of attributes.

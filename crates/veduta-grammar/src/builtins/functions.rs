@@ -1,6 +1,6 @@
 //! The functions: how many arguments they take, and which words these may be.
 
-use super::words::{AXES, COMPONENTS, FACE_SELECTORS, KINDS, SPACES};
+use super::words::{AXES, AXIS_SETS, COMPONENTS, FACE_SELECTORS, KINDS, SPACES};
 use super::{Words, ANY, NONE};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,16 +26,33 @@ const fn of(name: &'static str, count: u8) -> Function {
     takes(name, count, count, &[])
 }
 
-const OCCLUSION: &[Words] = &[&["intra", "inter", "all"], ANY];
-const CONTEXT: &[Words] = &[&["intra", "inter", "all"], ANY, ANY];
+const TARGETS: Words = &["intra", "inter", "all"];
+const OCCLUSION: &[Words] = &[TARGETS];
+const RANKS: &[Words] = &[
+    TARGETS,
+    NONE,
+    &[
+        "world.northernmost",
+        "world.southernmost",
+        "world.easternmost",
+        "world.westernmost",
+        "world.highest",
+        "world.lowest",
+        "area.largest",
+        "area.smallest",
+    ],
+];
 const COORDINATE: &[Words] = &[
     &["x", "y", "z", "scope", "pivot", "object", "world"],
     SPACES,
-    &["scope", "pivot", "object", "world", "pos", "dir", "normal"],
-    &["pos", "dir", "normal"],
+    &["scope", "pivot", "object", "world", "pos", "orient"],
+    &["pos", "orient"],
 ];
 const SPACE_OF_UV: &[Words] = &[NONE, &["uvSpace", "unitSpace"]];
 const SIZES: &[Words] = &[NONE, ANY, ANY];
+const ASSET_SIZES: &[Words] = &[NONE, &["sx", "sy", "sz", "tx", "ty", "tz"]];
+const AXES_OF_SCOPE: &[Words] = &[NONE, AXIS_SETS];
+const RATIOS: &[Words] = &[NONE, ANY];
 const SUBCOMPONENTS: &[Words] = &[NONE, &["e", "v"]];
 
 #[rustfmt::skip]
@@ -71,43 +88,39 @@ pub const FUNCTIONS: &[Function] = &[
     of("geometry.materials", 0), of("geometry.nEdges", 0), of("geometry.nFaces", 0),
     of("geometry.nHoles", 0), of("geometry.nVertices", 0),
     takes("geometry.tags", 0, 2, &[ANY, ANY]),
-    of("geometry.uMin", 1), of("geometry.uMax", 1), of("geometry.vMin", 1), of("geometry.vMax", 1),
+    takes("geometry.uMin", 0, 1, &[]), takes("geometry.uMax", 0, 1, &[]),
+    takes("geometry.vMin", 0, 1, &[]), takes("geometry.vMax", 0, 1, &[]),
     of("geometry.volume", 0),
     takes("isTagged", 1, 2, SUBCOMPONENTS),
     // Material
     takes("getMaterial", 0, 1, &[]), of("readMaterial", 1),
     // Files
     of("fileExists", 1), of("fileSearch", 1), of("filesSearch", 1), of("readTextFile", 1),
-    takes("readFloatTable", 1, 2, &[]), takes("readStringTable", 1, 2, &[]),
+    of("readFloatTable", 1), of("readStringTable", 1),
     of("fileBasename", 1), of("fileDirectory", 1), of("fileExtension", 1), of("fileName", 1),
     of("fileRandom", 1),
     // Assets and images
-    takes("assetInfo", 2, 2, SIZES), takes("imageInfo", 2, 2, SIZES),
+    takes("assetInfo", 2, 2, ASSET_SIZES), takes("imageInfo", 2, 2, RATIOS),
     takes("assetMetadata", 1, 3, SIZES),
     takes("assetNamingInfo", 1, 3, SIZES), takes("assetNamingInfos", 1, 3, SIZES),
-    takes("assetsSortRatio", 2, 4, &[ANY, ANY, ANY, ANY]),
-    takes("assetsSortSize", 2, 4, &[ANY, ANY, ANY, ANY]),
-    takes("imagesSortRatio", 2, 4, &[ANY, ANY, ANY, ANY]),
-    takes("assetApproxRatio", 2, 4, &[NONE, ANY, ANY, ANY]),
-    takes("assetApproxSize", 2, 5, &[NONE, ANY, ANY, ANY, ANY]),
-    takes("assetBestRatio", 2, 4, &[NONE, ANY, ANY, ANY]),
-    takes("assetBestSize", 2, 5, &[NONE, ANY, ANY, ANY, ANY]),
-    takes("assetFitSize", 2, 5, &[NONE, ANY, ANY, ANY, ANY]),
-    takes("imageApproxRatio", 1, 4, &[NONE, ANY, ANY, ANY]),
-    takes("imageBestRatio", 1, 4, &[NONE, ANY, ANY, ANY]),
+    takes("assetsSortRatio", 2, 3, RATIOS), takes("assetsSortSize", 3, 3, AXES_OF_SCOPE),
+    takes("imagesSortRatio", 2, 3, RATIOS),
+    of("assetApproxRatio", 3), of("assetApproxSize", 3), of("assetBestRatio", 2),
+    of("assetBestSize", 2), of("assetFitSize", 3), of("imageApproxRatio", 3),
+    of("imageBestRatio", 2),
     // Occlusion and context
     takes("inside", 0, 2, OCCLUSION), takes("overlaps", 0, 2, OCCLUSION),
     takes("touches", 0, 2, OCCLUSION),
-    takes("minimumDistance", 1, 3, CONTEXT), takes("contextCompare", 1, 5, CONTEXT),
-    takes("contextCount", 1, 3, CONTEXT),
+    takes("minimumDistance", 2, 2, OCCLUSION), takes("contextCompare", 3, 3, RANKS),
+    takes("contextCount", 2, 2, OCCLUSION),
     // Arrays
     takes("comp", 1, 2, &[COMPONENTS, &["align", "noAlign"]]), takes("findFirst", 2, 3, &[]),
     of("nColumns", 1), of("nRows", 1), takes("setElems", 3, 4, &[]), of("size", 1),
-    takes("sortIndices", 1, 2, &[]), takes("sortRowIndices", 1, 3, &[]), of("sum", 1),
+    of("sortIndices", 1), takes("sortRowIndices", 1, 2, &[]), of("sum", 1),
     of("transpose", 1),
     // Attributes of edges
-    takes("edgeAttr.getFloat", 1, 2, &[]), takes("edgeAttr.getString", 1, 2, &[]),
-    takes("edgeAttr.getBool", 1, 2, &[]),
+    of("edgeAttr.getFloat", 1), of("edgeAttr.getString", 1),
+    of("edgeAttr.getBool", 1),
     // Colours
     of("colorHexToR", 1), of("colorHexToG", 1), of("colorHexToB", 1), of("colorHexToO", 1),
     of("colorHexToH", 1), of("colorHexToS", 1), of("colorHexToV", 1), of("colorHSVToHex", 3),

@@ -4,7 +4,7 @@ use super::words::{
     ADJUST, AXES, AXIS_SETS, COMPONENTS, COMPONENT_SELECTORS, KINDS, REST_SELECTORS, ROOF_VALUES,
     SHAPE_SELECTORS,
 };
-use super::{Words, ANY, NONE};
+use super::{Words, NONE};
 
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Operation {
@@ -137,7 +137,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("offset", &[1, 2], &[NONE, &["all", "inside", "border"]]),
     op("setback", &[1, 2], &[], SETBACK_CELLS),
     op("setbackPerEdge", &[1, 2], &[], SETBACK_CELLS),
-    op("setbackToArea", &[1, 2, 3], &[], SETBACK_CELLS),
+    op("setbackToArea", &[1, 2, 3, 4], &[], SETBACK_CELLS),
     op("shapeL", &[2], &[], SHAPE_CELLS),
     op("shapeU", &[3], &[], SHAPE_CELLS),
     op("shapeO", &[4], &[], SHAPE_CELLS),
@@ -145,7 +145,7 @@ pub const OPERATIONS: &[Operation] = &[
     // Geometry manipulation
     plain("cleanupGeometry", &[2], &[KINDS]),
     plain("convexify", &[0, 1], &[]),
-    plain("deleteHoles", &[0, 1], &[]),
+    plain("deleteHoles", &[0], &[]),
     plain("reverseNormals", &[0], &[]),
     plain("setNormals", &[1], &[&["hard", "conform", "soft", "auto"]]),
     plain("softenNormals", &[1], &[]),
@@ -184,7 +184,7 @@ pub const OPERATIONS: &[Operation] = &[
     // Scope
     plain("alignScopeToAxes", &[0, 1], &[ALIGN_AXES]),
     plain("alignScopeToGeometry", &[3], &[UP, &["world.lowest", "largest", "any"], &["world.lowest", "longest"]]),
-    plain("alignScopeToGeometryBBox", &[0, 1], &[ANY]),
+    plain("alignScopeToGeometryBBox", &[1], &[&["xy", "yx", "xz", "zx", "yz", "zy"]]),
     plain("rotateScope", &[3], &[]),
     plain("setPivot", &[2], &[&["xyz", "yzx", "zxy"]]),
     plain("mirrorScope", &[3], &[]),

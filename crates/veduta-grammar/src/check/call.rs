@@ -6,7 +6,7 @@ use super::{Checker, Target};
 use crate::ast::{Block, Body, Call, Cell, ExprKind, Ident};
 use crate::builtins::operations::{self, BlockKind, Operation};
 use crate::builtins::words::REST_SELECTORS;
-use crate::builtins::{words_at, ANY, NONE};
+use crate::builtins::{attributes, words_at, ANY, NONE};
 use crate::{Diagnostic, Span};
 
 impl Checker<'_> {
@@ -131,11 +131,12 @@ impl Checker<'_> {
             Some(Target::Value { unit, index }) => {
                 self.defined(*unit).values[*index].role == Role::Attr
             }
-            Some(Target::Attribute) | None => true, // `None` has been reported
+            Some(Target::Attribute) => attributes::is_settable(self.text(name)),
+            None => true, // has been reported
             Some(_) => false,
         };
         if !is_attribute {
-            let message = format!("`{}` is no attribute and cannot be set", self.text(name));
+            let message = format!("`{}` is no attribute that can be set", self.text(name));
             self.diagnostics.error(name.span, message);
         }
     }

@@ -84,10 +84,9 @@ impl Parser<'_> {
     /// plain operations. The first sign between its own words tells.
     pub fn holds_cells(&self, open: usize) -> bool {
         let mut index = open + 1;
-        match self.kind_at(index) {
-            TokenKind::OpenBrace => return true,
-            TokenKind::Number if self.kind_at(index + 1) != TokenKind::Percent => return true,
-            _ => {}
+        let first = self.kind_at(index);
+        if first == TokenKind::OpenBrace {
+            return true;
         }
         loop {
             match self.kind_at(index) {
@@ -98,7 +97,7 @@ impl Parser<'_> {
                 TokenKind::Case
                 | TokenKind::CloseBrace
                 | TokenKind::Arrow
-                | TokenKind::EndOfFile => return false,
+                | TokenKind::EndOfFile => return first == TokenKind::Number,
                 kind if kind.is_open() => match self.after_partner(index) {
                     Some(after) => index = after,
                     None => return true,

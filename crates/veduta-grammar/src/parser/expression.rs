@@ -113,8 +113,9 @@ impl Parser<'_> {
             TokenKind::Name => self.name(),
             TokenKind::OpenParen => {
                 self.advance();
-                let value = self.nested(Self::value)?;
+                let mut value = self.nested(Self::value)?;
                 self.expect(TokenKind::CloseParen, "to close `(`")?;
+                value.span = self.since(span);
                 Ok(value)
             }
             TokenKind::OpenBracket => self.nested(Self::array),

@@ -1,0 +1,50 @@
+//! The page on the language keeps up with the reader.
+
+use veduta_grammar::builtins::operations::OPERATIONS;
+use veduta_grammar::{check, format, limits, Program, Source};
+
+const PAGE: &str = include_str!("../../../docs/grammar-language.md");
+
+#[test]
+fn every_operation_has_its_row() {
+    for operation in OPERATIONS {
+        let counts: Vec<String> = operation.counts.iter().map(ToString::to_string).collect();
+        let counts = match counts.split_last() {
+            Some((last, others)) if !others.is_empty() => {
+                format!("{} or {last}", others.join(", "))
+            }
+            _ => counts.concat(),
+        };
+        let row = format!("| `{}` | {counts} | ", operation.name);
+        assert!(PAGE.contains(&row), "{row}");
+    }
+    let rows = PAGE.lines().filter(|line| line.contains(" | yes | "));
+    assert_eq!(rows.count(), OPERATIONS.len());
+}
+
+#[test]
+fn the_limits_are_those_of_the_reader() {
+    for limit in [
+        format!("{} MiB", limits::MAX_BYTES >> 20),
+        format!("{} blocks", limits::MAX_NESTING),
+        format!("{} levels", limits::MAX_HEIGHT),
+        format!("{} imports", limits::MAX_FILES),
+    ] {
+        assert!(PAGE.replace('\n', " ").contains(&limit), "{limit}");
+    }
+}
+
+#[test]
+fn the_example_is_sound_and_in_the_house_style() {
+    let example = PAGE
+        .split("```cga\n")
+        .nth(1)
+        .and_then(|rest| rest.split("```").next());
+    let example = example.unwrap_or_default();
+    assert_eq!(format(example).as_deref(), Ok(example));
+    let program = Program::load(Source::new("example.cga", example), |path, _| {
+        let roofs = "attr angle = 30\nextension Tile --> NIL\nRoof --> roofHip(angle) Tile\n";
+        Ok(Source::new(path, roofs))
+    });
+    assert_eq!(check(&program).render(&program), "");
+}
