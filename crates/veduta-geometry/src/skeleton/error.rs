@@ -45,6 +45,10 @@ pub enum SkeletonError {
     TooManyEvents { most: usize },
     #[error("two wavefront edges are parallel where they meet, at {x_m}, {y_m}")]
     Degenerate { x_m: f64, y_m: f64 },
+    #[error("nothing is left of the outline once double points and spikes are gone")]
+    Vanished,
+    #[error("mending would change the area by {change_m2} m2; {most_m2} m2 are allowed")]
+    AreaChange { change_m2: f64, most_m2: f64 },
     #[error("the roof found is not sound: {0}")]
     Unsound(#[from] RoofFault),
 }

@@ -48,3 +48,29 @@ pub const AREA_SHARE: f64 = 1e-7;
 
 /// How far two sides of a face may cross, as a share of the diagonal.
 pub const CROSSING_SHARE: f64 = 1e-9;
+
+/// What [`super::clean()`] may mend.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct CleanTolerance {
+    /// Vertices nearer to each other, and to an edge that is not theirs, touch (m).
+    pub touch_m: f64,
+    /// A vertex nearer to the line of its neighbours, with the same speed on both sides, is
+    /// dropped; so is a spike that is narrower (m).
+    pub off_line_m: f64,
+    /// How far parts that touch are moved apart (m); above `touch_m`.
+    pub gap_m: f64,
+    /// The most that the area may change, as a share of it.
+    pub area_share: f64,
+}
+
+impl Default for CleanTolerance {
+    /// One millimetre, a tenth of one, two of them, and a ten-thousandth of the area.
+    fn default() -> Self {
+        Self {
+            touch_m: 1e-3,
+            off_line_m: 1e-4,
+            gap_m: 2e-3,
+            area_share: 1e-4,
+        }
+    }
+}
