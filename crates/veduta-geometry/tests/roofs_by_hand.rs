@@ -318,7 +318,7 @@ fn what_has_no_top_is_an_error_unless_it_is_cut() {
     let shaft = roof(&eaves, Some(3.0)).unwrap();
     assert_eq!((shaft.faces.len(), shaft.rest.len()), (4, 1));
     let error = roof(&eaves, Some(-1.0)).unwrap_err();
-    assert_eq!(error, SkeletonError::BadHeight { height_m: -1.0 });
+    assert!(matches!(error, SkeletonError::BadHeight { .. }), "{error}");
 }
 
 #[test]

@@ -16,8 +16,8 @@ pub enum SkeletonError {
     SpeedCount { speeds: usize, edges: usize },
     #[error("the speed of edge {edge} is {speed}; it must be from 0 to {most}")]
     BadSpeed { edge: usize, speed: f64, most: f64 },
-    #[error("the height to stop at is {height_m} m; it must be above 0")]
-    BadHeight { height_m: f64 },
+    #[error("the height to stop at is {height_m} m; it must be above {least_m} m")]
+    BadHeight { height_m: f64, least_m: f64 },
     #[error("edge {edge} is {length_m} m long; {least_m} m are the least")]
     EdgeTooShort {
         edge: usize,
