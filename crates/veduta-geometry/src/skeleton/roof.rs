@@ -8,7 +8,7 @@ use super::planes::Lines;
 use super::rings::{rings_of_faces, Rings, Untangler};
 use super::simple::inside;
 use super::sweep::{sweep, Rest};
-use super::tolerance::{ATTEMPTS, SAME_NODE_SHARE, SHORTEST_EDGE_SHARE};
+use super::tolerance::{ATTEMPTS, SAME_LINE_SHARES, SAME_NODE_SHARE, SHORTEST_EDGE_SHARE};
 use super::{Eaves, SkeletonError};
 
 /// Where a face begins.
@@ -60,8 +60,9 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
     if let Some(height_m) = stop_m.filter(|&height| !height.is_finite() || height <= least_m) {
         return Err(SkeletonError::BadHeight { height_m, least_m });
     }
-    let lines = Lines::of(eaves);
-    let mut fault = None;
+    let [near, less_near] = SAME_LINE_SHARES.map(|share| share * eaves.diagonal_m());
+    let mut lines = Lines::of(eaves, near);
+    let mut fault = SkeletonError::Vanished;
     for attempt in 0..ATTEMPTS {
         let found = attempted(eaves, &lines, stop_m, attempt).and_then(|mut roof| {
             check(eaves, &roof)?;
@@ -69,14 +70,18 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
             Ok(roof)
         });
         match found {
-            Ok(roof) => return Ok(roof),
+            Err(SkeletonError::NearlyParallel { .. }) if attempt == 0 => {
+                lines = Lines::of(eaves, less_near);
+            }
             Err(why @ (SkeletonError::NearlyParallel { .. } | SkeletonError::Unbounded { .. })) => {
                 return Err(why)
             }
-            Err(why) => fault = fault.or(Some(why)),
+            Err(why) if attempt == 0 => fault = why,
+            Err(_) => {}
+            Ok(roof) => return Ok(roof),
         }
     }
-    Err(fault.unwrap_or(SkeletonError::TooManyEvents { most: 0 }))
+    Err(fault)
 }
 
 fn attempted(
