@@ -1,5 +1,6 @@
 //! Dirty outlines: mended to known shapes, or refused.
 
+use proptest::prelude::*;
 use veduta_geometry::skeleton::tolerance::CleanTolerance;
 use veduta_geometry::skeleton::{clean, roof, Cleaned, SkeletonError};
 
@@ -171,5 +172,29 @@ fn clean_outlines_stay_as_they_are() {
         };
         assert!(rings.iter().zip(&rings_of(&found, 0)).all(same), "{name}");
         assert_eq!(found.area_change_m2, 0.0, "{name}");
+    }
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig { cases: 2000, ..ProptestConfig::default() })]
+
+    /// Points of a coarse grid, so that most rings touch, fold or cross: refused, or roofed over.
+    #[test]
+    fn whatever_is_not_refused_has_a_roof(
+        rings in prop::collection::vec(prop::collection::vec((0..6i32, 0..6i32), 3..12), 1..3),
+        noise in prop::sample::select(vec![0.0, 1e-9, 1e-6, 1e-4, 1e-3]),
+    ) {
+        let point = |(k, &(x, y)): (usize, &(i32, i32))| {
+            let off = noise * ((k * 7919) % 13) as f64 / 13.0;
+            [f64::from(x) + off, f64::from(y) - off]
+        };
+        let rings: Rings = rings.iter().map(|ring| ring.iter().enumerate().map(point).collect()).collect();
+        let speeds = vec![1.0; rings.iter().map(Vec::len).sum()];
+        if let Ok(found) = clean(&rings, &speeds, &CleanTolerance::default()) {
+            for (eaves, edges) in found.eaves.iter().zip(&found.edges) {
+                prop_assert_eq!(eaves.len(), edges.len());
+                prop_assert!(roof(eaves, None).is_ok(), "{:?}", roof(eaves, None));
+            }
+        }
     }
 }
