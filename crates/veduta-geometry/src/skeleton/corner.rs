@@ -2,7 +2,6 @@
 
 use super::double_double::{cross, dot, Dd};
 use super::planes::Plane;
-use super::tolerance::PARALLEL;
 
 /// No corner, or no node yet.
 pub const NONE: u32 = u32::MAX;
@@ -64,7 +63,8 @@ pub enum Meeting {
 }
 
 impl Meeting {
-    pub fn of(planes: &[Plane], before: u32, after: u32) -> Self {
+    /// `parallel` is the sine of the angle below which two edges are parallel.
+    pub fn of(planes: &[Plane], before: u32, after: u32, parallel: f64) -> Self {
         if before == after {
             return Self::Same;
         }
@@ -73,9 +73,9 @@ impl Meeting {
             return Self::Flat;
         }
         let (a, b) = (first.quick_normal, second.quick_normal);
-        let parallel =
-            (a[0] * b[1] - a[1] * b[0]).abs() < PARALLEL && a[0] * b[0] + a[1] * b[1] > 0.0;
-        if parallel && !first.is_same_speed(second) {
+        let is_parallel =
+            (a[0] * b[1] - a[1] * b[0]).abs() < parallel && a[0] * b[0] + a[1] * b[1] > 0.0;
+        if is_parallel && !first.is_same_speed(second) {
             return Self::Step {
                 up: second.speed > first.speed,
             };

@@ -16,8 +16,8 @@ pub enum SkeletonError {
     SpeedCount { speeds: usize, edges: usize },
     #[error("the speed of edge {edge} is {speed}; it must be from 0 to {most}")]
     BadSpeed { edge: usize, speed: f64, most: f64 },
-    #[error("the height to stop at is {height_m} m; it must be above 0")]
-    BadHeight { height_m: f64 },
+    #[error("the height to stop at is {height_m} m; it must be above {least_m} m")]
+    BadHeight { height_m: f64, least_m: f64 },
     #[error("edge {edge} is {length_m} m long; {least_m} m are the least")]
     EdgeTooShort {
         edge: usize,
@@ -45,6 +45,10 @@ pub enum SkeletonError {
     TooManyEvents { most: usize },
     #[error("two wavefront edges are parallel where they meet, at {x_m}, {y_m}")]
     Degenerate { x_m: f64, y_m: f64 },
+    #[error("nothing is left of the outline once double points and spikes are gone")]
+    Vanished,
+    #[error("mending would change the area by {change_m2} m2; {most_m2} m2 are allowed")]
+    AreaChange { change_m2: f64, most_m2: f64 },
     #[error("the roof found is not sound: {0}")]
     Unsound(#[from] RoofFault),
 }

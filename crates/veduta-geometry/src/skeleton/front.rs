@@ -3,7 +3,7 @@
 use super::corner::{Corner, Meeting};
 use super::double_double::{cross, dot, Dd};
 use super::planes::{corner_shift, local, Plane};
-use super::tolerance::CORNER_SHIFT_SHARE;
+use super::tolerance::{CORNER_SHIFT_SHARE, PARALLEL, STEP_SINE};
 use super::{Eaves, SkeletonError};
 
 /// A node of the drawing: place from the centre of the bounding box (m), and time.
@@ -74,7 +74,8 @@ impl Front {
     fn first_corner(&mut self, eaves: &Eaves, vertex: usize) -> Result<(u32, u32), SkeletonError> {
         let (before, after) = (eaves.previous(vertex) as u32, vertex as u32);
         let point = local(eaves, vertex).map(Dd::from);
-        let place = match Meeting::of(&self.planes, before, after) {
+        let meeting = Meeting::of(&self.planes, before, after, STEP_SINE);
+        let place = match meeting {
             Meeting::Corner | Meeting::Same => {
                 self.crossing(before, after, Dd::ZERO)
                     .ok_or(SkeletonError::NearlyParallel {
@@ -98,12 +99,35 @@ impl Front {
         if shift_m > CORNER_SHIFT_SHARE * shorter_m || shift_m.is_nan() {
             return Err(SkeletonError::NearlyParallel { vertex, shift_m });
         }
-        self.join(before, after, place, Dd::ZERO, vertex as u32)?
-            .ok_or(SkeletonError::Spike { vertex })
+        if let Meeting::Step { up } = meeting {
+            return self.first_step((before, after), up, place, vertex as u32);
+        }
+        let corner = self.add(before, after, place, Dd::ZERO, vertex as u32)?;
+        Ok((corner, corner))
     }
 
-    /// Makes what stands between two wavefront edges that meet: one corner, the two of a step, or
-    /// nothing where the edges are one. Links between the two of a step are set, others not.
+    /// The two corners of a standing step. Its edge has no length yet.
+    fn first_step(
+        &mut self,
+        (before, after): (u32, u32),
+        up: bool,
+        place: [Dd; 2],
+        node: u32,
+    ) -> Result<(u32, u32), SkeletonError> {
+        let step = self.planes.len() as u32;
+        let across = self.planes[before as usize].across(place, !up, step);
+        self.planes.push(across);
+        self.steps.push((before, after));
+        // The two lines are parallel but for a millionth: each corner is put on its own.
+        let far_place = self.crossing(step, after, Dd::ZERO).unwrap_or(place);
+        let first = self.add(before, step, place, Dd::ZERO, node)?;
+        let last = self.add(step, after, far_place, Dd::ZERO, node)?;
+        self.link(first, last);
+        Ok((first, last))
+    }
+
+    /// Makes the corner between two wavefront edges that meet; none where they are one, or lie on
+    /// each other.
     pub fn join(
         &mut self,
         before: u32,
@@ -111,23 +135,10 @@ impl Front {
         place: [Dd; 2],
         time: Dd,
         node: u32,
-    ) -> Result<Option<(u32, u32)>, SkeletonError> {
-        match Meeting::of(&self.planes, before, after) {
-            Meeting::Same => Ok(None),
-            Meeting::Step { up } => {
-                let step = self.planes.len() as u32;
-                let across = self.planes[before as usize].across(place, !up, step);
-                self.planes.push(across);
-                self.steps.push((before, after));
-                let first = self.add(before, step, place, time, node)?;
-                let last = self.add(step, after, place, time, node)?;
-                self.link(first, last);
-                Ok(Some((first, last)))
-            }
-            Meeting::Flat | Meeting::Corner => {
-                let corner = self.add(before, after, place, time, node)?;
-                Ok(Some((corner, corner)))
-            }
+    ) -> Result<Option<u32>, SkeletonError> {
+        match Meeting::of(&self.planes, before, after, PARALLEL) {
+            Meeting::Same | Meeting::Step { .. } => Ok(None),
+            Meeting::Flat | Meeting::Corner => self.add(before, after, place, time, node).map(Some),
         }
     }
 

@@ -34,6 +34,7 @@
 //! numbers, because normals of unit length are not rational.
 
 mod check;
+mod clean;
 mod corner;
 mod double_double;
 mod eaves;
@@ -47,8 +48,10 @@ mod roof;
 mod simple;
 mod sweep;
 pub mod tolerance;
+mod touch;
 
 pub use check::{check, Soundness};
+pub use clean::{clean, Cleaned};
 pub use eaves::Eaves;
 pub use error::{RoofFault, SkeletonError};
 pub use roof::{roof, FaceOrigin, Level, Roof, RoofFace};

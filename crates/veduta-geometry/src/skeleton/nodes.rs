@@ -48,8 +48,15 @@ pub fn rename(rings: &mut [Rings], name: &[u32], untangler: &mut Untangler) {
 
 /// Puts each node from number `first` on as near to the true planes around it as they allow. A
 /// node that they leave free in some direction stays where it is in that direction, and one that
-/// would go farther than `most` stays altogether.
-pub fn settle(front: &mut Front, lines: &Lines, rings: &[Rings], first: usize, most: f64) {
+/// would go farther than `most` stays altogether. The nodes of `level` rings come to be at its time.
+pub fn settle(
+    front: &mut Front,
+    lines: &Lines,
+    rings: &[Rings],
+    level: Option<(&Rings, f64)>,
+    first: usize,
+    most: f64,
+) {
     let mut pulls = vec![Pull::default(); front.nodes.len()];
     for (face, of_face) in rings.iter().enumerate() {
         let Some(&line) = lines.of_edge.get(face) else {
@@ -67,12 +74,22 @@ pub fn settle(front: &mut Front, lines: &Lines, rings: &[Rings], first: usize, m
             pulls[node as usize].add(row, off);
         }
     }
+    if let Some((rest, time)) = level {
+        for &node in rest.iter().flatten() {
+            pulls[node as usize].add([0.0, 0.0, 1.0], front.nodes[node as usize].time - time);
+        }
+    }
     for (node, pull) in front.nodes.iter_mut().zip(&pulls).skip(first) {
         let [dx, dy, dt] = pull.shift();
         if dx * dx + dy * dy + dt * dt <= most * most {
             node.place_m[0] += dx;
             node.place_m[1] += dy;
             node.time += dt;
+        }
+    }
+    if let Some((rest, time)) = level {
+        for &node in rest.iter().flatten() {
+            front.nodes[node as usize].time = time;
         }
     }
 }

@@ -8,7 +8,7 @@
 //! the coincidences of edges that share a line need rules of their own.
 
 use super::double_double::{dot, Dd};
-use super::tolerance::{JITTER, JITTER_GROWTH, SAME_LINE_SHARE, SAME_SPEED};
+use super::tolerance::{JITTER, JITTER_GROWTH, SAME_SPEED};
 use super::Eaves;
 
 /// Marks the chance of steps, and that of the places of corners in a straight wall.
@@ -102,7 +102,8 @@ pub struct Lines {
 }
 
 impl Lines {
-    pub fn of(eaves: &Eaves) -> Self {
+    /// `near_m` is how far the ends of an edge may be from its line.
+    pub fn of(eaves: &Eaves, near_m: f64) -> Self {
         let mut order: Vec<(f64, u32)> = (0..eaves.len())
             .map(|edge| {
                 let [dx, dy] = eaves.along(edge);
@@ -110,7 +111,6 @@ impl Lines {
             })
             .collect();
         order.sort_by(|a, b| b.0.total_cmp(&a.0).then(a.1.cmp(&b.1)));
-        let near_m = SAME_LINE_SHARE * eaves.diagonal_m();
         let mut found = Self {
             lines: Vec::with_capacity(eaves.len()),
             longest: Vec::with_capacity(eaves.len()),

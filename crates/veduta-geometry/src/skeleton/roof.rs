@@ -8,7 +8,7 @@ use super::planes::Lines;
 use super::rings::{rings_of_faces, Rings, Untangler};
 use super::simple::inside;
 use super::sweep::{sweep, Rest};
-use super::tolerance::{ATTEMPTS, SAME_NODE_SHARE};
+use super::tolerance::{ATTEMPTS, SAME_LINE_SHARES, SAME_NODE_SHARE, SHORTEST_EDGE_SHARE};
 use super::{Eaves, SkeletonError};
 
 /// Where a face begins.
@@ -29,7 +29,8 @@ pub struct RoofFace {
     pub rings: Vec<Vec<u32>>,
 }
 
-/// A level polygon that is left at the height to stop at.
+/// A level polygon that is left at the height to stop at: its outline, counter-clockwise from
+/// above, and its holes, clockwise. A hole may touch the outline in a node.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Level {
     pub rings: Vec<Vec<u32>>,
@@ -55,11 +56,13 @@ pub struct Roof {
 ///
 /// The result has passed [`check()`]; what cannot be built is an error, never half a roof.
 pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
-    if let Some(height_m) = stop_m.filter(|height| !(height.is_finite() && *height > 0.0)) {
-        return Err(SkeletonError::BadHeight { height_m });
+    let least_m = SHORTEST_EDGE_SHARE * eaves.diagonal_m() / fastest(eaves);
+    if let Some(height_m) = stop_m.filter(|&height| !height.is_finite() || height <= least_m) {
+        return Err(SkeletonError::BadHeight { height_m, least_m });
     }
-    let lines = Lines::of(eaves);
-    let mut fault = None;
+    let [near, less_near] = SAME_LINE_SHARES.map(|share| share * eaves.diagonal_m());
+    let mut lines = Lines::of(eaves, near);
+    let mut fault = SkeletonError::Vanished;
     for attempt in 0..ATTEMPTS {
         let found = attempted(eaves, &lines, stop_m, attempt).and_then(|mut roof| {
             check(eaves, &roof)?;
@@ -67,14 +70,18 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
             Ok(roof)
         });
         match found {
-            Ok(roof) => return Ok(roof),
+            Err(SkeletonError::NearlyParallel { .. }) if attempt == 0 => {
+                lines = Lines::of(eaves, less_near);
+            }
             Err(why @ (SkeletonError::NearlyParallel { .. } | SkeletonError::Unbounded { .. })) => {
                 return Err(why)
             }
-            Err(why) => fault = fault.or(Some(why)),
+            Err(why) if attempt == 0 => fault = why,
+            Err(_) => {}
+            Ok(roof) => return Ok(roof),
         }
     }
-    Err(fault.unwrap_or(SkeletonError::TooManyEvents { most: 0 }))
+    Err(fault)
 }
 
 fn attempted(
@@ -83,10 +90,9 @@ fn attempted(
     stop_m: Option<f64>,
     attempt: u64,
 ) -> Result<Roof, SkeletonError> {
-    let speeds = eaves.speeds().iter().copied();
-    let fastest = speeds.clone().fold(0.0, f64::max);
-    let fastest = if fastest > 0.0 { fastest } else { 1.0 };
-    let slowest = speeds.filter(|&s| s > 0.0).fold(fastest, f64::min);
+    let fastest = fastest(eaves);
+    let moving = eaves.speeds().iter().filter(|&&speed| speed > 0.0);
+    let slowest = moving.copied().fold(fastest, f64::min);
     let diagonal_m = eaves.diagonal_m();
     // No edge that moves can have moved farther than the diagonal.
     let last = 2.0 * diagonal_m * fastest / slowest;
@@ -97,6 +103,7 @@ fn attempted(
         eaves,
         lines,
         front,
+        stop,
     }
     .roof(rests, fastest);
     match made.rest.first() {
@@ -110,10 +117,19 @@ fn attempted(
     }
 }
 
+/// The highest speed, or 1 where all edges stand.
+fn fastest(eaves: &Eaves) -> f64 {
+    match eaves.speeds().iter().copied().fold(0.0, f64::max) {
+        0.0 => 1.0,
+        fastest => fastest,
+    }
+}
+
 struct Drawing<'a> {
     eaves: &'a Eaves,
     lines: &'a Lines,
     front: Front,
+    stop: Option<f64>,
 }
 
 impl Drawing<'_> {
@@ -135,13 +151,9 @@ impl Drawing<'_> {
         let mut untangler = Untangler::new(self.front.nodes.len());
         rename(&mut rings, &name, &mut untangler);
         let rest_rings = rings.pop().unwrap_or_default();
-        settle(
-            &mut self.front,
-            self.lines,
-            &rings,
-            self.eaves.len(),
-            4.0 * near,
-        );
+        let level = self.stop.map(|time| (&rest_rings, time));
+        let (first, most) = (self.eaves.len(), 4.0 * near);
+        settle(&mut self.front, self.lines, &rings, level, first, most);
         let mut made = Roof {
             nodes_m: Vec::new(),
             faces: Vec::with_capacity(faces),

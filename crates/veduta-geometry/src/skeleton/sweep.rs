@@ -5,7 +5,7 @@ use super::double_double::Dd;
 use super::eaves::ring_area_m2;
 use super::events::{Event, Happening, Queue};
 use super::front::Front;
-use super::tolerance::SAME_NODE_SHARE;
+use super::tolerance::{PARALLEL, SAME_NODE_SHARE};
 use super::SkeletonError;
 
 /// A part of the wavefront that is left: its nodes, the inside to the left.
@@ -212,10 +212,10 @@ fn close(
     for gap in gaps.into_iter().flatten() {
         let (gap, place, node) = take_over(front, gap, place, node, time);
         match front.join(gap.before, gap.after, place, time, node)? {
-            Some((first, last)) => {
-                front.link(gap.previous, first);
-                front.link(last, gap.next);
-                made.push((first, node));
+            Some(corner) => {
+                front.link(gap.previous, corner);
+                front.link(corner, gap.next);
+                made.push((corner, node));
             }
             None => {
                 front.link(gap.previous, gap.next);
@@ -249,7 +249,7 @@ fn take_over(
     mut node: u32,
     time: Dd,
 ) -> (Gap, [Dd; 2], u32) {
-    while let Meeting::Step { up } = Meeting::of(&front.planes, gap.before, gap.after) {
+    while let Meeting::Step { up } = Meeting::of(&front.planes, gap.before, gap.after, PARALLEL) {
         let far_end = if up { gap.previous } else { gap.next };
         if gap.previous == gap.next {
             break;
@@ -265,7 +265,7 @@ fn take_over(
             gap.next = far.next;
             (slow, gap.before)
         };
-        if let Meeting::Corner = Meeting::of(&front.planes, gap.before, gap.after) {
+        if let Meeting::Corner = Meeting::of(&front.planes, gap.before, gap.after, PARALLEL) {
             place = front.crossing(gap.before, gap.after, time).unwrap_or(place);
         }
         let far_node = front.add_node(place, time);
