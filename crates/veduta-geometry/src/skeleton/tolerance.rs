@@ -15,9 +15,9 @@ pub const LARGEST_SPEED: f64 = 1e6;
 /// The shortest edge of eaves, as a share of the diagonal.
 pub const SHORTEST_EDGE_SHARE: f64 = 1e-8;
 
-/// Edges whose ends are this near to one line, as a share of the diagonal, lie on it. The second
-/// is taken where the first leaves two edges that are neither in one line nor at an angle.
-pub const SAME_LINE_SHARES: [f64; 2] = [4e-12, 1e-10];
+/// Edges whose ends are this near to one line, as a share of the diagonal, lie on it. The next is
+/// taken where one leaves two edges that are neither in one line nor at an angle.
+pub const SAME_LINE_SHARES: [f64; 3] = [4e-12, 1e-10, 5e-10];
 
 /// Sine of the angle below which neighbours at the eaves get a step between them if they differ in
 /// speed. (At larger angles their corner runs along the wall at the speed that the angle gives.)
