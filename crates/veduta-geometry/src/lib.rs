@@ -4,6 +4,8 @@
 //! of each ring, and the first ring of each polygon. The first ring of a polygon is its outline,
 //! counter-clockwise seen from outside; the others are its holes. Nothing is allocated per
 //! surface by the caller, so that a part of a million faces stays a handful of arrays.
+//!
+//! [`skeleton`] makes roofs over outlines.
 
 mod error;
 mod plane;

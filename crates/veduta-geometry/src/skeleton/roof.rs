@@ -60,28 +60,27 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
     if let Some(height_m) = stop_m.filter(|&height| !height.is_finite() || height <= least_m) {
         return Err(SkeletonError::BadHeight { height_m, least_m });
     }
-    let [near, less_near] = SAME_LINE_SHARES.map(|share| share * eaves.diagonal_m());
-    let mut lines = Lines::of(eaves, near);
-    let mut fault = SkeletonError::Vanished;
-    for attempt in 0..ATTEMPTS {
+    let mut near_m = SAME_LINE_SHARES.map(|share| share * eaves.diagonal_m());
+    let mut lines = Lines::of(eaves, near_m[0]);
+    let mut attempt = 0;
+    loop {
         let found = attempted(eaves, &lines, stop_m, attempt).and_then(|mut roof| {
             check(eaves, &roof)?;
             roof.attempts = attempt as u32 + 1;
             Ok(roof)
         });
+        attempt += 1;
         match found {
-            Err(SkeletonError::NearlyParallel { .. }) if attempt == 0 => {
-                lines = Lines::of(eaves, less_near);
-            }
-            Err(why @ (SkeletonError::NearlyParallel { .. } | SkeletonError::Unbounded { .. })) => {
-                return Err(why)
-            }
-            Err(why) if attempt == 0 => fault = why,
-            Err(_) => {}
             Ok(roof) => return Ok(roof),
+            Err(why @ SkeletonError::Unbounded { .. }) => return Err(why),
+            Err(why) if attempt == ATTEMPTS => return Err(why),
+            Err(SkeletonError::NearlyParallel { .. }) => {
+                near_m.rotate_left(1);
+                lines = Lines::of(eaves, near_m[0]);
+            }
+            Err(_) => {}
         }
     }
-    Err(fault)
 }
 
 fn attempted(

@@ -115,73 +115,56 @@ struct Gap {
     after: u32,
 }
 
+impl Gap {
+    /// Between what comes before one corner and what comes after another.
+    fn across(from: &Corner, to: &Corner) -> Self {
+        Self {
+            previous: from.previous,
+            next: to.next,
+            before: from.before,
+            after: to.after,
+        }
+    }
+}
+
 fn apply(front: &mut Front, queue: &mut Queue, event: Event) -> Result<(), SkeletonError> {
     let time = event.time;
     match event.what {
         Happening::Collapse { start, end } => {
-            let (a, b) = (*front.corner(start), *front.corner(end));
-            let gap = Gap {
-                previous: a.previous,
-                next: b.next,
-                before: a.before,
-                after: b.after,
-            };
-            let rest = a.previous;
-            if rest == end || rest == b.next {
-                let node = meet(front, &[start, end, rest], time);
+            let gap = Gap::across(front.corner(start), front.corner(end));
+            let rest = gap.previous;
+            if rest == end || rest == gap.next {
+                let (node, _) = meet(front, &[start, end, rest], time);
                 for corner in [start, end, rest] {
                     front.end(corner, node);
                 }
                 return Ok(());
             }
-            close(front, queue, &[start, end], [Some(gap), None], time)
+            close(front, queue, &[start, end], vec![gap], time)
         }
         Happening::Split { corner, start, end } => {
-            let (v, edge) = (*front.corner(corner), front.corner(start).after);
-            let one = Gap {
-                previous: v.previous,
-                next: end,
-                before: v.before,
-                after: edge,
+            let edge = front.corner(start).after;
+            let (mut one, mut other) = {
+                let v = front.corner(corner);
+                (Gap::across(v, v), Gap::across(v, v))
             };
-            let other = Gap {
-                previous: start,
-                next: v.next,
-                before: edge,
-                after: v.after,
-            };
-            close(front, queue, &[corner], [Some(one), Some(other)], time)
+            (one.next, one.after) = (end, edge);
+            (other.previous, other.before) = (start, edge);
+            close(front, queue, &[corner], vec![one, other], time)
         }
         Happening::Bridge { first, second } => {
-            let (a, b) = (*front.corner(first), *front.corner(second));
-            let one = Gap {
-                previous: a.previous,
-                next: b.next,
-                before: a.before,
-                after: b.after,
-            };
-            let other = Gap {
-                previous: b.previous,
-                next: a.next,
-                before: b.before,
-                after: a.after,
-            };
-            close(
-                front,
-                queue,
-                &[first, second],
-                [Some(one), Some(other)],
-                time,
-            )
+            let (a, b) = (front.corner(first), front.corner(second));
+            let gaps = vec![Gap::across(a, b), Gap::across(b, a)];
+            close(front, queue, &[first, second], gaps, time)
         }
     }
 }
 
 /// A node at which the corners meet, at the place of the one that moves least fast: a place on a
 /// fast way is known less well.
-fn meet(front: &mut Front, corners: &[u32], time: Dd) -> u32 {
+fn meet(front: &mut Front, corners: &[u32], time: Dd) -> (u32, [Dd; 2]) {
     let place = slowest(front, corners).place_at(time);
-    front.add_node(place, time)
+    (front.add_node(place, time), place)
 }
 
 fn slowest<'a>(front: &'a Front, corners: &[u32]) -> &'a Corner {
@@ -200,16 +183,15 @@ fn close(
     front: &mut Front,
     queue: &mut Queue,
     ending: &[u32],
-    gaps: [Option<Gap>; 2],
+    gaps: Vec<Gap>,
     time: Dd,
 ) -> Result<(), SkeletonError> {
-    let place = slowest(front, ending).place_at(time);
-    let node = front.add_node(place, time);
+    let (node, place) = meet(front, ending, time);
     for &corner in ending {
         front.end(corner, node);
     }
     let (mut made, mut grown) = (Vec::with_capacity(2), Vec::new());
-    for gap in gaps.into_iter().flatten() {
+    for gap in gaps {
         let (gap, place, node) = take_over(front, gap, place, node, time);
         match front.join(gap.before, gap.after, place, time, node)? {
             Some(corner) => {
@@ -257,9 +239,9 @@ fn take_over(
         let far = *front.corner(far_end);
         place = far.place_at(time);
         let (slow, fast) = if up {
-            let fast = std::mem::replace(&mut gap.before, far.before);
+            let slow = std::mem::replace(&mut gap.before, far.before);
             gap.previous = far.previous;
-            (fast, gap.after)
+            (slow, gap.after)
         } else {
             let slow = std::mem::replace(&mut gap.after, far.after);
             gap.next = far.next;

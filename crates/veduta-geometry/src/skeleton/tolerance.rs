@@ -2,8 +2,9 @@
 //!
 //! Lengths are metres, or shares of the diagonal of the eaves' bounding box where the name says so.
 
-/// The most vertices that eaves may have: the time grows with vertices times reflex vertices.
-pub const MOST_VERTICES: usize = 20_000;
+/// The most vertices that eaves may have. Time and memory grow with vertices times reflex vertices:
+/// a star of this many takes 3 s and 60 MB.
+pub const MOST_VERTICES: usize = 5_000;
 
 /// The largest coordinate (m): beyond, a double no longer resolves a tenth of a millimetre.
 pub const LARGEST_COORDINATE_M: f64 = 1e11;
@@ -14,9 +15,9 @@ pub const LARGEST_SPEED: f64 = 1e6;
 /// The shortest edge of eaves, as a share of the diagonal.
 pub const SHORTEST_EDGE_SHARE: f64 = 1e-8;
 
-/// Edges whose ends are this near to one line, as a share of the diagonal, lie on it. The second
-/// is taken where the first leaves two edges that are neither in one line nor at an angle.
-pub const SAME_LINE_SHARES: [f64; 2] = [4e-12, 1e-10];
+/// Edges whose ends are this near to one line, as a share of the diagonal, lie on it. The next is
+/// taken where one leaves two edges that are neither in one line nor at an angle.
+pub const SAME_LINE_SHARES: [f64; 3] = [4e-12, 1e-10, 5e-10];
 
 /// Sine of the angle below which neighbours at the eaves get a step between them if they differ in
 /// speed. (At larger angles their corner runs along the wall at the speed that the angle gives.)
