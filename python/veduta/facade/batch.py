@@ -20,7 +20,7 @@ from veduta.facade.report import call_report
 from veduta.formats.place_json import write_place
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
-from veduta.run.options import Options
+from veduta.run.options import Options, flag
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Outcome, Task, run_tasks
 from veduta.run.progress import Progress, no_progress
@@ -137,7 +137,7 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
         for name in type(given).model_fields:
             if getattr(given, name) != getattr(type(given)(), name):
                 raise InputError(
-                    f"--{name.replace('_', '-')}",
+                    flag(name),
                     "is for photos and changes nothing in a document",
                     remedy,
                 )
