@@ -52,6 +52,7 @@ def _tell_failures(result: CallResult) -> None:
 
 
 def _tell_results(result: CallResult) -> None:
+    from veduta.facade.label_pictures import labels_note
     from veduta.facade.report import adjusted_line, summary_line
 
     out = result.out
@@ -69,6 +70,8 @@ def _tell_results(result: CallResult) -> None:
         print(f"{out / name}: was not made by veduta and is left as it is")
     for name in result.left:
         print(f"{out / name}: is left from an earlier call")
+    if result.labels:
+        print(labels_note(result.labels, whole=False))
     if result.up_to_date:
         print(f"{out} is up to date; --force makes it anew")
     if done:

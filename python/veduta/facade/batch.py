@@ -13,6 +13,7 @@ from pydantic import JsonValue
 from veduta.facade.arrangement import Placed, Vector, arrange
 from veduta.facade.call import Call, Input, Kind, plan_call
 from veduta.facade.job import Job, JobResult, memory_of, run_job
+from veduta.facade.label_pictures import labels_note
 from veduta.facade.load import DOCUMENT, load_document, load_photo
 from veduta.facade.options import FacadeOptions
 from veduta.facade.pipeline import VERSION
@@ -51,6 +52,8 @@ class CallResult:
     """Files that were there before Veduta and stand where results would go; paths in OUT."""
     left: list[str] = field(default_factory=list)
     """Folders of an earlier call that this one has nothing to do with."""
+    labels: Sequence[Path] = ()
+    """Pictures of labels between the photos of a folder: nothing was made of them."""
     tracebacks: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -93,7 +96,8 @@ def run_call(
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
-        result = CallResult(out, call.kind, [source.name for source in call.inputs])
+        asked = [source.name for source in call.inputs]
+        result = CallResult(out, call.kind, asked, labels=call.left_out)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
         waiting = [
             source for source in call.inputs if _is_wanted(folder, source, call, options, result)
@@ -280,6 +284,7 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
     ]
     notes = [f"{name}/ is left from an earlier call" for name in result.left]
     notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
+    notes += [labels_note(result.labels, whole=True)] if result.labels else []
     failures = list(result.failures.values())
     report, page = call_report(folder.path, options, result.summaries, failures, notes)
     with writing_to(folder.path):

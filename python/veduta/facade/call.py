@@ -11,6 +11,7 @@ from typing import Literal
 
 from pydantic import JsonValue
 
+from veduta.facade.label_pictures import set_labels_apart
 from veduta.facade.load import DOCUMENT, MAX_BYTES, PHOTO
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.run.digests import file_digest
@@ -45,11 +46,15 @@ class Call:
 
     kind: Kind
     inputs: tuple[Input, ...]
+    left_out: tuple[Path, ...] = ()
+    """Pictures of labels that lie between the photos of a folder."""
 
 
 def plan_call(paths: Sequence[Path]) -> Call:
     """The inputs in the order given; a folder stands for the images in it, by name."""
-    files = _each_once([file for path in paths for file in _files(path)])
+    found = [_files(path) for path in paths]
+    files = _each_once([file for photos, _ in found for file in photos])
+    left_out = _each_once([file for _, labels in found for file in labels])
     if not files:
         raise InputError("IMAGE", "no image is named", "Name at least one photo.")
     kinds = {path: _kind(path) for path in files}
@@ -60,12 +65,13 @@ def plan_call(paths: Sequence[Path]) -> Call:
         )
     _refuse_same_names(files)
     inputs = tuple(Input(_name(path), path, kinds[path], _digests(path)) for path in files)
-    return Call(inputs[0].kind, inputs)
+    return Call(inputs[0].kind, inputs, tuple(file for file in left_out if file not in files))
 
 
-def _files(path: Path) -> list[Path]:
+def _files(path: Path) -> tuple[list[Path], list[Path]]:
+    """The files that a path stands for, and the pictures of labels between them."""
     if not os.path.isdir(path):  # `Path.is_dir` raises where it may not look
-        return [path]
+        return [path], []
     try:
         images = sorted(
             file for file in path.iterdir() if file.suffix.lower() in SUFFIXES and file.is_file()
@@ -75,7 +81,7 @@ def _files(path: Path) -> list[Path]:
     if not images:
         wanted = ", ".join(SUFFIXES)
         raise InputError(path, f"is a folder without images ({wanted})", "Name another folder.")
-    return images
+    return set_labels_apart(images)
 
 
 def _each_once(files: list[Path]) -> list[Path]:
@@ -104,7 +110,9 @@ def _refuse_same_names(files: list[Path]) -> None:
             raise InputError(
                 path,
                 f"has the same name as {seen[name]}: the results of both would be in {name}/",
-                "Rename one of them, or make two calls.",
+                f"Name one of them, for instance by {seen[name].with_stem('*')}, or rename it."
+                if path.with_suffix("") == seen[name].with_suffix("")
+                else "Rename one of them, or make two calls.",
             )
         seen[name] = path
 
