@@ -21,6 +21,12 @@ from veduta.run.inputs import require_file
 Kind = Literal["photo", "document"]
 RESERVED = {"place.json", "report.json", "report.html"}
 """Names that OUT itself uses."""
+_OTHER_JSON = {
+    "place.json": "says where the buildings of a place stand",
+    "report.json": "says how the work went",
+    "model.city.json": "is a model that was made from a document",
+}
+"""Files of OUT that somebody may take for a facade's document."""
 _UNUSABLE = re.compile(r"[\x00-\x1f\\:]|^[.\s]|[.\s]$")
 _MAX_NAME = 200
 
@@ -64,6 +70,8 @@ def plan_call(paths: Sequence[Path]) -> Call:
             document, "is a document between photos", "Give photos or documents, not both at once."
         )
     _refuse_same_names(files)
+    for path in files:
+        _refuse_other_json(path)
     inputs = tuple(Input(_name(path), path, kinds[path], _digests(path)) for path in files)
     return Call(inputs[0].kind, inputs, tuple(file for file in left_out if file not in files))
 
@@ -117,6 +125,20 @@ def _refuse_same_names(files: list[Path]) -> None:
         seen[name] = path
 
 
+def _refuse_other_json(path: Path) -> None:
+    """Say which file is the document that is meant, as far as one lies there."""
+    what = _OTHER_JSON.get(path.name)
+    if what is None:
+        return
+    beside = path.with_name(DOCUMENT)
+    known = [beside] if beside.exists() else sorted(path.parent.glob(f"*/{DOCUMENT}"))
+    remedy = f"Give the {DOCUMENT} of a building."
+    if known:
+        which = "one of its buildings, such as" if known[1:] else "its building:"
+        remedy = f"Give the document of {which} {known[0]}"
+    raise InputError(path, f"{what}, and is no document of a facade", remedy)
+
+
 def _digests(path: Path) -> tuple[str, ...]:
     """The digest of the file, and for a document that of the photo beside it."""
     bounds = {path: MAX_FILE_BYTES}
@@ -127,7 +149,11 @@ def _digests(path: Path) -> tuple[str, ...]:
             require_file(file, bound)
         return tuple(file_digest(file) for file in bounds)
     except FileNotFoundError as error:
-        raise InputError(error.filename or path, "does not exist", "Check its name.") from error
+        missing = Path(error.filename or path)
+        remedy = "Check its name."
+        if missing != path:
+            remedy = f"It must lie beside {path.name} as it was written."
+        raise InputError(missing, "does not exist", remedy) from error
     except OSError as error:
         raise _unreadable(Path(error.filename or path), error) from error
 

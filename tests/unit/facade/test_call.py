@@ -73,6 +73,32 @@ def test_refused(tmp_path: Path) -> None:
             plan_call(paths)
 
 
+def test_other_json_of_a_result_is_told_from_documents(tmp_path: Path) -> None:
+    place = touch(tmp_path / "place.json", "{}")
+    with pytest.raises(InputError, match=r"stand, and is no document of a facade. Give the facade"):
+        plan_call([place])
+    one = touch(tmp_path / "a" / "facade.json")
+    with pytest.raises(InputError) as raised:
+        plan_call([place])
+    assert raised.value.subject == str(place)
+    assert raised.value.remedy == f"Give the document of its building: {one}"
+    two = touch(tmp_path / "b" / "facade.json")
+    with pytest.raises(InputError, match=rf"one of its buildings, such as {one}$"):
+        plan_call([place])
+    with pytest.raises(InputError, match=rf"went, .* of its building: {two}$"):
+        plan_call([touch(tmp_path / "b" / "report.json")])
+    with pytest.raises(InputError, match=rf"a model .* of its building: {one}$"):
+        plan_call([touch(tmp_path / "a" / "model.city.json")])
+
+
+def test_a_document_without_its_photo(tmp_path: Path) -> None:
+    document = touch(tmp_path / "house" / "changed.json")
+    with pytest.raises(InputError) as raised:
+        plan_call([document])
+    assert raised.value.subject == str(tmp_path / "house" / "rectified.jpg")
+    assert raised.value.remedy == "It must lie beside changed.json as it was written."
+
+
 def drawn(path: Path, colours: int, mode: str = "RGB") -> Path:
     """A picture with so many colours, stored without loss."""
     path.parent.mkdir(parents=True, exist_ok=True)
