@@ -97,6 +97,11 @@ class Element(_Record):
         default="inferred", description="what the analysis found says measured"
     )
 
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether the photo speaks rather against it. What a person adds is not in doubt."""
+        return self.score < SURE_SCORE
+
 
 class Split(_Record):
     """One rule application: the symbols and sizes (metres) of its right-hand side, in order."""

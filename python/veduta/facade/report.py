@@ -15,7 +15,7 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.facade.adjusted import count_adjusted
-from veduta.facade.document import SURE_SCORE, Element, FacadeDocument
+from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
@@ -33,9 +33,14 @@ FILES = (
     ("facade.json", "everything that was found; edit it and rebuild"),
     ("rectified.jpg", "the fronto-parallel photo"),
     ("labels.png", "a class per pixel, drawn from facade.json"),
-    ("overlay.png", "what was found, over the photo"),
+    ("overlay.png", "what was found, over the photo, with the numbers of the elements"),
     ("model.glb", "the building as glTF 2.0"),
     ("model.city.json", "the building as CityJSON 2.0, LoD3"),
+)
+FOUND_NOTE = (
+    "Elements, regions and floor lines. The number 17 stands on elements[17] of facade.json;"
+    " a small element has none. Dashed, with a white tag, is what is doubtful: its score is below"
+    " 0.5."
 )
 _BASIS = {
     "height": "from the height given",
@@ -129,7 +134,7 @@ def call_report(
 def measures(document: FacadeDocument) -> dict[str, Any]:
     """What was found, in numbers."""
     found = Counter(element.class_ for element in document.elements)
-    doubtful = Counter(element.class_ for element in document.elements if _is_doubtful(element))
+    doubtful = Counter(element.class_ for element in document.elements if element.is_doubtful)
     return {
         "storeys": document.storeys,
         "storeys_doubtful": _are_storeys_doubtful(document),
@@ -177,11 +182,6 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
     return ", ".join(said)
 
 
-def _is_doubtful(element: Element) -> bool:
-    """Whether the photo speaks rather against it. What a person adds is not in doubt."""
-    return element.score < SURE_SCORE
-
-
 def _are_storeys_doubtful(document: FacadeDocument) -> bool:
     floors = document.energy.get("floors")
     return floors is not None and are_storeys_doubtful(floors.total)
@@ -213,7 +213,7 @@ def _pictures(building: Building) -> list[Picture]:
     labels = coloured(building.document, rasterise(building.document))
     drawn = overlay(building.document, building.pixels)
     return [
-        _picture("Found", "Elements, regions and floor lines.", drawn, "overlay.png"),
+        _picture("Found", FOUND_NOTE, drawn, "overlay.png"),
         _picture("Photo", "The fronto-parallel view.", building.pixels, "rectified.jpg"),
         _picture("Labels", "Each pixel in the colour of its class.", labels, "labels.png"),
     ]
@@ -256,7 +256,7 @@ def _elements(document: FacadeDocument) -> Table:
             width = float(np.median([item.width_m for item in items]))
             height = float(np.median([item.height_m for item in items]))
             score = float(np.mean([item.score for item in items]))
-            doubtful = sum(_is_doubtful(item) for item in items)
+            doubtful = sum(item.is_doubtful for item in items)
             sizes = round(width, 2), round(height, 2), round(score, 2)
             rows.append([name, len(items), doubtful, *sizes])
     columns = ("class", "found", "doubtful", "median width m", "median height m", "mean score")
