@@ -48,7 +48,11 @@ class Rectification(_Record):
     )
     focal_px: float | None = None
     residual_deg: float | None = Field(
-        default=None, description="median angle of the held-out segments to the nearest axis"
+        default=None,
+        description=(
+            "median angle (degrees) of straight edges that the view was not fitted to, to the"
+            " nearest axis"
+        ),
     )
 
 

@@ -20,6 +20,7 @@ from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.plausible import are_storeys_doubtful
+from veduta.facade.rectify import are_corners_doubtful
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.options import Options
@@ -149,6 +150,7 @@ def measures(document: FacadeDocument) -> dict[str, Any]:
         "scale": _BASIS[document.scale.basis],
         "rectification": document.rectification.method,
         "residual_deg": document.rectification.residual_deg,
+        "corners_doubtful": are_corners_doubtful(document.rectification),
         "energy": {name: term.total for name, term in document.energy.items()},
     }
 
@@ -166,6 +168,7 @@ def summary_line(found: Mapping[str, Any]) -> str:
         f"{_counted(others, 'other element')} doubtful" if others else "",
         f"{found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})",
         f"{share:.0f} % of the picture's width" if share < WHOLE_WIDTH else "",
+        "corners doubtful" if found.get("corners_doubtful", False) else "",
     ]
     return ", ".join(part for part in said if part)
 
@@ -198,13 +201,14 @@ def _counted(count: int, thing: str) -> str:
 def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
     found = measures(document)
     size, box = document.rectification, document.facade
+    method = size.method + (" (doubtful)" if found["corners_doubtful"] else "")
     residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° off"
     return [
         ("storeys", str(document.storeys)),
         ("windows", f"{found['windows']}{_in_doubt(found['doubtful_windows'])}"),
         ("facade", f"{box.width_m:.1f} x {box.height_m:.1f} m"),
         ("scale", _BASIS[document.scale.basis]),
-        ("rectified", f"{size.method}{residual}"),
+        ("rectified", f"{method}{residual}"),
         ("resolution", f"{1000 * document.scale.metres_per_px:.1f} mm/px"),
     ]
 
