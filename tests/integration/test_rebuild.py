@@ -34,8 +34,12 @@ def edit(path: Path, change: Callable[[Any], None]) -> None:
     path.write_text(json.dumps(content))
 
 
+def first_window(content: Any) -> int:
+    return next(i for i, item in enumerate(content["elements"]) if item["class"] == "window")
+
+
 def widen_first_window(content: Any) -> None:
-    index = next(i for i, item in enumerate(content["elements"]) if item["class"] == "window")
+    index = first_window(content)
     content["elements"][index]["height_px"] += 5
     content["elements"][index]["y_px"] -= 5
 
@@ -67,6 +71,37 @@ def test_in_place(out: Path, photos: list[Path]) -> None:
     assert kept.returncode == 0
     assert f"{document}: was edited" in kept.stdout
     assert tree(out) == after
+
+
+def test_it_is_told_whose_numbers_are_told(out: Path, photos: list[Path]) -> None:
+    """Of before the edit, of the edited document, or of another one than lies there now."""
+    document = out / "house0" / "facade.json"
+    found = document.read_bytes()
+    windows = sum(item["class"] == "window" for item in read_json(document)["elements"])
+    edit(document, lambda content: content["elements"].pop(first_window(content)))
+    command = f"; to rebuild from it: veduta facade {document} -o {out}"
+
+    before = facade(*photos[:2], "-o", out).stdout.splitlines()
+    assert f" {windows} windows" in before[0]
+    assert before[0].endswith(" (was done, before facade.json was changed)")
+    assert before[1].startswith("house1: ")
+    assert before[1].endswith(" (was done)")
+    assert f"{document}: was edited and is left as it is{command}" in before
+
+    assert veduta("facade", document, "-o", out).returncode == 0
+    for force in ([], ["--force"]):
+        after = facade(*photos[:2], "-o", out, *force).stdout.splitlines()
+        assert f" {windows - 1} windows" in after[0]
+        assert after[0].endswith(" (was rebuilt from the edited facade.json)")
+        assert f"{document}: was edited and is left as it is" in after
+    notes = read_json(out / "report.json")["notes"]
+    assert notes == ["house0/facade.json was edited and is left as it is"]
+
+    document.write_bytes(found)
+    back = facade(*photos[:2], "-o", out).stdout.splitlines()
+    assert f" {windows - 1} windows" in back[0]
+    assert back[0].endswith(" (was done, before facade.json was changed)")
+    assert f"{document}: is another than the model was made from{command}" in back
 
 
 def test_pixels_decide_over_metres(out: Path, tmp_path: Path) -> None:

@@ -99,6 +99,16 @@ def read_image(path: Path) -> Photo:
     )
 
 
+def has_few_colours(path: Path, most: int) -> bool:
+    """Whether an image has at most so many colours; False where it cannot be read."""
+    try:
+        data = _read_bytes(path)
+        with _damage_is_input_error(path), _open_bounded(path, data) as image:
+            return image.getcolors(most) is not None
+    except InputError:
+        return False
+
+
 def _read_bytes(path: Path) -> bytes:
     if path.is_dir():
         raise InputError(path, "is a folder, not an image", f"Name its images: {path}/*.jpg")
