@@ -22,6 +22,7 @@ from veduta.facade.compare_picture import comparison_png, truth_png
 from veduta.facade.document import FacadeDocument
 from veduta.facade.load import DOCUMENT, load_document
 from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
+from veduta.facade.pipeline import VERSION as FACADE_VERSION
 from veduta.geometry import homography
 from veduta.run.digests import file_digest, result_key
 from veduta.run.options import Options
@@ -86,7 +87,8 @@ def run_demo(
     out: Path, options: DemoOptions, street: SyntheticOptions, progress: Progress, *, force: bool
 ) -> DemoResult:
     """Make the street, rebuild it from its photo, compare; the same call again is up to date."""
-    key = result_key("demo", VERSION, options, street.model_dump(mode="json"))
+    versions = f"{VERSION}, facade {FACADE_VERSION}"
+    key = result_key("demo", versions, options, street.model_dump(mode="json"))
     path = out / PLACE / Path(PHOTO).stem / DOCUMENT
     with open_out(out, "demo", key, force=force) as folder:
         if folder.standing is Standing.UP_TO_DATE and path.exists():

@@ -32,6 +32,8 @@ MAX_EXTENTS = 64
 MAX_POINTS = 20_000
 """Of the polygons of all extents together."""
 MAX_FLOORS = 200
+MAX_PAINTED = 200
+"""How often all elements together may cover the picture, each by what of it lies there."""
 MAX_COORDINATE = 1e6
 """No number of a document (px or m) is larger than this, by amount."""
 
@@ -126,6 +128,7 @@ def _faults(document: FacadeDocument) -> list[str]:
             if getattr(sized, side) <= 0:
                 found.append(f"{name}.{side}: must be above zero")
     found += _extent_faults(document.extents)
+    found += _painting_faults(document)
     found += _size_faults(document)
     return found + _rule_faults(document.rules)
 
@@ -146,6 +149,22 @@ def _extent_faults(extents: list[Extent]) -> list[str]:
             f" extents, more than {MAX_POINTS}"
         )
     return found
+
+
+def _painting_faults(document: FacadeDocument) -> list[str]:
+    """Of elements that would take for ever to paint."""
+    width, height = document.rectification.width_px, document.rectification.height_px
+    painted = 0.0
+    for item in document.elements:
+        across = min(item.x_px + item.width_px, width) - max(item.x_px, 0.0)
+        down = min(item.y_px + item.height_px, height) - max(item.y_px, 0.0)
+        painted += max(across, 0.0) * max(down, 0.0)
+    if painted <= MAX_PAINTED * width * height:
+        return []
+    return [
+        f"elements: together they cover the picture {painted / (width * height):.0f} times,"
+        f" more than {MAX_PAINTED}"
+    ]
 
 
 def _rule_faults(rules: RuleParameters) -> list[str]:

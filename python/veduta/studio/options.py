@@ -21,7 +21,9 @@ class ViewOptions(Options):
     port: Annotated[int, Field(ge=0, le=65535)] = Field(
         default=0, description="port to listen on; 0 takes a free one"
     )
-    browser: bool = Field(default=True, description="open the page in the browser")
+    browser: bool = Field(
+        default=True, description="without it the page is opened; with it, only its address is printed"
+    )
 
 
 class ExportOptions(Options):

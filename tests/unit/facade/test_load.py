@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from veduta.facade.document import FacadeDocument, Split
-from veduta.facade.load import MAX_EXTENTS, MAX_POINTS, load_document
+from veduta.facade.load import MAX_EXTENTS, MAX_PAINTED, MAX_POINTS, load_document
 from veduta.run.errors import InputError
 
 Make = Callable[..., FacadeDocument]
@@ -45,6 +45,15 @@ def test_points_are_counted_over_all_extents(make_document: Make, tmp_path: Path
     assert len(load_document(written(most, tmp_path)).extents) == 2
     more = make_document(extents=[("sky", TRIANGLE), ("wall", [*many, *TRIANGLE])])
     assert fault_of(more, tmp_path).startswith(f"extents[1].polygon_px: {len(many) + 3} points")
+
+
+def test_how_often_elements_cover_the_picture(make_document: Make, tmp_path: Path) -> None:
+    whole = ("window", (-50.0, -50.0, 1000.0, 1000.0))
+    most = make_document(elements=[whole] * MAX_PAINTED)
+    assert len(load_document(written(most, tmp_path)).elements) == MAX_PAINTED
+    more = make_document(elements=[whole] * (MAX_PAINTED + 1))
+    fault = f"elements: together they cover the picture {MAX_PAINTED + 1} times"
+    assert fault_of(more, tmp_path).startswith(fault)
 
 
 @pytest.mark.parametrize(
