@@ -135,6 +135,31 @@ def test_what_does_not_fit_the_model_is_told(out: Path, tmp_path: Path) -> None:
     assert read_json(page.with_suffix(".json"))["measures"]["left_out"] == 1
 
 
+def test_a_model_that_was_edited_is_named_and_kept(out: Path) -> None:
+    """A rebuild cannot make it follow the document, and must not let it pass for a part of it."""
+    document, model = out / "house0" / "facade.json", out / "house0" / "model.glb"
+    model.write_bytes(model.read_bytes() + b"mine")
+    mine = model.read_bytes()
+    edit(document, set_at("model", "setback_m", value=0.35))
+    done = veduta("facade", document, "-o", out)
+    assert f"{model}: was edited and is left as it is: it does not follow" in done.stdout
+    assert model.read_bytes() == mine
+    model.unlink()
+    done = veduta("facade", document, "-o", out)
+    assert "left as it is" not in done.stdout
+    assert model.is_file()
+
+
+def test_force_rebuilds_what_is_up_to_date(out: Path) -> None:
+    document = out / "house0" / "facade.json"
+    assert veduta("facade", document, "-o", out).returncode == 0
+    assert "up to date; --force" in veduta("facade", document, "-o", out).stdout
+    before = (out / "house0" / "model.glb").stat().st_mtime_ns
+    done = veduta("facade", document, "-o", out, "--force")
+    assert "up to date" not in done.stdout
+    assert (out / "house0" / "model.glb").stat().st_mtime_ns > before
+
+
 SIZES = ("--depth-m", 7, "--setback-m", 0.35)
 
 
@@ -232,6 +257,8 @@ def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
     ("change", "place"),
     [
         (set_at("elements", 3, "width_px", value="wide"), "elements[3].width_px: "),
+        (set_at("elements", 3, "width_px", value="12"), "elements[3].width_px: "),
+        (set_at("elements", 3, "width_px", value=True), "elements[3].width_px: "),
         (set_at("elements", 3, "class", value="windwo"), "elements[3].class: "),
         (set_at("elements", 3, "colour", value="red"), "elements[3].colour: "),
         (set_at("elements", 3, "width_px", value=-1), "elements[3].width_px: "),

@@ -60,8 +60,7 @@ def _tell_results(result: CallResult) -> None:
         adjusted = adjusted_line(result.summaries[name])
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
-    # A rebuild says nothing of the documents of other houses, which may be rebuilt already.
-    for path in result.edited if result.kind == "photo" else ():
+    for path in _edited(result):
         print(f"{out / path}: was edited and is left as it is{_rebuild(path, result)}")
     for path in _changed_back(result) if result.kind == "photo" else ():
         print(f"{out / path}: is another than the model was made from{_rebuild(path, result)}")
@@ -94,6 +93,20 @@ def _state(name: str, result: CallResult) -> str:
     return " (was done)"
 
 
+def _edited(result: CallResult) -> list[str]:
+    """Edited files to tell of.
+
+    A rebuild says nothing of the documents that it works on, nor of other houses, which may be
+    rebuilt already; but of models and pictures that it could not replace.
+    """
+    from veduta.facade.load import DOCUMENT
+
+    if result.kind == "photo":
+        return result.edited
+    own = [path for path in result.edited if path.rpartition("/")[0] in result.asked]
+    return [path for path in own if not path.endswith(f"/{DOCUMENT}")]
+
+
 def _changed_back(result: CallResult) -> list[str]:
     """Documents that are as Veduta wrote them, beside models of an edit that was taken back."""
     from veduta.facade.load import DOCUMENT
@@ -107,6 +120,8 @@ def _rebuild(path: str, result: CallResult) -> str:
     from veduta.facade.load import DOCUMENT
 
     name, _, file = path.rpartition("/")
+    if result.kind == "document":
+        return ": it does not follow the document. Delete it and rebuild"
     if file != DOCUMENT or name not in result.outdated:
         return ""
     command = shlex.join(["veduta", "facade", str(result.out / path), "-o", str(result.out)])

@@ -104,7 +104,9 @@ def run_call(
         result = CallResult(out, call.kind, asked, labels=call.left_out)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
         waiting = [
-            source for source in call.inputs if _is_wanted(folder, source, call, options, result)
+            source
+            for source in call.inputs
+            if (force and amend) or _is_wanted(folder, source, call, options, result)
         ]
         before = {name: folder.record.files.get(f"{name}/{DOCUMENT}") for name in result.asked}
         if folder.standing in {Standing.NEW, Standing.REPLACED}:

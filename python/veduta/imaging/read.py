@@ -167,7 +167,10 @@ def _why_unidentified(data: bytes) -> str:
     }
     for start, name in magic.items():
         if data.startswith(start):
-            return f"starts like a {name} file, but its header is truncated or damaged"
+            return (
+                f"starts like a {name} file, but its header is truncated or damaged, or its"
+                " pixels are of a kind that is not read (floating-point numbers, more than 16 bits)"
+            )
     if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
         return "starts like a WEBP file, but is truncated or damaged"
     if data[4:8] == b"ftyp":

@@ -22,7 +22,7 @@ class ViewOptions(Options):
         default=0, description="port to listen on; 0 takes a free one"
     )
     browser: bool = Field(
-        default=True, description="without it the page is opened; with it, only its address is printed"
+        default=True, description="open the page; --no-browser only prints its address"
     )
 
 
