@@ -146,11 +146,16 @@ def true_storeys(labels: Labels) -> int:
     is below it are parted into rows by their lower edges; a row that ends nearer to the image's
     lower border than 0.75 of the median step between rows is the ground floor's own.
     """
+    return 1 + len(window_rows(labels))
+
+
+def window_rows(labels: Labels) -> list[float]:
+    """The median lower edge of the windows of each floor above the ground floor, from above."""
     height = len(labels)
     rows = _rows_of_windows(components(labels, WINDOW, SPECK_PX), _eaves(labels), height)
     if len(rows) > 1 and height - rows[-1] < _GROUND * np.median(np.diff(rows)):
         rows = rows[:-1]
-    return 1 + len(rows)
+    return rows
 
 
 def _eaves(labels: Labels) -> int:

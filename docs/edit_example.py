@@ -55,8 +55,9 @@ def ground_floor(overlay: Path, document: Path) -> Image.Image:
     below, height = box["y_px"] + box["height_px"], 1.25 * shop["height_px"]
     left, right = box["x_px"] - MARGIN_PX, box["x_px"] + box["width_px"] + MARGIN_PX
     with Image.open(overlay) as image:
-        corners = round(left), round(below - height), round(right), round(below)
-        return image.convert("RGB").crop(corners)
+        scale = image.height / content["rectification"]["height_px"]
+        corners = np.multiply((left, below - height, right, below), scale).round().astype(int)
+        return image.convert("RGB").crop(tuple(corners.tolist()))
 
 
 def _shop_over_the_door(document: dict[str, Any]) -> int:

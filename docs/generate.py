@@ -19,6 +19,7 @@ from veduta.cli.facade_call import FacadeCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
+from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
 _BOUNDS = {
@@ -43,13 +44,11 @@ def options_table(call: type[Any]) -> str:
 
 
 def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
-    """A row per field, from the model's JSON schema."""
+    """A row per field."""
     rows: list[Sequence[str]] = []
-    for name, schema in model.model_json_schema()["properties"].items():
-        kinds = [part for part in schema.get("anyOf", [schema]) if part.get("type") != "null"]
-        default = schema.get("default")
-        shown = "" if default in (None, False) else f"`{default}`"
-        rows.append((_flag(name), _takes(kinds[0]), shown, schema["description"]))
+    for option in declared_options(model):
+        shown = "" if option.default in (None, False) else f"`{option.default}`"
+        rows.append((f"`{option.flag}`", _takes(option.value), shown, option.description))
     return rows
 
 
@@ -67,17 +66,11 @@ def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
     settings = next(part for part in annotation.__metadata__ if getattr(part, "help", None))
     default = next(field.default for field in dataclasses.fields(call) if field.name == name)
     required = default is dataclasses.MISSING
-    flag = _flag(name)
-    if settings.aliases:
-        flag = ", ".join(f"`{alias}`" for alias in settings.aliases) + f", {flag}"
+    flags = ", ".join(f"`{word}`" for word in (*(settings.aliases or ()), flag(name)))
     if settings.metavar and settings.metavar.endswith("..."):
-        flag = f"`{settings.metavar}`"
+        flags = f"`{settings.metavar}`"
     takes = "flag" if default is False else settings.metavar.removesuffix("...")
-    return flag, takes, "required" if required else "", settings.help
-
-
-def _flag(name: str) -> str:
-    return f"`--{name.replace('_', '-')}`"
+    return flags, takes, "required" if required else "", settings.help
 
 
 def files_table() -> str:

@@ -6,10 +6,14 @@ import json
 import os
 import subprocess
 import sys
+import time
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
 TIMEOUT_S = 300
+DEADLINE_S = 120
 FILES = {
     "facade.json",
     "labels.png",
@@ -37,6 +41,40 @@ def veduta(*arguments: object) -> subprocess.CompletedProcess[str]:
 def facade(*arguments: object) -> subprocess.CompletedProcess[str]:
     """Run `veduta facade --rectified` with these arguments."""
     return veduta("facade", "--rectified", *arguments)
+
+
+@contextmanager
+def running_facade(*arguments: object) -> Iterator[subprocess.Popen[str]]:
+    """A `veduta facade --rectified` at work, with its errors in a pipe; none is left behind."""
+    run = subprocess.Popen(
+        command("facade", "--rectified", *arguments),
+        stdout=subprocess.DEVNULL,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    with run:  # closes the pipe
+        try:
+            yield run
+        finally:
+            run.kill()
+
+
+def wait_for(condition: Callable[[], object]) -> None:
+    """Return when the condition holds; the test fails where that takes too long."""
+    end = time.monotonic() + DEADLINE_S
+    while not condition():
+        assert time.monotonic() < end, "the run did not come that far"
+        time.sleep(0.02)
+
+
+def items_done(out: Path) -> list[str]:
+    """The names of the finished images, as the run record has them."""
+    try:
+        record = read_json(out / ".veduta" / "run.json")
+    except (FileNotFoundError, json.JSONDecodeError):
+        return []
+    items = record["items"].items()
+    return [name for name, item in items if item["state"] == "done" and name != "."]
 
 
 def read_json(path: Path) -> Any:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -79,6 +81,42 @@ def test_the_same_seed_gives_the_same_bytes(demo: tuple[Path, str], tmp_path: Pa
     )
     del first[timed], second[timed]
     assert first == second
+
+
+@pytest.mark.slow
+def test_an_edited_document_is_compared_as_it_is_now(
+    demo: tuple[Path, str], tmp_path: Path
+) -> None:
+    out, printed = tmp_path / "out", demo[1]
+    shutil.copytree(demo[0], out)
+    path = out / "place" / "street" / "facade.json"
+    before = read_json(path)
+    windows = [item for item in before["elements"] if item["class"] == "window"]
+    others = [item for item in before["elements"] if item["class"] != "window"]
+    path.write_text(json.dumps({**before, "elements": [*windows[:4], *others]}))
+    assert veduta("facade", path, "-o", out / "place").returncode == 0
+
+    again = veduta("demo", "-o", out, *SMALL)
+    assert again.returncode == 0, again.stderr
+    assert f"edited    {path}: it is compared as it is now" in again.stdout
+    record = read_json(out / "comparison" / "comparison.json")
+    known = read_json(demo[0] / "comparison" / "comparison.json")
+    assert record["comparison"]["windows"]["found"] == 4
+    assert known["comparison"]["windows"]["found"] == len(windows) > 4
+    picture = (out / "comparison" / "comparison.png").read_bytes()
+    assert picture != (demo[0] / "comparison" / "comparison.png").read_bytes()
+    assert veduta("demo", "-o", out, *SMALL).stdout == again.stdout
+
+    path.write_text("{")
+    broken = veduta("demo", "-o", out, *SMALL)
+    assert broken.returncode == 2
+    assert f"{path}: line 1" in broken.stderr
+    path.unlink()
+    anew = veduta("demo", "-o", out, *SMALL)
+    assert anew.returncode == 0, anew.stderr
+    assert read_json(path) == before
+    assert "as it is now" not in anew.stdout
+    assert printed.splitlines()[5:-4] == anew.stdout.splitlines()[5:-4]
 
 
 def test_bad_use_is_refused(tmp_path: Path) -> None:

@@ -122,9 +122,13 @@ def test_a_folder_stands_for_its_images(tmp_path: Path, photo: Path) -> None:
     folder.mkdir()
     (folder / "a.png").write_bytes(photo.read_bytes())
     (folder / "notes.txt").write_text("not an image")
+    Image.new("P", (260, 400)).save(folder / "a.tif")
     done = facade(folder, "-o", tmp_path / "out", "--quiet")
     assert (done.returncode, done.stdout, done.stderr) == (0, "", "")
     assert (tmp_path / "out" / "a" / "model.glb").is_file()
+    told = "left out as a picture of labels, beside the photo of the same name: a.tif"
+    assert read_json(tmp_path / "out" / "report.json")["notes"] == [told]
+    assert told in facade(folder, "-o", tmp_path / "out").stdout.splitlines()
 
 
 def test_help_and_version() -> None:

@@ -11,8 +11,16 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from command_line import FILES, TIMEOUT_S, command, facade, tree
-from test_interrupted import items_done, wait_for
+from command_line import (
+    FILES,
+    TIMEOUT_S,
+    command,
+    facade,
+    items_done,
+    running_facade,
+    tree,
+    wait_for,
+)
 
 SMALL_BYTES = 20_000
 """Less than a result needs, more than the run record does."""
@@ -43,20 +51,11 @@ def test_no_room_for_the_first_result(tmp_path: Path, photo: Path) -> None:
 @pytest.mark.slow
 def test_no_room_in_the_middle(tmp_path: Path, photos: list[Path]) -> None:
     out = tmp_path / "out"
-    run = subprocess.Popen(
-        command("facade", "--rectified", *photos, "-o", out, "--jobs", "2"),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with running_facade(*photos, "-o", out, "--jobs", "2") as run:
         wait_for(lambda: items_done(out))
         _, hard = resource.prlimit(run.pid, resource.RLIMIT_FSIZE)
         resource.prlimit(run.pid, resource.RLIMIT_FSIZE, (0, hard))
         _, error = run.communicate(timeout=TIMEOUT_S)
-    finally:
-        run.kill()
-        run.wait()
     assert run.returncode == 2, error
     assert f"error: {out}: cannot be written (File too large). Make room there" in error
     assert "Traceback" not in error

@@ -2,34 +2,22 @@
 
 from __future__ import annotations
 
-import json
 import signal
-import subprocess
 import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
-from command_line import FILES, command, facade, is_running, read_json, started_by, tree
-
-DEADLINE_S = 120
-
-
-def items_done(out: Path) -> list[str]:
-    """The names of the finished images, as the run record has them."""
-    try:
-        record = read_json(out / ".veduta" / "run.json")
-    except (FileNotFoundError, json.JSONDecodeError):
-        return []
-    items = record["items"].items()
-    return [name for name, item in items if item["state"] == "done" and name != "."]
-
-
-def wait_for(condition: Callable[[], object]) -> None:
-    end = time.monotonic() + DEADLINE_S
-    while not condition():
-        assert time.monotonic() < end, "the run did not come that far"
-        time.sleep(0.02)
+from command_line import (
+    DEADLINE_S,
+    FILES,
+    facade,
+    is_running,
+    items_done,
+    running_facade,
+    started_by,
+    tree,
+    wait_for,
+)
 
 
 @pytest.mark.slow
@@ -41,13 +29,7 @@ def test_killed_in_the_middle(
     tmp_path: Path, photos: list[Path], number: signal.Signals, code: int
 ) -> None:
     out = tmp_path / "out"
-    run = subprocess.Popen(
-        command("facade", "--rectified", *photos, "-o", out, "--jobs", "2"),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with running_facade(*photos, "-o", out, "--jobs", "2") as run:
         wait_for(lambda: items_done(out))
         children = started_by(run.pid)
         assert len(children) >= 2
@@ -55,9 +37,6 @@ def test_killed_in_the_middle(
         start = time.monotonic()
         _, error = run.communicate(timeout=DEADLINE_S)
         assert time.monotonic() - start < 20
-    finally:
-        run.kill()
-        run.wait()
     assert run.returncode == code
     assert "Traceback" not in error
     if number != signal.SIGKILL:
@@ -87,20 +66,11 @@ def test_stopped_at_a_single_photo(
 ) -> None:
     """It is worked on without another process: nothing of it is a failed image."""
     out = tmp_path / "out"
-    run = subprocess.Popen(
-        command("facade", "--rectified", photo, "-o", out),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
+    with running_facade(photo, "-o", out) as run:
         wait_for(lambda: (out / ".veduta" / "work" / f"item-{photo.stem}").exists())
         time.sleep(0.2)  # the photo is being read by then
         run.send_signal(number)
         _, error = run.communicate(timeout=DEADLINE_S)
-    finally:
-        run.kill()
-        run.wait()
     assert run.returncode == code, error
     assert "the same command goes on" in error
     assert {file.name for file in out.iterdir()} == {".veduta"}
@@ -109,16 +79,8 @@ def test_stopped_at_a_single_photo(
 
 def test_two_runs_into_one_folder(tmp_path: Path, photos: list[Path]) -> None:
     out = tmp_path / "out"
-    first = subprocess.Popen(
-        command("facade", "--rectified", *photos, "-o", out),
-        stdout=subprocess.DEVNULL,
-        stderr=subprocess.DEVNULL,
-    )
-    try:
+    with running_facade(*photos, "-o", out) as first:
         wait_for(lambda: (out / ".veduta" / "run.json").exists())
         second = facade(*photos, "-o", out)
-    finally:
-        first.kill()
-        first.wait()
     assert second.returncode == 2
     assert f"process {first.pid}" in second.stderr

@@ -34,8 +34,12 @@ def edit(path: Path, change: Callable[[Any], None]) -> None:
     path.write_text(json.dumps(content))
 
 
+def first_window(content: Any) -> int:
+    return next(i for i, item in enumerate(content["elements"]) if item["class"] == "window")
+
+
 def widen_first_window(content: Any) -> None:
-    index = next(i for i, item in enumerate(content["elements"]) if item["class"] == "window")
+    index = first_window(content)
     content["elements"][index]["height_px"] += 5
     content["elements"][index]["y_px"] -= 5
 
@@ -69,6 +73,37 @@ def test_in_place(out: Path, photos: list[Path]) -> None:
     assert tree(out) == after
 
 
+def test_it_is_told_whose_numbers_are_told(out: Path, photos: list[Path]) -> None:
+    """Of before the edit, of the edited document, or of another one than lies there now."""
+    document = out / "house0" / "facade.json"
+    found = document.read_bytes()
+    windows = sum(item["class"] == "window" for item in read_json(document)["elements"])
+    edit(document, lambda content: content["elements"].pop(first_window(content)))
+    command = f"; to rebuild from it: veduta facade {document} -o {out}"
+
+    before = facade(*photos[:2], "-o", out).stdout.splitlines()
+    assert f" {windows} windows" in before[0]
+    assert before[0].endswith(" (was done, before facade.json was changed)")
+    assert before[1].startswith("house1: ")
+    assert before[1].endswith(" (was done)")
+    assert f"{document}: was edited and is left as it is{command}" in before
+
+    assert veduta("facade", document, "-o", out).returncode == 0
+    for force in ([], ["--force"]):
+        after = facade(*photos[:2], "-o", out, *force).stdout.splitlines()
+        assert f" {windows - 1} windows" in after[0]
+        assert after[0].endswith(" (was rebuilt from the edited facade.json)")
+        assert f"{document}: was edited and is left as it is" in after
+    notes = read_json(out / "report.json")["notes"]
+    assert notes == ["house0/facade.json was edited and is left as it is"]
+
+    document.write_bytes(found)
+    back = facade(*photos[:2], "-o", out).stdout.splitlines()
+    assert f" {windows - 1} windows" in back[0]
+    assert back[0].endswith(" (was done, before facade.json was changed)")
+    assert f"{document}: is another than the model was made from{command}" in back
+
+
 def test_pixels_decide_over_metres(out: Path, tmp_path: Path) -> None:
     document = out / "house0" / "facade.json"
     edit(document, widen_first_window)
@@ -98,6 +133,31 @@ def test_what_does_not_fit_the_model_is_told(out: Path, tmp_path: Path) -> None:
     assert f"1 element left out of the model: {page}\n" in done.stdout
     assert "left out, no room" in page.read_text()
     assert read_json(page.with_suffix(".json"))["measures"]["left_out"] == 1
+
+
+def test_a_model_that_was_edited_is_named_and_kept(out: Path) -> None:
+    """A rebuild cannot make it follow the document, and must not let it pass for a part of it."""
+    document, model = out / "house0" / "facade.json", out / "house0" / "model.glb"
+    model.write_bytes(model.read_bytes() + b"mine")
+    mine = model.read_bytes()
+    edit(document, set_at("model", "setback_m", value=0.35))
+    done = veduta("facade", document, "-o", out)
+    assert f"{model}: was edited and is left as it is: it does not follow" in done.stdout
+    assert model.read_bytes() == mine
+    model.unlink()
+    done = veduta("facade", document, "-o", out)
+    assert "left as it is" not in done.stdout
+    assert model.is_file()
+
+
+def test_force_rebuilds_what_is_up_to_date(out: Path) -> None:
+    document = out / "house0" / "facade.json"
+    assert veduta("facade", document, "-o", out).returncode == 0
+    assert "up to date; --force" in veduta("facade", document, "-o", out).stdout
+    before = (out / "house0" / "model.glb").stat().st_mtime_ns
+    done = veduta("facade", document, "-o", out, "--force")
+    assert "up to date" not in done.stdout
+    assert (out / "house0" / "model.glb").stat().st_mtime_ns > before
 
 
 SIZES = ("--depth-m", 7, "--setback-m", 0.35)
@@ -197,6 +257,8 @@ def set_at(*path: str | int, value: Any) -> Callable[[Any], None]:
     ("change", "place"),
     [
         (set_at("elements", 3, "width_px", value="wide"), "elements[3].width_px: "),
+        (set_at("elements", 3, "width_px", value="12"), "elements[3].width_px: "),
+        (set_at("elements", 3, "width_px", value=True), "elements[3].width_px: "),
         (set_at("elements", 3, "class", value="windwo"), "elements[3].class: "),
         (set_at("elements", 3, "colour", value="red"), "elements[3].colour: "),
         (set_at("elements", 3, "width_px", value=-1), "elements[3].width_px: "),

@@ -53,6 +53,22 @@ def _verb_help(verb: str) -> str:
     return result.stdout if result.returncode == 0 else ""
 
 
+def test_terms_are_those_of_the_documents_and_of_the_reports() -> None:
+    """Each is used where a user reads, and stands in its table in the order of the alphabet."""
+    page = ROOT / "docs" / "terms.md"
+    read = [path.read_text("utf-8") for path in DOCUMENTS if path != page]
+    read += [path.read_text("utf-8") for path in (ROOT / "python/veduta").rglob("*.py")]
+    text = "\n".join(read).lower()
+    rows_of_a_table = re.compile(r"^\| Term .*\n\|[-|]+\n((?:\|.*\n)+)", re.MULTILINE)
+    tables = rows_of_a_table.findall(page.read_text("utf-8"))
+    assert len(tables) == 3
+    for rows in tables:
+        terms = [row.split("|")[1].strip().lower() for row in rows.splitlines()]
+        assert terms == sorted(terms)
+        words = [word.strip("`") for term in terms for word in term.split(", ")]
+        assert [word for word in words if word.removesuffix(" off") not in text] == []
+
+
 @pytest.mark.parametrize("document", DOCUMENTS, ids=lambda path: str(path.relative_to(ROOT)))
 def test_links_resolve(document: Path) -> None:
     broken = []

@@ -6,6 +6,7 @@ import inspect
 import os
 import types
 from collections.abc import Sequence
+from pathlib import Path
 from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 import tyro
@@ -13,6 +14,7 @@ import tyro
 from veduta.cli.numbers import require_numbers
 
 T = TypeVar("T")
+_METAVARS = {int: "INT", float: "FLOAT", str: "STR", Path: "PATH"}
 
 os.environ.setdefault("PYDANTIC_ERRORS_INCLUDE_URL", "0")  # a wrong number needs no manual
 
@@ -32,7 +34,7 @@ def parse(
     if not {"-h", "--help"} & set(arguments):
         require_numbers(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
-    registry.primitive_rule(_optional_numbers)
+    registry.primitive_rule(_optional)
     with registry:
         return tyro.cli(
             call,
@@ -48,7 +50,7 @@ def _bare(kind: Any) -> Any:
     return get_args(kind)[0] if get_origin(kind) is Annotated else kind
 
 
-def _optional_numbers(
+def _optional(
     info: tyro.constructors.PrimitiveTypeInfo,
 ) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
     """An option that need not be given shows what it takes, and not that it takes None."""
@@ -57,20 +59,20 @@ def _optional_numbers(
     kinds = [_bare(kind) for kind in get_args(info.type) if kind is not type(None)]
     if len(kinds) != 1:
         return None
-    numbers = get_args(kinds[0]) if get_origin(kinds[0]) is tuple else kinds
-    if not all(number in (int, float) for number in numbers):
-        return None
     several = get_origin(kinds[0]) is tuple
+    parts = get_args(kinds[0]) if several else kinds
+    if not all(part in _METAVARS for part in parts):
+        return None
 
     def read(words: list[str]) -> Any:
-        values = [number(word) for number, word in zip(numbers, words, strict=True)]
+        values = [part(word) for part, word in zip(parts, words, strict=True)]
         return tuple(values) if several else values[0]
 
     return tyro.constructors.PrimitiveConstructorSpec(
-        nargs=len(numbers),
-        metavar=" ".join("INT" if number is int else "FLOAT" for number in numbers),
+        nargs=len(parts),
+        metavar=" ".join(_METAVARS[part] for part in parts),
         instance_from_str=read,
-        is_instance=lambda value: value is None or isinstance(value, int | float | tuple),
+        is_instance=lambda value: value is None or isinstance(value, (*_METAVARS, tuple)),
         str_from_instance=lambda value: (
             ["none"] if value is None else [str(part) for part in (value if several else [value])]
         ),

@@ -49,6 +49,7 @@ def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
         f"  given     {', '.join(record.given)}",
         f"  seconds   {record.seconds_photo:.1f} for the photo, "
         f"{record.seconds_rebuild:.1f} for the building",
+        *_edited(result),
         "",
         *_numbers(record.comparison),
         *_windows(record.comparison),
@@ -57,6 +58,12 @@ def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
         f"Why:        {result.out}/place/street/report.html",
         f"Walk in it: veduta view {result.out}/place",
     ]
+
+
+def _edited(result: DemoResult) -> list[str]:
+    """Whose numbers these are, where they are not those of the photo alone."""
+    document = f"{result.out}/place/street/facade.json"
+    return [f"  edited    {document}: it is compared as it is now"] if result.edited else []
 
 
 def _numbers(comparison: Comparison) -> list[str]:

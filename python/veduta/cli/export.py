@@ -19,7 +19,7 @@ def run(argv: list[str]) -> int:
         "veduta export",
         argv,
         description=f"{SUMMARY}.",
-        config=(tyro.conf.PositionalRequiredArgs,),
+        config=(tyro.conf.PositionalRequiredArgs, tyro.conf.FlagCreatePairsOff),
     )
     if options.web is None:
         raise InputError("--web", "it is missing", "Say where to write: `--web DIR`.")

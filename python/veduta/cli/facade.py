@@ -9,8 +9,6 @@ from typing import TYPE_CHECKING
 SUMMARY = "Turn photos of facades into LoD3 buildings: floors, windows, balconies, roof"
 
 if TYPE_CHECKING:
-    from pathlib import Path
-
     from veduta.cli.facade_call import FacadeCall
     from veduta.facade.batch import CallResult
 
@@ -52,23 +50,26 @@ def _tell_failures(result: CallResult) -> None:
 
 
 def _tell_results(result: CallResult) -> None:
+    from veduta.facade.label_pictures import labels_note
     from veduta.facade.report import adjusted_line, summary_line
 
     out = result.out
     done = [name for name in result.asked if name in result.summaries]
     for name in done:
-        state = "" if name in result.fresh else " (was done)"
-        print(f"{name}: {summary_line(result.summaries[name])}{state}")
+        print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
-    # A rebuild says nothing of the documents of other houses, which may be rebuilt already.
-    for name in result.edited if result.kind == "photo" else ():
-        print(f"{out / name}: was edited and is left as it is{_rebuild(out, name)}")
+    for path in _edited(result):
+        print(f"{out / path}: was edited and is left as it is{_rebuild(path, result)}")
+    for path in _changed_back(result) if result.kind == "photo" else ():
+        print(f"{out / path}: is another than the model was made from{_rebuild(path, result)}")
     for name in result.foreign:
         print(f"{out / name}: was not made by veduta and is left as it is")
     for name in result.left:
         print(f"{out / name}: is left from an earlier call")
+    if result.labels:
+        print(labels_note(result.labels, whole=False))
     if result.up_to_date:
         print(f"{out} is up to date; --force makes it anew")
     if done:
@@ -79,11 +80,49 @@ def _tell_results(result: CallResult) -> None:
         print(f"What was done, and why: {page}")
 
 
-def _rebuild(out: Path, name: str) -> str:
+def _state(name: str, result: CallResult) -> str:
+    """Where the numbers of a building come from, if not from this run."""
+    from veduta.facade.load import DOCUMENT
+
+    if name in result.outdated:
+        return f" (was done, before {DOCUMENT} was changed)"
+    if name in result.fresh:
+        return ""
+    if result.kind == "photo" and f"{name}/{DOCUMENT}" in result.edited:
+        return f" (was rebuilt from the edited {DOCUMENT})"
+    return " (was done)"
+
+
+def _edited(result: CallResult) -> list[str]:
+    """Edited files to tell of.
+
+    A rebuild says nothing of the documents that it works on, nor of other houses, which may be
+    rebuilt already; but of models and pictures that it could not replace.
+    """
+    from veduta.facade.load import DOCUMENT
+
+    if result.kind == "photo":
+        return result.edited
+    own = [path for path in result.edited if path.rpartition("/")[0] in result.asked]
+    return [path for path in own if not path.endswith(f"/{DOCUMENT}")]
+
+
+def _changed_back(result: CallResult) -> list[str]:
+    """Documents that are as Veduta wrote them, beside models of an edit that was taken back."""
+    from veduta.facade.load import DOCUMENT
+
+    paths = [f"{name}/{DOCUMENT}" for name in result.outdated]
+    return [path for path in paths if path not in result.edited]
+
+
+def _rebuild(path: str, result: CallResult) -> str:
     """How an edited document becomes a building again; nothing for other files."""
     from veduta.facade.load import DOCUMENT
 
-    if name.split("/")[-1] != DOCUMENT:
+    name, _, file = path.rpartition("/")
+    if result.kind == "document":
+        return ": it does not follow the document. Delete it and rebuild"
+    if file != DOCUMENT or name not in result.outdated:
         return ""
-    command = shlex.join(["veduta", "facade", str(out / name), "-o", str(out)])
+    command = shlex.join(["veduta", "facade", str(result.out / path), "-o", str(result.out)])
     return f"; to rebuild from it: {command}"

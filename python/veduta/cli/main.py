@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import difflib
 import importlib
-import os
 import signal
 import sys
 import tempfile
@@ -18,6 +17,7 @@ from types import FrameType
 from typing import NoReturn
 
 import veduta
+from veduta.cli.streams import outlive_readers
 from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
 from veduta.run.threads import same_sums_anywhere
 
@@ -28,6 +28,7 @@ INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run the command line; the result is the exit code."""
+    outlive_readers()
     words = list(sys.argv[1:] if arguments is None else arguments)
     if not words or words[0] in {"-h", "--help", "help"}:
         print(_help())
@@ -60,10 +61,6 @@ def _guarded(verb: str, words: list[str]) -> int:
     except VedutaError as error:
         _say(f"error: {error}")
         return BAD_USE
-    except BrokenPipeError:
-        # The reader of our output has gone (`veduta ... | head`); nobody is left to tell.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
-        return DONE
     except Exception as error:  # noqa: BLE001  the last place where a bug can be told
         _say(f"error: a bug in veduta {verb}: {type(error).__name__}: {error}")
         _say(f"Please report it with {save_traceback(traceback.format_exc())}")

@@ -16,6 +16,7 @@ from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
 from pydantic import BaseModel
 
 from veduta.run.errors import InputError
+from veduta.run.options import declared_options, flag
 
 Bound = float | int | None
 _WORDS = {2: "two", 3: "three", 4: "four", 6: "six", 8: "eight"}
@@ -84,29 +85,27 @@ def number_options(call: type[Any]) -> list[NumberOption]:
         if isinstance(kind, type) and issubclass(kind, BaseModel):
             found += _of_model(kind)
         elif kind in (int, float):
-            found.append(NumberOption(_flag(name), whole=kind is int))
+            found.append(NumberOption(flag(name), whole=kind is int))
     return found
 
 
 def _of_model(model: type[BaseModel]) -> list[NumberOption]:
-    """From the JSON schema, as the tables in the docs."""
     found = []
-    for name, schema in model.model_json_schema()["properties"].items():
-        kinds = [part for part in schema.get("anyOf", [schema]) if part.get("type") != "null"]
-        taken = kinds[0]
+    for option in declared_options(model):
+        taken = option.value
         items = taken["prefixItems"][0] if taken.get("type") == "array" else taken
         if items.get("type") not in ("integer", "number"):
             continue
         found.append(
             NumberOption(
-                _flag(name),
+                option.flag,
                 whole=items["type"] == "integer",
                 count=taken.get("minItems", 1),
                 least=items.get("minimum"),
                 most=items.get("maximum"),
                 above=items.get("exclusiveMinimum"),
                 below=items.get("exclusiveMaximum"),
-                order=schema.get("description", "").partition(": ")[2],
+                order=option.description.partition(": ")[2],
             )
         )
     return found
@@ -171,7 +170,3 @@ def _short(bound: float) -> str:
 
 def _count(number: int) -> str:
     return _WORDS.get(number, str(number))
-
-
-def _flag(name: str) -> str:
-    return f"--{name.replace('_', '-')}"

@@ -23,7 +23,7 @@ def run(argv: list[str]) -> int:
         "veduta view",
         argv,
         description=f"{SUMMARY}: serves the studio from this machine until Ctrl-C.",
-        config=(tyro.conf.PositionalRequiredArgs,),
+        config=(tyro.conf.PositionalRequiredArgs, tyro.conf.FlagCreatePairsOff),
     )
     serve(options, _announce)
     print("Stopped.")

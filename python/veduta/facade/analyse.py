@@ -17,7 +17,7 @@ from veduta.facade.presence import require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.roof_windows import find_roof_windows
 from veduta.facade.rows import gather_rows
-from veduta.facade.sides import crop, find_sides
+from veduta.facade.sides import crop, find_sides, whole
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
@@ -35,8 +35,9 @@ def analyse(
         evidence = gather(rectified.pixels, rectified.valid)
         require_building(evidence)
         skyline = find_skyline(evidence)
-        sides = find_sides(evidence, skyline)
-        whole, (evidence, skyline) = skyline, crop(evidence, skyline, sides)
+        named = rectified.record.method == "corners"
+        sides = whole(evidence) if named else find_sides(evidence, skyline)
+        sky, (evidence, skyline) = skyline, crop(evidence, skyline, sides)
         histograms = row_histograms(evidence, skyline)
         step.counts |= {"skyline_row": skyline.level, "left": sides.left, "right": sides.right}
         if skyline.reason:
@@ -65,7 +66,7 @@ def analyse(
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):
         document = compose(
-            Parse(evidence, whole, skyline, sides, floors, columns, boxes),
+            Parse(evidence, sky, skyline, sides, floors, columns, boxes),
             rectified,
             source,
             options,

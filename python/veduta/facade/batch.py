@@ -13,6 +13,7 @@ from pydantic import JsonValue
 from veduta.facade.arrangement import Placed, Vector, arrange
 from veduta.facade.call import Call, Input, Kind, plan_call
 from veduta.facade.job import Job, JobResult, memory_of, run_job
+from veduta.facade.label_pictures import labels_note
 from veduta.facade.load import DOCUMENT, load_document, load_photo
 from veduta.facade.options import FacadeOptions
 from veduta.facade.pipeline import VERSION
@@ -20,7 +21,7 @@ from veduta.facade.report import call_report
 from veduta.formats.place_json import write_place
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
-from veduta.run.options import Options
+from veduta.run.options import Options, flag
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Outcome, Task, run_tasks
 from veduta.run.progress import Progress, no_progress
@@ -28,6 +29,8 @@ from veduta.run.record import CALL
 from veduta.run.report import Failure
 
 COMMAND = {"photo": "facade", "document": "facade (rebuild)"}
+MADE_FROM = "document_sha256"
+"""In an item's summary: the document that its building was made from."""
 LASTING = {"input", "not-found"}
 """Failures that the same input would give again; others are tried anew by the next run."""
 
@@ -47,10 +50,14 @@ class CallResult:
     """Made by this run; the others were there already."""
     edited: list[str] = field(default_factory=list)
     """Files that somebody has edited: left as they are; paths in OUT."""
+    outdated: list[str] = field(default_factory=list)
+    """Names of buildings that were made from another document than the one that lies there now."""
     foreign: list[str] = field(default_factory=list)
     """Files that were there before Veduta and stand where results would go; paths in OUT."""
     left: list[str] = field(default_factory=list)
     """Folders of an earlier call that this one has nothing to do with."""
+    labels: Sequence[Path] = ()
+    """Pictures of labels between the photos of a folder: nothing was made of them."""
     tracebacks: dict[str, str] = field(default_factory=dict)
 
     @property
@@ -93,10 +100,13 @@ def run_call(
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
-        result = CallResult(out, call.kind, [source.name for source in call.inputs])
+        asked = [source.name for source in call.inputs]
+        result = CallResult(out, call.kind, asked, labels=call.left_out)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
         waiting = [
-            source for source in call.inputs if _is_wanted(folder, source, call, options, result)
+            source
+            for source in call.inputs
+            if (force and amend) or _is_wanted(folder, source, call, options, result)
         ]
         before = {name: folder.record.files.get(f"{name}/{DOCUMENT}") for name in result.asked}
         if folder.standing in {Standing.NEW, Standing.REPLACED}:
@@ -108,9 +118,10 @@ def run_call(
             result.up_to_date = True
         _collect(folder, call, result)
         _outdate(folder, before)
+        result.edited = folder.edited()
+        result.outdated = [name for name in result.summaries if _is_outdated(folder, name, result)]
         if not result.up_to_date:
             _write_call(folder, options, key, result)
-        result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
 
@@ -129,6 +140,18 @@ def _outdate(folder: OutFolder, before: dict[str, str | None]) -> None:
             folder.record.key = f"amended {document}"
 
 
+def _is_outdated(folder: OutFolder, name: str, result: CallResult) -> bool:
+    """Whether the document was changed since the building was made from it."""
+    document = folder.path / name / DOCUMENT
+    if not document.is_file():
+        return False
+    # A result of an older run does not say what it was made from: any edit is then a newer one.
+    made_from = result.summaries[name].get(MADE_FROM)
+    if made_from is None:
+        return f"{name}/{DOCUMENT}" in result.edited
+    return made_from != file_digest(document)
+
+
 def _check_documents(call: Call, options: FacadeOptions) -> None:
     """Edited documents are checked before anything is written because of them."""
     mend_scale = "Leave it out and edit scale.metres_per_px there; or name the photo."
@@ -137,7 +160,7 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
         for name in type(given).model_fields:
             if getattr(given, name) != getattr(type(given)(), name):
                 raise InputError(
-                    f"--{name.replace('_', '-')}",
+                    flag(name),
                     "is for photos and changes nothing in a document",
                     remedy,
                 )
@@ -238,8 +261,12 @@ def _publish(
     lasting = failure is None or failure.kind in LASTING
     if lasting and not (failure and folder.standing is Standing.AMENDED):
         work = folder.work_path(source.name)
-        key = _key("item", _lasting(source, folder, work).identity, call, options)
-        folder.publish(source.name, key, work, job_result.summary, failure)
+        lies_there = _lasting(source, folder, work)
+        key = _key("item", lies_there.identity, call, options)
+        summary = dict(job_result.summary)
+        if failure is None:
+            summary[MADE_FROM] = _digest_of_document(lies_there, folder, work)
+        folder.publish(source.name, key, work, summary, failure)
     elif folder.standing is not Standing.AMENDED:
         folder.forget(source.name)
 
@@ -253,6 +280,13 @@ def _lasting(source: Input, folder: OutFolder, work: Path) -> Input:
     if folder.standing is not Standing.AMENDED or document in folder.edited(source.name):
         return source
     return replace(source, digests=(file_digest(work / DOCUMENT), *source.digests[1:]))
+
+
+def _digest_of_document(source: Input, folder: OutFolder, work: Path) -> str:
+    """Of the document that will lie in OUT: in place it stays as it was edited."""
+    if folder.standing is Standing.AMENDED and _is_in_place(source, folder.path):
+        return source.digests[0]
+    return file_digest(work / DOCUMENT)
 
 
 def _collect(folder: OutFolder, call: Call, result: CallResult) -> None:
@@ -279,7 +313,9 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
         for name, summary in result.summaries.items()
     ]
     notes = [f"{name}/ is left from an earlier call" for name in result.left]
-    notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
+    notes += [f"{name} was edited and is left as it is" for name in result.edited]
+    notes += [f"{name}/{DOCUMENT} was changed since the rest was made" for name in result.outdated]
+    notes += [labels_note(result.labels, whole=True)] if result.labels else []
     failures = list(result.failures.values())
     effective = options.model_dump(mode="json")
     if result.kind == "document":

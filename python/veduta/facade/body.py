@@ -51,13 +51,17 @@ def add_mansard(
     dormers: Sequence[Dormer],
     setback_m: float,
     paint: Paint,
+    front: Provenance,
 ) -> None:
-    """Lower and upper slopes; the front's lower slope shows the photo and carries the dormers."""
+    """Lower and upper slopes; the front's lower slope shows the photo and carries the dormers.
+
+    `front` is where that slope comes from.
+    """
     for name, corners in mansard.lower_slopes().items():
         seen = name == "front"
         feature = builder.feature(
             SemanticClass.ROOF,
-            Provenance.MEASURED if seen else Provenance.INVENTED,
+            front if seen else Provenance.INVENTED,
             f"{name} lower slope",
         )
         if not seen:

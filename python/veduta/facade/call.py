@@ -11,6 +11,7 @@ from typing import Literal
 
 from pydantic import JsonValue
 
+from veduta.facade.label_pictures import set_labels_apart
 from veduta.facade.load import DOCUMENT, MAX_BYTES, PHOTO
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.run.digests import file_digest
@@ -20,6 +21,12 @@ from veduta.run.inputs import require_file
 Kind = Literal["photo", "document"]
 RESERVED = {"place.json", "report.json", "report.html"}
 """Names that OUT itself uses."""
+_OTHER_JSON = {
+    "place.json": "says where the buildings of a place stand",
+    "report.json": "says how the work went",
+    "model.city.json": "is a model that was made from a document",
+}
+"""Files of OUT that somebody may take for a facade's document."""
 _UNUSABLE = re.compile(r"[\x00-\x1f\\:]|^[.\s]|[.\s]$")
 _MAX_NAME = 200
 
@@ -45,11 +52,15 @@ class Call:
 
     kind: Kind
     inputs: tuple[Input, ...]
+    left_out: tuple[Path, ...] = ()
+    """Pictures of labels that lie between the photos of a folder."""
 
 
 def plan_call(paths: Sequence[Path]) -> Call:
     """The inputs in the order given; a folder stands for the images in it, by name."""
-    files = _each_once([file for path in paths for file in _files(path)])
+    found = [_files(path) for path in paths]
+    files = _each_once([file for photos, _ in found for file in photos])
+    left_out = _each_once([file for _, labels in found for file in labels])
     if not files:
         raise InputError("IMAGE", "no image is named", "Name at least one photo.")
     kinds = {path: _kind(path) for path in files}
@@ -59,13 +70,16 @@ def plan_call(paths: Sequence[Path]) -> Call:
             document, "is a document between photos", "Give photos or documents, not both at once."
         )
     _refuse_same_names(files)
+    for path in files:
+        _refuse_other_json(path)
     inputs = tuple(Input(_name(path), path, kinds[path], _digests(path)) for path in files)
-    return Call(inputs[0].kind, inputs)
+    return Call(inputs[0].kind, inputs, tuple(file for file in left_out if file not in files))
 
 
-def _files(path: Path) -> list[Path]:
+def _files(path: Path) -> tuple[list[Path], list[Path]]:
+    """The files that a path stands for, and the pictures of labels between them."""
     if not os.path.isdir(path):  # `Path.is_dir` raises where it may not look
-        return [path]
+        return [path], []
     try:
         images = sorted(
             file for file in path.iterdir() if file.suffix.lower() in SUFFIXES and file.is_file()
@@ -75,7 +89,7 @@ def _files(path: Path) -> list[Path]:
     if not images:
         wanted = ", ".join(SUFFIXES)
         raise InputError(path, f"is a folder without images ({wanted})", "Name another folder.")
-    return images
+    return set_labels_apart(images)
 
 
 def _each_once(files: list[Path]) -> list[Path]:
@@ -104,9 +118,25 @@ def _refuse_same_names(files: list[Path]) -> None:
             raise InputError(
                 path,
                 f"has the same name as {seen[name]}: the results of both would be in {name}/",
-                "Rename one of them, or make two calls.",
+                f"Name one of them, for instance by {seen[name].with_stem('*')}, or rename it."
+                if path.with_suffix("") == seen[name].with_suffix("")
+                else "Rename one of them, or make two calls.",
             )
         seen[name] = path
+
+
+def _refuse_other_json(path: Path) -> None:
+    """Say which file is the document that is meant, as far as one lies there."""
+    what = _OTHER_JSON.get(path.name)
+    if what is None:
+        return
+    beside = path.with_name(DOCUMENT)
+    known = [beside] if beside.exists() else sorted(path.parent.glob(f"*/{DOCUMENT}"))
+    remedy = f"Give the {DOCUMENT} of a building."
+    if known:
+        which = "one of its buildings, such as" if known[1:] else "its building:"
+        remedy = f"Give the document of {which} {known[0]}"
+    raise InputError(path, f"{what}, and is no document of a facade", remedy)
 
 
 def _digests(path: Path) -> tuple[str, ...]:
@@ -119,7 +149,11 @@ def _digests(path: Path) -> tuple[str, ...]:
             require_file(file, bound)
         return tuple(file_digest(file) for file in bounds)
     except FileNotFoundError as error:
-        raise InputError(error.filename or path, "does not exist", "Check its name.") from error
+        missing = Path(error.filename or path)
+        remedy = "Check its name."
+        if missing != path:
+            remedy = f"It must lie beside {path.name} as it was written."
+        raise InputError(missing, "does not exist", remedy) from error
     except OSError as error:
         raise _unreadable(Path(error.filename or path), error) from error
 

@@ -77,7 +77,7 @@ def compose(
     rules = rule_parameters(rows, parse.skyline.level * k.down, facade, elements, m)
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
-        notes.append(f"no sky: {parse.skyline.reason}")
+        notes.append(f"no sky: {parse.skyline.reason}; the eaves and the roof are inferred")
     doubtful = are_storeys_doubtful(parse.floors)
     if doubtful:
         notes.append(STOREY_DOUBT)
@@ -159,8 +159,16 @@ def _extents(
     regions["wall"] = [(left, eaves), (right, eaves), (right, bottom), (left, bottom)]
     if parse.sky.rows.any():
         regions["sky"] = [(0.0, 0.0), *_skyline_outline(parse.sky, k), (width, 0.0)]
+    # Without sky above it nothing tells how high the roof is, nor that there is one.
+    inferred = {"roof"} if parse.skyline.reason else set()
     return [
-        Extent.model_validate({"class": name, "polygon_px": points})
+        Extent.model_validate(
+            {
+                "class": name,
+                "polygon_px": points,
+                "provenance": "inferred" if name in inferred else "measured",
+            }
+        )
         for name, points in regions.items()
     ]
 

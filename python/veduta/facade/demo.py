@@ -1,7 +1,8 @@
 """A street made from a seed, its photo rebuilt by the verb, and the result beside the truth.
 
 OUT/truth has the photo and what is true about it, OUT/place is what `veduta facade` makes of the
-photo, OUT/comparison says how the two agree.
+photo, OUT/comparison says how the two agree: as the document in OUT/place is now, also where
+somebody has edited it since.
 """
 
 from __future__ import annotations
@@ -18,13 +19,16 @@ from pydantic import BaseModel, ConfigDict, Field
 from veduta.facade.batch import CallResult, run_call
 from veduta.facade.compare import Comparison, compare
 from veduta.facade.compare_picture import comparison_png, truth_png
+from veduta.facade.document import FacadeDocument
 from veduta.facade.load import DOCUMENT, load_document
 from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
+from veduta.facade.pipeline import VERSION as FACADE_VERSION
 from veduta.geometry import homography
-from veduta.run.digests import result_key
+from veduta.run.digests import file_digest, result_key
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.progress import Progress
+from veduta.run.record import load_record
 from veduta.synthetic.facade import SyntheticFacade, make_facade
 from veduta.synthetic.options import SyntheticOptions
 from veduta.synthetic.truth import FacadeTruth
@@ -62,6 +66,7 @@ class DemoRecord(BaseModel):
     focal_mm35: float
     distance_m: float = Field(description="from the camera to the wall")
     given: list[str] = Field(description="what the verb was told beside the photo")
+    document_sha256: str = Field(default="", description="of the facade.json that was compared")
     comparison: Comparison
     seconds_photo: float
     seconds_rebuild: float
@@ -74,29 +79,32 @@ class DemoResult:
     out: Path
     record: DemoRecord | None
     call: CallResult | None = None
+    edited: bool = False
+    """Whether the document is no longer as `veduta facade` wrote it."""
 
 
 def run_demo(
     out: Path, options: DemoOptions, street: SyntheticOptions, progress: Progress, *, force: bool
 ) -> DemoResult:
     """Make the street, rebuild it from its photo, compare; the same call again is up to date."""
-    key = result_key("demo", VERSION, options, street.model_dump(mode="json"))
+    versions = f"{VERSION}, facade {FACADE_VERSION}"
+    key = result_key("demo", versions, options, street.model_dump(mode="json"))
+    path = out / PLACE / Path(PHOTO).stem / DOCUMENT
     with open_out(out, "demo", key, force=force) as folder:
-        if folder.standing is Standing.UP_TO_DATE:
-            text = (out / COMPARISON / RECORD).read_text(encoding="utf-8")
-            return DemoResult(out, DemoRecord.model_validate_json(text))
+        if folder.standing is Standing.UP_TO_DATE and path.exists():
+            record = _record_of(folder, key, path, options, street)
+            return DemoResult(out, record, edited=_is_edited(path))
         started = time.perf_counter()
         facade = make_facade(options.seed, street)
         seconds_photo = time.perf_counter() - started
         _publish_truth(folder, key, facade)
         knowledge = what_the_user_knows(facade, options)
         started = time.perf_counter()
-        photo = out / TRUTH / PHOTO
-        call = run_call([photo], out / PLACE, knowledge, progress, force=force)
+        call = run_call([out / TRUTH / PHOTO], out / PLACE, knowledge, progress, force=force)
         seconds_rebuild = time.perf_counter() - started
         if call.failed:
             return DemoResult(out, None, call)
-        document = load_document(out / PLACE / photo.stem / DOCUMENT)
+        document = load_document(path)
         record = DemoRecord(
             style=facade.truth.style,
             seed=options.seed,
@@ -104,18 +112,52 @@ def run_demo(
             focal_mm35=round(facade.camera.focal_mm35),
             distance_m=round(-float(facade.camera.position_m[1]), 2),
             given=_given(options),
+            document_sha256=file_digest(path),
             comparison=compare(document, facade.truth),
             seconds_photo=round(seconds_photo, 2),
             seconds_rebuild=round(seconds_rebuild, 2),
         )
-        work = folder.work_folder(COMPARISON)
-        with writing_to(folder.path):
-            (work / RECORD).write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
-            picture = comparison_png(facade.photo, facade.truth, document)
-            (work / "comparison.png").write_bytes(picture)
-        folder.publish(COMPARISON, key, work)
+        _publish_comparison(folder, key, facade, document, record)
         folder.finish()
-        return DemoResult(out, record, call)
+        return DemoResult(out, record, call, edited=_is_edited(path))
+
+
+def _record_of(
+    folder: OutFolder, key: str, path: Path, options: DemoOptions, street: SyntheticOptions
+) -> DemoRecord:
+    """The record of a finished demo, compared anew where its document is another one by now."""
+    text = (folder.path / COMPARISON / RECORD).read_text(encoding="utf-8")
+    record = DemoRecord.model_validate_json(text)
+    digest = file_digest(path)
+    if digest == record.document_sha256:
+        return record
+    document = load_document(path)
+    facade = make_facade(options.seed, street)
+    update = {"document_sha256": digest, "comparison": compare(document, facade.truth)}
+    record = record.model_copy(update=update)
+    _publish_comparison(folder, key, facade, document, record)
+    return record
+
+
+def _is_edited(path: Path) -> bool:
+    known = load_record(path.parents[1])
+    name = f"{path.parent.name}/{path.name}"
+    return known is not None and file_digest(path) != known.files.get(name)
+
+
+def _publish_comparison(
+    folder: OutFolder,
+    key: str,
+    facade: SyntheticFacade,
+    document: FacadeDocument,
+    record: DemoRecord,
+) -> None:
+    work = folder.work_folder(COMPARISON)
+    with writing_to(folder.path):
+        (work / RECORD).write_text(record.model_dump_json(indent=1) + "\n", encoding="utf-8")
+        picture = comparison_png(facade.photo, facade.truth, document)
+        (work / "comparison.png").write_bytes(picture)
+    folder.publish(COMPARISON, key, work)
 
 
 def what_the_user_knows(facade: SyntheticFacade, options: DemoOptions) -> FacadeOptions:

@@ -48,7 +48,11 @@ class Rectification(_Record):
     )
     focal_px: float | None = None
     residual_deg: float | None = Field(
-        default=None, description="median angle of the held-out segments to the nearest axis"
+        default=None,
+        description=(
+            "median angle (degrees) of straight edges that the view was not fitted to, to the"
+            " nearest axis"
+        ),
     )
 
 
@@ -96,6 +100,11 @@ class Element(_Record):
     provenance: Provenance = Field(
         default="inferred", description="what the analysis found says measured"
     )
+
+    @property
+    def is_doubtful(self) -> bool:
+        """Whether the photo speaks rather against it. What a person adds is not in doubt."""
+        return self.score < SURE_SCORE
 
 
 class Split(_Record):

@@ -115,6 +115,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         "width_m",
         "height_m",
         "picture_share",
+        "corners_doubtful",
         "scale",
     )
     return {

@@ -32,6 +32,8 @@ MAX_EXTENTS = 64
 MAX_POINTS = 20_000
 """Of the polygons of all extents together."""
 MAX_FLOORS = 200
+MAX_PAINTED = 200
+"""How often all elements together may cover the picture, each by what of it lies there."""
 MAX_COORDINATE = 1e6
 """No number of a document (px or m) is larger than this, by amount."""
 
@@ -85,7 +87,9 @@ def _read(path: Path) -> bytes:
 
 def _parse(path: Path, content: bytes) -> FacadeDocument:
     try:
-        return FacadeDocument.model_validate(json.loads(content))
+        json.loads(content)  # says the line of a fault
+        # Strictly: a number in quotes, or true, is a slip and no number.
+        return FacadeDocument.model_validate_json(content, strict=True)
     except json.JSONDecodeError as error:
         fault = f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}"
         raise InputError(path, fault, "Mend the file there.") from error
@@ -126,6 +130,7 @@ def _faults(document: FacadeDocument) -> list[str]:
             if getattr(sized, side) <= 0:
                 found.append(f"{name}.{side}: must be above zero")
     found += _extent_faults(document.extents)
+    found += _painting_faults(document)
     found += _size_faults(document)
     return found + _rule_faults(document.rules)
 
@@ -148,6 +153,22 @@ def _extent_faults(extents: list[Extent]) -> list[str]:
     return found
 
 
+def _painting_faults(document: FacadeDocument) -> list[str]:
+    """Of elements that would take for ever to paint."""
+    width, height = document.rectification.width_px, document.rectification.height_px
+    painted = 0.0
+    for item in document.elements:
+        across = min(item.x_px + item.width_px, width) - max(item.x_px, 0.0)
+        down = min(item.y_px + item.height_px, height) - max(item.y_px, 0.0)
+        painted += max(across, 0.0) * max(down, 0.0)
+    if painted <= MAX_PAINTED * width * height:
+        return []
+    return [
+        f"elements: together they cover the picture {painted / (width * height):.0f} times,"
+        f" more than {MAX_PAINTED}"
+    ]
+
+
 def _rule_faults(rules: RuleParameters) -> list[str]:
     found = []
     if rules.building_height_m <= 0:
@@ -156,8 +177,6 @@ def _rule_faults(rules: RuleParameters) -> list[str]:
         found.append(f"rules.facade.sizes_m: needs 1 to {MAX_FLOORS} floors")
     floors = [(f"rules.floors[{index}]", split) for index, split in enumerate(rules.floors)]
     for place, split in [("rules.facade", rules.facade), *floors]:
-        if len(split.symbols) != len(split.sizes_m):
-            found.append(f"{place}: needs as many sizes_m as symbols")
         found += [
             f"{place}.sizes_m[{index}]: must not be negative"
             for index, size in enumerate(split.sizes_m)

@@ -18,6 +18,7 @@ from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.textures import make_atlas
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
+from veduta.place.semantics import Provenance
 from veduta.run.errors import InputError
 
 # Recesses may take this share of the building's depth.
@@ -55,7 +56,7 @@ def build_part(
     if mansard is None:
         add_flat_roof(builder, footprint, paint)
     else:
-        add_mansard(builder, mansard, dormers, setback, paint)
+        add_mansard(builder, mansard, dormers, setback, paint, _roof_provenance(document))
     add_balconies(builder, layout.balconies, mansard, paint, wall)
     add_chimneys(builder, layout.chimneys, footprint, mansard, paint)
     builder.attributes.update(
@@ -64,6 +65,12 @@ def build_part(
         scale_basis=document.scale.basis,
     )
     return builder.build()
+
+
+def _roof_provenance(document: FacadeDocument) -> Provenance:
+    """Of the roof that the photo shows: as the document's extents have it."""
+    roofs = [extent.provenance for extent in document.extents if extent.class_ == "roof"]
+    return Provenance(roofs[0]) if roofs else Provenance.INFERRED
 
 
 def _top_m(layout: Layout, mansard: Mansard | None, eaves_m: float) -> float:

@@ -1,4 +1,7 @@
-"""`overlay.png`: what was found, drawn over the rectified photo, with a legend beside it."""
+"""`overlay.png`: what was found, drawn over the rectified photo, with a legend beside it.
+
+Each element has its outline, dashed where it is doubtful, and its number in `facade.json`.
+"""
 
 from __future__ import annotations
 
@@ -11,13 +14,17 @@ from PIL import Image, ImageDraw, ImageFont
 
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.outputs import COLOURS, coloured, rasterise
+from veduta.facade.overlay_numbers import FONT_PX, draw_tags
 
-MIN_HEIGHT_PX = 1100
+MIN_HEIGHT_PX = 1400
 """Small photos are enlarged to this height, so that lines and numbers can be read."""
 MAX_SIDE_PX = 3000
 FILL = 0.34
 """Opacity of an element's fill; extents get half of it."""
-PANEL_PX = 270
+DASH_PX = 8
+PANEL_PX = 290
+LEGEND_PX = 590
+"""Height of a legend with every line; the picture of a long street may be lower."""
 INK = (38, 42, 48)
 FAINT = (110, 116, 124)
 PAPER = (250, 249, 246)
@@ -34,9 +41,11 @@ def overlay(document: FacadeDocument, pixels: NDArray[np.uint8]) -> NDArray[np.u
         _outline(picture, element, scale)
     for _, y_px in floor_lines(document):
         _floor_line(picture, document, y_px, scale)
-    canvas = Image.new("RGB", (picture.shape[1] + PANEL_PX, picture.shape[0]), PAPER)
+    size = (picture.shape[1] + PANEL_PX, max(picture.shape[0], LEGEND_PX))
+    canvas = Image.new("RGB", size, PAPER)
     canvas.paste(Image.fromarray(picture), (0, 0))
     draw = ImageDraw.Draw(canvas)
+    draw_tags(draw, document, scale, _font(FONT_PX))
     _storey_heights(draw, document, picture.shape[1], scale)
     _legend(draw, document, picture.shape[1] + 74)
     return np.asarray(canvas, dtype=np.uint8)
@@ -85,9 +94,24 @@ def _outline(picture: NDArray[np.uint8], element: Element, scale: float) -> None
             (element.x_px, element.y_px + element.height_px),
         ]
     )
-    points = [_fixed_point(corners, scale)]
+    edges = zip(corners, np.roll(corners, -1, axis=0), strict=True)
+    lines = [corners[[0, 1, 2, 3, 0]]]
+    if element.is_doubtful:
+        lines = [dash for start, end in edges for dash in _dashes(start, end, DASH_PX / scale)]
+    points = [_fixed_point(line, scale) for line in lines]
     for colour, thickness in (((255, 255, 255), 4), (COLOURS[element.class_], 2)):
-        cv2.polylines(picture, points, True, colour, thickness, cv2.LINE_AA, _SHIFT)
+        cv2.polylines(picture, points, False, colour, thickness, cv2.LINE_AA, _SHIFT)
+
+
+def _dashes(
+    start: NDArray[np.float64], end: NDArray[np.float64], dash: float
+) -> list[NDArray[np.float64]]:
+    """A line in dashes of about this length, with gaps as long; it begins and ends with one."""
+    # Half as many as lengths, and not many thousands for an element far larger than the picture.
+    count = int(np.clip(round(float(np.linalg.norm(end - start)) / dash / 2), 1, 500))
+    ends = np.linspace(0.0, 1.0, 2 * count)[:, None]
+    points = start + ends * (end - start)
+    return [points[i : i + 2] for i in range(0, 2 * count, 2)]
 
 
 def _floor_line(
@@ -144,3 +168,14 @@ def _legend(draw: ImageDraw.ImageDraw, document: FacadeDocument, left: int) -> N
         y += 34
     draw.line([(left, y + 11), (left + 22, y + 11)], fill=FLOOR_LINE, width=3)
     draw.text((left + 34, y + 11), "floor line", INK, _font(19), anchor="lm")
+    doubtful = sum(element.is_doubtful for element in document.elements)
+    if doubtful:
+        y += 34
+        for x in (0, 9, 18):
+            draw.line([(left + x, y + 11), (left + x + 4, y + 11)], fill=INK, width=2)
+        draw.text((left + 34, y + 11), f"doubtful  {doubtful}", INK, _font(19), anchor="lm")
+    if document.elements:
+        y += 46
+        for line in ("17 is elements[17]", "of facade.json"):
+            draw.text((left, y), line, FAINT, _font(17))
+            y += 22

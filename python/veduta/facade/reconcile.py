@@ -229,7 +229,7 @@ def _facade_split(document: FacadeDocument, before: _Before) -> Split:
     """The heights of the floors: as written, or brought to a facade whose border was moved."""
     split = document.rules.facade
     if not _same_sizes(split.sizes_m, before.floors_m):
-        return split  # edited: `contradictions` has made sure that they add up
+        return facade_split(split.sizes_m)  # `contradictions` has made sure that they add up
     sizes = _scaled(split.sizes_m, document, before)
     if not _adds_up(sizes, document.facade.height_m):
         return facade_split(_moved_floors(sizes, document.facade, document, before))

@@ -74,6 +74,11 @@ def find_sides(evidence: Evidence, skyline: Skyline) -> Sides:
     return Sides(left, right, bottom, tuple(reasons))
 
 
+def whole(evidence: Evidence) -> Sides:
+    """All of a picture whose borders somebody has named: that is the facade."""
+    return Sides(0, evidence.width, evidence.height)
+
+
 def crop(evidence: Evidence, skyline: Skyline, sides: Sides) -> tuple[Evidence, Skyline]:
     """The part of both that holds the facade; columns then count from `sides.left`."""
     part = np.s_[: sides.bottom, sides.left : sides.right]

@@ -99,6 +99,16 @@ def read_image(path: Path) -> Photo:
     )
 
 
+def has_few_colours(path: Path, most: int) -> bool:
+    """Whether an image has at most so many colours; False where it cannot be read."""
+    try:
+        data = _read_bytes(path)
+        with _damage_is_input_error(path), _open_bounded(path, data) as image:
+            return image.getcolors(most) is not None
+    except InputError:
+        return False
+
+
 def _read_bytes(path: Path) -> bytes:
     if path.is_dir():
         raise InputError(path, "is a folder, not an image", f"Name its images: {path}/*.jpg")
@@ -157,7 +167,10 @@ def _why_unidentified(data: bytes) -> str:
     }
     for start, name in magic.items():
         if data.startswith(start):
-            return f"starts like a {name} file, but its header is truncated or damaged"
+            return (
+                f"starts like a {name} file, but its header is truncated or damaged, or its"
+                " pixels are of a kind that is not read (floating-point numbers, more than 16 bits)"
+            )
     if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
         return "starts like a WEBP file, but is truncated or damaged"
     if data[4:8] == b"ftyp":

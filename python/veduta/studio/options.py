@@ -21,7 +21,9 @@ class ViewOptions(Options):
     port: Annotated[int, Field(ge=0, le=65535)] = Field(
         default=0, description="port to listen on; 0 takes a free one"
     )
-    browser: bool = Field(default=True, description="open the page in the browser")
+    browser: bool = Field(
+        default=True, description="open the page; --no-browser only prints its address"
+    )
 
 
 class ExportOptions(Options):

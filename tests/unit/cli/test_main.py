@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import importlib
+import os
 import signal
 import subprocess
 import sys
@@ -63,7 +64,6 @@ def run_verb(monkeypatch: pytest.MonkeyPatch) -> Callable[[BaseException | int],
         (NotFoundError("facade", "no lines", "Try."), 3, "error: facade not found: no lines"),
         (KeyboardInterrupt(), 130, "stopped: "),
         (UnfinishedError("by SIGTERM"), 143, "stopped: "),
-        (BrokenPipeError(), 0, ""),
     ],
 )
 def test_outcomes(
@@ -87,3 +87,70 @@ def test_a_bug_is_saved_and_named(
     saved = Path(error.split()[-1])
     assert "raise outcome" in saved.read_text()
     saved.unlink()
+
+
+TALKER = """
+import sys, types
+from veduta.cli import main as cli
+
+def verb(arguments):
+    print("first line", flush=True)
+    sys.stdin.readline()  # until the reader has gone
+    for number in range(20_000):  # more than any buffer holds
+        print("line", number)
+    print("an error", file=sys.stderr)
+    sys.stdin.readline()
+    print("the last line, which is flushed at the exit")
+    return 3
+
+sys.modules["veduta.cli.facade"] = types.SimpleNamespace(run=verb, SUMMARY="")
+sys.exit(cli.main(["facade"]))
+"""
+
+
+@pytest.mark.parametrize("unbuffered", ["", "1"])
+def test_a_reader_that_leaves_changes_no_exit_code(unbuffered: str) -> None:
+    environment = {**os.environ, "PYTHONUNBUFFERED": unbuffered}
+    with subprocess.Popen(
+        [sys.executable, "-c", TALKER],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+        env=environment,
+    ) as run:
+        assert run.stdin
+        assert run.stdout
+        assert run.stderr
+        assert run.stdout.readline() == "first line\n"
+        run.stdout.close()
+        run.stdin.write("go on\ngo on\n")
+        run.stdin.close()
+        assert run.stderr.read() == "an error\n"
+    assert run.returncode == 3
+
+
+@pytest.mark.parametrize(
+    ("arguments", "code"), [(["--help"], 0), (["facade", "--help"], 0), (["facade", "no.jpg"], 2)]
+)
+def test_nobody_reads_anything(arguments: list[str], code: int) -> None:
+    """Both streams are pipes whose other end is closed before the first word."""
+    reader, writer = os.pipe()
+    os.close(reader)
+    done = subprocess.run(
+        [sys.executable, "-m", "veduta.cli.main", *arguments, "-o", "out"],
+        stdout=writer,
+        stderr=writer,
+        check=False,
+    )
+    os.close(writer)
+    assert done.returncode == code
+
+
+def test_what_is_read_arrives_whole(tmp_path: Path) -> None:
+    """In a pipe as in a file."""
+    command = [sys.executable, "-m", "veduta.cli.main", "facade", "--help"]
+    piped = subprocess.run(command, capture_output=True, check=True).stdout
+    with (tmp_path / "help").open("wb") as file:
+        subprocess.run(command, stdout=file, check=True)
+    assert piped == (tmp_path / "help").read_bytes() != b""

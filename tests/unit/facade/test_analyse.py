@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -41,6 +42,21 @@ def test_a_drawn_facade_comes_back(floors: int, shadow: bool, seed: int) -> None
     assert document.scale.basis == "assumed-storey"
     true_scale = 3.0 * floors / (drawn.boundaries[-1] - drawn.boundaries[0])
     assert document.scale.metres_per_px == pytest.approx(true_scale, rel=0.04)
+
+
+def test_corners_that_were_named_are_the_facade() -> None:
+    """A neighbour is cut off where nobody has said what the facade is, and only there."""
+    drawn = draw_facade(4).pixels
+    height, width = drawn.shape[:2]
+    neighbour = np.full((height, width // 2, 3), (120, 60, 50), np.uint8)
+    pixels = np.concatenate([drawn, neighbour], axis=1)
+    found = rectified_of(pixels)
+    source = Source(image="a.png", sha256="0" * 64, width_px=1, height_px=1)
+    for method, share in (("rectified", 2 / 3), ("corners", 1.0)):
+        record = found.record.model_copy(update={"method": method})
+        document, _ = analyse(replace(found, record=record), source, FacadeOptions())
+        taken = document.facade.width_px / record.width_px
+        assert taken == pytest.approx(share, abs=0.03)
 
 
 def _lines_run_between_windows(document: FacadeDocument, drawn: DrawnFacade) -> None:

@@ -40,6 +40,7 @@ def _document(
     scale: ScaleOptions | None = None,
     size: tuple[int, int] = (160, 300),
     floors_energy: float = -1.5,
+    no_sky: str = "",
 ) -> FacadeDocument:
     """A document of hand-made finds; all but the skyline count from the left side."""
     width, height = size
@@ -48,7 +49,7 @@ def _document(
     parse = Parse(
         evidence=gather(rectified.pixels, rectified.valid),
         sky=Skyline(skyline, int(np.median(skyline))),
-        skyline=Skyline(cut, int(np.median(cut))),
+        skyline=Skyline(cut, int(np.median(cut)), no_sky),
         sides=sides,
         floors=Floors(BOUNDARIES, 50.0, floors_energy, {"similarity": floors_energy}, 100),
         columns=Columns([(20, 22), (90, 22)], -0.5, {}, 50),
@@ -125,6 +126,15 @@ def test_storeys_that_are_hardly_alike_are_noted() -> None:
     unlike = _document(np.full(160, 20), Sides(0, 160, 300), floors_energy=-0.1)
     assert unlike.storeys_doubtful
     assert STOREY_DOUBT in unlike.notes
+
+
+def test_a_roof_without_sky_above_it_is_inferred() -> None:
+    for reason, wanted in (("", "measured"), ("the upper edge is textured", "inferred")):
+        document = _document(np.full(160, 20), Sides(0, 160, 300), no_sky=reason)
+        provenance = {extent.class_: extent.provenance for extent in document.extents}
+        assert provenance["roof"] == wanted
+        assert provenance["wall"] == "measured"
+        assert any("are inferred" in note for note in document.notes) == bool(reason)
 
 
 def test_what_the_photo_speaks_against_is_inferred() -> None:

@@ -15,7 +15,6 @@ from PIL import Image
 
 from veduta.facade.document import CLASSES, FacadeDocument
 from veduta.facade.outputs import COLOURS, coloured, label_png, rasterise
-from veduta.facade.overlay import floor_lines, overlay
 
 Make = Callable[..., FacadeDocument]
 Points = list[tuple[float, float]]
@@ -137,22 +136,3 @@ def test_label_png_is_an_indexed_image(make_document: Make) -> None:
 def test_colours_differ() -> None:
     assert set(COLOURS) == set(CLASSES)
     assert len(set(COLOURS.values())) == len(CLASSES)
-
-
-def test_floor_lines_run_from_the_ground_to_the_eaves(make_document: Make) -> None:
-    lines = floor_lines(make_document())
-    assert lines == [(3.75, 115.0), (7.5, 40.0)]
-
-
-def test_overlay_shows_elements(make_document: Make) -> None:
-    grey = np.full((200, 120, 3), 128, dtype=np.uint8)
-    plain = overlay(make_document(), grey)
-    found = overlay(make_document(elements=[("window", (20, 50, 20, 30))]), grey)
-    assert found.dtype == np.uint8
-    scale = found.shape[0] / 200
-    changed = (plain != found).any(axis=2)[:, : round(120 * scale)]
-    rows, columns = np.nonzero(changed)
-    assert abs(columns.min() - 20 * scale) < 5
-    assert abs(columns.max() - 40 * scale) < 5
-    assert abs(rows.min() - 50 * scale) < 5
-    assert abs(rows.max() - 80 * scale) < 5

@@ -9,7 +9,7 @@ from drawn_wall import aspect_ratio, corner_error, draw_wall, photo_of, take, vi
 from numpy.typing import NDArray
 
 from veduta.facade.options import RectifyOptions
-from veduta.facade.rectify import Rectified, rectify
+from veduta.facade.rectify import Rectified, are_corners_doubtful, rectify
 from veduta.geometry import homography, polygon
 from veduta.run.errors import InputError, NotFoundError
 
@@ -185,6 +185,35 @@ def test_corners_without_a_focal_length_say_that_the_aspect_is_assumed() -> None
     assert any("aspect" in note for note in result.notes)
     ratio = result.record.width_px / result.record.height_px
     assert ratio == pytest.approx(WALL[0] / WALL[1], rel=0.03)
+
+
+def _turned(degrees: float) -> tuple[float, ...]:
+    """The corners of a rectangle about the middle of the wall, turned in its plane."""
+    middle = np.array(WALL) / 2
+    box = 0.7 * (polygon.rectangle(0, 0, *WALL) - middle)
+    cos, sin = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return tuple((box @ np.array([[cos, sin], [-sin, cos]]) + middle).ravel().tolist())
+
+
+@pytest.mark.parametrize("degrees", [0.0, -1.0, 1.2, 2.0, -5.0])
+def test_corners_are_measured_by_the_edges_between_them(degrees: float) -> None:
+    """Corners that are turned against the wall leave all its edges off by that angle."""
+    result = rectify(photo_of(draw_wall()), RectifyOptions(corners=_turned(degrees)))
+    assert result.record.residual_deg == pytest.approx(abs(degrees), abs=0.2)
+    doubtful = abs(degrees) > 1.5
+    assert are_corners_doubtful(result.record) == doubtful
+    told = [note for note in result.notes if "the corners are doubtful" in note]
+    assert len(told) == doubtful
+    if told:
+        assert f"edges are {result.record.residual_deg:.1f} degrees off level or upright" in told[0]
+
+
+def test_corners_without_edges_between_them_are_not_measured() -> None:
+    blank = np.full((*WALL[::-1], 3), 128, dtype=np.uint8)
+    result = rectify(photo_of(blank), RectifyOptions(corners=_turned(5.0)))
+    assert result.record.residual_deg is None
+    assert not are_corners_doubtful(result.record)
+    assert not any("doubtful" in note for note in result.notes)
 
 
 @pytest.mark.parametrize(

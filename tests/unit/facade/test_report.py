@@ -41,6 +41,17 @@ def test_doubtful_storeys_are_told() -> None:
     assert summary_line(measures(document)).startswith("5 storeys (doubtful), ")
 
 
+@pytest.mark.parametrize(("off", "doubtful"), [(None, False), (1.4, False), (1.6, True)])
+def test_doubtful_corners_are_told(off: float | None, doubtful: bool) -> None:
+    document = sample_document()
+    document.rectification.residual_deg = off
+    assert not measures(document)["corners_doubtful"]  # nobody gave any
+    document.rectification.method = "corners"
+    found = measures(document)
+    assert found["corners_doubtful"] == doubtful
+    assert summary_line(found).endswith(", corners doubtful") == doubtful
+
+
 def test_a_whole_picture_needs_no_word() -> None:
     found = measures(sample_document()) | {"picture_share": 1.0, "windows": 1, "storeys": 1}
     assert summary_line(found) == (

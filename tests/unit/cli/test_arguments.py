@@ -1,0 +1,41 @@
+"""What the parser makes of options that need not be given, and what the help says of them."""
+
+from __future__ import annotations
+
+import importlib
+from pathlib import Path
+
+import pytest
+
+from veduta.cli import main as cli
+from veduta.cli.arguments import parse
+from veduta.cli.facade_call import FacadeCall
+from veduta.studio.options import ExportOptions
+
+
+@pytest.mark.parametrize("verb", cli.VERBS)
+def test_help_shows_what_an_option_takes(verb: str, capsys: pytest.CaptureFixture[str]) -> None:
+    """And nothing of Python's None, which nobody can type."""
+    with pytest.raises(SystemExit) as ended:
+        importlib.import_module(f"veduta.cli.{verb}").run(["--help"])
+    assert ended.value.code == 0
+    text = capsys.readouterr().out
+    assert f"usage: veduta {verb}" in text
+    assert "None" not in text
+
+
+def test_metavars(capsys: pytest.CaptureFixture[str]) -> None:
+    for call, said in ((ExportOptions, "--web PATH"), (FacadeCall, "--height-m FLOAT")):
+        with pytest.raises(SystemExit):
+            parse(call, "veduta", ["--help"])
+        assert said in capsys.readouterr().out
+
+
+def test_values_are_read_as_their_type() -> None:
+    export = parse(ExportOptions, "veduta export", ["--out", "place", "--web", "None"])
+    assert export.web == Path("None")
+    assert parse(ExportOptions, "veduta export", ["--out", "place"]).web is None
+    words = ["a.jpg", "-o", "x", "--height-m", "12", "--jobs", "3"]
+    facade = parse(FacadeCall, "veduta facade", words)
+    assert facade.scale.height_m == 12.0
+    assert (facade.jobs, facade.scale.storey_m) == (3, None)
