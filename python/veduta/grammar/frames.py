@@ -47,7 +47,8 @@ class Frame:
         metres = points
         if self.zone is not None:
             metres = np.column_stack([_projected(points, *self.zone), points[:, 2]])
-        return metres - np.array(self.origin_m)
+        about: NDArray[np.float64] = metres - np.array(self.origin_m)
+        return about
 
 
 def named_crs(path: Path, document: dict[str, Any]) -> int | None:

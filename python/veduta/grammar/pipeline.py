@@ -90,7 +90,8 @@ def run_derive(
     }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
     failed: JsonValue = [failure.model_dump() for failure in lots.failures]
-    key = _key("call", options, [list(keys.items()), origin, failed, source])
+    known: dict[str, JsonValue] = dict(keys)
+    key = _key("call", options, [known, origin, failed, source])
     with open_out(out, COMMAND, key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE

@@ -70,7 +70,8 @@ def clean_rings(rings_m: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]
 def _apart(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     """Without corners that lie on the one before."""
     steps = np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1)
-    return ring[steps >= MIN_STEP_M]
+    kept: NDArray[np.float64] = ring[steps >= MIN_STEP_M]
+    return kept
 
 
 def _area(ring: NDArray[np.float64]) -> float:
