@@ -30,19 +30,28 @@ def build_part(derived: _core.DerivedLot, part_id: str) -> Part:
 
     Surfaces that are none in single precision (slivers, lines that cross) are left out and noted.
     """
-    if len(derived.polygon_feature) == 0:
+    every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
+    if not every.any():
         raise NothingBuiltError("the rules leave nothing on it")
-    positions = derived.positions_m.astype(np.float32)
-    kept = _sound(positions, derived.ring_offsets, derived.polygon_offsets)
+    part = _part(derived, part_id, every)
+    if _has_triangles(part):
+        return part
+    kept = _sound(part)
     if not kept.any():
         raise NothingBuiltError("the rules leave no surface on it")
-    notes = _notes(derived, int((~kept).sum()))
+    return _part(derived, part_id, kept)
+
+
+def _part(derived: _core.DerivedLot, part_id: str, kept: NDArray[np.bool_]) -> Part:
+    """The part of the (p,) polygons that are kept."""
     vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
     used, feature = np.unique(derived.polygon_feature[kept], return_inverse=True)
     materials, material_of_look = _materials(derived.looks)
+    with np.errstate(over="ignore"):  # what is too far away is found not to be finite
+        positions = derived.positions_m[vertices].astype(np.float32)
     return Part(
         id=part_id,
-        positions_m=positions[vertices],
+        positions_m=positions,
         uv=derived.uv[vertices],
         ring_offsets=rings,
         polygon_offsets=polygons,
@@ -50,22 +59,25 @@ def build_part(derived: _core.DerivedLot, part_id: str) -> Part:
         polygon_material=material_of_look[derived.polygon_look[kept]],
         features=_features(derived, used, part_id),
         materials=materials,
-        notes=notes,
+        notes=_notes(derived, int((~kept).sum())),
     )
 
 
-def _sound(
-    positions: NDArray[np.float32], rings: NDArray[np.int64], polygons: NDArray[np.int64]
-) -> NDArray[np.bool_]:
-    """(p,) which polygons can be triangulated; all at once, and one by one only where not."""
-    points = positions.astype(np.float64)
-    every = np.ones(len(polygons) - 1, dtype=np.bool_)
+def _has_triangles(part: Part) -> bool:
+    """Whether all polygons can be triangulated; the part keeps the triangles."""
     try:
-        _core.triangulate_polygons(points, rings, polygons, PLANE_TOLERANCE_M)
+        return len(part.triangles.indices) > 0
     except _core.PolygonFault:
-        for row in range(len(every)):
-            every[row] = _is_sound(points, rings[polygons[row] : polygons[row + 1] + 1])
-    return every
+        return False
+
+
+def _sound(part: Part) -> NDArray[np.bool_]:
+    """(p,) which polygons can be triangulated, one by one."""
+    points = part.positions_m.astype(np.float64)
+    offsets = part.polygon_offsets
+    ends = zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)
+    rings = part.ring_offsets
+    return np.array([_is_sound(points, rings[first : last + 1]) for first, last in ends])
 
 
 def _is_sound(points: NDArray[np.float64], rings: NDArray[np.int64]) -> bool:
@@ -94,11 +106,12 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
     """The table; a name is that of the rule and a number that counts within it."""
     counts: Counter[str] = Counter()
     names, codes = [], []
+    rules, classes = derived.feature_name, derived.feature_class
     for row in used.tolist():
-        rule = derived.feature_name[row]
+        rule = rules[row]
         counts[rule] += 1
         names.append(f"{rule} {counts[rule]}")
-        codes.append(_KNOWN.get(derived.feature_class[row], SemanticClass.OTHER).code)
+        codes.append(_KNOWN.get(classes[row], SemanticClass.OTHER).code)
     total = len(names)
     return Features(
         id=tuple(f"{part_id}/{name.replace(' ', '-')}" for name in names),
@@ -107,8 +120,8 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
         provenance_code=np.full(total, Provenance.INVENTED.code, dtype=np.uint8),
         parent=np.full(total, NO_PARENT, dtype=np.int32),
         shell=np.zeros(total, dtype=np.int32),
-        width_m=derived.feature_size_m[used, 0].copy(),
-        height_m=derived.feature_size_m[used, 1].copy(),
+        width_m=derived.feature_size_m[used, 0],
+        height_m=derived.feature_size_m[used, 1],
         photo_px=np.full((total, 4), np.nan),
         seen_height_m=np.full(total, np.nan),
     )

@@ -61,7 +61,7 @@ def named_crs(path: Path, document: dict[str, Any]) -> int | None:
     text = str(name)[:200]
     if re.search(r"CRS:?:?(1\.3:)?84$", text):
         return 4326
-    code = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:[\d.]*:?(\d{4,6})", text)
+    code = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:(?:[\d.]*:)?(\d{4,6})", text)
     if code is None:
         raise InputError(
             path,

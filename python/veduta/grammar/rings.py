@@ -92,6 +92,8 @@ def _require_area(rings: list[NDArray[np.float64]]) -> None:
         )
     except _core.SelfCrossingError as error:
         raise RingFault("its outline crosses itself, or a hole crosses it") from error
+    except _core.NoAreaError as error:
+        raise RingFault("its outline encloses nothing, or crosses itself") from error
     except _core.PolygonFault as error:
         raise RingFault(f"is not a polygon ({error})") from error
     if areas[0] < MIN_AREA_M2:
