@@ -12,10 +12,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
+import tyro
 from pydantic import BaseModel
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
+from veduta.cli.grammar_call import DeriveCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
@@ -27,6 +29,7 @@ _BOUNDS = {
     "exclusiveMaximum": "< {}",
     "maximum": "<= {}",
 }
+POSITIONAL = get_args(tyro.conf.Positional[str])[1]
 _KINDS = {"number": "number", "integer": "integer", "boolean": "flag", "string": "text"}
 
 
@@ -48,7 +51,7 @@ def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
     for name, schema in model.model_json_schema()["properties"].items():
         kinds = [part for part in schema.get("anyOf", [schema]) if part.get("type") != "null"]
         default = schema.get("default")
-        shown = "" if default in (None, False) else f"`{default}`"
+        shown = "" if default is None or default is False else f"`{default}`"
         rows.append((_flag(name), _takes(kinds[0]), shown, schema["description"]))
     return rows
 
@@ -70,7 +73,7 @@ def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
     flag = _flag(name)
     if settings.aliases:
         flag = ", ".join(f"`{alias}`" for alias in settings.aliases) + f", {flag}"
-    if settings.metavar and settings.metavar.endswith("..."):
+    if POSITIONAL in annotation.__metadata__:
         flag = f"`{settings.metavar}`"
     takes = "flag" if default is False else settings.metavar.removesuffix("...")
     return flag, takes, "required" if required else "", settings.help
@@ -111,6 +114,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "files": files_table,
         "classes": classes_table,
     },
+    "grammar.md": {"options": lambda: options_table(DeriveCall)},
 }
 
 

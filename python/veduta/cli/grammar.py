@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 if TYPE_CHECKING:
     from veduta.grammar.pipeline import DeriveResult
 
-SUMMARY = "Make buildings from rule files (CGA) and building lots; check and format rule files"
+SUMMARY = "Make buildings from rule files (CGA) and lots; check and format rule files"
 ACTIONS = ("check", "format", "derive")
 MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES

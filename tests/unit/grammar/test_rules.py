@@ -105,6 +105,18 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
         read_rules(tmp_path)
 
 
+def test_the_first_rule_file_of_the_docs_makes_a_house(repository: Path, tmp_path: Path) -> None:
+    page = (repository / "docs" / "grammar.md").read_text("utf-8")
+    (text,) = re.findall(r"^```cga\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    rules = read_rules(write(tmp_path, main=text))
+    assert check_rules(rules).told == ""
+    lot = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 8.0, 0.0), (0.0, 8.0, 0.0)]]
+    (house,) = compile_rules(rules).derive([lot], [0], attributes=[{"height": 12.0}])
+    assert not isinstance(house, str)
+    assert {"window", "wall", "roof"} == set(house.feature_class)
+    assert house.positions_m[:, 2].max() == pytest.approx(14.0)
+
+
 def test_the_language_page_says_what_derives(repository: Path) -> None:
     """Each operation of the engine has a `yes` in the table, and no other operation has one."""
     page = (repository / "docs" / "grammar-language.md").read_text("utf-8")
