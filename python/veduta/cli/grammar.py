@@ -22,7 +22,7 @@ HELP = f"""usage: veduta grammar check RULES
 
   check     Check a rule file and what it imports; every fault is shown with its line
   format    Lay out rule files in the house style
-  derive    Derive a building for each lot (GeoJSON), or for a synthetic street
+  derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
 
 RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann).
 `veduta grammar ACTION --help` explains the options of an action."""

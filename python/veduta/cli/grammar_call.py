@@ -28,7 +28,7 @@ LotsFile = Annotated[
     tyro.conf.arg(
         metavar="LOTS",
         help_behavior_hint="",
-        help="GeoJSON with polygons; a synthetic street where it is not given",
+        help="GeoJSON or CityJSON with the lots; a synthetic street where it is not given",
     ),
 ]
 Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]

@@ -11,8 +11,9 @@ from typing import Any
 from veduta import _core
 from veduta.formats.gltf import write_glb
 from veduta.grammar.building import NothingBuiltError, build_part
-from veduta.grammar.lots import Attribute, Lot
+from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.outline import Attribute
 from veduta.place.part import Part
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step

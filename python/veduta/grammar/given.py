@@ -8,8 +8,8 @@ from pathlib import Path
 
 from veduta import _core
 from veduta.grammar.block import as_kind
-from veduta.grammar.lots import Attribute
 from veduta.grammar.options import AttributeOptions, GrammarOptions
+from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError
 
 

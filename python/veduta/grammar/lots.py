@@ -1,4 +1,4 @@
-"""Building lots: outlines with holes on level ground, and the reading of them from GeoJSON."""
+"""Building lots: outlines with holes on level ground, read from GeoJSON (or CityJSON)."""
 
 from __future__ import annotations
 
@@ -13,7 +13,9 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.grammar.city_lots import city_epsg, city_outlines
 from veduta.grammar.frames import Frame, find_frame, named_crs
+from veduta.grammar.outline import Attribute, Outline, plain_attributes
 from veduta.grammar.rings import RingFault, clean_rings, numbers_of
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -23,7 +25,6 @@ MAX_BYTES = 64 * 2**20
 MAX_LOTS = 100_000
 MAX_EXTENT_M = 200_000.0
 """Between the lots that are farthest from each other."""
-Attribute = bool | float | str
 _MAX_ID = 200
 
 
@@ -58,38 +59,39 @@ class Lots:
     look: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
 
 
-@dataclass(frozen=True)
-class Outline:
-    """A polygon as the file has it: rings of (n, 3) in the file's own frame."""
-
-    subject: str
-    name: str
-    rings: list[NDArray[np.float64]]
-    attributes: dict[str, Attribute]
-
-
 def read_lots(path: Path) -> Lots:
-    """The lots in a GeoJSON file; InputError where it has none that can be used."""
+    """The lots in a GeoJSON or CityJSON file; InputError where it has none that can be used."""
     document = _read_json(path)
+    notes: list[str] = []
+    if document.get("type") == "CityJSON":
+        outlines, failures = city_outlines(path, document)
+        epsg = city_epsg(document)
+    else:
+        outlines, failures, notes = _of_geojson(path, document)
+        epsg = named_crs(path, document)
+    if not outlines:
+        reason = f" ({failures[0].reason})" if failures else ""
+        raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
+    if len(outlines) > MAX_LOTS:
+        raise InputError(path, f"has more than {MAX_LOTS} polygons", "Cut it into several.")
+    frame = find_frame(path, epsg, [outline.rings[0] for outline in outlines])
+    lots, more = place_lots(path, outlines, frame)
+    notes += frame.notes
+    return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
+
+
+def _of_geojson(
+    path: Path, document: dict[str, Any]
+) -> tuple[list[Outline], list[Failure], list[str]]:
     features = list(_features(path, document))
     if len(features) > MAX_LOTS:
         raise InputError(
             path, f"has {len(features)} features, more than {MAX_LOTS}", "Cut it into several."
         )
     outlines, failures, others = _outlines(path, features)
-    notes = []
-    if others:
-        told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
-        notes.append(f"left out, for they are no polygons: {told}")
-    if not outlines:
-        reason = f" ({failures[0].reason})" if failures else ""
-        raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
-    if len(outlines) > MAX_LOTS:
-        raise InputError(path, f"has more than {MAX_LOTS} polygons", "Cut it into several.")
-    frame = find_frame(path, named_crs(path, document), [outline.rings[0] for outline in outlines])
-    lots, more = place_lots(path, outlines, frame)
-    notes += frame.notes
-    return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
+    told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
+    notes = [f"left out, for they are no polygons: {told}"] if others else []
+    return outlines, failures, notes
 
 
 def place_lots(
@@ -186,7 +188,7 @@ def _features(path: Path, document: dict[str, Any]) -> Iterator[dict[str, Any]]:
         raise InputError(
             path,
             f"is not GeoJSON of polygons: its type is {str(kind)[:40]!r}",
-            "Give a FeatureCollection of polygons.",
+            "Give a FeatureCollection of polygons, or CityJSON.",
         )
 
 
@@ -204,7 +206,7 @@ def _outlines(
             if polygons is None:
                 others[kind] += 1
                 continue
-            attributes = _attributes(feature)
+            attributes = plain_attributes(feature.get("properties"))
             name = _name(feature, attributes, number)
             for index, polygon in enumerate(polygons, 1):
                 rings = [numbers_of(ring) for ring in polygon]
@@ -234,20 +236,6 @@ def _polygons(feature: Any) -> tuple[list[list[Any]] | None, str]:
         if not isinstance(polygon, list) or not polygon:
             raise RingFault("has a polygon without rings")
     return polygons, str(kind)
-
-
-def _attributes(feature: dict[str, Any]) -> dict[str, Attribute]:
-    """The properties that a rule file can take: truth values, numbers, texts."""
-    properties = feature.get("properties")
-    if not isinstance(properties, dict):
-        return {}
-    found: dict[str, Attribute] = {}
-    for name, value in properties.items():
-        if isinstance(value, bool | str):
-            found[name] = value
-        elif isinstance(value, int | float) and abs(value) < 1e300:
-            found[name] = float(value)
-    return found
 
 
 def _name(feature: dict[str, Any], attributes: dict[str, Attribute], number: int) -> str:
