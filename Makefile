@@ -115,8 +115,9 @@ test-browser: setup
 bench: setup ## speed, memory and accuracy tables; dated results go to benchmarks/results
 	@for file in $$(grep -l '^if __name__' benchmarks/*.py); do $(STAGE) "$$file" $(PY) "$$file"; done
 
-pictures: setup ## the pictures of the docs, made from the synthetic demo
+pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/pictures.py
+	$(PY) docs/grammar_picture.py
 
 # ---- locks ----------------------------------------------------------------------------------
 

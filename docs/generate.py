@@ -12,10 +12,12 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
+import tyro
 from pydantic import BaseModel
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
+from veduta.cli.grammar_call import DeriveCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
@@ -28,6 +30,7 @@ _BOUNDS = {
     "exclusiveMaximum": "< {}",
     "maximum": "<= {}",
 }
+POSITIONAL = get_args(tyro.conf.Positional[str])[1]
 _KINDS = {"number": "number", "integer": "integer", "boolean": "flag", "string": "text"}
 
 
@@ -67,7 +70,7 @@ def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
     default = next(field.default for field in dataclasses.fields(call) if field.name == name)
     required = default is dataclasses.MISSING
     flags = ", ".join(f"`{word}`" for word in (*(settings.aliases or ()), flag(name)))
-    if settings.metavar and settings.metavar.endswith("..."):
+    if POSITIONAL in annotation.__metadata__:
         flags = f"`{settings.metavar}`"
     takes = "flag" if default is False else settings.metavar.removesuffix("...")
     return flags, takes, "required" if required else "", settings.help
@@ -104,6 +107,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "files": files_table,
         "classes": classes_table,
     },
+    "grammar.md": {"options": lambda: options_table(DeriveCall)},
 }
 
 

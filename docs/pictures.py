@@ -38,16 +38,16 @@ def main() -> None:
     subprocess.run([VEDUTA, "demo", "-o", work, *arguments.demo], check=True)
     shots = work / "shots"
     shots.mkdir()
-    _photograph(work / "place", shots)
+    photograph(work / "place", shots)
     IMAGES.mkdir(exist_ok=True)
     street = work / "place" / "street"
-    _save(
-        _beside(work / "truth" / "street.jpg", street / "overlay.png", shots / "bare.png"),
+    save(
+        beside(work / "truth" / "street.jpg", street / "overlay.png", shots / "bare.png"),
         "photo-to-building.jpg",
     )
     for name in ("picked", "walking"):
         with Image.open(shots / f"{name}.png") as image:
-            _save(image.convert("RGB"), f"{name}.jpg")
+            save(image.convert("RGB"), f"{name}.jpg")
     _show_edit(work, street)
 
 
@@ -56,7 +56,7 @@ def _show_edit(work: Path, street: Path) -> None:
     edited = make_edit(work, work / "edit")
     shots = work / "edit" / "shots"
     shots.mkdir()
-    _photograph(edited, shots)
+    photograph(edited, shots)
     corrected = edited / "street"
     with Image.open(shots / "ground.png") as model:
         pictures = [
@@ -64,10 +64,10 @@ def _show_edit(work: Path, street: Path) -> None:
             ground_floor(corrected / "overlay.png", corrected / "facade.json"),
             model.convert("RGB"),
         ]
-    _save(_strip(pictures, EDIT_HEIGHT_PX), "edit.jpg")
+    save(_strip(pictures, EDIT_HEIGHT_PX), "edit.jpg")
 
 
-def _photograph(place: Path, shots: Path) -> None:
+def photograph(place: Path, shots: Path, script: str = "screenshots.mjs") -> None:
     """Serve the place and take the studio's pictures of it."""
     chromium = os.environ.get("CHROMIUM") or shutil.which("chromium") or "/usr/bin/chromium"
     command = [str(VEDUTA), "view", str(place), "--no-browser"]
@@ -77,19 +77,19 @@ def _photograph(place: Path, shots: Path) -> None:
             address = re.search(r"http://\S+", line)
             if address is None:
                 raise SystemExit(f"veduta view did not say where it serves: {line!r}")
-            script = ROOT / "docs" / "screenshots.mjs"
-            subprocess.run(["node", script, address[0], chromium, shots], check=True)
+            path = ROOT / "docs" / script
+            subprocess.run(["node", path, address[0], chromium, shots], check=True)
         finally:
             server.terminate()
 
 
-def _beside(*paths: Path) -> Image.Image:
-    """Return the pictures side by side on white, each HEIGHT_PX high."""
+def beside(*paths: Path, height_px: int = HEIGHT_PX) -> Image.Image:
+    """Return the pictures side by side on white, all of one height."""
     pictures = []
     for path in paths:
         with Image.open(path) as file:
             pictures.append(file.convert("RGB"))
-    return _strip(pictures, HEIGHT_PX)
+    return _strip(pictures, height_px)
 
 
 def _strip(pictures: Sequence[Image.Image], height_px: int) -> Image.Image:
@@ -106,7 +106,7 @@ def _strip(pictures: Sequence[Image.Image], height_px: int) -> Image.Image:
     return strip
 
 
-def _save(image: Image.Image, name: str) -> None:
+def save(image: Image.Image, name: str) -> None:
     """Write a JPEG, at the best quality that keeps it small."""
     path = IMAGES / name
     for quality in (90, 85, 80, 70, 60):

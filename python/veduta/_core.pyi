@@ -50,3 +50,43 @@ def column_chain(
     gap_symmetry: float,
     neutral: float,
 ) -> tuple[float, list[tuple[int, int]]]: ...
+
+# rules.rs
+def grammar_imports(main: str, name: str, text: str) -> list[str]: ...
+def grammar_check(files: list[tuple[str, str]]) -> tuple[str, int, int, str]: ...
+def grammar_format(name: str, text: str) -> str: ...
+def grammar_operations() -> list[str]: ...
+
+# grammar.rs
+class GrammarFault(ValueError): ...
+
+class GrammarRules:
+    def __new__(cls, files: list[tuple[str, str]]) -> GrammarRules: ...
+    @property
+    def starts(self) -> list[str]: ...
+    @property
+    def attributes(self) -> list[tuple[str, str]]: ...
+    def derive(
+        self,
+        lots: list[list[list[tuple[float, float, float]]]],
+        seeds: list[int],
+        *,
+        start: str | None = None,
+        attributes: list[dict[str, bool | float | str]] | None = None,
+        seconds: float = 60.0,
+        shapes: int = 5_000_000,
+    ) -> list[DerivedLot | str]: ...
+
+class DerivedLot:
+    positions_m: NDArray[np.float64]
+    uv: NDArray[np.float32]
+    ring_offsets: NDArray[np.int64]
+    polygon_offsets: NDArray[np.int64]
+    polygon_feature: NDArray[np.int32]
+    polygon_look: NDArray[np.int32]
+    feature_name: list[str]
+    feature_class: list[str]
+    feature_size_m: NDArray[np.float64]
+    looks: list[tuple[float, float, float, float, str | None, str]]
+    log_prior: float
+    messages: list[str]

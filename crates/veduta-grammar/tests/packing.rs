@@ -2,7 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-use veduta_grammar::engine::{derive, lot_form, lower, pack, Options, Packed, State};
+use veduta_grammar::engine::{derive, lot_form, lower, pack, surfaces, Options, Packed, State};
 use veduta_grammar::{check, Program, Source};
 
 fn packed(text: &str, rings: &[Vec<[f64; 3]>]) -> Packed {
@@ -93,4 +93,28 @@ fn what_encloses_nothing_is_no_lot() {
     assert!(lot_form(&[vec![[0.0; 3], [1.0, 0.0, 0.0]]]).is_none());
     let line = vec![[0.0; 3], [1.0, 0.0, 0.0], [2.0, 0.0, 0.0]];
     assert!(lot_form(&[line]).is_none());
+}
+
+#[test]
+fn what_one_rule_makes_of_one_class_is_one_surface() {
+    let text = "Lot --> split(x) { 1 : Window | 1 : Window | ~1 : Wall }
+        Window --> set(material.name, \"window\") split(z) { 1 : Frame | ~1 : Pane }
+        Frame --> extrude(0.1)
+        Pane --> color(\"#112233\")
+        Wall -->";
+    let program = Program::single(Source::new("test.cga", text));
+    let code = lower(&program, &check(&program)).code;
+    let start = State::new(lot_form(&[square(0.0, 4.0, 0.0)]).unwrap(), 0);
+    let tree = derive(&code, 0, start, &Options::default()).unwrap();
+    let found = surfaces(&tree, &pack(&tree));
+    let names: Vec<&str> = found
+        .node
+        .iter()
+        .map(|&n| &*tree.nodes[n as usize].name)
+        .collect();
+    let classes: Vec<&str> = found.class.iter().map(|class| &**class).collect();
+    assert_eq!(names, ["Window", "Window", "Wall"]);
+    assert_eq!(classes, ["window", "window", ""]);
+    assert_eq!(found.of_feature, [0, 0, 1, 1, 2]);
+    assert_eq!(found.size[0][0], 1.0);
 }

@@ -9,9 +9,12 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, Code, Limits, Options, Packed, State, Value,
+    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options, Packed, State,
+    Surfaces, Value,
 };
-use veduta_grammar::{check, Program, Source};
+use veduta_grammar::{check, Source};
+
+use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
 
@@ -29,7 +32,7 @@ impl GrammarRules {
     /// `files` are name and text of each file, the main one first; the others are what it may
     /// import, under the names in its import statements.
     #[new]
-    fn new(py: Python<'_>, files: Vec<(String, String)>) -> PyResult<Self> {
+    fn new(py: Python<'_>, files: Files) -> PyResult<Self> {
         py.detach(|| read(&files)).map_err(GrammarFault::new_err)
     }
 
@@ -45,33 +48,50 @@ impl GrammarRules {
         names.into_iter().map(name).collect()
     }
 
-    /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed beside it.
-    /// Per lot: the columns of its leaves, or the text of why there are none.
-    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0))]
+    /// The attributes, with what each is where its value says so: `number`, `text`, `bool`, or "".
+    #[getter]
+    fn attributes(&self) -> Vec<(String, &'static str)> {
+        let all = self
+            .code
+            .globals
+            .iter()
+            .filter(|global| global.is_attribute);
+        all.map(|global| (global.name.to_string(), kind(&global.value)))
+            .collect()
+    }
+
+    /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
+    /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0, shapes=5_000_000))]
+    #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn derive<'py>(
         &self,
         py: Python<'py>,
         lots: Vec<Rings>,
         seeds: Vec<u64>,
         start: Option<&str>,
-        attributes: Option<HashMap<String, Given>>,
+        attributes: Option<Vec<HashMap<String, Given>>>,
         seconds: f64,
+        shapes: usize,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let rule = self.start_rule(start)?;
-        let given = attributes.unwrap_or_default();
-        let attributes: HashMap<String, Value> = given
-            .into_iter()
-            .map(|(name, value)| (name, value.into()))
-            .collect();
+        let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
+        if seeds.len() != lots.len() || given.len() != lots.len() {
+            return Err(PyValueError::new_err(
+                "each lot needs a seed and attributes",
+            ));
+        }
+        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
         let limits = Limits {
             seconds,
+            shapes,
             ..Limits::default()
         };
         let found: Vec<Result<Derived, String>> = py.detach(|| {
             lots.par_iter()
                 .zip(&seeds)
-                .map(|(lot, &seed)| {
-                    let attributes = attributes.clone();
+                .zip(given)
+                .map(|((lot, &seed), attributes)| {
                     let options = Options {
                         seed,
                         limits,
@@ -104,32 +124,41 @@ impl From<Given> for Value {
     }
 }
 
+fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
+    let each = given.into_iter();
+    each.map(|(name, value)| (name, value.into())).collect()
+}
+
+/// What an expression is where it says so itself; of alternatives, the first speaks for all.
+fn kind(expr: &Expr) -> &'static str {
+    match &expr.kind {
+        ExprKind::Number(_) => "number",
+        ExprKind::Bool(_) => "bool",
+        ExprKind::Text(_) => "text",
+        ExprKind::Choice(choice) => choice.branches.first().map_or("", |one| kind(&one.1)),
+        _ => "",
+    }
+}
+
 struct Derived {
     packed: Packed,
+    surfaces: Surfaces,
     names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
 }
 
-fn read(files: &[(String, String)]) -> Result<GrammarRules, String> {
-    let Some((name, text)) = files.first() else {
-        return Err("no rule file is given".to_string());
-    };
-    let main = Source::new(name.clone(), text.clone());
-    let program = Program::load(main, |path, _| {
-        let found = files.iter().find(|(name, _)| name == path);
-        let (name, text) = found.ok_or_else(|| "it is not there".to_string())?;
-        Ok(Source::new(name.clone(), text.clone()))
-    });
+fn read(files: &Files) -> Result<GrammarRules, String> {
+    let missing = || "no rule file is given".to_string();
+    let (name, text) = files.first().ok_or_else(missing)?;
+    let program = program_of(files).ok_or_else(missing)?;
     let checked = check(&program);
     if checked.has_errors() {
         return Err(checked.render(&program));
     }
     let lowered = lower(&program, &checked);
     if lowered.has_errors() {
-        let files = program.units.iter().zip(&lowered.diagnostics);
-        let each = files.flat_map(|(unit, all)| all.iter().map(|one| one.render(&unit.source)));
-        return Err(each.collect());
+        return Err(rendered(&program, &lowered.diagnostics));
     }
     Ok(GrammarRules {
         code: lowered.code,
@@ -164,10 +193,12 @@ impl GrammarRules {
             )
         })?;
         let packed = pack(&tree);
+        let surfaces = surfaces(&tree, &packed);
         let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
         Ok(Derived {
-            names: packed.feature_node.iter().map(name).collect(),
+            names: surfaces.node.iter().map(name).collect(),
             packed,
+            surfaces,
             log_prior: tree.log_prior,
             messages: tree.messages,
         })
@@ -181,9 +212,12 @@ struct DerivedLot {
     uv: Py<PyArray2<f32>>,
     ring_offsets: Py<PyArray1<i64>>,
     polygon_offsets: Py<PyArray1<i64>>,
+    /// The surface that each polygon belongs to.
     polygon_feature: Py<PyArray1<i32>>,
+    polygon_look: Py<PyArray1<i32>>,
     feature_name: Vec<String>,
-    feature_look: Py<PyArray1<u32>>,
+    /// What each surface is, as the rules have it; empty where they do not say it.
+    feature_class: Vec<String>,
     feature_size_m: Py<PyArray2<f64>>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
@@ -196,7 +230,11 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         Ok(derived) => derived,
         Err(why) => return Ok(why.into_pyobject(py)?.into_any()),
     };
-    let packed = derived.packed;
+    let (packed, surfaces) = (derived.packed, derived.surfaces);
+    let of_polygon = |column: &[u32]| -> Vec<i32> {
+        let leaves = packed.polygon_feature.iter();
+        leaves.map(|&leaf| column[leaf as usize] as i32).collect()
+    };
     let looks = packed.looks.iter().map(|look| {
         let [r, g, b] = look.colour;
         let texture = look.texture.as_ref().map(ToString::to_string);
@@ -207,10 +245,11 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         uv: rows(&packed.uv).into_pyarray(py).unbind(),
         ring_offsets: packed.ring_offsets.into_pyarray(py).unbind(),
         polygon_offsets: packed.polygon_offsets.into_pyarray(py).unbind(),
-        polygon_feature: packed.polygon_feature.into_pyarray(py).unbind(),
+        polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
+        polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
         feature_name: derived.names,
-        feature_look: packed.feature_look.into_pyarray(py).unbind(),
-        feature_size_m: rows(&packed.feature_size).into_pyarray(py).unbind(),
+        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
+        feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,

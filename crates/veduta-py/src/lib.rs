@@ -5,10 +5,12 @@ use pyo3::prelude::*;
 mod chain;
 mod grammar;
 mod polygons;
+mod rules;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
+    rules::register(m)?;
     polygons::register(m)
 }

@@ -146,8 +146,10 @@ class OutFolder:
     def _move_into_place(self, item: str, work: Path, names: list[str]) -> None:
         sync_tree(work)
         target = self.path if item == CALL else self.path / item
+        target.parent.mkdir(exist_ok=True)
         if not target.exists() and len(names) == sum(1 for file in work.rglob("*")):
             os.replace(work, target)
+            sync_folder(target.parent)
         else:
             target.mkdir(exist_ok=True)
             for name in names:

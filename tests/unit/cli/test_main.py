@@ -154,3 +154,17 @@ def test_what_is_read_arrives_whole(tmp_path: Path) -> None:
     with (tmp_path / "help").open("wb") as file:
         subprocess.run(command, stdout=file, check=True)
     assert piped == (tmp_path / "help").read_bytes() != b""
+
+
+def test_the_help_of_grammar_names_every_option() -> None:
+    """`veduta grammar --help` stands for the help of its actions."""
+    from dataclasses import fields
+
+    from veduta.cli.grammar import HELP
+    from veduta.cli.grammar_call import DeriveCall, FormatCall
+    from veduta.grammar.options import DeriveOptions
+
+    names = {field.name for call in (DeriveCall, FormatCall) for field in fields(call)}
+    names |= set(DeriveOptions.model_fields)
+    missing = {name for name in names - {"rules", "derive", "out"} if f"--{name}" not in HELP}
+    assert missing == set()

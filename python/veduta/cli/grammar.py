@@ -1,0 +1,138 @@
+"""`veduta grammar check | format | derive`: rule files, and the buildings that they make."""
+
+from __future__ import annotations
+
+import difflib
+import shlex
+import sys
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from veduta.grammar.pipeline import DeriveResult
+
+SUMMARY = "Make buildings from rule files (CGA) and lots; check and format rule files"
+ACTIONS = ("check", "format", "derive")
+MAX_FAILURES = 20
+HELP = f"""usage: veduta grammar check RULES
+       veduta grammar format RULES... [--write]
+       veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
+                             [--start RULE] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
+
+{SUMMARY}.
+
+  check     Check a rule file and what it imports; every fault is shown with its line
+  format    Lay out rule files in the house style
+  derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
+
+RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann).
+`veduta grammar ACTION --help` explains the options of an action."""
+
+
+def run(arguments: list[str]) -> int:
+    """Find the action, and do it."""
+    from veduta.run.errors import InputError
+
+    if not arguments or arguments[0] in ("-h", "--help"):
+        print(HELP)
+        return 0 if arguments else 2
+    action, *rest = arguments
+    if action not in ACTIONS:
+        near = difflib.get_close_matches(action, ACTIONS, n=1)
+        hint = f"Did you mean `{near[0]}`?" if near else f"Actions: {', '.join(ACTIONS)}."
+        raise InputError(action, "is not an action of veduta grammar", hint)
+    return {"check": _check, "format": _format, "derive": _derive}[action](rest)
+
+
+def _check(arguments: list[str]) -> int:
+    from veduta.cli.arguments import parse
+    from veduta.cli.grammar_call import CheckCall
+    from veduta.grammar.rules import check_rules, find_rules, read_rules
+
+    call = parse(CheckCall, "veduta grammar check", arguments)
+    verdict = check_rules(read_rules(find_rules(call.rules)))
+    print(verdict.told, end="")
+    if verdict.underived:
+        print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
+    print(
+        f"{call.rules}: {_counted(verdict.errors, 'error')}, "
+        f"{_counted(verdict.warnings, 'warning')}"
+    )
+    return 2 if verdict.errors else 0
+
+
+def _format(arguments: list[str]) -> int:
+    from veduta.cli.arguments import parse
+    from veduta.cli.grammar_call import FormatCall
+    from veduta.grammar.layout import formatted, write_formatted
+    from veduta.run.errors import InputError
+
+    call = parse(FormatCall, "veduta grammar format", arguments)
+    if not call.rules:
+        raise InputError("RULES", "no rule file is named", "Name at least one.")
+    if call.write:
+        for path in call.rules:
+            if write_formatted(path):
+                print(f"{path}: rewritten")
+        return 0
+    if len(call.rules) > 1:
+        raise InputError(
+            "RULES", "several files cannot be printed at once", "Give one, or --write."
+        )
+    text, _ = formatted(call.rules[0])
+    print(text, end="")
+    return 0
+
+
+def _derive(arguments: list[str]) -> int:
+    from veduta.cli.arguments import parse
+    from veduta.cli.grammar_call import DeriveCall
+    from veduta.grammar.given import read_attributes
+    from veduta.grammar.options import GrammarOptions
+    from veduta.grammar.pipeline import require_jobs, run_derive
+    from veduta.run.progress import Progress
+
+    call = parse(DeriveCall, "veduta grammar derive", arguments)
+    require_jobs(call.jobs)
+    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    progress = Progress(quiet=call.quiet)
+    result = run_derive(
+        call.rules, call.lots, call.out, options, progress, force=call.force, jobs=call.jobs
+    )
+    _tell_failures(result)
+    if not call.quiet:
+        _tell_result(result)
+    return result.exit_code
+
+
+def _tell_failures(result: DeriveResult) -> None:
+    from veduta.cli.main import save_traceback
+
+    for failure in result.failures[:MAX_FAILURES]:
+        print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
+    more = len(result.failures) - MAX_FAILURES
+    if more > 0:
+        print(f"error: {more} more: {result.out / 'report.html'}", file=sys.stderr)
+    if result.tracebacks:
+        told = [f"{name}:\n{text}" for name, text in result.tracebacks.items()]
+        print(f"Please report it with {save_traceback(chr(10).join(told))}", file=sys.stderr)
+
+
+def _tell_result(result: DeriveResult) -> None:
+    from veduta.grammar.report import measures, summary_line
+
+    print(summary_line(measures(result.lots, result.total)))
+    for note in result.notes:
+        print(note)
+    for name in result.edited:
+        print(f"{result.out / name}: was edited and is left as it is")
+    for name in result.foreign:
+        print(f"{result.out / name}: was not made by veduta and is left as it is")
+    if result.up_to_date:
+        print(f"{result.out} is up to date; --force makes it anew")
+    if result.lots:
+        print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
+    print(f"What was done, and why: {result.out / 'report.html'}")
+
+
+def _counted(count: int, thing: str) -> str:
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"

@@ -1,0 +1,1 @@
+"""The verb `veduta grammar`: a rule file and building lots become buildings."""

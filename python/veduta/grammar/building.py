@@ -1,0 +1,154 @@
+"""What the rules made of a lot, as a part of a place.
+
+Everything is invented: a rule file is no record of what stands there. Leaves that got their class
+from one application of a rule are one feature (a window with its frames and panes).
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.place.material import Material
+from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
+from veduta.place.semantics import Provenance, SemanticClass
+
+_ROUGHNESS = {SemanticClass.WINDOW: 0.25, SemanticClass.SHOP: 0.2}
+_KNOWN = {semantic.value: semantic for semantic in SemanticClass}
+Look = tuple[float, float, float, float, str | None, str]
+
+
+class NothingBuiltError(ValueError):
+    """The rules left no surface on the lot."""
+
+
+def build_part(derived: _core.DerivedLot, part_id: str) -> Part:
+    """The part, about the lot's anchor; NothingBuiltError where there is no surface.
+
+    Surfaces that are none in single precision (slivers, lines that cross) are left out and noted.
+    """
+    every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
+    if not every.any():
+        raise NothingBuiltError("the rules leave nothing on it")
+    part = _part(derived, part_id, every)
+    if _has_triangles(part):
+        return part
+    kept = _sound(part)
+    if not kept.any():
+        raise NothingBuiltError("the rules leave no surface on it")
+    return _part(derived, part_id, kept)
+
+
+def _part(derived: _core.DerivedLot, part_id: str, kept: NDArray[np.bool_]) -> Part:
+    """The part of the (p,) polygons that are kept."""
+    vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
+    used, feature = np.unique(derived.polygon_feature[kept], return_inverse=True)
+    materials, material_of_look = _materials(derived.looks)
+    with np.errstate(over="ignore"):  # what is too far away is found not to be finite
+        positions = derived.positions_m[vertices].astype(np.float32)
+    return Part(
+        id=part_id,
+        positions_m=positions,
+        uv=derived.uv[vertices],
+        ring_offsets=rings,
+        polygon_offsets=polygons,
+        polygon_feature=feature.reshape(-1).astype(np.int32),
+        polygon_material=material_of_look[derived.polygon_look[kept]],
+        features=_features(derived, used, part_id),
+        materials=materials,
+        notes=_notes(derived, int((~kept).sum())),
+    )
+
+
+def _has_triangles(part: Part) -> bool:
+    """Whether all polygons can be triangulated; the part keeps the triangles."""
+    try:
+        return len(part.triangles.indices) > 0
+    except _core.PolygonFault:
+        return False
+
+
+def _sound(part: Part) -> NDArray[np.bool_]:
+    """(p,) which polygons can be triangulated, one by one."""
+    points = part.positions_m.astype(np.float64)
+    offsets = part.polygon_offsets
+    ends = zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)
+    rings = part.ring_offsets
+    return np.array([_is_sound(points, rings[first : last + 1]) for first, last in ends])
+
+
+def _is_sound(points: NDArray[np.float64], rings: NDArray[np.int64]) -> bool:
+    one = np.array([0, len(rings) - 1], dtype=np.int64)
+    own = points[rings[0] : rings[-1]]
+    try:
+        _core.triangulate_polygons(own, rings - rings[0], one, PLANE_TOLERANCE_M)
+    except _core.PolygonFault:
+        return False
+    return True
+
+
+def _select(
+    rings: NDArray[np.int64], polygons: NDArray[np.int64], kept: NDArray[np.bool_]
+) -> tuple[NDArray[np.bool_], NDArray[np.int64], NDArray[np.int64]]:
+    """(v,) which vertices stay, and the offsets of rings and polygons among what stays."""
+    ring_counts, point_counts = np.diff(polygons), np.diff(rings)
+    ring_kept = np.repeat(kept, ring_counts)
+    vertices = np.repeat(ring_kept, point_counts)
+    ring_offsets = np.concatenate([[0], np.cumsum(point_counts[ring_kept])])
+    polygon_offsets = np.concatenate([[0], np.cumsum(ring_counts[kept])])
+    return vertices, ring_offsets.astype(np.int64), polygon_offsets.astype(np.int64)
+
+
+def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) -> Features:
+    """The table; a name is that of the rule and a number that counts within it."""
+    counts: Counter[str] = Counter()
+    names, codes = [], []
+    rules, classes = derived.feature_name, derived.feature_class
+    for row in used.tolist():
+        rule = rules[row]
+        counts[rule] += 1
+        names.append(f"{rule} {counts[rule]}")
+        codes.append(_KNOWN.get(classes[row], SemanticClass.OTHER).code)
+    total = len(names)
+    return Features(
+        id=tuple(f"{part_id}/{name.replace(' ', '-')}" for name in names),
+        name=tuple(names),
+        class_code=np.array(codes, dtype=np.uint8),
+        provenance_code=np.full(total, Provenance.INVENTED.code, dtype=np.uint8),
+        parent=np.full(total, NO_PARENT, dtype=np.int32),
+        shell=np.zeros(total, dtype=np.int32),
+        width_m=derived.feature_size_m[used, 0],
+        height_m=derived.feature_size_m[used, 1],
+        photo_px=np.full((total, 4), np.nan),
+        seen_height_m=np.full(total, np.nan),
+    )
+
+
+def _materials(looks: list[Look]) -> tuple[tuple[Material, ...], NDArray[np.int32]]:
+    """The materials, and (looks,) the material of each look: looks that are told apart."""
+    number_of: dict[Material, int] = {}
+    rows = []
+    for red, green, blue, _, _, name in looks:
+        semantic = _KNOWN.get(name, SemanticClass.OTHER)
+        colour = (round(red, 4), round(green, 4), round(blue, 4))
+        material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
+        rows.append(number_of.setdefault(material, len(number_of)))
+    return tuple(number_of), np.array(rows, dtype=np.int32)
+
+
+def _notes(derived: _core.DerivedLot, dropped: int) -> tuple[str, ...]:
+    """What the building does not show, and what the rules said."""
+    notes = list(dict.fromkeys(derived.messages))[:20]
+    if dropped:
+        notes.append(f"{dropped} surfaces were left out: too thin, or their lines cross")
+    unknown = sorted({name for name in derived.feature_class if name and name not in _KNOWN})
+    if unknown:
+        notes.append(f"material.name is no class that is known, so `other`: {', '.join(unknown)}")
+    if any(look[4] for look in derived.looks):
+        notes.append("textures of rule files are not shown yet")
+    if any(look[3] < 1.0 for look in derived.looks):
+        notes.append("opacity of rule files is not shown yet")
+    return tuple(notes)

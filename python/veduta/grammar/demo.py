@@ -1,0 +1,21 @@
+"""The lots of a call that names none: a synthetic street, and the reader who stands in it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from veduta.grammar.lots import Lot, Lots
+from veduta.synthetic.lots import street_of_lots
+
+NOTE = "no lots were given: the street is synthetic"
+
+
+def demo_lots(count: int, seed: int) -> Lots:
+    """Lots along both sides of a street, in a frame of their own."""
+    street = street_of_lots(count, seed)
+    lots = []
+    for name, outline in zip(street.names, street.outlines_m, strict=True):
+        low = np.floor(outline.min(axis=0))
+        anchor = (float(low[0]), float(low[1]), 0.0)
+        lots.append(Lot(id=name, name=name, rings_m=(outline - low,), anchor_m=anchor))
+    return Lots(tuple(lots), notes=(NOTE,), look=(street.eye_m, street.target_m))

@@ -1,0 +1,241 @@
+"""The recipe of `veduta grammar derive`: rules and lots to buildings, and to one place."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Sequence
+from contextlib import closing
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from pydantic import JsonValue
+
+from veduta.formats.place_json import write_place
+from veduta.grammar.block import MEMORY, Block, BlockResult, Job, run_block
+from veduta.grammar.demo import demo_lots
+from veduta.grammar.given import check_options
+from veduta.grammar.lots import Lots, read_lots
+from veduta.grammar.options import GrammarOptions
+from veduta.grammar.placing import place_of
+from veduta.grammar.report import derive_report
+from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.run.digests import result_key
+from veduta.run.errors import InputError
+from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
+from veduta.run.pool import Outcome, Task, run_tasks
+from veduta.run.progress import Progress
+from veduta.run.record import CALL
+from veduta.run.report import Failure, StepRecord, timed_step
+
+VERSION = "1"
+COMMAND = "grammar derive"
+DEMO_LOTS = 14
+FEW = 32
+"""Lots of the smallest block."""
+MOST_BLOCKS = 64
+"""The record of a run is written after each block: their number is bounded, not their size."""
+LASTING = {"input"}
+"""Failures that the same input would give again; others are tried anew by the next run."""
+
+
+@dataclass
+class DeriveResult:
+    """What the call came to; `lots` are summaries of those that were built."""
+
+    out: Path
+    total: int = 0
+    up_to_date: bool = False
+    lots: list[dict[str, Any]] = field(default_factory=list)
+    failures: list[Failure] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    steps: list[StepRecord] = field(default_factory=list)
+    edited: list[str] = field(default_factory=list)
+    foreign: list[str] = field(default_factory=list)
+    tracebacks: dict[str, str] = field(default_factory=dict)
+
+    @property
+    def exit_code(self) -> int:
+        """0 done, 1 a bug, 2 no lot could be built, 3 some could not."""
+        kinds = {failure.kind for failure in self.failures}
+        if "bug" in kinds:
+            return 1
+        if kinds == {"input"} and not self.lots:
+            return 2
+        return 3 if kinds else 0
+
+
+def run_derive(
+    rules_name: str,
+    lots_path: Path | None,
+    out: Path,
+    options: GrammarOptions,
+    progress: Progress,
+    *,
+    force: bool = False,
+    jobs: int | None = None,
+) -> DeriveResult:
+    """Build every lot in OUT, by the rules of `run.outputs`."""
+    steps: list[StepRecord] = []
+    with timed_step(steps, "read"):
+        rules = read_rules(find_rules(rules_name))
+        options = check_options(compile_rules(rules), rules.path, options)
+        files = tuple(rules.texts)
+        lots = _lots(lots_path, options)
+    blocks = _blocks(lots)
+    source = rules_name if lots_path is None else str(lots_path)
+    keys = {
+        block.name: _key("block", options, [files_digest(files), _told(block)]) for block in blocks
+    }
+    origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
+    failed: JsonValue = [failure.model_dump() for failure in lots.failures]
+    known: dict[str, JsonValue] = dict(keys)
+    key = _key("call", options, [known, origin, failed, source])
+    with open_out(out, COMMAND, key, force=force) as folder:
+        result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
+        result.up_to_date = folder.standing is Standing.UP_TO_DATE
+        waiting = [b for b in blocks if not folder.is_current(b.name, keys[b.name])]
+        if result.up_to_date:
+            waiting = []
+        jobs_to_do = [
+            Job(b, files, options, source, out, folder.work_path(b.name)) for b in waiting
+        ]
+        with timed_step(steps, "build"):
+            _process(jobs_to_do, folder, keys, result, progress, jobs)
+        _collect(folder, blocks, lots, result)
+        if not result.up_to_date:
+            _write_call(folder, key, lots, options, rules_name, result)
+        result.edited = folder.edited()
+        result.foreign = sorted(set(folder.kept) - set(folder.record.files))
+    return result
+
+
+def _lots(path: Path | None, options: GrammarOptions) -> Lots:
+    return demo_lots(DEMO_LOTS, options.derive.seed) if path is None else read_lots(path)
+
+
+def _blocks(lots: Lots) -> list[Block]:
+    """The lots in the order of the file, some to a folder."""
+    size = max(FEW, -(-len(lots.lots) // MOST_BLOCKS))
+    starts = range(0, len(lots.lots), size)
+    return [
+        Block(f"parts/{number:02d}", lots.lots[first : first + size])
+        for number, first in enumerate(starts)
+    ]
+
+
+def files_digest(files: Sequence[tuple[str, str]]) -> str:
+    """The digest of all rule files and their names."""
+    return hashlib.sha256(json.dumps(files).encode()).hexdigest()
+
+
+def _told(block: Block) -> str:
+    """The digest of all that is known of the lots of a block."""
+    content = [
+        [lot.id, lot.name, lot.anchor_m, lot.attributes, [ring.tolist() for ring in lot.rings_m]]
+        for lot in block.lots
+    ]
+    return hashlib.sha256(json.dumps([block.name, content]).encode()).hexdigest()
+
+
+def _key(step: str, options: GrammarOptions, inputs: JsonValue) -> str:
+    return result_key(f"{COMMAND} {step}", VERSION, options, inputs)
+
+
+def _process(
+    work: list[Job],
+    folder: OutFolder,
+    keys: dict[str, str],
+    result: DeriveResult,
+    progress: Progress,
+    jobs: int | None,
+) -> None:
+    """Work on the blocks, and publish each as soon as it is done."""
+    for job in work:
+        folder.work_folder(job.block.name)
+    tasks = [Task(job.block.name, job, MEMORY) for job in work]
+    with (
+        progress.over(len(tasks)),
+        closing(run_tasks(run_block, tasks, jobs=jobs, started=progress.started)) as outcomes,
+    ):
+        for outcome in outcomes:
+            if outcome.error is not None:
+                raise outcome.error
+            name = outcome.task.name
+            if outcome.value is None:
+                failure = _broken(outcome, result)
+                result.failures.append(failure)
+                folder.forget(name)
+            else:
+                failure = None
+                summary = outcome.value.summary()
+                folder.publish(name, keys[name], folder.work_path(name), summary)
+            progress.finished(name, failure)
+
+
+def _broken(outcome: Outcome[BlockResult], result: DeriveResult) -> Failure:
+    """A block whose process ended without a result."""
+    if outcome.traceback is not None:
+        result.tracebacks[outcome.task.name] = outcome.traceback
+        last = outcome.traceback.strip().splitlines()[-1]
+        return Failure(subject=outcome.task.name, kind="bug", reason=f"a bug in veduta: {last}")
+    reason = outcome.crash or "the worker process gave no result"
+    return Failure(subject=outcome.task.name, kind="crash", reason=reason)
+
+
+def _collect(folder: OutFolder, blocks: list[Block], lots: Lots, result: DeriveResult) -> None:
+    """What the place consists of, in the order of the lots."""
+    result.failures += lots.failures
+    result.notes += lots.notes
+    for block in blocks:
+        item = folder.record.items.get(block.name)
+        if item is None:
+            continue
+        summary: dict[str, Any] = dict(item.summary)
+        result.lots += summary["lots"]
+        result.failures += [Failure.model_validate(failure) for failure in summary["failures"]]
+        for step in summary["steps"]:
+            _add_step(result.steps, StepRecord(**step))
+    names = {block.name for block in blocks}
+    folders = {path.rpartition("/")[0] for path in folder.record.files if "/" in path}
+    result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
+
+
+def _add_step(steps: list[StepRecord], step: StepRecord) -> None:
+    """Times of the same step in several blocks add up; they ran beside each other."""
+    for known in steps:
+        if known.name == step.name:
+            steps[steps.index(known)] = replace(known, seconds=known.seconds + step.seconds)
+            return
+    steps.append(step)
+
+
+def _write_call(
+    folder: OutFolder,
+    key: str,
+    lots: Lots,
+    options: GrammarOptions,
+    rules_name: str,
+    result: DeriveResult,
+) -> None:
+    """The place of all that is done, and the report of the call."""
+    work = folder.work_folder(CALL)
+    result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
+    report, page = derive_report(
+        rules_name, options, result.lots, result.failures, result.notes, result.steps
+    )
+    with writing_to(folder.path):
+        if result.lots:
+            write_place(place_of(lots, result.lots), work / "place.json")
+        (work / "report.json").write_bytes(report.to_json())
+        (work / "report.html").write_bytes(page)
+    folder.publish(CALL, key, work)
+    if all(failure.kind in LASTING for failure in result.failures):
+        folder.finish()
+
+
+def require_jobs(jobs: int | None) -> None:
+    """InputError for a number of processes that is none."""
+    if jobs is not None and jobs < 1:
+        raise InputError("--jobs", f"is {jobs}", "Give 1 or more.")

@@ -1,0 +1,127 @@
+"""Rule files: where they are, what they import, whether they can be used.
+
+A rule file is named by its path, or by a style that Veduta brings along (`haussmann`). What it
+imports is read from its own folder and the folders below, and from nowhere else.
+"""
+
+from __future__ import annotations
+
+import difflib
+import os
+from dataclasses import dataclass
+from pathlib import Path
+
+from veduta import _core
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+MAX_BYTES = 8 * 2**20
+"""Of one file, as the parser has it."""
+MAX_FILES = 256
+STYLES = Path(__file__).parent / "styles"
+SUFFIX = ".cga"
+
+
+@dataclass(frozen=True)
+class RuleFiles:
+    """A rule file and what it imports: the name of each file as messages have it, and its text."""
+
+    path: Path
+    files: tuple[tuple[str, str], ...]
+
+    @property
+    def texts(self) -> list[tuple[str, str]]:
+        """The files, the main one first, by names that do not depend on where their folder is."""
+        folder = os.path.dirname(self.files[0][0])
+        return [(os.path.relpath(name, folder or "."), text) for name, text in self.files]
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """What checking found.
+
+    told: all faults, each with its line and a caret. underived: what the rules ask for that is
+    read but does not derive yet, told in the same way; empty where there are errors.
+    """
+
+    told: str
+    errors: int
+    warnings: int
+    underived: str
+
+
+def style_names() -> list[str]:
+    """The styles that can be named without a path."""
+    return sorted(path.stem for path in STYLES.glob(f"*{SUFFIX}"))
+
+
+def find_rules(name: str) -> Path:
+    """The rule file that is meant by a path, or by the name of a style."""
+    path = Path(name)
+    if os.path.lexists(path):
+        return path
+    styles = style_names()
+    if name in styles:
+        return STYLES / f"{name}{SUFFIX}"
+    if path.suffix or os.path.dirname(name):
+        raise InputError(name, "does not exist", "Check its name.")
+    near = difflib.get_close_matches(name, styles, n=1)
+    hint = f"Did you mean `{near[0]}`?" if near else f"Styles: {', '.join(styles)}."
+    raise InputError(name, "is neither a file nor a style", hint)
+
+
+def read_rules(path: Path) -> RuleFiles:
+    """The file and all that it imports, as far as it is there; checking names what is missing."""
+    main = path.as_posix()
+    root = os.path.realpath(path.parent)
+    files = {main: read_text(path)}
+    open_names = [main]
+    while open_names:
+        importer = open_names.pop(0)
+        for name in _core.grammar_imports(main, importer, files[importer]):
+            if name in files or not _is_file_below(root, name) or len(files) >= MAX_FILES:
+                continue
+            files[name] = read_text(Path(name))
+            open_names.append(name)
+    return RuleFiles(path, tuple(files.items()))
+
+
+def check_rules(rules: RuleFiles) -> Verdict:
+    """What is wrong with the files."""
+    return Verdict(*_core.grammar_check(list(rules.files)))
+
+
+def compile_rules(rules: RuleFiles) -> _core.GrammarRules:
+    """The rules ready to derive; InputError with all faults where they cannot."""
+    try:
+        return _core.GrammarRules(list(rules.files))
+    except _core.GrammarFault as fault:
+        raise InputError(
+            rules.path, f"cannot be derived from\n{str(fault).rstrip()}\n", "Mend these first."
+        ) from fault
+
+
+def read_text(path: Path) -> str:
+    """The text of a rule file; InputError where it is none."""
+    try:
+        require_file(path, MAX_BYTES)
+        content = path.read_bytes()
+    except FileNotFoundError as error:
+        raise InputError(path, "does not exist", "Check its name.") from error
+    except OSError as error:
+        raise InputError(
+            path, f"cannot be read ({error.strerror})", "Check its permissions."
+        ) from error
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        line = content[: error.start].count(b"\n") + 1
+        raise InputError(
+            path, f"is not text in UTF-8 (line {line})", "Save it as UTF-8."
+        ) from error
+
+
+def _is_file_below(root: str, name: str) -> bool:
+    """Whether a file is there, and no link leads out of the folder."""
+    real = os.path.realpath(name)
+    return os.path.isfile(real) and os.path.commonpath([root, real]) == root

@@ -1,0 +1,125 @@
+"""Rule files: where they are, what they may import, how they are laid out."""
+
+from __future__ import annotations
+
+import os
+import re
+from pathlib import Path
+
+import pytest
+
+from veduta import _core
+from veduta.grammar.layout import formatted, write_formatted
+from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules, style_names
+from veduta.run.errors import InputError
+
+
+def write(folder: Path, **files: str) -> Path:
+    for name, text in files.items():
+        path = folder / f"{name.replace('__', '/')}.cga"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+    return folder / "main.cga"
+
+
+def test_imports_are_read_from_the_folder_and_below(tmp_path: Path) -> None:
+    main = write(
+        tmp_path,
+        main='import a : "lib/a.cga"\nLot --> a.A',
+        lib__a='import b : "../b.cga"\nA --> b.B',
+        b="B --> NIL",
+    )
+    rules = read_rules(main)
+    assert [name for name, _ in rules.texts] == ["main.cga", "lib/a.cga", "b.cga"]
+    assert check_rules(rules).told == ""
+    compile_rules(rules)
+
+
+def test_imports_stay_in_the_folder(tmp_path: Path) -> None:
+    secret = tmp_path / "secret.cga"
+    secret.write_text("B --> NIL")
+    folder = tmp_path / "rules"
+    for path in ("../secret.cga", str(secret), "sub/../../secret.cga", "link.cga", "none.cga"):
+        main = write(folder, main=f'import b : "{path}"\nLot --> b.B')
+        if not os.path.lexists(folder / "link.cga"):
+            (folder / "link.cga").symlink_to(secret)
+        rules = read_rules(main)
+        assert len(rules.files) == 1
+        assert "cannot import" in check_rules(rules).told
+
+
+def test_faults_are_shown_with_their_line(tmp_path: Path) -> None:
+    verdict = check_rules(read_rules(write(tmp_path, main="Lot --> extrud(3)\n")))
+    assert (verdict.errors, verdict.warnings) == (1, 0)
+    assert f"{tmp_path}/main.cga:1:9: error" in verdict.told
+    assert "^^^^^^" in verdict.told
+    assert "extrude" in verdict.told
+
+
+def test_what_does_not_derive_is_no_error_of_the_file(tmp_path: Path) -> None:
+    rules = read_rules(write(tmp_path, main="Lot --> taper(3)"))
+    verdict = check_rules(rules)
+    assert (verdict.errors, "taper" in verdict.underived) == (0, True)
+    with pytest.raises(InputError, match="taper"):
+        compile_rules(rules)
+
+
+def test_a_style_needs_no_path_and_a_slip_is_helped() -> None:
+    assert find_rules("haussmann").is_file()
+    with pytest.raises(InputError, match="Did you mean `haussmann`"):
+        find_rules("hausmann")
+    with pytest.raises(InputError, match="does not exist"):
+        find_rules("rules/none.cga")
+
+
+@pytest.mark.parametrize("name", style_names())
+def test_styles_are_sound_and_laid_out(name: str) -> None:
+    path = find_rules(name)
+    verdict = check_rules(read_rules(path))
+    assert (verdict.told, verdict.underived) == ("", "")
+    assert formatted(path)[1] is False
+
+
+def test_formatting_rewrites_what_differs(tmp_path: Path) -> None:
+    main = write(tmp_path, main="Lot-->extrude( 3 )  A // high\nA-->NIL\n")
+    assert write_formatted(main) is True
+    text = main.read_text()
+    assert text == "Lot --> extrude(3) A // high\nA --> NIL\n"
+    stamp = main.stat().st_mtime_ns
+    assert write_formatted(main) is False
+    assert main.stat().st_mtime_ns == stamp
+
+
+def test_formatting_leaves_a_faulty_file_alone(tmp_path: Path) -> None:
+    main = write(tmp_path, main="Lot --> extrude(")
+    with pytest.raises(InputError, match="cannot be formatted"):
+        write_formatted(main)
+    assert main.read_text() == "Lot --> extrude("
+
+
+def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.cga").write_bytes(b"Lot --> NIL\n\xff\xfe")
+    with pytest.raises(InputError, match=r"UTF-8 \(line 2\)"):
+        read_rules(tmp_path / "a.cga")
+    with pytest.raises(InputError, match="is a folder"):
+        read_rules(tmp_path)
+
+
+def test_the_first_rule_file_of_the_docs_makes_a_house(repository: Path, tmp_path: Path) -> None:
+    page = (repository / "docs" / "grammar.md").read_text("utf-8")
+    (text,) = re.findall(r"^```cga\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    rules = read_rules(write(tmp_path, main=text))
+    assert check_rules(rules).told == ""
+    lot = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 8.0, 0.0), (0.0, 8.0, 0.0)]]
+    (house,) = compile_rules(rules).derive([lot], [0], attributes=[{"height": 12.0}])
+    assert not isinstance(house, str)
+    assert {"window", "wall", "roof"} == set(house.feature_class)
+    assert house.positions_m[:, 2].max() == pytest.approx(14.0)
+
+
+def test_the_language_page_says_what_derives(repository: Path) -> None:
+    """Each operation of the engine has a `yes` in the table, and no other operation has one."""
+    page = (repository / "docs" / "grammar-language.md").read_text("utf-8")
+    rows = re.findall(r"^\| `(\w+)` \|.*\| (\w*) ?\|$", page, re.MULTILINE)
+    said = {name for name, derives in rows if derives == "yes"}
+    assert said == set(_core.grammar_operations())
