@@ -30,6 +30,12 @@ impl Value {
         Self::Text(text.into())
     }
 
+    /// An array of one row.
+    pub fn list(values: Vec<Value>) -> Self {
+        let columns = values.len();
+        Self::Array(Arc::new(Array { columns, values }))
+    }
+
     /// The name of the kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
