@@ -249,7 +249,7 @@ fn faults_say_what_is_wrong() {
     );
     assert!(fault("Lot --> s([1, 2], 1, 1)").contains("a number is needed, not an array"));
     assert!(fault("Lot --> print([1, 2][5])").contains("in an array of 2"));
-    assert!(fault("Lot --> s(1 / 0, 1, 1)").contains("lengths of"));
+    assert!(fault("Lot --> s(1 / 0, 1, 1)").contains("a finite number"));
 }
 
 #[test]

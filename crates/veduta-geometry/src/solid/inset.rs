@@ -49,8 +49,12 @@ pub fn inset(mesh: &Mesh, face: Face<'_>, distances: &[f64]) -> Result<Pieces, S
                 .map(|(&far, edge)| (far > 0.0).then_some(edge))
                 .collect();
             flat.strips(&roof, &moving);
+            let origin = origins(&roof);
             for rest in &roof.rest {
-                flat.push(None, &places(&roof, &rest.rings));
+                let mut rings = rest.rings.clone();
+                let edge = |side: (u32, u32)| origin.get(&(side.1, side.0)).copied();
+                first_along(&mut rings[0], edge);
+                flat.push(None, &places(&roof, &rings));
             }
         }
     }
@@ -178,6 +182,29 @@ fn frame(ring: &[[f64; 2]], distances: &[f64]) -> Vec<[f64; 2]> {
     vec![low, [high[0], low[1]], high, [low[0], high[1]]]
 }
 
+/// The edge that each side of a roof's faces belongs to.
+fn origins(roof: &Roof) -> HashMap<(u32, u32), u32> {
+    let mut origin = HashMap::new();
+    for face in &roof.faces {
+        let (FaceOrigin::Edge(edge) | FaceOrigin::Step { before: edge, .. }) = face.origin;
+        for (from, to) in face.rings.iter().flat_map(|ring| sides(ring)) {
+            origin.insert((from, to), edge);
+        }
+    }
+    origin
+}
+
+/// Turns a ring so that it begins with the side of the least edge.
+fn first_along(ring: &mut [u32], edge: impl Fn((u32, u32)) -> Option<u32>) {
+    let of_side = |side: (u32, u32)| edge(side).unwrap_or(u32::MAX);
+    let least = sides(ring)
+        .enumerate()
+        .min_by_key(|(_, side)| of_side(*side));
+    if let Some((place, _)) = least {
+        ring.rotate_left(place);
+    }
+}
+
 /// What is left around a ring, as rings of the larger polygon.
 fn take_rest(
     roof: &Roof,
@@ -185,13 +212,7 @@ fn take_rest(
     is_outline: bool,
     result: &mut Grown,
 ) -> Result<(), SkeletonError> {
-    let mut origin: HashMap<(u32, u32), u32> = HashMap::new();
-    for face in &roof.faces {
-        let (FaceOrigin::Edge(edge) | FaceOrigin::Step { before: edge, .. }) = face.origin;
-        for (from, to) in face.rings.iter().flat_map(|ring| sides(ring)) {
-            origin.insert((from, to), edge);
-        }
-    }
+    let origin = origins(roof);
     let mut pockets = Vec::new();
     let mut outline = None;
     for level in &roof.rest {
@@ -213,7 +234,9 @@ fn take_rest(
         return Err(SkeletonError::TooPointed);
     }
     for ring in outline.into_iter().chain(pockets) {
-        let reversed: Vec<u32> = ring.iter().rev().copied().collect();
+        let mut reversed: Vec<u32> = ring.iter().rev().copied().collect();
+        let edge = |side| origin.get(&side).and_then(|&edge| edges[edge as usize]);
+        first_along(&mut reversed, edge);
         for side in sides(&reversed) {
             let edge = origin.get(&side).and_then(|&edge| edges[edge as usize]);
             result.along.push(edge.ok_or(SkeletonError::TooPointed)?);
@@ -293,11 +316,16 @@ impl FlatPieces {
     /// The faces of a roof seen from above; those that stand are nothing there.
     fn strips(&mut self, roof: &Roof, edges: &[Option<u32>]) {
         for face in &roof.faces {
-            if let FaceOrigin::Edge(edge) = face.origin {
-                let Some(edge) = edges[edge as usize] else {
+            if let FaceOrigin::Edge(own) = face.origin {
+                let Some(edge) = edges[own as usize] else {
                     continue;
                 };
-                self.push(Some(edge), &places(roof, &face.rings));
+                // The vertices of the eaves come first, by the number of their edges.
+                let mut rings = face.rings.clone();
+                first_along(&mut rings[0], |(from, to)| {
+                    (from == own && (to as usize) < edges.len()).then_some(0)
+                });
+                self.push(Some(edge), &places(roof, &rings));
             }
         }
     }

@@ -37,7 +37,7 @@ pub enum ShapeAttribute {
 }
 
 /// All shape attributes by their names.
-const TABLE: [(&str, ShapeAttribute); 38] = {
+const TABLE: [(&str, ShapeAttribute); 37] = {
     use ShapeAttribute as A;
     [
         ("scope.sx", A::ScopeSize(0)),
@@ -57,7 +57,6 @@ const TABLE: [(&str, ShapeAttribute); 38] = {
         ("material.color.r", A::Colour(0)),
         ("material.color.g", A::Colour(1)),
         ("material.color.b", A::Colour(2)),
-        ("material.color.a", A::Opacity),
         ("material.opacity", A::Opacity),
         ("material.colormap", A::Texture),
         ("material.color.rgb", A::ColourText),

@@ -54,7 +54,7 @@ pub fn is_meant(
         "horizontal" => looks && slope.abs() > 90.0 - LEVEL,
         "vertical" => looks && slope.abs() <= LEVEL,
         "aslant" => looks && slope > LEVEL && slope <= 90.0 - LEVEL,
-        "nutant" => looks && slope < -LEVEL && slope >= LEVEL - 90.0,
+        "nutant" => looks && (LEVEL - 90.0..-LEVEL).contains(&slope),
         "border" => around().border,
         "inside" => !around().border,
         "eave" => around().roof == Some(RoofEdge::Eave),

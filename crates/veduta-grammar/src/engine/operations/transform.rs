@@ -126,11 +126,7 @@ fn lengths(
     for axis in 0..3 {
         found[axis] = length(run, op, first + axis, size[axis], frame)?;
     }
-    if found.is_finite() {
-        Ok(found)
-    } else {
-        Err(fault(op, format!("lengths of {found} m")))
-    }
+    Ok(found)
 }
 
 fn turn(degrees: DVec3) -> DMat3 {
