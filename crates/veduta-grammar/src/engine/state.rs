@@ -83,6 +83,17 @@ impl State {
         Arc::make_mut(self.extra.get_or_insert_default())
     }
 
+    /// Changes where textures lie on the shape.
+    pub fn carry_textures(&mut self, change: impl Fn(&TextureMap) -> TextureMap) {
+        if let Some(extra) = &mut self.extra {
+            let extra = Arc::make_mut(extra);
+            let maps = extra.maps.iter_mut().chain(&mut extra.projections);
+            for map in maps.flatten() {
+                *map = change(map);
+            }
+        }
+    }
+
     /// Another form with the same looks and attributes.
     pub fn with_form(&self, form: Form) -> Self {
         Self {

@@ -99,7 +99,18 @@ impl TextureMap {
         let (old, new) = (filled(before.size), filled(after.size));
         // A place after, as one before: back to shares of the scope, and out again.
         let back: DMat3 = before.axes * DMat3::from_diagonal(old / new) * after.axes.transpose();
-        let at_origin = before.origin - back * after.origin;
+        self.moved_back(back, before.origin - back * after.origin)
+    }
+
+    /// The map on what has been mirrored in the middle of its scope.
+    pub fn mirrored(&self, scope: &Scope, signs: DVec3) -> Self {
+        let back = scope.axes * DMat3::from_diagonal(signs) * scope.axes.transpose();
+        let middle = scope.world(DVec3::splat(0.5));
+        self.moved_back(back, middle - back * middle)
+    }
+
+    /// The map on what was at `back * place + at_origin` before.
+    fn moved_back(&self, back: DMat3, at_origin: DVec3) -> Self {
         Self {
             grow: self.grow.map(|along| back.transpose() * along),
             offset: [0, 1].map(|axis| self.offset[axis] + self.grow[axis].dot(at_origin)),

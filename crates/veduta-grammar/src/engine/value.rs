@@ -90,9 +90,9 @@ impl fmt::Display for Value {
     }
 }
 
-/// Without the noise of sums in the last digits.
+/// Without the noise of sums in the last digits, and without the sign of 0.
 fn rounded(number: f64) -> f64 {
-    let nearest = (number * 1e9).round() / 1e9;
+    let nearest = (number * 1e9).round() / 1e9 + 0.0;
     if nearest.is_finite() {
         nearest
     } else {

@@ -5,12 +5,18 @@ mod components;
 mod dividing;
 mod envelopes;
 mod inner_rectangles;
+mod meshes;
 mod offsets;
+mod primitives;
 mod roofs;
+mod scattering;
+mod scopes;
 mod setbacks;
 mod solids;
 mod speech;
 mod standing;
+mod tags;
+mod textures;
 mod transform;
 mod wings;
 
@@ -31,17 +37,32 @@ type Work = fn(&mut Run<'_>, &Operation, &mut Frame) -> Result<(), Fault>;
 /// All operations that derive, and the fewest and most arguments of each.
 const TABLE: &[(&str, Work, usize, usize)] = &[
     ("NIL", appearance::nothing, 0, 0),
-    ("alignScopeToAxes", transform::align_to_axes, 0, 1),
+    ("alignScopeToAxes", scopes::align_to_axes, 0, 1),
+    ("alignScopeToGeometry", scopes::align_to_geometry, 3, 3),
+    ("alignScopeToGeometryBBox", scopes::align_to_box, 1, 1),
     ("center", transform::center, 1, 1),
     ("color", appearance::colour, 1, 4),
     ("comp", components::components, 1, 1),
+    ("convexify", meshes::convexify, 0, 0),
+    ("copyUV", textures::copy, 2, 2),
+    ("deleteHoles", meshes::delete_holes, 0, 0),
+    ("deleteTags", tags::delete, 0, 1),
+    ("deleteUV", textures::delete, 1, 1),
     ("envelope", envelopes::envelope, 4, 10),
     ("extrude", solids::extrude, 1, 2),
     ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
+    ("mirror", scopes::mirror, 3, 3),
+    ("mirrorScope", scopes::mirror_scope, 3, 3),
+    ("normalizeUV", textures::normalize, 3, 3),
     ("offset", offsets::offset, 1, 2),
+    ("primitiveCone", primitives::make_cone, 0, 3),
     ("primitiveCube", solids::cube, 0, 3),
+    ("primitiveCylinder", primitives::make_cylinder, 0, 3),
+    ("primitiveDisk", primitives::make_disk, 0, 2),
     ("primitiveQuad", solids::quad, 0, 2),
+    ("primitiveSphere", primitives::make_sphere, 0, 3),
     ("print", speech::print, 1, 1),
+    ("projectUV", textures::project, 1, 1),
     ("r", transform::turn_scope, 3, 4),
     ("report", speech::report, 2, 2),
     ("reverseNormals", solids::reverse, 0, 0),
@@ -51,20 +72,28 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("roofRidge", standing::ridge, 2, 2),
     ("roofShed", standing::shed, 1, 3),
     ("rotate", transform::rotate, 5, 5),
+    ("rotateScope", scopes::rotate_scope, 3, 3),
+    ("rotateUV", textures::rotate, 2, 2),
     ("s", transform::resize, 3, 3),
+    ("scaleUV", textures::scale, 3, 3),
+    ("scatter", scattering::scatter, 3, 5),
     ("set", appearance::set, 2, 2),
     ("setback", setbacks::setback, 1, 1),
     ("setbackPerEdge", setbacks::per_edge, 1, 1),
     ("setbackToArea", setbacks::to_area, 1, 3),
+    ("setupProjection", textures::set_up, 4, 7),
     ("shapeL", wings::l, 2, 2),
     ("shapeO", wings::o, 4, 4),
     ("shapeU", wings::u, 3, 3),
     ("split", dividing::split, 1, 2),
     ("splitArea", dividing::split_area, 1, 2),
     ("t", transform::move_scope, 3, 3),
+    ("tag", tags::tag, 1, 1),
     ("taper", standing::taper, 1, 1),
     ("texture", appearance::texture, 1, 1),
+    ("tileUV", textures::tile_uv, 3, 3),
     ("translate", transform::translate, 5, 5),
+    ("translateUV", textures::translate, 3, 3),
 ];
 
 impl OperationId {
