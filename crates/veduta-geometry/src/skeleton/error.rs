@@ -41,6 +41,8 @@ pub enum SkeletonError {
     Unbounded { face: usize },
     #[error("the wavefront got lost: face {face} moves on and meets nothing")]
     Lost { face: usize },
+    #[error("a corner is so pointed that it would reach too far outwards")]
+    TooPointed,
     #[error("more than {most} events")]
     TooManyEvents { most: usize },
     #[error("two wavefront edges are parallel where they meet, at {x_m}, {y_m}")]

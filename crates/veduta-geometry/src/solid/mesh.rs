@@ -42,6 +42,14 @@ impl Mesh {
         }
     }
 
+    /// No faces yet, over these points.
+    pub fn with_points(points: Vec<DVec3>) -> Self {
+        Self {
+            points,
+            ..Self::new()
+        }
+    }
+
     /// One face whose rings have points of their own, the outline first.
     pub fn polygon<R: AsRef<[DVec3]>>(rings: &[R]) -> Self {
         let mut mesh = Self::new();
@@ -81,6 +89,30 @@ impl Mesh {
         self.rings.extend(offset(&other.rings[1..], rings));
         self.faces.extend(offset(&other.faces[1..], faces));
         self.points.extend_from_slice(&other.points);
+    }
+
+    /// The mesh without points that no face uses.
+    pub fn compact(self) -> Self {
+        let all = 0..self.face_count();
+        self.of_faces(all)
+    }
+
+    /// Some of the faces with their points.
+    pub fn of_faces(&self, faces: impl IntoIterator<Item = usize>) -> Self {
+        let mut numbers: Vec<Option<u32>> = vec![None; self.points.len()];
+        let mut part = Self::new();
+        for index in faces {
+            let mut rings = Vec::with_capacity(self.face(index).ring_count());
+            for ring in self.face(index).rings() {
+                let number = |&point: &u32| {
+                    *numbers[point as usize]
+                        .get_or_insert_with(|| part.push_point(self.points[point as usize]))
+                };
+                rings.push(ring.iter().map(number).collect::<Vec<_>>());
+            }
+            part.push_face(&rings);
+        }
+        part
     }
 
     pub fn face_count(&self) -> usize {

@@ -1,14 +1,25 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
 mod cut;
+mod envelope;
 mod extrude;
+mod inner_rectangle;
+mod inset;
+mod level;
 mod loops;
 mod mesh;
 mod primitives;
+mod raised;
 mod roofs;
+mod weld;
 
 pub use cut::{cut, Piece, Sides};
+pub use envelope::{envelope, Bound};
 pub use extrude::extrude;
+pub use inner_rectangle::inner_rectangle;
+pub use inset::{inset, merged, outset, Outset, Pieces};
 pub use mesh::{Face, Mesh};
-pub use primitives::{cube, quad};
-pub use roofs::{roofed, RoofKind};
+pub use primitives::{cone, cube, cylinder, disk, quad, sphere};
+pub use raised::{pyramids, raised};
+pub use roofs::{roofed, roofed_over, Overhang, RoofKind};
+pub use weld::{joined, weld};

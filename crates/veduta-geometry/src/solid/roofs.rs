@@ -1,8 +1,8 @@
 //! Closed roofs over level faces, from the straight skeleton.
 
-use glam::{DMat3, DVec3};
-
-use super::mesh::{Face, Mesh};
+use super::inset::{grown, Rings};
+use super::level::Level;
+use super::mesh::Mesh;
 use crate::skeleton::{roof, Eaves, FaceOrigin, SkeletonError};
 
 /// The kinds of roof that follow from slopes alone.
@@ -14,21 +14,41 @@ pub enum RoofKind {
     Gable,
 }
 
+/// How far a roof reaches beyond its outline, measured level. Its planes go on: eaves that reach
+/// out lie lower.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Overhang {
+    pub eaves: f64,
+    pub gables: f64,
+}
+
 /// The solid between each face of a sheet and the roof over it, one closed shell per face.
 ///
 /// `slope` is the tangent of the angle between the roof and its face. Each face of the sheet is
 /// the floor of its roof and has to be planar; its normal is where the roof rises.
 pub fn roofed(sheet: &Mesh, kind: RoofKind, slope: f64) -> Result<Mesh, SkeletonError> {
+    roofed_over(sheet, kind, slope, Overhang::default())
+}
+
+/// As [`roofed`], with eaves and gables that reach out. The floor lies where the eaves do.
+pub fn roofed_over(
+    sheet: &Mesh,
+    kind: RoofKind,
+    slope: f64,
+    overhang: Overhang,
+) -> Result<Mesh, SkeletonError> {
     let mut solid = Mesh::new();
     for face in sheet.faces() {
-        let axes = axes_of(face.normal());
-        let rings = flattened(sheet, face, axes);
-        let eaves = match kind {
+        let level = Level::of(sheet, face);
+        let rings = level.flat(sheet, face);
+        let mut eaves = match kind {
             RoofKind::Hip => Eaves::even(&rings)?,
             RoofKind::Gable => gables(&Eaves::even(&rings)?)?,
         };
-        let origin = axes * DVec3::new(0.0, 0.0, level_of(sheet, face, axes));
-        add_shell(&mut solid, &eaves, axes, origin, slope)?;
+        if overhang != Overhang::default() {
+            eaves = reaching(&rings, &eaves, overhang)?;
+        }
+        add_shell(&mut solid, &eaves, &level, -overhang.eaves * slope, slope)?;
     }
     Ok(solid)
 }
@@ -51,17 +71,32 @@ fn gables(even: &Eaves) -> Result<Eaves, SkeletonError> {
     even.with_speeds(&speeds)
 }
 
+fn reaching(rings: &Rings, eaves: &Eaves, overhang: Overhang) -> Result<Eaves, SkeletonError> {
+    let distance = |&speed: &f64| {
+        if speed == 0.0 {
+            overhang.gables
+        } else {
+            overhang.eaves
+        }
+    };
+    let distances: Vec<f64> = eaves.speeds().iter().map(distance).collect();
+    let larger = grown(rings, &distances, |_, _| {})?;
+    let speed = |&edge: &u32| eaves.speeds()[edge as usize];
+    let speeds: Vec<f64> = larger.along.iter().map(speed).collect();
+    Eaves::new(&larger.rings, &speeds)
+}
+
 fn add_shell(
     solid: &mut Mesh,
     eaves: &Eaves,
-    axes: DMat3,
-    origin: DVec3,
+    level: &Level,
+    base: f64,
     slope: f64,
 ) -> Result<(), SkeletonError> {
     let found = roof(eaves, None)?;
     let first = solid.points.len() as u32;
     for &[x, y, z] in &found.nodes_m {
-        solid.push_point(origin + axes * DVec3::new(x, y, z * slope));
+        solid.push_point(level.place([x, y], base + z * slope));
     }
     let shifted = |ring: &Vec<u32>| ring.iter().map(|&node| node + first).collect::<Vec<_>>();
     for face in &found.faces {
@@ -77,27 +112,4 @@ fn add_shell(
     }
     solid.push_face(&floor);
     Ok(())
-}
-
-/// Axes with z along the normal.
-fn axes_of(normal: DVec3) -> DMat3 {
-    let (x, y) = normal.any_orthonormal_pair();
-    DMat3::from_cols(x, y, normal)
-}
-
-fn flattened(sheet: &Mesh, face: Face<'_>, axes: DMat3) -> Vec<Vec<[f64; 2]>> {
-    let local = axes.transpose();
-    face.rings()
-        .map(|ring| {
-            let flat = |&point: &u32| {
-                let own = local * sheet.points[point as usize];
-                [own.x, own.y]
-            };
-            ring.iter().map(flat).collect()
-        })
-        .collect()
-}
-
-fn level_of(sheet: &Mesh, face: Face<'_>, axes: DMat3) -> f64 {
-    sheet.points[face.outline()[0] as usize].dot(axes.z_axis)
 }

@@ -3,9 +3,11 @@
 use std::sync::Arc;
 
 use crate::ast::{BinaryOp, UnaryOp};
+use crate::shape::Kind;
 use crate::{Span, Symbol};
 
 use super::functions::Function;
+use super::measures::Measure;
 use super::operations::OperationId;
 use super::shape_attributes::ShapeAttribute;
 
@@ -75,6 +77,8 @@ pub enum ExprKind {
     Number(f64),
     Bool(bool),
     Text(Arc<str>),
+    /// A word that is no value (`front`, `uvSpace`).
+    Word(Arc<str>),
     /// A parameter or a value of `with`.
     Slot(usize),
     Global(usize),
@@ -86,6 +90,16 @@ pub enum ExprKind {
     Builtin {
         function: Function,
         args: Vec<Expr>,
+    },
+    /// A function of the current shape's geometry.
+    Measure {
+        measure: Measure,
+        args: Vec<Expr>,
+    },
+    /// `comp(f) { selector : value | ... }`: an array of a value for each component.
+    Components {
+        kind: Kind,
+        cells: Vec<(Selector, Expr)>,
     },
     Unary {
         op: UnaryOp,

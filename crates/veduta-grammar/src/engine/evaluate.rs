@@ -6,6 +6,7 @@ use crate::ast::{BinaryOp, UnaryOp};
 
 use super::code::{Choice, Expr, ExprKind};
 use super::fault::Fault;
+use super::functions::Function;
 use super::random::Stream;
 use super::run::Run;
 use super::state::State;
@@ -25,6 +26,18 @@ pub struct Scene<'a> {
     pub log_prior: &'a mut f64,
 }
 
+impl Scene<'_> {
+    /// The same scene with another shape.
+    pub fn of<'b>(&'b mut self, state: &'b State) -> Scene<'b> {
+        Scene {
+            slots: self.slots,
+            state,
+            stream: self.stream,
+            log_prior: self.log_prior,
+        }
+    }
+}
+
 impl Run<'_> {
     /// The value of an expression.
     pub fn value(&mut self, expr: &Expr, scene: &mut Scene<'_>) -> Result<Value, Fault> {
@@ -34,10 +47,26 @@ impl Run<'_> {
             ExprKind::Text(text) => Ok(Value::Text(text.clone())),
             ExprKind::Slot(slot) => Ok(scene.slots[*slot].clone()),
             ExprKind::Global(global) => self.global(*global, scene.state),
-            ExprKind::Attribute(attribute) => Ok(attribute.of(scene.state)),
+            ExprKind::Word(word) => Ok(Value::Text(word.clone())),
+            ExprKind::Attribute(attribute) => Ok(attribute.of(scene.state, self.first())),
+            ExprKind::Measure { measure, args } => {
+                let values = self.values(args, scene)?;
+                let object = self.first().state.form.scope.axes;
+                measure
+                    .of(scene.state, object, &values)
+                    .map_err(|message| Fault::at(expr.span, message))
+            }
+            ExprKind::Components { kind, cells } => {
+                let values = self.component_values(*kind, cells, expr.span, scene)?;
+                let columns = values.len();
+                Ok(Value::Array(Arc::new(Array { columns, values })))
+            }
             ExprKind::Call { function, args } => self.called(*function, args, expr, scene),
             ExprKind::Builtin { function, args } => {
                 let values = self.values(args, scene)?;
+                if let Function::Print = function {
+                    self.write(&values[0]);
+                }
                 function
                     .call(&values, || scene.stream.draw())
                     .map_err(|message| Fault::at(expr.span, message))

@@ -1,6 +1,7 @@
 //! The functions of the language that need no shape. Angles are in degrees.
 
 use super::value::{Array, Value};
+use super::{arrays, colours, lists};
 
 /// A built-in function.
 #[derive(Debug, Clone, Copy)]
@@ -24,6 +25,12 @@ pub enum Function {
     Rows,
     Columns,
     Sum,
+    /// Of the values alone.
+    Of(fn(&[Value]) -> Result<Value, String>),
+    /// An element of a list at random.
+    Pick,
+    /// Its value, which is also written.
+    Print,
 }
 
 /// Names, functions, and the fewest and most arguments.
@@ -64,14 +71,27 @@ const TABLE: &[(&str, Function, usize, usize)] = {
         ("nRows", F::Rows, 1, 1),
         ("nColumns", F::Columns, 1, 1),
         ("sum", F::Sum, 1, 1),
+        ("clamp", F::Of(clamped), 3, 3),
+        ("listRandom", F::Pick, 1, 1),
+        ("print", F::Print, 1, 1),
     ]
 };
+
+fn table() -> impl Iterator<Item = &'static (&'static str, Function, usize, usize)> {
+    let more = [lists::TABLE, arrays::TABLE, colours::TABLE];
+    TABLE.iter().chain(more.into_iter().flatten())
+}
 
 impl Function {
     /// The function of this name, with its fewest and most arguments.
     pub fn named(name: &str) -> Option<(Self, usize, usize)> {
-        let found = TABLE.iter().find(|entry| entry.0 == name)?;
+        let found = table().find(|entry| entry.0 == name)?;
         Some((found.1, found.2, found.3))
+    }
+
+    /// The names of all functions that need no shape.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        table().map(|entry| entry.0)
     }
 
     /// The value for these arguments; Err says what is wrong with them. `random` gives the next
@@ -95,6 +115,9 @@ impl Function {
             Self::ToFloat => Ok(Value::Number(args[0].number().unwrap_or(f64::NAN))),
             Self::ToText => Ok(Value::text(&args[0].to_string())),
             Self::Sum => folded(args, |a, b| a + b),
+            Self::Of(work) => work(args),
+            Self::Pick => lists::random(args, random()),
+            Self::Print => Ok(args[0].clone()),
             Self::Size => Ok(Value::Number(array(args)?.values.len() as f64)),
             Self::Rows => Ok(Value::Number(array(args)?.rows() as f64)),
             Self::Columns => Ok(Value::Number(array(args)?.columns as f64)),
@@ -148,20 +171,26 @@ fn folded(args: &[Value], fold: fn(f64, f64) -> f64) -> Result<Value, String> {
     Ok(Value::Number(sum))
 }
 
-fn number(args: &[Value], index: usize) -> Result<f64, String> {
+/// `clamp(value, low, high)`
+fn clamped(args: &[Value]) -> Result<Value, String> {
+    let (value, low, high) = (number(args, 0)?, number(args, 1)?, number(args, 2)?);
+    Ok(Value::Number(value.min(high).max(low)))
+}
+
+pub(super) fn number(args: &[Value], index: usize) -> Result<f64, String> {
     args[index]
         .number()
         .ok_or_else(|| format!("a number is needed, not {}", args[index].kind()))
 }
 
-fn text(args: &[Value], index: usize) -> Result<&str, String> {
+pub(super) fn text(args: &[Value], index: usize) -> Result<&str, String> {
     match &args[index] {
         Value::Text(text) => Ok(text),
         other => Err(format!("a string is needed, not {}", other.kind())),
     }
 }
 
-fn array(args: &[Value]) -> Result<&Array, String> {
+pub(super) fn array(args: &[Value]) -> Result<&Array, String> {
     match &args[0] {
         Value::Array(array) => Ok(array),
         other => Err(format!("an array is needed, not {}", other.kind())),

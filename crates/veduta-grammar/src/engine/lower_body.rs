@@ -81,9 +81,13 @@ impl Lowering<'_> {
         }
         let (cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
-            Some(Block::Body { span, .. }) => {
-                self.fault(*span, "a block without selectors does not derive yet");
-                (Vec::new(), false)
+            Some(Block::Body { body, .. }) => {
+                let cell = Cell::Part {
+                    selector: Selector::Word("all".into()),
+                    combined: false,
+                    body: self.body(body),
+                };
+                (vec![cell], false)
             }
             None => (Vec::new(), false),
         };
@@ -129,7 +133,7 @@ impl Lowering<'_> {
         }
     }
 
-    fn selector(&mut self, selector: &ast::Expr) -> Selector {
+    pub fn selector(&mut self, selector: &ast::Expr) -> Selector {
         match self.word(selector) {
             Some(word) => Selector::Word(word),
             None => {

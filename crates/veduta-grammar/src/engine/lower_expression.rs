@@ -6,6 +6,8 @@ use crate::{Span, Target};
 use super::code::{Expr, ExprKind};
 use super::functions::Function;
 use super::lower::{Lowering, Number};
+use super::measures::Measure;
+use super::selection::kind_named;
 use super::shape_attributes::ShapeAttribute;
 
 impl Lowering<'_> {
@@ -39,9 +41,7 @@ impl Lowering<'_> {
                 ExprKind::Choice(Box::new(self.choice(branches, Self::expr)))
             }
             Ast::Sized { .. } => self.unresolved(expr.span, "`'` and `~` have no meaning here"),
-            Ast::Cells { .. } => {
-                self.unresolved(expr.span, "`comp` as a function does not derive yet")
-            }
+            Ast::Cells { name, args, cells } => self.components(*name, args, cells),
         };
         Expr {
             kind,
@@ -61,7 +61,37 @@ impl Lowering<'_> {
                 Some(attribute) => ExprKind::Attribute(attribute),
                 None => self.not_yet(name),
             },
+            Some(Target::Function(_)) => self.function_call(name, &[]),
+            Some(Target::Word) => ExprKind::Word(self.shared(name)),
             _ => self.not_yet(name),
+        }
+    }
+
+    fn components(
+        &mut self,
+        name: Ident,
+        args: &[ast::Expr],
+        cells: &[ast::Cell<ast::Expr>],
+    ) -> ExprKind {
+        let kind = match args {
+            [ast::Expr {
+                kind: Ast::Name(word),
+                ..
+            }] => kind_named(self.text(*word)),
+            _ => None,
+        };
+        let Some(kind) = kind else {
+            return self.not_yet(name);
+        };
+        let mut lowered = Vec::with_capacity(cells.len());
+        for cell in cells {
+            if let ast::Cell::Part { selector, body, .. } = cell {
+                lowered.push((self.selector(selector), self.expr(body)));
+            }
+        }
+        ExprKind::Components {
+            kind,
+            cells: lowered,
         }
     }
 
@@ -76,7 +106,14 @@ impl Lowering<'_> {
                         args: lowered,
                     }
                 }
-                _ => self.not_yet(name),
+                Some(_) => self.not_yet(name),
+                None => match Measure::named(self.text(name)) {
+                    Some(measure) => ExprKind::Measure {
+                        measure,
+                        args: lowered,
+                    },
+                    None => self.not_yet(name),
+                },
             },
             _ => self.not_yet(name),
         }

@@ -3,23 +3,29 @@
 //! [`lower`] makes [`Code`] of checked files once; [`derive()`] runs it for one start shape, and may
 //! be called from many threads. Frame of rule files: metres, right-handed, y up.
 
+mod arrays;
 mod code;
+mod colours;
 mod evaluate;
 mod fault;
 mod functions;
 mod limits;
+mod lists;
 mod lot;
 mod lower;
 mod lower_body;
 mod lower_expression;
+mod measures;
 mod operations;
 mod overrides;
 mod pack;
 mod random;
 mod run;
+mod selection;
 mod shape_attributes;
 mod state;
 mod surfaces;
+mod texture_map;
 mod tree;
 mod value;
 
@@ -33,7 +39,20 @@ pub use overrides::{Edit, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
 pub use random::Stream;
 pub use run::{derive, Options};
-pub use state::{Look, Place, State};
+pub use state::{Extra, Look, Place, State};
 pub use surfaces::{surfaces, Surfaces};
+pub use texture_map::TextureMap;
 pub use tree::{Node, Tree};
 pub use value::{Array, Value};
+
+/// The names of all functions that derive.
+pub fn function_names() -> impl Iterator<Item = &'static str> {
+    functions::Function::names()
+        .chain(measures::Measure::names())
+        .chain(["comp"])
+}
+
+/// The names of all shape attributes that derive.
+pub fn attribute_names() -> impl Iterator<Item = &'static str> {
+    shape_attributes::ShapeAttribute::names()
+}

@@ -76,7 +76,8 @@ impl Packer {
                 let corners = crate::shape::rectangle(*axis);
                 let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
                 for corner in corners {
-                    self.vertex(form.scope.world(corner), [corner[u], corner[v]]);
+                    let place = form.scope.world(corner);
+                    self.vertex(place, texture(node, place, [corner[u], corner[v]]));
                 }
                 self.end_ring();
                 self.end_polygon(feature);
@@ -96,7 +97,8 @@ impl Packer {
             for ring in face.rings() {
                 for &point in ring {
                     let unit = mesh.points[point as usize];
-                    self.vertex(scope.world(unit), [unit.x, unit.y]);
+                    let place = scope.world(unit);
+                    self.vertex(place, texture(node, place, [unit.x, unit.y]));
                 }
                 self.end_ring();
             }
@@ -133,4 +135,10 @@ impl Packer {
         self.known.insert(Arc::as_ptr(look), index);
         index
     }
+}
+
+/// The texture coordinates at a place of a shape: of its map, or else `own`.
+fn texture(node: &Node, place: DVec3, own: [f64; 2]) -> [f64; 2] {
+    let map = node.state.extra.as_ref().and_then(|extra| extra.maps[0]);
+    map.map_or(own, |map| map.at(place))
 }

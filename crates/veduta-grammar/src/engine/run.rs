@@ -19,6 +19,9 @@ use super::value::Value;
 /// How often the clock is looked at: every so many shapes.
 const SHAPES_PER_LOOK: usize = 1024;
 
+/// The most messages and reports of a derivation; what is beyond is dropped.
+pub const MOST_MESSAGES: usize = 100_000;
+
 /// What a derivation starts from, besides the shape.
 #[derive(Debug, Clone, Default)]
 pub struct Options {
@@ -170,21 +173,13 @@ impl Run<'_> {
     pub fn run_body(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
         match body {
             Body::Steps(steps) => self.run_steps(steps, frame),
-            Body::Choice(choice) => {
-                let mut scene = Scene {
-                    slots: &mut frame.slots,
-                    state: &frame.state,
-                    stream: &mut frame.stream,
-                    log_prior: &mut frame.log_prior,
-                };
-                match self.choose(choice, &mut scene)? {
-                    Some(taken) => {
-                        frame.choices.push(taken as u16);
-                        self.run_body(alternative(choice, taken), frame)
-                    }
-                    None => Ok(()),
+            Body::Choice(choice) => match self.choose(choice, &mut frame.scene())? {
+                Some(taken) => {
+                    frame.choices.push(taken as u16);
+                    self.run_body(alternative(choice, taken), frame)
                 }
-            }
+                None => Ok(()),
+            },
         }
     }
 
@@ -238,23 +233,11 @@ impl Run<'_> {
     }
 
     pub fn evaluate(&mut self, expr: &Expr, frame: &mut Frame) -> Result<Value, Fault> {
-        let mut scene = Scene {
-            slots: &mut frame.slots,
-            state: &frame.state,
-            stream: &mut frame.stream,
-            log_prior: &mut frame.log_prior,
-        };
-        self.value(expr, &mut scene)
+        self.value(expr, &mut frame.scene())
     }
 
     pub fn evaluate_number(&mut self, expr: &Expr, frame: &mut Frame) -> Result<f64, Fault> {
-        let mut scene = Scene {
-            slots: &mut frame.slots,
-            state: &frame.state,
-            stream: &mut frame.stream,
-            log_prior: &mut frame.log_prior,
-        };
-        self.number(expr, &mut scene)
+        self.number(expr, &mut frame.scene())
     }
 
     fn call(
@@ -317,9 +300,8 @@ impl Run<'_> {
         if count >= self.options.limits.shapes {
             return Err(Fault::at(span, format!("more than {count} shapes")));
         }
-        let limit = self.options.limits.seconds;
-        if count % SHAPES_PER_LOOK == 0 && self.started.elapsed().as_secs_f64() > limit {
-            return Err(Fault::at(span, format!("takes longer than {limit} s")));
+        if count % SHAPES_PER_LOOK == 0 {
+            self.check_time(span)?;
         }
         self.tree.nodes.push(Node {
             parent: Some(frame.node),
@@ -376,6 +358,27 @@ impl Run<'_> {
         (choice < count).then_some(choice)
     }
 
+    /// What `print` is given; what is beyond the most messages is dropped.
+    pub(super) fn write(&mut self, value: &Value) {
+        if self.tree.messages.len() < MOST_MESSAGES {
+            self.tree.messages.push(value.to_string());
+        }
+    }
+
+    /// The shape that the derivation began with.
+    pub(super) fn first(&self) -> &Node {
+        &self.tree.nodes[0]
+    }
+
+    /// A fault where the derivation takes too long.
+    pub(super) fn check_time(&self, span: Span) -> Result<(), Fault> {
+        let limit = self.options.limits.seconds;
+        if self.started.elapsed().as_secs_f64() > limit {
+            return Err(Fault::at(span, format!("takes longer than {limit} s")));
+        }
+        Ok(())
+    }
+
     /// The shape as the frame's rule got it.
     pub(super) fn start_of(&self, frame: &Frame) -> &State {
         &self.tree.nodes[frame.node as usize].state
@@ -387,6 +390,16 @@ impl Run<'_> {
 }
 
 impl Frame {
+    /// Where the rule's expressions are evaluated.
+    pub fn scene(&mut self) -> Scene<'_> {
+        Scene {
+            slots: &mut self.slots,
+            state: &self.state,
+            stream: &mut self.stream,
+            log_prior: &mut self.log_prior,
+        }
+    }
+
     /// The shape has been changed: it stays unless something follows.
     pub fn changed(&mut self) {
         self.fate = Fate::Changed;

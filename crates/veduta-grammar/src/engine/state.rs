@@ -1,10 +1,11 @@
 //! A shape while a rule works on it, and what its children get from it.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
 use crate::shape::Form;
 
+use super::texture_map::{TextureMap, LAYERS};
 use super::value::Value;
 
 /// How a shape looks, and what it is.
@@ -37,6 +38,16 @@ pub struct Place {
     pub total: usize,
 }
 
+/// What few shapes have; children have it from their parent.
+#[derive(Debug, Clone, PartialEq, Default)]
+pub struct Extra {
+    pub tags: BTreeSet<Arc<str>>,
+    /// What `setupProjection` has prepared, by texture layer.
+    pub projections: [Option<TextureMap>; LAYERS],
+    /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
+    pub maps: [Option<TextureMap>; LAYERS],
+}
+
 /// The current shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {
@@ -44,6 +55,8 @@ pub struct State {
     pub look: Arc<Look>,
     /// Attributes that `set` has changed for this shape and its children.
     pub set: Option<Arc<BTreeMap<usize, Value>>>,
+    /// Tags and texture maps, where there are any.
+    pub extra: Option<Arc<Extra>>,
     pub split: Place,
     pub comp: Place,
     /// The selector that `comp` chose the shape by.
@@ -57,10 +70,27 @@ impl State {
             form,
             look: Arc::new(Look::default()),
             set: None,
+            extra: None,
             split: Place::default(),
             comp: Place::default(),
             selector: "".into(),
             seed,
+        }
+    }
+
+    /// What few shapes have, to be changed for this one.
+    pub fn extra_mut(&mut self) -> &mut Extra {
+        Arc::make_mut(self.extra.get_or_insert_default())
+    }
+
+    /// Changes where textures lie on the shape.
+    pub fn carry_textures(&mut self, change: impl Fn(&TextureMap) -> TextureMap) {
+        if let Some(extra) = &mut self.extra {
+            let extra = Arc::make_mut(extra);
+            let maps = extra.maps.iter_mut().chain(&mut extra.projections);
+            for map in maps.flatten() {
+                *map = change(map);
+            }
         }
     }
 

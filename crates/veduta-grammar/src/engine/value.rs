@@ -30,6 +30,12 @@ impl Value {
         Self::Text(text.into())
     }
 
+    /// An array of one row.
+    pub fn list(values: Vec<Value>) -> Self {
+        let columns = values.len();
+        Self::Array(Arc::new(Array { columns, values }))
+    }
+
     /// The name of the kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -84,9 +90,9 @@ impl fmt::Display for Value {
     }
 }
 
-/// Without the noise of sums in the last digits.
+/// Without the noise of sums in the last digits, and without the sign of 0.
 fn rounded(number: f64) -> f64 {
-    let nearest = (number * 1e9).round() / 1e9;
+    let nearest = (number * 1e9).round() / 1e9 + 0.0;
     if nearest.is_finite() {
         nearest
     } else {

@@ -1,5 +1,7 @@
 //! A shape to its faces, edges or vertices, and which of them a selector means.
 
+use std::collections::HashMap;
+
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{Face, Mesh};
 
@@ -10,8 +12,13 @@ use super::scope::Scope;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Kind {
     Faces,
+    /// Each edge once, however many faces have it.
     Edges,
+    /// The edges of each face, face by face.
+    FaceEdges,
     Vertices,
+    /// What fills each hole of each face.
+    Holes,
 }
 
 /// Where a component looks, in the scope of the shape that it was taken from.
@@ -25,11 +32,16 @@ pub enum Direction {
     Bottom,
 }
 
-/// A component: its number, where it looks (only faces do), and its form.
+/// A component: its number, where it looks, and its form.
+///
+/// Faces look along their normal, edges of faces away from the face, edges between faces along the
+/// mean of the two normals, edges of one face away from it; vertices look nowhere.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Component {
     pub index: usize,
     pub direction: Option<Direction>,
+    /// The direction in the world; zero for vertices.
+    pub normal: DVec3,
     pub form: Form,
 }
 
@@ -42,6 +54,8 @@ pub fn components(form: &Form, kind: Kind) -> Vec<Component> {
     match kind {
         Kind::Faces => faces(form),
         Kind::Edges => edges(form),
+        Kind::FaceEdges => face_edges(form),
+        Kind::Holes => holes(form),
         Kind::Vertices => vertices(form),
     }
 }
@@ -60,8 +74,7 @@ pub fn is_selected(selector: &str, direction: Option<Direction>) -> Option<bool>
         "right" => is(Right),
         "top" => is(Top),
         "bottom" => is(Bottom),
-        "side" | "vertical" => direction.is_some() && !lies,
-        "horizontal" => lies,
+        "side" => direction.is_some() && !lies,
         _ => return None,
     })
 }
@@ -96,9 +109,23 @@ fn face_component(scope: &Scope, mesh: &Mesh, face: Face<'_>, index: usize) -> O
     let along = world[0][1] - world[0][0];
     Some(Component {
         index,
-        direction: Some(direction(scope, normal)),
+        direction: Some(direction(scope.axes, normal)),
+        normal,
         form: Form::around(alone, face_axes(scope.axes.y_axis, normal, along), false),
     })
+}
+
+fn holes(form: &Form) -> Vec<Component> {
+    let mesh = form.geometry.mesh();
+    let mut filled = Mesh::with_points(mesh.points.clone());
+    for ring in mesh.faces().flat_map(|face| face.rings().skip(1)) {
+        filled.push_face(&[ring.iter().rev().copied().collect::<Vec<_>>()]);
+    }
+    filled
+        .faces()
+        .enumerate()
+        .filter_map(|(index, face)| face_component(&form.scope, &filled, face, index))
+        .collect()
 }
 
 /// The faces of a box without making its points: bottom, top, front, back, left, right.
@@ -118,6 +145,7 @@ fn box_faces(scope: &Scope) -> Vec<Component> {
         .map(|(index, (direction, axis, sign))| Component {
             index,
             direction: Some(direction),
+            normal: scope.axes.col(axis) * sign,
             form: box_face(scope, axis, sign),
         })
         .collect()
@@ -160,9 +188,9 @@ fn face_axes(up: DVec3, normal: DVec3, along: DVec3) -> DMat3 {
     DMat3::from_cols(x, normal.cross(x), normal)
 }
 
-/// The axis of the scope that a normal is nearest to; a slope of 45 degrees still looks up.
-fn direction(scope: &Scope, normal: DVec3) -> Direction {
-    let own = scope.axes.transpose() * normal;
+/// The axis of a frame that a normal is nearest to; a slope of 45 degrees still looks up.
+pub fn direction(axes: DMat3, normal: DVec3) -> Direction {
+    let own = axes.transpose() * normal;
     let size = own.abs();
     if size.y + TOLERANCE >= size.x.hypot(size.z) {
         return if own.y > 0.0 {
@@ -187,28 +215,61 @@ fn direction(scope: &Scope, normal: DVec3) -> Direction {
 
 fn edges(form: &Form) -> Vec<Component> {
     let mesh = form.world_mesh();
-    let mut seen = std::collections::HashSet::new();
-    let mut found = Vec::new();
+    let mut found: Vec<Component> = Vec::new();
+    let mut known = HashMap::new();
     for face in mesh.faces() {
         let normal = face.normal();
         for (from, to) in face.edges() {
-            if !seen.insert((from.min(to), from.max(to))) {
+            let ends = (from.min(to), from.max(to));
+            if let Some(&at) = known.get(&ends) {
+                let edge: &mut Component = &mut found[at];
+                edge.normal = (edge.form.scope.axes.z_axis + normal).normalize_or_zero();
+                edge.direction = Some(direction(form.scope.axes, edge.normal));
                 continue;
             }
             let (a, b) = (mesh.points[from as usize], mesh.points[to as usize]);
-            let x = (b - a).normalize_or_zero();
-            if x == DVec3::ZERO {
-                continue;
+            if let Some(edge) = edge_component(form, a, b, normal, found.len()) {
+                known.insert(ends, found.len());
+                found.push(edge);
             }
-            let scope = Scope {
-                origin: a,
-                axes: DMat3::from_cols(x, normal.cross(x), normal),
-                size: DVec3::new(a.distance(b), 0.0, 0.0),
-            };
-            found.push(without_faces(found.len(), scope));
         }
     }
     found
+}
+
+fn face_edges(form: &Form) -> Vec<Component> {
+    let mesh = form.world_mesh();
+    let mut found = Vec::new();
+    let mut index = 0;
+    for face in mesh.faces() {
+        let normal = face.normal();
+        for (from, to) in face.edges() {
+            let (a, b) = (mesh.points[from as usize], mesh.points[to as usize]);
+            found.extend(edge_component(form, a, b, normal, index));
+            index += 1;
+        }
+    }
+    found
+}
+
+/// An edge of a face: x along it, z along the normal of the face, y into the face.
+fn edge_component(
+    form: &Form,
+    from: DVec3,
+    to: DVec3,
+    normal: DVec3,
+    index: usize,
+) -> Option<Component> {
+    let x = (to - from).try_normalize()?;
+    let scope = Scope {
+        origin: from,
+        axes: DMat3::from_cols(x, normal.cross(x), normal),
+        size: DVec3::new(from.distance(to), 0.0, 0.0),
+    };
+    let mut edge = without_faces(index, scope);
+    edge.normal = x.cross(normal);
+    edge.direction = Some(direction(form.scope.axes, edge.normal));
+    Some(edge)
 }
 
 fn vertices(form: &Form) -> Vec<Component> {
@@ -231,6 +292,7 @@ fn without_faces(index: usize, scope: Scope) -> Component {
     Component {
         index,
         direction: None,
+        normal: DVec3::ZERO,
         form: Form {
             scope,
             geometry: Geometry::Nothing,

@@ -98,10 +98,15 @@ impl Geometry {
     }
 }
 
-/// The corners of the unit square across an axis, counter-clockwise around it.
+/// The corners of the unit square across an axis, counter-clockwise around it. The first edge of
+/// one that lies or looks along z runs along x: at the front, or at the bottom.
 pub fn rectangle(axis: usize) -> [DVec3; 4] {
     let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
-    [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)].map(|(a, b)| {
+    let mut corners = [(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)];
+    if axis == 1 {
+        corners.rotate_left(1);
+    }
+    corners.map(|(a, b)| {
         let mut corner = DVec3::ZERO;
         corner[u] = a;
         corner[v] = b;

@@ -3,11 +3,15 @@
 mod components;
 mod form;
 mod scope;
+mod selecting;
 mod sizes;
 mod splitting;
+mod surroundings;
 
-pub use components::{components, is_selected, Component, Direction, Kind};
+pub use components::{components, direction, is_selected, Component, Direction, Kind};
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};
+pub use selecting::{is_meant, Frames};
 pub use sizes::{cells, Cell, Pattern, Size, TooManyParts, SHORTEST_M};
 pub use splitting::split;
+pub use surroundings::{surroundings, RoofEdge, Surroundings};

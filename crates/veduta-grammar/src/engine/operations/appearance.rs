@@ -4,6 +4,7 @@ use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::code::{Arg, Operation};
+use super::super::colours::parsed;
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
 use super::super::value::Value;
@@ -84,6 +85,16 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         ("material.color.r", _) => look.colour[0] = channel,
         ("material.color.g", _) => look.colour[1] = channel,
         ("material.color.b", _) => look.colour[2] = channel,
+        ("material.color.rgb", _) => {
+            let text = value.to_string();
+            let Some((colour, _)) = parsed(&text) else {
+                return Err(Fault::at(
+                    expr.span,
+                    format!("`{text}` is no colour: #rrggbb"),
+                ));
+            };
+            look.colour = colour;
+        }
         ("material.color.a" | "material.opacity", _) => look.opacity = channel,
         ("material.colormap", _) => {
             let path = value.to_string();
@@ -97,21 +108,4 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
     }
     frame.changed();
     Ok(())
-}
-
-/// `#rgb`-like notations with two digits a channel, and the opacity where it is given.
-fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
-    let digits = text.strip_prefix('#')?;
-    if !digits.is_ascii() || !(digits.len() == 6 || digits.len() == 8) {
-        return None;
-    }
-    let mut channels = Vec::with_capacity(4);
-    for at in (0..digits.len()).step_by(2) {
-        let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
-        channels.push(f32::from(value) / 255.0);
-    }
-    Some((
-        [channels[0], channels[1], channels[2]],
-        channels.get(3).copied(),
-    ))
 }

@@ -1,4 +1,4 @@
-//! `comp`: a shape to its faces, edges or vertices.
+//! `comp`: a shape to its faces, edges, vertices or holes.
 
 use std::sync::Arc;
 
@@ -8,25 +8,27 @@ use veduta_geometry::solid::Mesh;
 use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
+use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
 use super::word;
-use crate::shape::{self, is_selected, Component, Form, Kind};
+use crate::shape::{Component, Form};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
-/// selects it. After `:` each is a shape of its own, after `=` those of the cell are one.
+/// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
+/// faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes.
+///
+/// Selectors are words, numbers (-1 is the last) and conditions, which may be joined by `&&`, `||`
+/// and `!`. Other than in CityEngine, `street.front` and its like are always what `object.front`
+/// is, and an edge between faces looks along the mean of their normals.
 pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let kind = match word(run, op, 0, frame)?.as_ref() {
-        "f" => Kind::Faces,
-        "e" | "fe" => Kind::Edges,
-        "v" => Kind::Vertices,
-        other => {
-            let message = format!("`{other}` is no component: f, e or v");
-            return Err(Fault::at(op.span, message));
-        }
+    let kind = word(run, op, 0, frame)?;
+    let Some(kind) = kind_named(&kind) else {
+        let message = format!("`{kind}` is no component: f, e, fe, v or h");
+        return Err(Fault::at(op.span, message));
     };
-    let found = shape::components(&frame.state.form, kind);
-    let chosen = assigned(run, op, &found, frame)?;
     let whole = frame.state.clone();
+    let choosing = Choosing::of(&whole.form, kind, run);
+    let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
     for (cell, picked) in op.cells.iter().zip(chosen) {
         let Cell::Part {
             selector,
@@ -36,94 +38,63 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         else {
             return Err(Fault::at(op.span, "components do not repeat"));
         };
-        let name: Arc<str> = match selector {
-            Selector::Word(word) => word.clone(),
-            Selector::Value(..) => "".into(),
-        };
         let shapes = if *combined {
-            combine(&whole, &picked, &found)
+            combine(&whole, &picked, &choosing.found)
         } else {
-            picked.iter().map(|&at| found[at].form.clone()).collect()
+            let form = |&at: &usize| (choosing.found[at].form.clone(), choosing.found[at].index);
+            picked.iter().map(form).collect()
         };
-        run_shapes(run, body, shapes, &picked, &whole, &name, frame)?;
+        run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
     }
     frame.state = whole;
     frame.consumed();
     Ok(())
 }
 
-fn run_shapes(
+/// The selectors of an operation's cells.
+pub fn selectors(op: &Operation) -> impl Iterator<Item = &Selector> {
+    op.cells.iter().filter_map(|cell| match cell {
+        Cell::Part { selector, .. } => Some(selector),
+        Cell::Repeat(_) => None,
+    })
+}
+
+/// What `comp.sel` is in a cell.
+pub fn name_of(selector: &Selector) -> Arc<str> {
+    match selector {
+        Selector::Word(word) => word.clone(),
+        Selector::Value(..) => "".into(),
+    }
+}
+
+/// Runs a cell's body on each of these shapes, which have their numbers with them.
+pub fn run_shapes(
     run: &mut Run<'_>,
     body: &Body,
-    shapes: Vec<Form>,
-    picked: &[usize],
+    shapes: Vec<(Form, usize)>,
     whole: &State,
     name: &Arc<str>,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     let total = shapes.len();
-    for (form, index) in shapes.into_iter().zip(picked) {
+    for (form, index) in shapes {
         let mut state = whole.with_form(form);
-        state.comp = Place {
-            index: *index,
-            total,
-        };
+        state.comp = Place { index, total };
         state.selector = name.clone();
         run.run_cell(body, state, frame)?;
     }
     Ok(())
 }
 
-/// The components of each cell.
-fn assigned(
-    run: &mut Run<'_>,
-    op: &Operation,
-    found: &[Component],
-    frame: &mut Frame,
-) -> Result<Vec<Vec<usize>>, Fault> {
-    let mut free = vec![true; found.len()];
-    let mut chosen = Vec::with_capacity(op.cells.len());
-    for cell in &op.cells {
-        let mut picked = Vec::new();
-        if let Cell::Part { selector, .. } = cell {
-            for (at, component) in found.iter().enumerate() {
-                if free[at] && selects(run, op, selector, component, frame)? {
-                    free[at] = false;
-                    picked.push(at);
-                }
-            }
-        }
-        chosen.push(picked);
-    }
-    Ok(chosen)
-}
-
-fn selects(
-    run: &mut Run<'_>,
-    op: &Operation,
-    selector: &Selector,
-    component: &Component,
-    frame: &mut Frame,
-) -> Result<bool, Fault> {
-    match selector {
-        Selector::Word(word) => is_selected(word, component.direction)
-            .ok_or_else(|| Fault::at(op.span, format!("`{word}` selects no component"))),
-        Selector::Value(_, expr) => {
-            let index = run.evaluate_number(expr, frame)?;
-            Ok(index == component.index as f64)
-        }
-    }
-}
-
 /// The picked components as one shape along the axes of the whole; none where nothing is picked.
-fn combine(whole: &State, picked: &[usize], found: &[Component]) -> Vec<Form> {
-    if picked.is_empty() {
+fn combine(whole: &State, picked: &[usize], found: &[Component]) -> Vec<(Form, usize)> {
+    let Some(&first) = picked.first() else {
         return Vec::new();
-    }
+    };
     let mut all = Mesh::new();
     for &at in picked {
         all.append(&found[at].form.world_mesh());
     }
     let axes: DMat3 = whole.form.scope.axes;
-    vec![Form::around(all, axes, false)]
+    vec![(Form::around(all, axes, false), found[first].index)]
 }

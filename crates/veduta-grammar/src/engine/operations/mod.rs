@@ -3,16 +3,30 @@
 mod appearance;
 mod components;
 mod dividing;
+mod envelopes;
+mod inner_rectangles;
+mod meshes;
+mod offsets;
+mod primitives;
 mod roofs;
+mod scattering;
+mod scopes;
+mod setbacks;
 mod solids;
 mod speech;
+mod standing;
+mod tags;
+mod textures;
 mod transform;
+mod wings;
 
 use std::sync::Arc;
 
 use super::code::{Arg, Operation, Sizing};
 use super::fault::Fault;
 use super::run::{Frame, Run};
+use super::value::Value;
+use crate::shape::Geometry;
 
 /// An operation: its place in the table.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -23,26 +37,63 @@ type Work = fn(&mut Run<'_>, &Operation, &mut Frame) -> Result<(), Fault>;
 /// All operations that derive, and the fewest and most arguments of each.
 const TABLE: &[(&str, Work, usize, usize)] = &[
     ("NIL", appearance::nothing, 0, 0),
-    ("alignScopeToAxes", transform::align_to_axes, 0, 1),
+    ("alignScopeToAxes", scopes::align_to_axes, 0, 1),
+    ("alignScopeToGeometry", scopes::align_to_geometry, 3, 3),
+    ("alignScopeToGeometryBBox", scopes::align_to_box, 1, 1),
     ("center", transform::center, 1, 1),
     ("color", appearance::colour, 1, 4),
     ("comp", components::components, 1, 1),
+    ("convexify", meshes::convexify, 0, 0),
+    ("copyUV", textures::copy, 2, 2),
+    ("deleteHoles", meshes::delete_holes, 0, 0),
+    ("deleteTags", tags::delete, 0, 1),
+    ("deleteUV", textures::delete, 1, 1),
+    ("envelope", envelopes::envelope, 4, 10),
     ("extrude", solids::extrude, 1, 2),
+    ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
+    ("mirror", scopes::mirror, 3, 3),
+    ("mirrorScope", scopes::mirror_scope, 3, 3),
+    ("normalizeUV", textures::normalize, 3, 3),
+    ("offset", offsets::offset, 1, 2),
+    ("primitiveCone", primitives::make_cone, 0, 3),
     ("primitiveCube", solids::cube, 0, 3),
+    ("primitiveCylinder", primitives::make_cylinder, 0, 3),
+    ("primitiveDisk", primitives::make_disk, 0, 2),
     ("primitiveQuad", solids::quad, 0, 2),
+    ("primitiveSphere", primitives::make_sphere, 0, 3),
     ("print", speech::print, 1, 1),
+    ("projectUV", textures::project, 1, 1),
     ("r", transform::turn_scope, 3, 4),
     ("report", speech::report, 2, 2),
     ("reverseNormals", solids::reverse, 0, 0),
-    ("roofGable", roofs::gable, 1, 2),
-    ("roofHip", roofs::hip, 1, 2),
+    ("roofGable", roofs::gable, 1, 5),
+    ("roofHip", roofs::hip, 1, 4),
+    ("roofPyramid", standing::pyramid, 1, 2),
+    ("roofRidge", standing::ridge, 2, 2),
+    ("roofShed", standing::shed, 1, 3),
     ("rotate", transform::rotate, 5, 5),
+    ("rotateScope", scopes::rotate_scope, 3, 3),
+    ("rotateUV", textures::rotate, 2, 2),
     ("s", transform::resize, 3, 3),
+    ("scaleUV", textures::scale, 3, 3),
+    ("scatter", scattering::scatter, 3, 5),
     ("set", appearance::set, 2, 2),
+    ("setback", setbacks::setback, 1, 1),
+    ("setbackPerEdge", setbacks::per_edge, 1, 1),
+    ("setbackToArea", setbacks::to_area, 1, 3),
+    ("setupProjection", textures::set_up, 4, 7),
+    ("shapeL", wings::l, 2, 2),
+    ("shapeO", wings::o, 4, 4),
+    ("shapeU", wings::u, 3, 3),
     ("split", dividing::split, 1, 2),
+    ("splitArea", dividing::split_area, 1, 2),
     ("t", transform::move_scope, 3, 3),
+    ("tag", tags::tag, 1, 1),
+    ("taper", standing::taper, 1, 1),
     ("texture", appearance::texture, 1, 1),
+    ("tileUV", textures::tile_uv, 3, 3),
     ("translate", transform::translate, 5, 5),
+    ("translateUV", textures::translate, 3, 3),
 ];
 
 impl OperationId {
@@ -62,12 +113,42 @@ pub fn names() -> impl Iterator<Item = &'static str> {
     TABLE.iter().map(|entry| entry.0)
 }
 
+/// Places and sizes beyond this have lost their millimetres, and are a mistake (m).
+const FARTHEST_M: f64 = 1e12;
+
 pub(super) fn run(
     run: &mut Run<'_>,
     operation: &Operation,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    TABLE[operation.id.0].1(run, operation, frame)
+    TABLE[operation.id.0].1(run, operation, frame)?;
+    let form = &frame.state.form;
+    let extent = form.scope.origin.abs().max(form.scope.size.abs());
+    if !(extent.max_element() <= FARTHEST_M && form.scope.axes.is_finite()) {
+        return Err(Fault::at(
+            operation.span,
+            format!("a shape that reaches beyond {FARTHEST_M} m"),
+        ));
+    }
+    if let Geometry::Faces { mesh, .. } = &form.geometry {
+        check_faces(
+            run,
+            operation,
+            mesh.face_count().max(mesh.corner_count() / 4),
+        )?;
+        run.check_time(operation.span)?;
+    }
+    Ok(())
+}
+
+/// A fault where a shape has too many faces.
+fn check_faces(run: &Run<'_>, operation: &Operation, faces: usize) -> Result<(), Fault> {
+    let most = run.options.limits.faces;
+    if faces > most {
+        let message = format!("a shape of {faces} faces; {most} are the most");
+        return Err(Fault::at(operation.span, message));
+    }
+    Ok(())
 }
 
 /// The argument at `index` as metres; `'` takes it of `whole`.
@@ -78,14 +159,72 @@ fn length(
     whole: f64,
     frame: &mut Frame,
 ) -> Result<f64, Fault> {
+    let (expr, whole) = match &operation.args[index] {
+        Arg::Value(Sizing::Absolute, expr) => (expr, 1.0),
+        Arg::Value(Sizing::Relative, expr) => (expr, whole),
+        Arg::Value(_, expr) => {
+            return Err(Fault::at(expr.span, "`~` has a meaning in splits alone"));
+        }
+        Arg::Word(word) => {
+            let message = format!("a number is needed, not `{word}`");
+            return Err(Fault::at(operation.span, message));
+        }
+    };
+    let number = whole * run.evaluate_number(expr, frame)?;
+    if number.is_finite() {
+        Ok(number)
+    } else {
+        let message = format!("a finite number is needed, not {number}");
+        Err(Fault::at(expr.span, message))
+    }
+}
+
+/// The argument at `index` as a number that is not below zero.
+fn positive(
+    run: &mut Run<'_>,
+    operation: &Operation,
+    index: usize,
+    frame: &mut Frame,
+) -> Result<f64, Fault> {
+    let value = number(run, operation, index, frame)?;
+    if value >= 0.0 {
+        return Ok(value);
+    }
+    let message = format!("a number from 0 on is needed, not {value}");
+    Err(Fault::at(operation.span, message))
+}
+
+/// The argument at `index` as a value; a word is a string.
+fn value(
+    run: &mut Run<'_>,
+    operation: &Operation,
+    index: usize,
+    frame: &mut Frame,
+) -> Result<Value, Fault> {
     match &operation.args[index] {
-        Arg::Value(Sizing::Absolute, expr) => run.evaluate_number(expr, frame),
-        Arg::Value(Sizing::Relative, expr) => Ok(whole * run.evaluate_number(expr, frame)?),
-        Arg::Value(_, expr) => Err(Fault::at(expr.span, "`~` has a meaning in splits alone")),
-        Arg::Word(word) => Err(Fault::at(
-            operation.span,
-            format!("a number is needed, not `{word}`"),
-        )),
+        Arg::Word(word) => Ok(Value::Text(word.clone())),
+        Arg::Value(_, expr) => run.evaluate(expr, frame),
+    }
+}
+
+/// An array as finite numbers from 0 on, `count` of them.
+fn numbers(operation: &Operation, value: &Value, count: usize) -> Result<Vec<f64>, Fault> {
+    let Value::Array(array) = value else {
+        let message = format!("an array is needed, not {}", value.kind());
+        return Err(Fault::at(operation.span, message));
+    };
+    let found: Option<Vec<f64>> = array
+        .values
+        .iter()
+        .map(|value| value.number().filter(|n| n.is_finite() && *n >= 0.0))
+        .collect();
+    match found {
+        Some(found) if found.len() == count => Ok(found),
+        Some(found) => {
+            let message = format!("{} numbers for {count} edges", found.len());
+            Err(Fault::at(operation.span, message))
+        }
+        None => Err(Fault::at(operation.span, "numbers from 0 on are needed")),
     }
 }
 

@@ -14,9 +14,6 @@ use crate::shape::{Form, Geometry};
 pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let last = op.args.len() - 1;
     let height = length(run, op, last, frame.state.form.scope.size.y, frame)?;
-    if !height.is_finite() {
-        return Err(Fault::at(op.span, format!("a height of {height} m")));
-    }
     let direction = if last == 1 {
         Some(word(run, op, 0, frame)?)
     } else {

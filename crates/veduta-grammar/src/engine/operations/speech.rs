@@ -2,18 +2,14 @@
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::run::{Frame, Run, MOST_MESSAGES};
+use super::super::value::Value;
 use super::word;
-
-/// The most messages and reports of a derivation; what is beyond is dropped.
-const MOST: usize = 100_000;
 
 /// `print(value)`
 pub fn print(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let text = word(run, op, 0, frame)?;
-    if run.tree.messages.len() < MOST {
-        run.tree.messages.push(text.to_string());
-    }
+    run.write(&Value::Text(text));
     Ok(())
 }
 
@@ -24,7 +20,7 @@ pub fn report(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         return Err(Fault::at(op.span, "a value is needed"));
     };
     let value = run.evaluate(expr, frame)?;
-    if run.tree.reports.len() < MOST {
+    if run.tree.reports.len() < MOST_MESSAGES {
         run.tree.reports.push((key, value));
     }
     Ok(())

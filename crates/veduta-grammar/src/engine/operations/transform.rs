@@ -1,26 +1,26 @@
 //! Moving, turning and sizing the scope with what is in it.
 
-use glam::{DMat3, DQuat, DVec3};
+use glam::{DMat3, DVec3};
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
 use super::{axes, length, number, word};
-use crate::shape::Form;
+use crate::shape::Scope;
 
 /// `t(x, y, z)`: along the scope's axes.
 pub fn move_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by = lengths(run, op, 0, frame)?;
-    frame.state.form.scope = frame.state.form.scope.moved(by);
-    frame.changed();
+    place(frame, frame.state.form.scope.moved(by));
     Ok(())
 }
 
 /// `s(x, y, z)`: the size of the scope; what is in it grows with it.
 pub fn resize(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let size = lengths(run, op, 0, frame)?;
-    frame.state.form.scope.size = size.max(DVec3::ZERO);
-    frame.changed();
+    let scope = frame.state.form.scope;
+    let size = size.max(DVec3::ZERO);
+    place(frame, Scope { size, ..scope });
     Ok(())
 }
 
@@ -33,8 +33,7 @@ pub fn turn_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         degrees[axis] = number(run, op, first + axis, frame)?;
     }
     let pivot = DVec3::splat(if about_centre { 0.5 } else { 0.0 });
-    frame.state.form.scope = frame.state.form.scope.turned(turn(degrees), pivot);
-    frame.changed();
+    place(frame, frame.state.form.scope.turned(turn(degrees), pivot));
     Ok(())
 }
 
@@ -53,8 +52,8 @@ pub fn translate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
         ("abs", _) => return Err(fault(op, "an absolute place is one in the world")),
         _ => scope.origin + world,
     };
-    frame.state.form.scope.origin = target;
-    frame.changed();
+    let origin = target;
+    place(frame, Scope { origin, ..scope });
     Ok(())
 }
 
@@ -72,8 +71,7 @@ pub fn rotate(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         (_, "world") => scope.axes.transpose() * turn(degrees) * scope.axes,
         _ => turn(degrees),
     };
-    frame.state.form.scope = scope.turned(wanted, DVec3::splat(0.5));
-    frame.changed();
+    place(frame, scope.turned(wanted, DVec3::splat(0.5)));
     Ok(())
 }
 
@@ -88,31 +86,17 @@ pub fn center(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     for axis in axes(op, &word)? {
         by[axis] = away[axis];
     }
-    frame.state.form.scope = scope.moved(by);
-    frame.changed();
+    place(frame, scope.moved(by));
     Ok(())
 }
 
-/// `alignScopeToAxes()`: the scope upright along the world's axes, `alignScopeToAxes(y)` with that
-/// axis alone as the world's. What is in it stays where it is.
-pub fn align_to_axes(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let wanted = if op.args.is_empty() {
-        DMat3::IDENTITY
-    } else {
-        let axis = axes(op, &word(run, op, 0, frame)?)?[0];
-        aligned(frame.state.form.scope.axes, axis)
-    };
-    let form = &frame.state.form;
-    frame.state.form = Form::around(form.world_mesh(), wanted, form.geometry.is_solid());
+/// Moves the scope with what is in it; textures that lie on the shape go with it.
+fn place(frame: &mut Frame, scope: Scope) {
+    let before = std::mem::replace(&mut frame.state.form.scope, scope);
+    frame
+        .state
+        .carry_textures(|map| map.carried(&before, &scope));
     frame.changed();
-    Ok(())
-}
-
-/// The frame with one axis as the world's, turned no more than that needs.
-fn aligned(now: DMat3, axis: usize) -> DMat3 {
-    let wanted = DMat3::IDENTITY.col(axis);
-    let turn = DQuat::from_rotation_arc(now.col(axis).normalize(), wanted);
-    DMat3::from_quat(turn.normalize()) * now
 }
 
 fn lengths(
@@ -126,14 +110,10 @@ fn lengths(
     for axis in 0..3 {
         found[axis] = length(run, op, first + axis, size[axis], frame)?;
     }
-    if found.is_finite() {
-        Ok(found)
-    } else {
-        Err(fault(op, format!("lengths of {found} m")))
-    }
+    Ok(found)
 }
 
-fn turn(degrees: DVec3) -> DMat3 {
+pub fn turn(degrees: DVec3) -> DMat3 {
     let [x, y, z] = degrees.to_array().map(f64::to_radians);
     DMat3::from_rotation_z(z) * DMat3::from_rotation_y(y) * DMat3::from_rotation_x(x)
 }

@@ -1,0 +1,77 @@
+//! Points at one place as one point.
+
+use std::collections::HashMap;
+
+use glam::DVec3;
+
+use super::mesh::Mesh;
+
+/// The points of a mesh with those nearer to each other than `near` as one: for each point the
+/// number of the first at its place.
+pub fn weld(points: &[DVec3], near: f64) -> Vec<u32> {
+    let mut places = Places::new(near);
+    let mut first = Vec::with_capacity(points.len());
+    for (number, &point) in points.iter().enumerate() {
+        first.push(places.number(point, number as u32));
+    }
+    first
+}
+
+/// Meshes as one with points at one place as one point. Faces that shrink to nothing are left out.
+pub fn joined(parts: &[&Mesh], near: f64) -> Mesh {
+    let mut all = Mesh::new();
+    for part in parts {
+        all.append(part);
+    }
+    let first = weld(&all.points, near);
+    let mut whole = Mesh::with_points(all.points.clone());
+    for face in all.faces() {
+        let mut rings = Vec::with_capacity(face.ring_count());
+        for (index, ring) in face.rings().enumerate() {
+            let mut own: Vec<u32> = ring.iter().map(|&point| first[point as usize]).collect();
+            own.dedup();
+            while own.len() > 1 && own.first() == own.last() {
+                own.pop();
+            }
+            if own.len() >= 3 {
+                rings.push(own);
+            } else if index == 0 {
+                break;
+            }
+        }
+        if !rings.is_empty() {
+            whole.push_face(&rings);
+        }
+    }
+    whole.compact()
+}
+
+struct Places {
+    near: f64,
+    cells: HashMap<[i64; 3], Vec<(DVec3, u32)>>,
+}
+
+impl Places {
+    fn new(near: f64) -> Self {
+        Self {
+            near: if near > 0.0 { near } else { f64::MIN_POSITIVE },
+            cells: HashMap::new(),
+        }
+    }
+
+    fn number(&mut self, place: DVec3, new: u32) -> u32 {
+        let size = 4.0 * self.near;
+        let cell = place.to_array().map(|c| (c / size).floor() as i64);
+        for offset in 0..27 {
+            let beside = [offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1];
+            let key: [i64; 3] = std::array::from_fn(|axis| cell[axis].saturating_add(beside[axis]));
+            for &(known, number) in self.cells.get(&key).into_iter().flatten() {
+                if known.distance(place) <= self.near {
+                    return number;
+                }
+            }
+        }
+        self.cells.entry(cell).or_default().push((place, new));
+        new
+    }
+}

@@ -1,0 +1,87 @@
+//! Functions of arrays.
+
+use std::sync::Arc;
+
+use super::functions::{array, number, Function};
+use super::value::{Array, Value};
+
+/// Names, functions, and the fewest and most arguments.
+pub const TABLE: &[(&str, Function, usize, usize)] = {
+    use Function::Of;
+    &[
+        ("boolArray", Of(empty), 0, 0),
+        ("findFirst", Of(find_first), 2, 2),
+        ("floatArray", Of(empty), 0, 0),
+        ("setElems", Of(set_elements), 3, 4),
+        ("sortIndices", Of(sort_indices), 1, 1),
+        ("stringArray", Of(empty), 0, 0),
+        ("transpose", Of(transpose), 1, 1),
+    ]
+};
+
+fn empty(_: &[Value]) -> Result<Value, String> {
+    Ok(Value::list(Vec::new()))
+}
+
+/// `findFirst(array, value)`: its number, row by row; -1 where it is not there.
+fn find_first(args: &[Value]) -> Result<Value, String> {
+    let place = array(args)?.values.iter().position(|one| *one == args[1]);
+    Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
+}
+
+/// `setElems(array, index, value)`, `setElems(array, row, column, value)`: a copy with one element
+/// changed.
+fn set_elements(args: &[Value]) -> Result<Value, String> {
+    let mut changed = array(args)?.clone();
+    let value = args[args.len() - 1].clone();
+    let (row, column) = match args.len() {
+        3 => (0.0, number(args, 1)?),
+        _ => (number(args, 1)?, number(args, 2)?),
+    };
+    let columns = changed.columns as f64;
+    let is_inside = args.len() == 3 || (0.0..columns).contains(&column);
+    let flat = row.floor() * columns + column.floor();
+    let place = (is_inside && row >= 0.0 && flat >= 0.0)
+        .then(|| changed.values.get_mut(flat as usize))
+        .flatten();
+    let Some(place) = place else {
+        return Err(format!(
+            "index {row}, {column} in an array of {}",
+            changed.values.len()
+        ));
+    };
+    *place = value;
+    Ok(Value::Array(Arc::new(changed)))
+}
+
+/// `sortIndices(array)`: the numbers of its elements from the least on.
+fn sort_indices(args: &[Value]) -> Result<Value, String> {
+    let values = &array(args)?.values;
+    let mut order: Vec<usize> = (0..values.len()).collect();
+    order.sort_by(|&a, &b| match (&values[a], &values[b]) {
+        (Value::Text(a), Value::Text(b)) => a.cmp(b),
+        (a, b) => {
+            let number = |value: &Value| value.number().unwrap_or(f64::NAN);
+            number(a).total_cmp(&number(b))
+        }
+    });
+    let numbers = order.into_iter().map(|at| Value::Number(at as f64));
+    Ok(Value::list(numbers.collect()))
+}
+
+/// `transpose(array)`: rows as columns.
+fn transpose(args: &[Value]) -> Result<Value, String> {
+    let given = array(args)?;
+    let (rows, columns) = (given.rows(), given.columns);
+    let mut values = Vec::with_capacity(given.values.len());
+    for column in 0..columns {
+        for row in 0..rows {
+            values.push(given.values[row * columns + column].clone());
+        }
+    }
+    let turned = Array {
+        columns: rows,
+        values,
+    };
+    Ok(Value::Array(Arc::new(turned)))
+}

@@ -1,0 +1,98 @@
+//! Functions of colours as strings: `#rrggbb`, or `#rrggbboo` with the opacity.
+
+use super::functions::{number, text, Function};
+use super::value::Value;
+
+/// Names, functions, and the fewest and most arguments. Channels are 0 to 1, hues degrees.
+pub const TABLE: &[(&str, Function, usize, usize)] = {
+    use Function::Of;
+    &[
+        ("colorHSVOToHex", Of(|args| from_hsv(args, true)), 4, 4),
+        ("colorHSVToHex", Of(|args| from_hsv(args, false)), 3, 3),
+        ("colorHexToB", Of(|args| channel(args, 2)), 1, 1),
+        ("colorHexToG", Of(|args| channel(args, 1)), 1, 1),
+        ("colorHexToH", Of(|args| hsv(args, 0)), 1, 1),
+        ("colorHexToO", Of(|args| channel(args, 3)), 1, 1),
+        ("colorHexToR", Of(|args| channel(args, 0)), 1, 1),
+        ("colorHexToS", Of(|args| hsv(args, 1)), 1, 1),
+        ("colorHexToV", Of(|args| hsv(args, 2)), 1, 1),
+        ("colorRGBOToHex", Of(from_channels), 4, 4),
+        ("colorRGBToHex", Of(from_channels), 3, 3),
+    ]
+};
+
+/// The channels of `#rrggbb`, and the opacity where it is given.
+pub fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {
+    let digits = text.strip_prefix('#')?;
+    if !digits.is_ascii() || !(digits.len() == 6 || digits.len() == 8) {
+        return None;
+    }
+    let mut channels = Vec::with_capacity(4);
+    for at in (0..digits.len()).step_by(2) {
+        let value = u8::from_str_radix(&digits[at..at + 2], 16).ok()?;
+        channels.push(f32::from(value) / 255.0);
+    }
+    Some((
+        [channels[0], channels[1], channels[2]],
+        channels.get(3).copied(),
+    ))
+}
+
+fn given(args: &[Value]) -> Result<[f64; 4], String> {
+    let text = text(args, 0)?;
+    let (colour, opacity) =
+        parsed(text).ok_or_else(|| format!("`{text}` is no colour: #rrggbb or #rrggbbaa"))?;
+    let [r, g, b] = colour.map(f64::from);
+    Ok([r, g, b, opacity.map_or(1.0, f64::from)])
+}
+
+fn channel(args: &[Value], index: usize) -> Result<Value, String> {
+    Ok(Value::Number(given(args)?[index]))
+}
+
+fn hsv(args: &[Value], index: usize) -> Result<Value, String> {
+    let [r, g, b, _] = given(args)?;
+    let (most, least) = (r.max(g).max(b), r.min(g).min(b));
+    let span = most - least;
+    let sixth = if span == 0.0 {
+        0.0
+    } else if most == r {
+        ((g - b) / span).rem_euclid(6.0)
+    } else if most == g {
+        (b - r) / span + 2.0
+    } else {
+        (r - g) / span + 4.0
+    };
+    let saturation = if most == 0.0 { 0.0 } else { span / most };
+    Ok(Value::Number([60.0 * sixth, saturation, most][index]))
+}
+
+fn from_channels(args: &[Value]) -> Result<Value, String> {
+    let mut channels = Vec::with_capacity(args.len());
+    for index in 0..args.len() {
+        channels.push(number(args, index)?);
+    }
+    Ok(hex(&channels))
+}
+
+fn from_hsv(args: &[Value], opacity: bool) -> Result<Value, String> {
+    let (hue, saturation, value) = (number(args, 0)?, number(args, 1)?, number(args, 2)?);
+    let part = |offset: f64| {
+        let k = (offset + hue / 60.0).rem_euclid(6.0);
+        value - value * saturation * k.min(4.0 - k).clamp(0.0, 1.0)
+    };
+    let mut channels = vec![part(5.0), part(3.0), part(1.0)];
+    if opacity {
+        channels.push(number(args, 3)?);
+    }
+    Ok(hex(&channels))
+}
+
+fn hex(channels: &[f64]) -> Value {
+    let mut text = String::from("#");
+    for channel in channels {
+        let byte = (channel.clamp(0.0, 1.0) * 255.0).round() as u8;
+        text.push_str(&format!("{byte:02x}"));
+    }
+    Value::text(&text)
+}

@@ -1,0 +1,193 @@
+//! Functions of lists that are strings: elements with `;` after each.
+
+use super::functions::{array, number, text, Function};
+use super::value::Value;
+
+/// Names, functions, and the fewest and most arguments.
+pub const TABLE: &[(&str, Function, usize, usize)] = {
+    use Function::Of;
+    &[
+        ("fileBasename", Of(file_stem), 1, 1),
+        ("fileName", Of(file_name), 1, 1),
+        ("findLast", Of(find_last), 2, 2),
+        ("listAdd", Of(add), 2, 2),
+        ("listClean", Of(clean), 1, 1),
+        ("listCount", Of(count), 2, 2),
+        ("listFirst", Of(first), 1, 1),
+        ("listFromArray", Of(from_array), 1, 1),
+        ("listIndex", Of(index), 2, 2),
+        ("listItem", Of(item), 2, 2),
+        ("listLast", Of(last), 1, 1),
+        ("listRange", Of(range), 3, 3),
+        ("listRemove", Of(remove), 2, 2),
+        ("listRemoveAll", Of(remove_all), 2, 2),
+        ("listRetainAll", Of(retain_all), 2, 2),
+        ("listSize", Of(size), 1, 1),
+        ("listTerminate", Of(terminate), 1, 1),
+        ("listToArray", Of(to_array), 1, 1),
+        ("splitString", Of(split), 2, 2),
+    ]
+};
+
+fn elements(args: &[Value], index: usize) -> Result<Vec<&str>, String> {
+    let list = text(args, index)?;
+    let list = list.strip_suffix(';').unwrap_or(list);
+    Ok(if list.is_empty() {
+        Vec::new()
+    } else {
+        list.split(';').collect()
+    })
+}
+
+fn list<'a>(elements: impl IntoIterator<Item = &'a str>) -> Value {
+    let mut all = String::new();
+    for element in elements {
+        all.push_str(element);
+        all.push(';');
+    }
+    Value::text(&all)
+}
+
+/// `listAdd(list, element)`
+fn add(args: &[Value]) -> Result<Value, String> {
+    let mut all = elements(args, 0)?;
+    let new = args[1].to_string();
+    all.push(&new);
+    Ok(list(all))
+}
+
+/// `listClean(list)`: without empty elements.
+fn clean(args: &[Value]) -> Result<Value, String> {
+    let all = elements(args, 0)?;
+    Ok(list(all.into_iter().filter(|one| !one.is_empty())))
+}
+
+/// `listCount(list, element)`
+fn count(args: &[Value]) -> Result<Value, String> {
+    let wanted = args[1].to_string();
+    let all = elements(args, 0)?;
+    Ok(Value::Number(
+        all.iter().filter(|one| **one == wanted).count() as f64,
+    ))
+}
+
+/// `listFirst(list)`; the empty string of an empty list.
+fn first(args: &[Value]) -> Result<Value, String> {
+    let all = elements(args, 0)?;
+    Ok(Value::text(all.first().unwrap_or(&"")))
+}
+
+/// `listLast(list)`; the empty string of an empty list.
+fn last(args: &[Value]) -> Result<Value, String> {
+    let all = elements(args, 0)?;
+    Ok(Value::text(all.last().unwrap_or(&"")))
+}
+
+/// `listFromArray(array)`
+fn from_array(args: &[Value]) -> Result<Value, String> {
+    let all: Vec<String> = array(args)?.values.iter().map(Value::to_string).collect();
+    Ok(list(all.iter().map(String::as_str)))
+}
+
+/// `listToArray(list)`
+fn to_array(args: &[Value]) -> Result<Value, String> {
+    let all = elements(args, 0)?;
+    Ok(Value::list(all.into_iter().map(Value::text).collect()))
+}
+
+/// `listIndex(list, element)`: of the first; -1 where there is none.
+fn index(args: &[Value]) -> Result<Value, String> {
+    let wanted = args[1].to_string();
+    let place = elements(args, 0)?.iter().position(|one| *one == wanted);
+    Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
+}
+
+/// `listItem(list, index)`; the empty string beyond the ends.
+fn item(args: &[Value]) -> Result<Value, String> {
+    let at = number(args, 1)?;
+    let all = elements(args, 0)?;
+    let found = (at >= 0.0).then(|| all.get(at as usize)).flatten();
+    Ok(Value::text(found.unwrap_or(&"")))
+}
+
+/// `listRange(list, from, to)`: without the element at `to`.
+fn range(args: &[Value]) -> Result<Value, String> {
+    let (from, to) = (number(args, 1)?.max(0.0), number(args, 2)?.max(0.0));
+    let all = elements(args, 0)?;
+    let taken = (to - from).max(0.0) as usize;
+    Ok(list(all.into_iter().skip(from as usize).take(taken)))
+}
+
+/// `listRemove(list, element)`: the first of them.
+fn remove(args: &[Value]) -> Result<Value, String> {
+    let wanted = args[1].to_string();
+    let mut all = elements(args, 0)?;
+    if let Some(place) = all.iter().position(|one| *one == wanted) {
+        all.remove(place);
+    }
+    Ok(list(all))
+}
+
+/// `listRemoveAll(list, others)`
+fn remove_all(args: &[Value]) -> Result<Value, String> {
+    let (all, others) = (elements(args, 0)?, elements(args, 1)?);
+    let others: std::collections::HashSet<&str> = others.into_iter().collect();
+    Ok(list(all.into_iter().filter(|one| !others.contains(one))))
+}
+
+/// `listRetainAll(list, others)`
+fn retain_all(args: &[Value]) -> Result<Value, String> {
+    let (all, others) = (elements(args, 0)?, elements(args, 1)?);
+    let others: std::collections::HashSet<&str> = others.into_iter().collect();
+    Ok(list(all.into_iter().filter(|one| others.contains(one))))
+}
+
+/// `listSize(list)`
+fn size(args: &[Value]) -> Result<Value, String> {
+    Ok(Value::Number(elements(args, 0)?.len() as f64))
+}
+
+/// `listTerminate(list)`: with `;` at the end.
+fn terminate(args: &[Value]) -> Result<Value, String> {
+    Ok(list(elements(args, 0)?))
+}
+
+/// `listRandom(list)`; `chance` is from 0 to 1.
+pub fn random(args: &[Value], chance: f64) -> Result<Value, String> {
+    let all = elements(args, 0)?;
+    let at = (chance * all.len() as f64) as usize;
+    Ok(Value::text(all.get(at).unwrap_or(&"")))
+}
+
+/// `splitString(text, between)`: an array.
+fn split(args: &[Value]) -> Result<Value, String> {
+    let (all, between) = (text(args, 0)?, text(args, 1)?);
+    let parts = if between.is_empty() {
+        vec![Value::text(all)]
+    } else {
+        all.split(between).map(Value::text).collect()
+    };
+    Ok(Value::list(parts))
+}
+
+/// `findLast(text, part)`: the place of the last; -1 where there is none.
+fn find_last(args: &[Value]) -> Result<Value, String> {
+    let all = text(args, 0)?;
+    let place = all.rfind(text(args, 1)?);
+    let characters = |at: usize| all[..at].chars().count() as f64;
+    Ok(Value::Number(place.map_or(-1.0, characters)))
+}
+
+/// `fileName(path)`: what follows the last slash.
+fn file_name(args: &[Value]) -> Result<Value, String> {
+    let path = text(args, 0)?;
+    Ok(Value::text(path.rsplit(['/', '\\']).next().unwrap_or(path)))
+}
+
+/// `fileBasename(path)`: the name of the file without what follows its last dot.
+fn file_stem(args: &[Value]) -> Result<Value, String> {
+    let name = file_name(args)?.to_string();
+    Ok(Value::text(
+        name.rsplit_once('.').map_or(&name, |(stem, _)| stem),
+    ))
+}

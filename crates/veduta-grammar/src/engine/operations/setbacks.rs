@@ -1,0 +1,260 @@
+//! Faces to the strips along some of their edges, and what is left of them.
+
+use veduta_geometry::solid::{inset, merged, Mesh, Pieces};
+
+use super::super::code::{Arg, Cell, Operation, Selector, Sizing};
+use super::super::fault::Fault;
+use super::super::run::{Frame, Run};
+use super::super::selection::{Choosing, REMAINDER};
+use super::super::value::Value;
+use super::components::{name_of, run_shapes, selectors};
+use super::{numbers, positive, value};
+use crate::shape::{Form, Kind};
+
+/// How often the distance of `setbackToArea` is halved.
+const HALVINGS: usize = 48;
+
+/// `setback(distance) { front : A | all = B | remainder : C }`, `setback(distances) { ... }`: the
+/// edges that the cells select move inwards by the distance (m), or each by its own of an array in
+/// the order of `comp(fe)`; others stand. A cell has the strips along its edges, those that touch
+/// as one, and `remainder` has what is left of the faces.
+pub fn setback(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let edges = Edges::of(run, op, frame)?;
+    let given = value(run, op, 0, frame)?;
+    let distances = match given {
+        Value::Array(_) => {
+            let each = numbers(op, &given, edges.count())?;
+            edges.of_chosen(|edge| each[edge])
+        }
+        _ => {
+            let distance = positive(run, op, 0, frame)?;
+            edges.of_chosen(|_| distance)
+        }
+    };
+    let pieces = edges.moved(run, op, &distances)?;
+    edges.finish(run, op, &pieces, frame)
+}
+
+/// `setbackPerEdge(distance) { ... }`: as `setback`, with the distance evaluated for each edge (its
+/// shape is that of `comp(fe)`; `'` takes it of the edge's length).
+pub fn per_edge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let edges = Edges::of(run, op, frame)?;
+    let Arg::Value(sizing, expr) = &op.args[0] else {
+        return Err(Fault::at(op.span, "a distance is needed"));
+    };
+    let mut distances = vec![0.0; edges.count()];
+    let whole = frame.state.clone();
+    for at in 0..edges.choosing.found.len() {
+        let state = edges.choosing.state(&whole, at);
+        let edge = &edges.choosing.found[at];
+        let distance = run.number(expr, &mut frame.scene().of(&state))?;
+        let distance = match sizing {
+            Sizing::Relative => distance * edge.form.scope.size.x,
+            _ => distance,
+        };
+        if !(distance.is_finite() && distance >= 0.0) {
+            let message = format!("a distance from 0 on is needed, not {distance}");
+            return Err(Fault::at(expr.span, message));
+        }
+        distances[edge.index] = distance;
+    }
+    let distances = edges.of_chosen(|edge| distances[edge]);
+    let pieces = edges.moved(run, op, &distances)?;
+    edges.finish(run, op, &pieces, frame)
+}
+
+/// `setbackToArea(area) { ... }`, `setbackToArea(area, least)`, `setbackToArea(area, least, most)`:
+/// as `setback`, with the distance at which that area (m2) of each face remains. Arrays give the
+/// least distance of each edge, to which the same is added, and the most that it may become. A face
+/// that is smaller loses no more than the least.
+pub fn to_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let edges = Edges::of(run, op, frame)?;
+    let area = positive(run, op, 0, frame)?;
+    let mut bounds = [vec![0.0; edges.count()], vec![f64::MAX; edges.count()]];
+    for index in 1..op.args.len() {
+        let given = value(run, op, index, frame)?;
+        bounds[index - 1] = numbers(op, &given, edges.count())?;
+    }
+    let [least, most] = bounds;
+    let mut pieces = Vec::new();
+    let extent = frame.state.form.scope.size.length();
+    for face in 0..edges.mesh.face_count() {
+        let at = |far: f64| edges.of_chosen(|edge| (least[edge] + far).min(most[edge]));
+        let left = |far: f64| -> Result<(f64, Pieces), Fault> {
+            run.check_time(op.span)?;
+            let found = edges.face_moved(op, face, &at(far))?;
+            Ok((area_left(&found), found))
+        };
+        let (mut low, mut high) = (0.0, extent);
+        let (mut rest, mut best) = left(0.0)?;
+        if rest > area {
+            for _ in 0..HALVINGS {
+                let middle = 0.5 * (low + high);
+                (rest, best) = left(middle)?;
+                if rest > area {
+                    low = middle;
+                } else {
+                    high = middle;
+                }
+                if (rest - area).abs() <= 1e-12 * area {
+                    break;
+                }
+            }
+        }
+        pieces.push(best);
+    }
+    edges.finish(run, op, &pieces, frame)
+}
+
+fn area_left(pieces: &Pieces) -> f64 {
+    let faces = pieces.along.iter().enumerate();
+    let left = faces.filter(|(_, along)| along.is_none());
+    left.map(|(face, _)| pieces.mesh.face(face).area_vector().length())
+        .sum()
+}
+
+/// The edges of a shape's faces, and the cells that select them.
+pub struct Edges {
+    pub choosing: Choosing,
+    pub mesh: Mesh,
+    /// For each edge of each face the cell that it belongs to.
+    cell: Vec<Option<usize>>,
+    /// The number of the first edge of each face.
+    first: Vec<usize>,
+}
+
+impl Edges {
+    pub fn of(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<Self, Fault> {
+        run.check_time(op.span)?;
+        let form = frame.state.form.clone();
+        let choosing = Choosing::of(&form, Kind::FaceEdges, run);
+        let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
+        let mut edges = Self::without_cells(choosing, form.world_mesh());
+        for (cell, picked) in chosen.into_iter().enumerate() {
+            for at in picked {
+                edges.cell[edges.choosing.found[at].index] = Some(cell);
+            }
+        }
+        Ok(edges)
+    }
+
+    fn without_cells(choosing: Choosing, mesh: Mesh) -> Self {
+        let mut first = vec![0];
+        for face in mesh.faces() {
+            let edges: usize = face.rings().map(<[u32]>::len).sum();
+            first.push(first[first.len() - 1] + edges);
+        }
+        Self {
+            choosing,
+            cell: vec![None; first[first.len() - 1]],
+            mesh,
+            first,
+        }
+    }
+
+    /// All edges in one cell: for `shapeL` and its like.
+    pub fn in_one(run: &mut Run<'_>, cell: Option<usize>, frame: &Frame) -> Self {
+        let form = &frame.state.form;
+        let choosing = Choosing::of(form, Kind::FaceEdges, run);
+        let mut edges = Self::without_cells(choosing, form.world_mesh());
+        edges.cell.fill(cell);
+        edges
+    }
+
+    pub fn count(&self) -> usize {
+        self.cell.len()
+    }
+
+    /// The distances of the edges that are in a cell; of others 0.
+    fn of_chosen(&self, distance: impl Fn(usize) -> f64) -> Vec<f64> {
+        let each = self.cell.iter().enumerate();
+        each.map(|(edge, cell)| cell.map_or(0.0, |_| distance(edge)))
+            .collect()
+    }
+
+    fn face_moved(&self, op: &Operation, face: usize, distances: &[f64]) -> Result<Pieces, Fault> {
+        let own = &distances[self.first[face]..self.first[face + 1]];
+        inset(&self.mesh, self.mesh.face(face), own)
+            .map_err(|error| Fault::at(op.span, format!("no setback here: {error}")))
+    }
+
+    /// The pieces of each face.
+    pub fn moved(
+        &self,
+        run: &Run<'_>,
+        op: &Operation,
+        distances: &[f64],
+    ) -> Result<Vec<Pieces>, Fault> {
+        let mut all = Vec::with_capacity(self.mesh.face_count());
+        for face in 0..self.mesh.face_count() {
+            run.check_time(op.span)?;
+            all.push(self.face_moved(op, face, distances)?);
+        }
+        Ok(all)
+    }
+
+    /// The faces of a cell: strips along its edges, or what is left.
+    fn faces_of(&self, pieces: &[Pieces], cell: Option<usize>) -> Mesh {
+        let mut found = Mesh::new();
+        for (face, one) in pieces.iter().enumerate() {
+            let is_own = |along: &Option<u32>| match along {
+                Some(edge) => {
+                    cell.is_some() && self.cell[self.first[face] + *edge as usize] == cell
+                }
+                None => cell.is_none(),
+            };
+            let all = one.along.iter().enumerate();
+            let own: Vec<usize> = all
+                .filter(|(_, along)| is_own(along))
+                .map(|(index, _)| index)
+                .collect();
+            match cell {
+                Some(_) => found.append(&merged(&one.mesh, &own)),
+                None => found.append(&one.mesh.of_faces(own)),
+            }
+        }
+        found
+    }
+
+    /// Runs the cells on their pieces.
+    pub fn finish(
+        &self,
+        run: &mut Run<'_>,
+        op: &Operation,
+        pieces: &[Pieces],
+        frame: &mut Frame,
+    ) -> Result<(), Fault> {
+        let whole = frame.state.clone();
+        let axes = whole.form.scope.axes;
+        for (index, cell) in op.cells.iter().enumerate() {
+            let Cell::Part {
+                selector,
+                combined,
+                body,
+            } = cell
+            else {
+                return Err(Fault::at(op.span, "these cells do not repeat"));
+            };
+            let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
+            let faces = self.faces_of(pieces, (!is_rest).then_some(index));
+            let shapes = as_shapes(faces, axes, *combined);
+            run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
+        }
+        frame.state = whole;
+        frame.consumed();
+        Ok(())
+    }
+}
+
+/// Faces as a shape each, or as one.
+pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
+    if faces.is_empty() {
+        return Vec::new();
+    }
+    if combined {
+        return vec![(Form::around(faces, axes, false), 0)];
+    }
+    let each = 0..faces.face_count();
+    each.map(|face| (Form::around(faces.of_faces([face]), axes, false), face))
+        .collect()
+}

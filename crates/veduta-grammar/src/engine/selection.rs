@@ -1,0 +1,209 @@
+//! Which components of a shape a selector means.
+
+use std::cell::OnceCell;
+
+use crate::ast::{BinaryOp, UnaryOp};
+use crate::shape::{
+    components, is_meant, surroundings, Component, Form, Frames, Kind, Surroundings,
+};
+use crate::Span;
+
+use super::code::{Expr, ExprKind, Selector};
+use super::evaluate::Scene;
+use super::fault::Fault;
+use super::run::Run;
+use super::state::{Place, State};
+use super::value::Value;
+
+/// The kind of component that a word such as `f` names.
+pub fn kind_named(word: &str) -> Option<Kind> {
+    Some(match word {
+        "f" => Kind::Faces,
+        "e" => Kind::Edges,
+        "fe" => Kind::FaceEdges,
+        "v" => Kind::Vertices,
+        "h" => Kind::Holes,
+        _ => return None,
+    })
+}
+
+/// The components of a shape, for selectors to choose from.
+pub struct Choosing {
+    pub found: Vec<Component>,
+    form: Form,
+    kind: Kind,
+    frames: Frames,
+    around: OnceCell<Vec<Surroundings>>,
+}
+
+impl Choosing {
+    pub fn of(form: &Form, kind: Kind, run: &Run<'_>) -> Self {
+        Self {
+            found: components(form, kind),
+            form: form.clone(),
+            kind,
+            frames: Frames {
+                scope: form.scope.axes,
+                object: run.first().state.form.scope.axes,
+            },
+            around: OnceCell::new(),
+        }
+    }
+
+    fn around(&self, at: usize) -> Surroundings {
+        let all = self
+            .around
+            .get_or_init(|| surroundings(&self.form, self.kind));
+        // Edges are numbered as they are found, the others as they are in the mesh.
+        let index = match self.kind {
+            Kind::Edges => at,
+            _ => self.found[at].index,
+        };
+        all.get(index).copied().unwrap_or_default()
+    }
+
+    fn is_meant(&self, word: &str, at: usize, span: Span) -> Result<bool, Fault> {
+        is_meant(word, &self.found[at], self.frames, || self.around(at))
+            .ok_or_else(|| Fault::at(span, format!("`{word}` selects no component")))
+    }
+
+    /// The shape of a component, with what it has from the whole.
+    pub fn state(&self, whole: &State, at: usize) -> State {
+        let mut state = whole.with_form(self.found[at].form.clone());
+        state.comp = Place {
+            index: self.found[at].index,
+            total: self.found.len(),
+        };
+        state
+    }
+}
+
+impl Run<'_> {
+    /// Whether a selector means component `at` of the shape in the scene. A number means the
+    /// component with this number, -1 the last; conditions are evaluated for the component.
+    pub(super) fn selects(
+        &mut self,
+        selector: &Selector,
+        choosing: &Choosing,
+        at: usize,
+        span: Span,
+        scene: &mut Scene<'_>,
+    ) -> Result<bool, Fault> {
+        match selector {
+            Selector::Word(word) => choosing.is_meant(word, at, span),
+            Selector::Value(_, expr) => self.holds(expr, choosing, at, scene),
+        }
+    }
+
+    fn holds(
+        &mut self,
+        expr: &Expr,
+        choosing: &Choosing,
+        at: usize,
+        scene: &mut Scene<'_>,
+    ) -> Result<bool, Fault> {
+        match &expr.kind {
+            ExprKind::Word(word) => choosing.is_meant(word, at, expr.span),
+            ExprKind::Unary {
+                op: UnaryOp::Not,
+                operand,
+            } => Ok(!self.holds(operand, choosing, at, scene)?),
+            ExprKind::Binary {
+                op: BinaryOp::And,
+                left,
+                right,
+            } => {
+                Ok(self.holds(left, choosing, at, scene)?
+                    && self.holds(right, choosing, at, scene)?)
+            }
+            ExprKind::Binary {
+                op: BinaryOp::Or,
+                left,
+                right,
+            } => {
+                Ok(self.holds(left, choosing, at, scene)?
+                    || self.holds(right, choosing, at, scene)?)
+            }
+            ExprKind::Number(index) => Ok(is_index(*index, choosing, at)),
+            _ => {
+                let state = choosing.state(scene.state, at);
+                let value = self.value(expr, &mut scene.of(&state))?;
+                match value {
+                    Value::Bool(is) => Ok(is),
+                    Value::Number(index) => Ok(is_index(index, choosing, at)),
+                    other => {
+                        let message = format!("{} selects no component", other.kind());
+                        Err(Fault::at(expr.span, message))
+                    }
+                }
+            }
+        }
+    }
+
+    /// The components of each cell: each goes to the first that selects it. `is_rest` says which
+    /// selectors take no part.
+    pub(super) fn chosen<'s>(
+        &mut self,
+        selectors: impl Iterator<Item = &'s Selector>,
+        choosing: &Choosing,
+        span: Span,
+        scene: &mut Scene<'_>,
+    ) -> Result<Vec<Vec<usize>>, Fault> {
+        let mut free = vec![true; choosing.found.len()];
+        let mut chosen = Vec::new();
+        for selector in selectors {
+            let mut picked = Vec::new();
+            if !matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER) {
+                for (at, is_free) in free.iter_mut().enumerate() {
+                    if *is_free && self.selects(selector, choosing, at, span, scene)? {
+                        *is_free = false;
+                        picked.push(at);
+                    }
+                }
+            }
+            chosen.push(picked);
+        }
+        Ok(chosen)
+    }
+
+    /// A value for each component, from the first cell that selects it; 0 where none does.
+    pub(super) fn component_values(
+        &mut self,
+        kind: Kind,
+        cells: &[(Selector, Expr)],
+        span: Span,
+        scene: &mut Scene<'_>,
+    ) -> Result<Vec<Value>, Fault> {
+        self.check_time(span)?;
+        let choosing = Choosing::of(&scene.state.form, kind, self);
+        if choosing.found.len() > self.options.limits.parts {
+            let message = format!("an array of {} elements", choosing.found.len());
+            return Err(Fault::at(span, message));
+        }
+        let selectors = cells.iter().map(|(selector, _)| selector);
+        let chosen = self.chosen(selectors, &choosing, span, scene)?;
+        let mut values = vec![None; choosing.found.len()];
+        for ((_, expr), picked) in cells.iter().zip(chosen) {
+            for at in picked {
+                let state = choosing.state(scene.state, at);
+                values[at] = Some(self.value(expr, &mut scene.of(&state))?);
+            }
+        }
+        let none = match values.iter().flatten().next() {
+            Some(Value::Text(_)) => Value::text(""),
+            Some(Value::Bool(_)) => Value::Bool(false),
+            _ => Value::Number(0.0),
+        };
+        let value = |value: Option<Value>| value.unwrap_or_else(|| none.clone());
+        Ok(values.into_iter().map(value).collect())
+    }
+}
+
+/// The selector of what is left.
+pub const REMAINDER: &str = "remainder";
+
+fn is_index(index: f64, choosing: &Choosing, at: usize) -> bool {
+    let count = choosing.found.len() as f64;
+    let wanted = if index < 0.0 { index + count } else { index };
+    wanted == choosing.found[at].index as f64
+}
