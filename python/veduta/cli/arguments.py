@@ -14,6 +14,8 @@ from veduta.cli.numbers import require_numbers
 
 T = TypeVar("T")
 
+_METAVARS = {int: "INT", float: "FLOAT", str: "TEXT"}
+
 os.environ.setdefault("PYDANTIC_ERRORS_INCLUDE_URL", "0")  # a wrong number needs no manual
 
 
@@ -32,7 +34,7 @@ def parse(
     if not {"-h", "--help"} & set(arguments):
         require_numbers(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
-    registry.primitive_rule(_optional_numbers)
+    registry.primitive_rule(_optional_values)
     with registry:
         return tyro.cli(
             call,
@@ -48,7 +50,7 @@ def _bare(kind: Any) -> Any:
     return get_args(kind)[0] if get_origin(kind) is Annotated else kind
 
 
-def _optional_numbers(
+def _optional_values(
     info: tyro.constructors.PrimitiveTypeInfo,
 ) -> tyro.constructors.PrimitiveConstructorSpec[Any] | None:
     """An option that need not be given shows what it takes, and not that it takes None."""
@@ -58,7 +60,7 @@ def _optional_numbers(
     if len(kinds) != 1:
         return None
     numbers = get_args(kinds[0]) if get_origin(kinds[0]) is tuple else kinds
-    if not all(number in (int, float) for number in numbers):
+    if not all(number in _METAVARS for number in numbers):
         return None
     several = get_origin(kinds[0]) is tuple
 
@@ -68,9 +70,9 @@ def _optional_numbers(
 
     return tyro.constructors.PrimitiveConstructorSpec(
         nargs=len(numbers),
-        metavar=" ".join("INT" if number is int else "FLOAT" for number in numbers),
+        metavar=" ".join(_METAVARS[number] for number in numbers),
         instance_from_str=read,
-        is_instance=lambda value: value is None or isinstance(value, int | float | tuple),
+        is_instance=lambda value: value is None or isinstance(value, int | float | str | tuple),
         str_from_instance=lambda value: (
             ["none"] if value is None else [str(part) for part in (value if several else [value])]
         ),
