@@ -16,7 +16,7 @@ MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
-                             [--start RULE] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
+                             [--start TEXT] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
 
 {SUMMARY}.
 

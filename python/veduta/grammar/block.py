@@ -18,10 +18,10 @@ from veduta.place.part import Part
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
 
-AT_ONCE = 8
+AT_ONCE = 4
 """Lots that are derived in one call of the extension: between two, Ctrl-C is heard."""
-MAX_SHAPES = 1_000_000
-"""Of one lot's tree; it bounds memory to about a gigabyte."""
+MAX_SHAPES = 500_000
+"""Of one lot's tree; it bounds memory to some hundred megabytes."""
 MEMORY = 400 * 1024**2
 """Bytes that a block is expected to need."""
 
