@@ -25,6 +25,7 @@ type Rings = Vec<Vec<[f64; 3]>>;
 struct GrammarRules {
     code: Code,
     text: Source,
+    has_imports: bool,
 }
 
 #[pymethods]
@@ -163,6 +164,7 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
     Ok(GrammarRules {
         code: lowered.code,
         text: Source::new(name.clone(), text.clone()),
+        has_imports: program.units.len() > 1,
     })
 }
 
@@ -183,14 +185,13 @@ impl GrammarRules {
         let form = lot_form(lot).ok_or("the lot encloses nothing")?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
         let tree = derive(&self.code, rule, start, options).map_err(|fault| {
+            let name = self.text.name();
+            if self.has_imports {
+                // A fault does not say which file it is in.
+                return format!("{name} or what it imports: {}", fault.message);
+            }
             let place = self.text.position(fault.span.start);
-            format!(
-                "{}:{}:{}: {}",
-                self.text.name(),
-                place.line,
-                place.column,
-                fault.message
-            )
+            format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
         })?;
         let packed = pack(&tree);
         let surfaces = surfaces(&tree, &packed);

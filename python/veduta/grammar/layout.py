@@ -19,7 +19,9 @@ def formatted(path: Path) -> tuple[str, bool]:
         laid_out = _core.grammar_format(str(path), text)
     except _core.GrammarFault as fault:
         raise InputError(
-            path, f"cannot be formatted\n{str(fault).rstrip()}\n", "Mend these first."
+            path,
+            f"has faults\n{str(fault).rstrip()}\nIt cannot be formatted",
+            "Mend these first.",
         ) from fault
     return laid_out, laid_out.encode() != path.read_bytes().removeprefix(_MARK)
 

@@ -97,7 +97,9 @@ def compile_rules(rules: RuleFiles) -> _core.GrammarRules:
         return _core.GrammarRules(list(rules.files))
     except _core.GrammarFault as fault:
         raise InputError(
-            rules.path, f"cannot be derived from\n{str(fault).rstrip()}\n", "Mend these first."
+            rules.path,
+            f"has faults\n{str(fault).rstrip()}\nNothing can be derived from it",
+            "Mend these first.",
         ) from fault
 
 
