@@ -1,6 +1,7 @@
 //! The page on the language keeps up with the reader.
 
 use veduta_grammar::builtins::operations::OPERATIONS;
+use veduta_grammar::engine::operation_names;
 use veduta_grammar::{check, format, limits, Program, Source};
 
 const PAGE: &str = include_str!("../../../docs/grammar-language.md");
@@ -20,6 +21,17 @@ fn every_operation_has_its_row() {
     }
     let rows = PAGE.lines().filter(|line| line.contains(" | yes | "));
     assert_eq!(rows.count(), OPERATIONS.len());
+}
+
+#[test]
+fn the_page_says_what_derives() {
+    for operation in OPERATIONS {
+        let start = format!("| `{}` | ", operation.name);
+        let row = PAGE.lines().find(|line| line.starts_with(&start));
+        let cells: Vec<&str> = row.unwrap_or_default().split('|').collect();
+        let derives = operation_names().any(|name| name == operation.name);
+        assert_eq!(cells[5].trim().starts_with("yes"), derives, "{start}");
+    }
 }
 
 #[test]

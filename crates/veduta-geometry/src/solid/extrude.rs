@@ -4,16 +4,20 @@ use glam::DVec3;
 
 use super::Mesh;
 
+/// Sine of the angle between a face and a direction below which the face lies along it.
+const ALONG: f64 = 1e-9;
+
 /// The closed solid between a sheet and its copy moved by `by`.
 ///
 /// Every face becomes a prism of its own, so faces that share an edge keep the wall between them.
 /// The sheet's faces must look along `by` or against it, each as a whole: one against it is
-/// turned round. Holes become shafts.
+/// turned round, and one that lies along it gives nothing. Holes become shafts.
 pub fn extrude(sheet: &Mesh, by: DVec3) -> Mesh {
     let mut solid = Mesh::new();
     for face in sheet.faces() {
-        let towards = face.area_vector().dot(by);
-        if towards == 0.0 {
+        let area = face.area_vector();
+        let towards = area.dot(by);
+        if towards.abs() <= ALONG * area.length() * by.length() {
             continue;
         }
         let rings: Vec<Vec<DVec3>> = face

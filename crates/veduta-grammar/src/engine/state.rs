@@ -48,6 +48,14 @@ pub struct Extra {
     pub maps: [Option<TextureMap>; LAYERS],
 }
 
+impl Extra {
+    /// Whether all texture coordinates are numbers that pictures can use.
+    pub fn is_sound(&self) -> bool {
+        let mut maps = self.maps.iter().chain(&self.projections).flatten();
+        maps.all(TextureMap::is_sound)
+    }
+}
+
 /// The current shape.
 #[derive(Debug, Clone, PartialEq)]
 pub struct State {

@@ -45,6 +45,12 @@ impl TextureMap {
         Self::from(form.scope.origin, [along(u), along(v)])
     }
 
+    /// Whether its coordinates stay within single precision.
+    pub fn is_sound(&self) -> bool {
+        let grows = |along: &DVec3| along.abs().max_element() <= 1e20;
+        self.grow.iter().all(grows) && self.offset.iter().all(|offset| offset.abs() <= 1e32)
+    }
+
     pub fn at(&self, place: DVec3) -> [f64; 2] {
         [0, 1].map(|axis| self.grow[axis].dot(place) + self.offset[axis])
     }

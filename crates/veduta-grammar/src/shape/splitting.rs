@@ -42,7 +42,10 @@ fn split_faces(
     if size <= 0.0 {
         return Vec::new();
     }
-    let mut rest = mesh.clone();
+    // A hollow is cut as the solid that fills it, so that the cuts close.
+    let hollow = solid && mesh.volume() < 0.0;
+    let turned = |mesh: Mesh| if hollow { mesh.reversed() } else { mesh };
+    let mut rest = turned(mesh.clone());
     let mut parts = Vec::with_capacity(cells.len());
     for &cell in cells {
         let end = (cell.start + cell.length) / size;
@@ -54,7 +57,7 @@ fn split_faces(
             std::mem::take(&mut rest)
         };
         if !piece.is_empty() {
-            parts.push((cell, part_of(scope, piece, solid, axis, cell)));
+            parts.push((cell, part_of(scope, turned(piece), solid, axis, cell)));
         }
     }
     parts

@@ -1,7 +1,7 @@
 //! `envelope`: the space over a face that walls and slopes leave.
 
 use glam::DVec3;
-use veduta_geometry::solid::{envelope as space, Bound, Mesh};
+use veduta_geometry::solid::{envelope as space, Bound, Face, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
@@ -44,11 +44,16 @@ pub fn envelope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
         let edges: usize = face.rings().map(<[u32]>::len).sum();
         let own = &bounds[first..first + edges];
         first += edges;
+        if face.normal() == DVec3::ZERO {
+            continue;
+        }
         let found = space(&sheet, face, own, most);
         let told = |error| Fault::at(op.span, format!("no envelope here: {error}"));
         solid.append(&found.map_err(told)?);
     }
-    stand(frame, solid, sheet.face(0).normal());
+    if let Some(normal) = sheet.faces().map(Face::normal).find(|n| *n != DVec3::ZERO) {
+        stand(frame, solid, normal);
+    }
     Ok(())
 }
 

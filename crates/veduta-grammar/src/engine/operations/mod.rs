@@ -130,6 +130,17 @@ pub(super) fn run(
             format!("a shape that reaches beyond {FARTHEST_M} m"),
         ));
     }
+    if frame
+        .state
+        .extra
+        .as_ref()
+        .is_some_and(|extra| !extra.is_sound())
+    {
+        return Err(Fault::at(
+            operation.span,
+            "texture coordinates beyond all numbers",
+        ));
+    }
     if let Geometry::Faces { mesh, .. } = &form.geometry {
         check_faces(
             run,

@@ -5,6 +5,7 @@ use veduta_geometry::solid::{inset, outset, Face, Mesh, Pieces};
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
+use super::standing::sheet_of;
 use super::{number, word};
 use crate::shape::{Form, Geometry};
 
@@ -21,7 +22,7 @@ pub fn offset(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         1 => "all".into(),
         _ => word(run, op, 1, frame)?,
     };
-    let mesh = frame.state.form.world_mesh();
+    let mesh = sheet_of(&frame.state.form);
     if distance == 0.0 || mesh.is_empty() {
         return Ok(());
     }

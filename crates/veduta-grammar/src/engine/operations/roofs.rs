@@ -6,12 +6,14 @@ use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
 use super::super::value::Value;
-use super::standing::{stand, upright};
+use super::standing::{sheet_of, stand, upright};
 use super::{number, positive, value};
 use crate::shape::Form;
 
 /// Slopes steeper than this are walls (degrees).
 const STEEPEST: f64 = 89.0;
+/// Slopes flatter than this cannot be told from their floors when they are cut (degrees).
+const FLATTEST: f64 = 0.01;
 
 /// `roofHip(angle)`, `roofHip(angle, overhang)`, `roofHip(byAngle | byHeight, value)`,
 /// `roofHip(byAngle | byHeight, value, overhang)`: a slope over every edge, at an angle (degrees) or
@@ -59,7 +61,7 @@ fn build(
             return Err(Fault::at(op.span, message));
         }
     }
-    let sheet = frame.state.form.world_mesh();
+    let sheet = sheet_of(&frame.state.form);
     if sheet.is_empty() {
         return Ok(());
     }
@@ -130,11 +132,13 @@ impl Rise {
         } else {
             self.value.to_radians().tan()
         };
-        if slope > 0.0 && slope <= STEEPEST.to_radians().tan() {
+        let [least, most] = [FLATTEST, STEEPEST].map(|angle| angle.to_radians().tan());
+        if (least..=most).contains(&slope) {
             return Ok(slope);
         }
-        let value = self.value;
-        let message = format!("a slope from 0 to {STEEPEST} degrees is needed, not {value}");
+        let angle = slope.atan().to_degrees();
+        let message =
+            format!("a slope from {FLATTEST} to {STEEPEST} degrees is needed, not {angle:.3}");
         Err(Fault::at(op.span, message))
     }
 }

@@ -174,6 +174,13 @@ impl Edges {
 
     fn face_moved(&self, op: &Operation, face: usize, distances: &[f64]) -> Result<Pieces, Fault> {
         let own = &distances[self.first[face]..self.first[face + 1]];
+        if self.mesh.face(face).normal() == glam::DVec3::ZERO {
+            // A face without area is left as it is.
+            return Ok(Pieces {
+                mesh: self.mesh.of_faces([face]),
+                along: vec![None],
+            });
+        }
         inset(&self.mesh, self.mesh.face(face), own)
             .map_err(|error| Fault::at(op.span, format!("no setback here: {error}")))
     }

@@ -10,7 +10,8 @@ use super::{length, word};
 use crate::shape::{Form, Geometry};
 
 /// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
-/// (also `y`), or another axis of the scope. The scope holds the solid afterwards.
+/// (also `y`), or another axis of the scope. The scope holds the solid afterwards. A height of 0
+/// leaves the faces as they are.
 pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let last = op.args.len() - 1;
     let height = length(run, op, last, frame.state.form.scope.size.y, frame)?;
@@ -32,25 +33,32 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
             return Err(Fault::at(op.span, message));
         }
     };
-    frame.state.form = extruded(form, along, height);
+    if height == 0.0 || form.geometry == Geometry::Nothing {
+        return Ok(());
+    }
+    let Some(prism) = extruded(form, along, height) else {
+        let message = "the faces lie along the direction in which they are to be extruded";
+        return Err(Fault::at(op.span, message));
+    };
+    frame.state.form = prism;
     frame.changed();
     Ok(())
 }
 
-fn extruded(form: &Form, along: DVec3, height: f64) -> Form {
+fn extruded(form: &Form, along: DVec3, height: f64) -> Option<Form> {
     let by = along * height;
     if let Geometry::Rectangle(axis) = form.geometry {
         if height > 0.0 && along.abs_diff_eq(form.scope.axes.col(axis), 1e-12) {
             let mut scope = form.scope;
             scope.size[axis] = height;
-            return Form {
+            return Some(Form {
                 scope,
                 geometry: Geometry::Box,
-            };
+            });
         }
     }
     let prism = solid::extrude(&form.world_mesh(), by);
-    Form::around(prism, form.scope.axes, true)
+    (!prism.is_empty()).then(|| Form::around(prism, form.scope.axes, true))
 }
 
 /// The direction of the faces: that of the sum of their area vectors.

@@ -17,7 +17,7 @@ const NO_HEIGHT_SHARE: f64 = 1e-9;
 /// CityEngine takes the first face alone.
 pub fn taper(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let height = length(run, op, 0, frame.state.form.scope.size.y, frame)?;
-    let sheet = frame.state.form.world_mesh();
+    let sheet = sheet_of(&frame.state.form);
     if sheet.is_empty() || height == 0.0 {
         return Ok(());
     }
@@ -38,7 +38,7 @@ pub fn taper(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
 /// first edge.
 pub fn pyramid(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let rise = Rise::of(run, op, frame)?;
-    let sheet = frame.state.form.world_mesh();
+    let sheet = sheet_of(&frame.state.form);
     if sheet.is_empty() {
         return Ok(());
     }
@@ -61,7 +61,7 @@ pub fn shed(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
         true => number(run, op, rise.arguments, frame)?,
         false => 0.0,
     };
-    let sheet = frame.state.form.world_mesh();
+    let sheet = sheet_of(&frame.state.form);
     if sheet.is_empty() {
         return Ok(());
     }
@@ -87,7 +87,7 @@ pub fn shed(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
 /// of the scope, over the middle of the face.
 pub fn ridge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let rise = Rise::of(run, op, frame)?;
-    let sheet = frame.state.form.world_mesh();
+    let sheet = sheet_of(&frame.state.form);
     if sheet.is_empty() {
         return Ok(());
     }
@@ -111,6 +111,16 @@ pub fn ridge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     }
     stand(frame, solid, sheet.face(0).normal());
     Ok(())
+}
+
+/// The faces of a shape that have an area, in the world.
+pub fn sheet_of(form: &Form) -> Mesh {
+    let mesh = form.world_mesh();
+    let has_area = |&face: &usize| mesh.face(face).normal() != DVec3::ZERO;
+    if (0..mesh.face_count()).all(|face| has_area(&face)) {
+        return mesh;
+    }
+    mesh.of_faces((0..mesh.face_count()).filter(has_area))
 }
 
 /// The closed solid as the shape, with y of its scope along `up`.

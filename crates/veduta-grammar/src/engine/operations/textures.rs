@@ -164,10 +164,6 @@ fn change(
 ) -> Result<(), Fault> {
     let map = change(current(run, op, frame)?);
     let layer = layer_at(run, op, 0, frame)?;
-    let finite = map.grow.iter().all(|along| along.is_finite());
-    if !finite || !map.offset.iter().all(|offset| offset.is_finite()) {
-        return Err(Fault::at(op.span, "texture coordinates beyond all numbers"));
-    }
     set(frame, layer, map);
     Ok(())
 }
