@@ -132,6 +132,6 @@ def test_the_first_rule_file_of_the_docs_makes_a_house(repository: Path, tmp_pat
 def test_the_language_page_says_what_derives(repository: Path) -> None:
     """Each operation of the engine has a `yes` in the table, and no other operation has one."""
     page = (repository / "docs" / "grammar-language.md").read_text("utf-8")
-    rows = re.findall(r"^\| `(\w+)` \|.*\| (\w*) ?\|$", page, re.MULTILINE)
-    said = {name for name, derives in rows if derives == "yes"}
+    rows = re.findall(r"^\| `(\w+)` \|.*\|([^|]*)\|$", page, re.MULTILINE)
+    said = {name for name, derives in rows if derives.strip().startswith("yes")}
     assert said == set(_core.grammar_operations())
