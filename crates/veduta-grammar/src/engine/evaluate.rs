@@ -2,11 +2,12 @@
 
 use std::sync::Arc;
 
-use crate::ast::{BinaryOp, UnaryOp};
+use crate::ast::BinaryOp;
 
 use super::code::{Choice, Expr, ExprKind};
 use super::fault::Fault;
 use super::functions::Function;
+use super::operators::{binary, unary};
 use super::random::Stream;
 use super::run::Run;
 use super::state::State;
@@ -324,89 +325,4 @@ pub fn alternative<T>(choice: &Choice<T>, index: usize) -> &T {
         (None, Some(otherwise)) => otherwise,
         (None, None) => &choice.branches[choice.branches.len() - 1].1,
     }
-}
-
-fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
-    if let Value::Array(array) = &value {
-        let values: Result<_, _> = array.values.iter().map(|v| unary(op, v.clone())).collect();
-        return Ok(Value::Array(Arc::new(Array {
-            columns: array.columns,
-            values: values?,
-        })));
-    }
-    let unusable = || format!("{} has no `{}`", value.kind(), op.sign());
-    match op {
-        UnaryOp::Not | UnaryOp::EachNot => value
-            .truth()
-            .map(|is| Value::Bool(!is))
-            .ok_or_else(unusable),
-        UnaryOp::Minus | UnaryOp::EachMinus => value
-            .number()
-            .map(|number| Value::Number(-number))
-            .ok_or_else(unusable),
-        UnaryOp::Plus | UnaryOp::EachPlus => value.number().map(Value::Number).ok_or_else(unusable),
-    }
-}
-
-fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
-    use BinaryOp as B;
-    if matches!(a, Value::Array(_)) || matches!(b, Value::Array(_)) {
-        return each(op, a, b);
-    }
-    if let (B::Add | B::EachAdd, Value::Text(_), _) | (B::Add | B::EachAdd, _, Value::Text(_)) =
-        (op, a, b)
-    {
-        return Ok(Value::text(&format!("{a}{b}")));
-    }
-    let ordered = match (a, b) {
-        (Value::Text(a), Value::Text(b)) => Some(a.cmp(b)),
-        _ => match (a.number(), b.number()) {
-            (Some(a), Some(b)) => a.partial_cmp(&b),
-            _ => None,
-        },
-    };
-    let truth = |value: &Value| value.truth().unwrap_or(false);
-    let number = |value: &Value| {
-        let needed = || format!("`{}` needs numbers, not {}", op.sign(), value.kind());
-        value.number().ok_or_else(needed)
-    };
-    Ok(match op {
-        B::Or | B::EachOr => Value::Bool(truth(a) || truth(b)),
-        B::And | B::EachAnd => Value::Bool(truth(a) && truth(b)),
-        B::Equal | B::EachEqual => Value::Bool(ordered.is_some_and(|o| o.is_eq())),
-        B::NotEqual | B::EachNotEqual => Value::Bool(!ordered.is_some_and(|o| o.is_eq())),
-        B::Less | B::EachLess => Value::Bool(ordered.is_some_and(|o| o.is_lt())),
-        B::LessEqual | B::EachLessEqual => Value::Bool(ordered.is_some_and(|o| o.is_le())),
-        B::Greater | B::EachGreater => Value::Bool(ordered.is_some_and(|o| o.is_gt())),
-        B::GreaterEqual | B::EachGreaterEqual => Value::Bool(ordered.is_some_and(|o| o.is_ge())),
-        B::Add | B::EachAdd => Value::Number(number(a)? + number(b)?),
-        B::Subtract | B::EachSubtract => Value::Number(number(a)? - number(b)?),
-        B::Multiply | B::EachMultiply => Value::Number(number(a)? * number(b)?),
-        B::Divide | B::EachDivide => Value::Number(number(a)? / number(b)?),
-        B::Remainder | B::EachRemainder => Value::Number(number(a)? % number(b)?),
-    })
-}
-
-/// Element by element; a single value goes with each element of the other side.
-fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
-    let (columns, values) = match (a, b) {
-        (Value::Array(a), Value::Array(b)) => {
-            if a.columns != b.columns || a.values.len() != b.values.len() {
-                return Err(format!("`{}` needs arrays of the same size", op.sign()));
-            }
-            let pairs = a.values.iter().zip(&b.values);
-            (a.columns, pairs.map(|(a, b)| binary(op, a, b)).collect())
-        }
-        (Value::Array(a), b) => {
-            let values: Result<Vec<_>, _> = a.values.iter().map(|a| binary(op, a, b)).collect();
-            (a.columns, values)
-        }
-        (a, Value::Array(b)) => (
-            b.columns,
-            b.values.iter().map(|b| binary(op, a, b)).collect(),
-        ),
-        _ => return Err(format!("`{}` needs an array", op.sign())),
-    };
-    let values: Vec<Value> = values?;
-    Ok(Value::Array(Arc::new(Array { columns, values })))
 }

@@ -17,6 +17,7 @@ mod lower_body;
 mod lower_expression;
 mod measures;
 mod operations;
+mod operators;
 mod overrides;
 mod pack;
 mod random;
