@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.facade.evidence import Evidence, Float, blur
 
@@ -51,8 +52,10 @@ def wall_colour(evidence: Evidence, top: int, bottom: int, storey: float) -> Wal
     lab = evidence.lab[top:bottom]
     edges = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
     texture = blur(edges, max(1.0, storey / 20), storey / 6)
-    smooth = np.exp(-((texture / max(float(np.percentile(texture, 35)), 1e-3)) ** 2))
-    weight = smooth + 1e-4
+    seen = evidence.valid[top:bottom]
+    usual = float(np.percentile(texture[seen], 35)) if seen.any() else 0.0
+    smooth = np.exp(-((texture / max(usual, 1e-3)) ** 2)) * seen
+    weight = smooth + 1e-4 * seen
     colour, distance = lab, np.zeros(lab.shape[:2], np.float32)
     for _ in range(3):
         total = blur(weight, 0.7 * storey, 0.06 * storey) + 1e-6
@@ -60,7 +63,7 @@ def wall_colour(evidence: Evidence, top: int, bottom: int, storey: float) -> Wal
         colour = np.dstack([s / total for s in spread])
         scaled = (lab - colour) * np.array([0.7, 1.3, 1.3], np.float32)
         distance = np.sqrt((scaled**2).sum(-1))
-        weight = smooth * np.exp(-((distance / 12) ** 2)) + 1e-4
+        weight = smooth * np.exp(-((distance / 12) ** 2)) + 1e-4 * seen
     return Wall(distance.astype(np.float32), colour.astype(np.float32))
 
 
@@ -69,12 +72,13 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
     lightness = evidence.lab[top:bottom, :, 0]
     fine = storey / 48
     spread = storey * _SPREAD_X, storey * _SPREAD_Y
+    seen = evidence.valid[top:bottom]
     textures = []
     for across_x in (True, False):
         sigma = (fine, 0.0) if across_x else (0.0, fine)
         detail = np.minimum(np.abs(lightness - blur(lightness, *sigma)), 30)
-        textures.append(_relative(blur(detail, *spread)))
-    cues = np.dstack([*textures, _relative(blur(wall.unlike, *spread))])
+        textures.append(_relative(blur(detail, *spread), seen))
+    cues = np.dstack([*textures, _relative(blur(wall.unlike, *spread), seen)])
     window, railing = (
         np.clip(cues @ np.array(weights, np.float32) - level, -LIMIT, LIMIT).astype(np.float32)
         for weights, level in (_WINDOW, _RAILING)
@@ -90,6 +94,7 @@ def where_seen(scores: Scores, evidence: Evidence, top: int) -> Scores:
     return Scores(scores.window * seen, scores.railing * seen, scores.texture_x)
 
 
-def _relative(values: Float) -> Float:
-    middle = max(float(np.median(values)), 1e-3)
+def _relative(values: Float, seen: NDArray[np.bool_]) -> Float:
+    """Logarithm against the median of what is photo."""
+    middle = max(float(np.median(values[seen])) if seen.any() else 0.0, 1e-3)
     return np.asarray(cv2.log(values / middle + 0.1), np.float32)

@@ -54,7 +54,7 @@ def _read_twice(
     for again in (True, False):
         read = read_floors(evidence, floors, columns.stripes, own)
         boxes = _boxes(read, columns.stripes, floors)
-        labels = _labels(boxes, scores.window.shape, floors.eaves)
+        labels = _labels(boxes, evidence, floors)
         own = look_again(kinds, scores, labels, floors.mean_storey)
         own = where_seen(own, evidence, floors.eaves)
         if again:
@@ -96,11 +96,13 @@ def _boxes(read: list[FloorRows], stripes: Stripes, floors: Floors) -> list[Box]
     return boxes
 
 
-def _labels(boxes: list[Box], shape: tuple[int, ...], top: int) -> NDArray[np.uint8]:
-    """0 wall, 1 window, 2 railing for each pixel of the floors."""
-    labels = np.zeros(shape, np.uint8)
+def _labels(boxes: list[Box], evidence: Evidence, floors: Floors) -> NDArray[np.uint8]:
+    """0 wall, 1 window, 2 railing, 3 no photo for each pixel of the floors."""
+    seen = evidence.valid[floors.eaves : floors.ground_top]
+    labels = np.zeros(seen.shape, np.uint8)
     for box in boxes:
-        labels[box.part(top)] = 1 if box.kind == "window" else 2
+        labels[box.part(floors.eaves)] = 1 if box.kind == "window" else 2
+    labels[~seen] = 3
     return labels
 
 

@@ -37,8 +37,8 @@ def look_again(
 ) -> Scores:
     """Scores from the kinds of pixels (see `find_kinds`) that the classes of a first reading hold.
 
-    `labels` (n, w) are 0 wall, 1 window, 2 railing. The general `scores` keep a part, so that a
-    first reading's faults can mend.
+    `labels` (n, w) are 0 wall, 1 window, 2 railing, others not looked at. The general `scores` keep
+    a part, so that a first reading's faults can mend.
     """
     counts = np.stack(
         [np.bincount(kinds[labels == c], minlength=_KINDS).astype(np.float64) for c in range(3)]

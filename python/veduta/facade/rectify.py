@@ -18,6 +18,7 @@ from veduta.geometry.homography import Matrix
 from veduta.geometry.rectangle import aspect_of_rectangle
 from veduta.geometry.vanishing import axis_angles
 from veduta.imaging.exif import focal_px_from_mm35
+from veduta.imaging.padding import inside_photo
 from veduta.imaging.plane_fit import aspect_error
 from veduta.imaging.read import Photo
 from veduta.imaging.warp import warp
@@ -73,7 +74,8 @@ def _as_given(photo: Photo, options: RectifyOptions) -> Rectified:
     shrink = min(1.0, options.max_side_px / max(height, width))
     width_px, height_px = max(1, round(width * shrink)), max(1, round(height * shrink))
     scale = homography.scaling(width_px / width, height_px / height)
-    return _render(photo, scale, (width_px, height_px), "rectified", "given", None, ())
+    given = _render(photo, scale, (width_px, height_px), "rectified", "given", None, ())
+    return replace(given, valid=given.valid & inside_photo(given.pixels))
 
 
 def _from_corners(photo: Photo, options: RectifyOptions) -> Rectified:

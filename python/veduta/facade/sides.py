@@ -85,7 +85,7 @@ def crop(evidence: Evidence, skyline: Skyline, sides: Sides) -> tuple[Evidence, 
         evidence.gy[part],
         evidence.valid[part],
     )
-    return inner, Skyline(rows, ridge_row(rows), skyline.reason)
+    return inner, Skyline(rows, ridge_row(rows, inner.valid), skyline.reason)
 
 
 def _seen(evidence: Evidence, skyline: Skyline) -> NDArray[np.bool_]:

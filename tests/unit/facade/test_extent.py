@@ -15,7 +15,7 @@ from scipy.stats import wasserstein_distance
 
 from veduta import _core
 from veduta.facade.evidence import Evidence, gather
-from veduta.facade.extent import RowHistograms, Skyline, find_skyline, row_histograms
+from veduta.facade.extent import RowHistograms, Skyline, find_skyline, ridge_row, row_histograms
 from veduta.facade.regions import region_colours
 
 ROWS, COLUMNS = 4, 5
@@ -128,6 +128,40 @@ def test_no_sky_says_why() -> None:
     skyline = find_skyline(gather(*_seen(np.ascontiguousarray(cut))))
     assert skyline.rows.sum() == 0
     assert skyline.reason
+
+
+def test_a_wall_of_the_sky_s_colour_is_no_sky() -> None:
+    """Plain rows of wall over windows: without a sky, whatever is bright at the upper edge."""
+    rng = np.random.default_rng(3)
+    pixels = np.full((360, 300, 3), 170, np.float64)
+    pixels[:30] += 12
+    for y in range(40, 330, 80):
+        for x in range(20, 280, 60):
+            pixels[y : y + 45, x : x + 25] = rng.integers(30, 200, (45, 25, 1))
+    pixels += rng.normal(0, 2, pixels.shape)
+    skyline = find_skyline(gather(*_seen(pixels.clip(0, 255).astype(np.uint8))))
+    assert skyline.level <= 40
+
+
+def test_the_ridge_is_not_looked_for_under_sides_that_lean() -> None:
+    """Columns under a side of the photo begin where the side is, not where the roof is."""
+    at = np.arange(200)
+    first = np.where(at < 80, 10 + at // 4, 30 + 3 * (at - 80))
+    valid = np.arange(400)[:, None] >= first[None]
+    rows = np.maximum(first, 50)
+    assert ridge_row(rows, valid) == 50
+    assert ridge_row(rows, np.ones_like(valid)) == np.percentile(rows, 60).astype(int)
+
+
+def test_without_sky_the_facade_begins_where_the_photo_does() -> None:
+    drawn = draw_facade(4)
+    cut = np.ascontiguousarray(drawn.pixels[drawn.boundaries[0] + 10 :])
+    pixels, valid = _seen(cut)
+    valid[:20] = False
+    skyline = find_skyline(gather(pixels, valid))
+    assert skyline.reason
+    assert (skyline.rows == 20).all()
+    assert skyline.level == 20
 
 
 def _seen(pixels: NDArray[np.uint8]) -> tuple[NDArray[np.uint8], NDArray[np.bool_]]:

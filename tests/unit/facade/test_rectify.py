@@ -31,6 +31,17 @@ def test_rectified_is_left_alone() -> None:
     assert np.array_equal(matrix_of(result), np.eye(3))
 
 
+def test_the_empty_corners_of_a_rectified_photo_are_not_valid() -> None:
+    wall = draw_wall()
+    height, width = wall.shape[:2]
+    corner = np.array([(0, 0), (width // 3, 0), (0, height // 2)])
+    cv2.fillPoly(wall, [corner], (128, 128, 128))
+    valid = rectify(photo_of(wall), RectifyOptions(rectified=True)).valid
+    outside = cv2.fillPoly(np.zeros((height, width), np.uint8), [corner], (1,)) > 0
+    assert not (valid & outside).any()
+    assert (~valid & ~outside).sum() < 0.02 * valid.size
+
+
 def test_a_large_rectified_photo_is_reduced_and_says_so_in_its_homography() -> None:
     result = rectify(photo_of(draw_wall()), RectifyOptions(rectified=True, max_side_px=375))
     assert result.pixels.shape == (375, 360, 3)
