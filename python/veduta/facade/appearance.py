@@ -1,8 +1,10 @@
 """How much each pixel of the floors looks like a window or a railing rather than like wall.
 
-Nothing is learned: windows are unlike the wall's colour and striped vertically (frames, jambs,
-curtains), railings are textured in both directions, wall is neither. Each cue is taken relative to
-its median over the same facade, so that light, resolution and contrast drop out.
+Nothing is learned: windows are unlike the wall's colour, striped vertically (frames, jambs,
+curtains) and full of upright edges; their panes mirror the sky or show the dark, and both are less
+yellow than a wall. Railings are textured in both directions, wall is neither. Each cue is taken
+relative to its median or to the wall over the same facade, so that light, resolution and contrast
+drop out.
 """
 
 from __future__ import annotations
@@ -15,13 +17,17 @@ from numpy.typing import NDArray
 
 from veduta.facade.evidence import Evidence, Float, blur
 
-# Cues in the order: texture across x, texture across y, unlikeness to wall; then the level at
-# which a pixel is as likely wall.
-_WINDOW = ((0.5, -0.5, 1.5), 0.85)
-_RAILING = ((1.0, 0.5, 0.25), 0.35)
+# Cues in the order: texture across x, texture across y, unlikeness to wall, bluer than wall,
+# upright edges around; then the level at which a pixel is as likely wall.
+_WINDOW = ((0.33, -0.33, 1.5, 0.3, 0.4), 0.95)
+_RAILING = ((1.0, 0.5, 0.25, 0.0, 0.0), 0.35)
 LIMIT = 1.5
 _SPREAD_X = 0.02
 _SPREAD_Y = 0.028
+# In storeys: the neighbourhood whose upright edges count for a pixel; steps of Lab's b that count
+# as much as a factor e in the other cues.
+_AROUND_X, _AROUND_Y = 0.06, 0.1
+_BLUER = 6.0
 
 
 @dataclass(frozen=True)
@@ -78,7 +84,11 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
         sigma = (fine, 0.0) if across_x else (0.0, fine)
         detail = np.minimum(np.abs(lightness - blur(lightness, *sigma)), 30)
         textures.append(_relative(blur(detail, *spread), seen))
-    cues = np.dstack([*textures, _relative(blur(wall.unlike, *spread), seen)])
+    upright = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
+    upright = _relative(blur(upright, storey * _AROUND_X, storey * _AROUND_Y), seen)
+    unlike = _relative(blur(wall.unlike, *spread), seen)
+    bluer = blur(wall.colour[:, :, 2] - evidence.lab[top:bottom, :, 2], *spread) / _BLUER
+    cues = np.dstack([*textures, unlike, np.clip(bluer, -LIMIT, LIMIT), upright])
     window, railing = (
         np.clip(cues @ np.array(weights, np.float32) - level, -LIMIT, LIMIT).astype(np.float32)
         for weights, level in (_WINDOW, _RAILING)

@@ -1,11 +1,12 @@
-"""The colour of the wall, on a picture of a few patches."""
+"""What looks like window rather than wall, on pictures of a few patches."""
 
 from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from veduta.facade.appearance import wall_colour
+from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.evidence import Evidence
 
 STOREY = 60.0
@@ -23,6 +24,23 @@ def _evidence(seed: int = 1) -> Evidence:
     lab += rng.normal(0, 1.0, lab.shape).astype(np.float32)
     zeros = np.zeros(lab.shape[:2], np.float32)
     return Evidence(1.0, lab, zeros, zeros, np.ones(lab.shape[:2], bool))
+
+
+def _window(evidence: Evidence) -> NDArray[np.float32]:
+    wall = wall_colour(evidence, 0, evidence.height, STOREY)
+    return class_scores(evidence, wall, 0, evidence.height, STOREY).window
+
+
+def test_panes_are_bluer_than_the_wall() -> None:
+    window = _window(_evidence())
+    assert window[PATCHES["bluer"]].mean() > window[PATCHES["yellower"]].mean() + 0.3
+
+
+def test_upright_edges_around_speak_for_a_window() -> None:
+    plain, framed = _evidence(), _evidence()
+    framed.gx[20:60, 70:110:4] = 15.0
+    part = np.s_[25:55, 75:105]
+    assert _window(framed)[part].mean() > _window(plain)[part].mean() + 0.3
 
 
 @pytest.mark.parametrize("fill", [(0.0, 128.0, 128.0), (255.0, 128.0, 128.0), (90.0, 160.0, 90.0)])
