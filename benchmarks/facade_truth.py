@@ -97,7 +97,7 @@ def artdeco(data: Path) -> list[Labelled]:
 
 
 def cmp(data: Path) -> list[Labelled]:
-    """Every third picture of facades/cmp: those that no constant was chosen on."""
+    """Every third picture of facades/cmp."""
     paths = sorted((data / "facades/cmp").glob("cmp_b*.png"))
     kept = [path for path in paths if int(path.stem.removeprefix("cmp_b")) % 3 == 2]
     return [Labelled(p.stem, p.with_suffix(".jpg"), cmp_labels(_indices(p))) for p in kept]
