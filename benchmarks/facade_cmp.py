@@ -3,7 +3,7 @@
     python benchmarks/facade_cmp.py [--images N]
 
 Reads every third picture of `facades/cmp` of $VEDUTA_DATA (else ../shared/data). No part of the set
-is held out: the cues for windows were chosen with this third in view, other constants with the rest.
+is held out: the cues for windows were chosen with this third in view, others with the rest.
 There are no bounds: the project asks for none here, and the table shows how far the reading carries
 beyond Paris. A run over a part of the pictures is printed and not kept.
 """
