@@ -8,14 +8,13 @@ from typing import Annotated
 
 import tyro
 
+from veduta.cli.run_arguments import Out, Quiet
 from veduta.facade.demo import DemoOptions
 from veduta.synthetic.options import SyntheticOptions
 
-Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]
 Force = Annotated[
     bool, tyro.conf.arg(help="replace results of other options; edited files are always kept")
 ]
-Quiet = Annotated[bool, tyro.conf.arg(aliases=["-q"], help="say nothing but errors")]
 
 
 @dataclass(frozen=True)

@@ -23,11 +23,10 @@ def run(arguments: list[str]) -> int:
 
 def _run(call: FacadeCall) -> int:
     from veduta.facade.batch import run_call
-    from veduta.run.errors import InputError
+    from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
 
-    if call.jobs is not None and call.jobs < 1:
-        raise InputError("--jobs", f"is {call.jobs}", "Give 1 or more.")
+    require_jobs(call.jobs)
     progress = Progress(quiet=call.quiet)
     result = run_call(
         call.images, call.out, call.options(), progress, force=call.force, jobs=call.jobs

@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
 from veduta.facade.options import FacadeOptions, ModelOptions, RectifyOptions, ScaleOptions
 
 Images = Annotated[
@@ -18,20 +19,6 @@ Images = Annotated[
         help="photos (JPEG, PNG, TIFF, WebP), folders of photos, or facade.json documents",
     ),
 ]
-Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]
-Force = Annotated[
-    bool,
-    tyro.conf.arg(help="replace results of other inputs or options; edited files are always kept"),
-]
-Jobs = Annotated[
-    int | None,
-    tyro.conf.arg(
-        metavar="N",
-        help_behavior_hint="",
-        help="processes that work at once; one per core where it is not given",
-    ),
-]
-Quiet = Annotated[bool, tyro.conf.arg(aliases=["-q"], help="say nothing but errors")]
 
 
 @dataclass(frozen=True)

@@ -47,6 +47,7 @@ def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
     from veduta.grammar.rules import check_rules, find_rules, read_rules
+    from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
     verdict = check_rules(read_rules(find_rules(call.rules)))
@@ -54,8 +55,7 @@ def _check(arguments: list[str]) -> int:
     if verdict.underived:
         print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
     print(
-        f"{call.rules}: {_counted(verdict.errors, 'error')}, "
-        f"{_counted(verdict.warnings, 'warning')}"
+        f"{call.rules}: {counted(verdict.errors, 'error')}, {counted(verdict.warnings, 'warning')}"
     )
     return 2 if verdict.errors else 0
 
@@ -88,7 +88,8 @@ def _derive(arguments: list[str]) -> int:
     from veduta.cli.grammar_call import DeriveCall
     from veduta.grammar.given import read_attributes
     from veduta.grammar.options import GrammarOptions
-    from veduta.grammar.pipeline import require_jobs, run_derive
+    from veduta.grammar.pipeline import run_derive
+    from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
@@ -132,7 +133,3 @@ def _tell_result(result: DeriveResult) -> None:
     if result.lots:
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
     print(f"What was done, and why: {result.out / 'report.html'}")
-
-
-def _counted(count: int, thing: str) -> str:
-    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"

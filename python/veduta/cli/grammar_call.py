@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
 from veduta.grammar.options import DeriveOptions
 
 Rules = Annotated[
@@ -31,7 +32,6 @@ LotsFile = Annotated[
         help="GeoJSON or CityJSON with the lots; a synthetic street where it is not given",
     ),
 ]
-Out = Annotated[Path, tyro.conf.arg(aliases=["-o"], metavar="OUT", help="folder for the results")]
 Attr = Annotated[
     tyro.conf.UseAppendAction[tuple[str, ...]],
     tyro.conf.arg(
@@ -40,19 +40,6 @@ Attr = Annotated[
         help="an attribute of the rule file, for all lots; may be given several times",
     ),
 ]
-Force = Annotated[
-    bool,
-    tyro.conf.arg(help="replace results of other inputs or options; edited files are always kept"),
-]
-Jobs = Annotated[
-    int | None,
-    tyro.conf.arg(
-        metavar="N",
-        help_behavior_hint="",
-        help="processes that work at once; one per core where it is not given",
-    ),
-]
-Quiet = Annotated[bool, tyro.conf.arg(aliases=["-q"], help="say nothing but errors")]
 
 
 @dataclass(frozen=True)

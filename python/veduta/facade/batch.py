@@ -246,11 +246,7 @@ def _result_of(outcome: Outcome[JobResult], source: Input, result: CallResult) -
         return outcome.value
     if outcome.traceback is not None:
         result.tracebacks[source.name] = outcome.traceback
-        last = outcome.traceback.strip().splitlines()[-1]
-        reason = f"a bug in veduta: {last}"
-        return JobResult(failure=Failure(subject=str(source.path), kind="bug", reason=reason))
-    reason = outcome.crash or "the worker process gave no result"
-    return JobResult(failure=Failure(subject=str(source.path), kind="crash", reason=reason))
+    return JobResult(failure=outcome.failure(str(source.path)))
 
 
 def _publish(

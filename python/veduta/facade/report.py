@@ -24,7 +24,7 @@ from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.options import Options
 from veduta.run.page import Bars, Page, Picture, Table, render
-from veduta.run.report import Failure, Report, StepRecord
+from veduta.run.report import Failure, Report, StepRecord, counted
 
 THUMBNAIL_PX = 1000
 SMALL_PX = 420
@@ -165,10 +165,10 @@ def summary_line(found: Mapping[str, Any]) -> str:
     others = int(found.get("doubtful_elements", 0)) - windows
     share = 100 * float(found.get("picture_share", 1.0))
     said = [
-        _counted(found["storeys"], "storey")
+        counted(found["storeys"], "storey")
         + (" (doubtful)" if found.get("storeys_doubtful", False) else ""),
-        _counted(found["windows"], "window") + _in_doubt(windows),
-        f"{_counted(others, 'other element')} doubtful" if others else "",
+        counted(found["windows"], "window") + _in_doubt(windows),
+        f"{counted(others, 'other element')} doubtful" if others else "",
         f"{found['width_m']:.1f} x {found['height_m']:.1f} m (scale {found['scale']})",
         f"{share:.0f} % of the picture's width" if share < WHOLE_WIDTH else "",
         "corners doubtful" if found.get("corners_doubtful", False) else "",
@@ -182,18 +182,14 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
     lost, less = int(found.get("left_out", 0)), int(found.get("clipped", 0))
     said = []
     if lost:
-        said.append(f"{_counted(lost, 'element')} left out of the model")
+        said.append(f"{counted(lost, 'element')} left out of the model")
     if less:
-        said.append(f"{less if lost else _counted(less, 'element')} clipped")
+        said.append(f"{less if lost else counted(less, 'element')} clipped")
     return ", ".join(said)
 
 
 def _in_doubt(count: int) -> str:
     return f" ({count} doubtful)" if count else ""
-
-
-def _counted(count: int, thing: str) -> str:
-    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"
 
 
 def _facts(document: FacadeDocument) -> list[tuple[str, str]]:

@@ -13,7 +13,7 @@ from typing import Any
 from pydantic import JsonValue
 
 from veduta.formats.place_json import write_place
-from veduta.grammar.block import MEMORY, Block, BlockResult, Job, run_block
+from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import demo_lots
 from veduta.grammar.given import check_options
 from veduta.grammar.lots import Lots, read_lots
@@ -22,9 +22,8 @@ from veduta.grammar.placing import place_of
 from veduta.grammar.report import derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.run.digests import result_key
-from veduta.run.errors import InputError
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
-from veduta.run.pool import Outcome, Task, run_tasks
+from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import Progress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
@@ -164,7 +163,9 @@ def _process(
                 raise outcome.error
             name = outcome.task.name
             if outcome.value is None:
-                failure = _broken(outcome, result)
+                if outcome.traceback is not None:
+                    result.tracebacks[name] = outcome.traceback
+                failure = outcome.failure(name)
                 result.failures.append(failure)
                 folder.forget(name)
             else:
@@ -172,16 +173,6 @@ def _process(
                 summary = outcome.value.summary()
                 folder.publish(name, keys[name], folder.work_path(name), summary)
             progress.finished(name, failure)
-
-
-def _broken(outcome: Outcome[BlockResult], result: DeriveResult) -> Failure:
-    """A block whose process ended without a result."""
-    if outcome.traceback is not None:
-        result.tracebacks[outcome.task.name] = outcome.traceback
-        last = outcome.traceback.strip().splitlines()[-1]
-        return Failure(subject=outcome.task.name, kind="bug", reason=f"a bug in veduta: {last}")
-    reason = outcome.crash or "the worker process gave no result"
-    return Failure(subject=outcome.task.name, kind="crash", reason=reason)
 
 
 def _collect(folder: OutFolder, blocks: list[Block], lots: Lots, result: DeriveResult) -> None:
@@ -233,9 +224,3 @@ def _write_call(
     folder.publish(CALL, key, work)
     if all(failure.kind in LASTING for failure in result.failures):
         folder.finish()
-
-
-def require_jobs(jobs: int | None) -> None:
-    """InputError for a number of processes that is none."""
-    if jobs is not None and jobs < 1:
-        raise InputError("--jobs", f"is {jobs}", "Give 1 or more.")

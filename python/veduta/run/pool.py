@@ -24,7 +24,8 @@ from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
 from typing import Any, Generic, TypeVar
 
-from veduta.run.errors import VedutaError
+from veduta.run.errors import InputError, VedutaError
+from veduta.run.report import Failure
 from veduta.run.threads import share_cores
 
 T = TypeVar("T")
@@ -54,12 +55,26 @@ class Outcome(Generic[T]):
     traceback: str | None = None
     crash: str | None = None
 
+    def failure(self, subject: str) -> Failure:
+        """What to tell of a task that ended without a value and without an error of Veduta's."""
+        if self.traceback is not None:
+            last = self.traceback.strip().splitlines()[-1]
+            return Failure(subject=subject, kind="bug", reason=f"a bug in veduta: {last}")
+        reason = self.crash or "the worker process gave no result"
+        return Failure(subject=subject, kind="crash", reason=reason)
+
 
 @dataclass
 class _Worker:
     process: BaseProcess
     pipe: Connection
     task: Task | None = None
+
+
+def require_jobs(jobs: int | None) -> None:
+    """InputError for a number of processes that is none."""
+    if jobs is not None and jobs < 1:
+        raise InputError("--jobs", f"is {jobs}", "Give 1 or more.")
 
 
 def run_tasks(

@@ -74,3 +74,8 @@ class Report(_Record):
 def versions() -> dict[str, str]:
     """The versions of what took part in making a result."""
     return {"veduta": veduta.__version__, "python": platform.python_version()}
+
+
+def counted(count: int, thing: str) -> str:
+    """`1 window`, `2 windows`."""
+    return f"{count} {thing}" if count == 1 else f"{count} {thing}s"

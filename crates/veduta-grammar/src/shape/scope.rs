@@ -29,11 +29,6 @@ impl Scope {
         self.origin + self.axes * (unit * self.size)
     }
 
-    /// A direction given in shares of the box's size, in the world.
-    pub fn world_vector(&self, unit: DVec3) -> DVec3 {
-        self.axes * (unit * self.size)
-    }
-
     /// A place in the world in shares of the box's size; 0 along a direction without extent.
     pub fn unit(&self, world: DVec3) -> DVec3 {
         over(self.axes.transpose() * (world - self.origin), self.size)

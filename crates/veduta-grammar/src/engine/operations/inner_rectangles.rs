@@ -3,12 +3,10 @@
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{cut, inner_rectangle as largest, Face, Mesh};
 
-use super::super::code::{Cell, Operation, Selector};
+use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::run::{Frame, Run};
-use super::super::selection::REMAINDER;
-use super::components::{name_of, run_shapes};
-use super::setbacks::as_shapes;
+use super::setbacks::run_pieces;
 use super::word;
 
 /// `innerRectangle(scope) { shape : A | remainder : B }` finds in each face the largest rectangle
@@ -40,23 +38,10 @@ pub fn inner_rectangle(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> 
             None => rest.append(&mesh.of_faces([face.index()])),
         }
     }
-    for cell in &op.cells {
-        let Cell::Part {
-            selector,
-            combined,
-            body,
-        } = cell
-        else {
-            return Err(Fault::at(op.span, "these cells do not repeat"));
-        };
-        let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
-        let faces = if is_rest { &rest } else { &inner };
-        let shapes = as_shapes(faces.clone(), axes, *combined);
-        run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
-    }
-    frame.state = whole;
-    frame.consumed();
-    Ok(())
+    run_pieces(run, op, frame, |cell| match cell {
+        Some(_) => inner.clone(),
+        None => rest.clone(),
+    })
 }
 
 /// The scope's axis that lies most nearly in a face.

@@ -231,30 +231,39 @@ impl Edges {
         pieces: &[Pieces],
         frame: &mut Frame,
     ) -> Result<(), Fault> {
-        let whole = frame.state.clone();
-        let axes = whole.form.scope.axes;
-        for (index, cell) in op.cells.iter().enumerate() {
-            let Cell::Part {
-                selector,
-                combined,
-                body,
-            } = cell
-            else {
-                return Err(Fault::at(op.span, "these cells do not repeat"));
-            };
-            let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
-            let faces = self.faces_of(pieces, (!is_rest).then_some(index));
-            let shapes = as_shapes(faces, axes, *combined);
-            run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
-        }
-        frame.state = whole;
-        frame.consumed();
-        Ok(())
+        run_pieces(run, op, frame, |cell| self.faces_of(pieces, cell))
     }
 }
 
+/// Runs each cell on its faces: `faces_of` gets the cell's number, None for `remainder`.
+pub fn run_pieces(
+    run: &mut Run<'_>,
+    op: &Operation,
+    frame: &mut Frame,
+    faces_of: impl Fn(Option<usize>) -> Mesh,
+) -> Result<(), Fault> {
+    let whole = frame.state.clone();
+    let axes = whole.form.scope.axes;
+    for (index, cell) in op.cells.iter().enumerate() {
+        let Cell::Part {
+            selector,
+            combined,
+            body,
+        } = cell
+        else {
+            return Err(Fault::at(op.span, "these cells do not repeat"));
+        };
+        let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
+        let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, *combined);
+        run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
+    }
+    frame.state = whole;
+    frame.consumed();
+    Ok(())
+}
+
 /// Faces as a shape each, or as one.
-pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
+fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
     if faces.is_empty() {
         return Vec::new();
     }
