@@ -89,10 +89,11 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
     unlike = _relative(blur(wall.unlike, *spread), seen)
     bluer = blur(wall.colour[:, :, 2] - evidence.lab[top:bottom, :, 2], *spread) / _BLUER
     cues = np.dstack([*textures, unlike, np.clip(bluer, -LIMIT, LIMIT), upright])
-    window, railing = (
-        np.clip(cues @ np.array(weights, np.float32) - level, -LIMIT, LIMIT).astype(np.float32)
-        for weights, level in (_WINDOW, _RAILING)
+    # Not "@": the small products of some BLAS builds raise false floating-point flags.
+    weighed = cv2.transform(
+        cues, np.array([[*weights, -level] for weights, level in (_WINDOW, _RAILING)])
     )
+    window, railing = np.moveaxis(np.clip(weighed, -LIMIT, LIMIT).astype(np.float32), -1, 0)
     return where_seen(Scores(window, railing, cues[:, :, 0]), evidence, top)
 
 
