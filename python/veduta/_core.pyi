@@ -66,6 +66,15 @@ class GrammarRules:
     def starts(self) -> list[str]: ...
     @property
     def attributes(self) -> list[tuple[str, str]]: ...
+    @property
+    def asset_names(self) -> tuple[list[str], bool]: ...
+    def add_asset(
+        self,
+        name: str,
+        points: NDArray[np.float64],
+        corners: NDArray[np.uint32],
+        offsets: NDArray[np.int64],
+    ) -> None: ...
     def derive(
         self,
         lots: list[list[list[tuple[float, float, float]]]],
@@ -75,7 +84,11 @@ class GrammarRules:
         attributes: list[dict[str, bool | float | str]] | None = None,
         seconds: float = 60.0,
         shapes: int = 5_000_000,
-    ) -> list[DerivedLot | str]: ...
+    ) -> list[DerivedLot | MissingAsset | str]: ...
+
+class MissingAsset:
+    name: str
+    why: str
 
 class DerivedLot:
     positions_m: NDArray[np.float64]
@@ -88,5 +101,10 @@ class DerivedLot:
     feature_class: list[str]
     feature_size_m: NDArray[np.float64]
     looks: list[tuple[float, float, float, float, str | None, str]]
+    instance_feature: NDArray[np.int32]
+    instance_look: NDArray[np.int32]
+    instance_asset: NDArray[np.int32]
+    instance_transform: NDArray[np.float64]
+    asset_names: list[str]
     log_prior: float
     messages: list[str]

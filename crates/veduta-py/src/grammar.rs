@@ -1,17 +1,20 @@
 //! `veduta_grammar` for Python: rule files in, columns of polygons out, the GIL released between.
 
 use std::collections::HashMap;
+use std::sync::{Arc, RwLock};
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options, Packed, State,
-    Surfaces, Value,
+    asset_names, derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options,
+    Packed, State, Surfaces, Value,
 };
+use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Source};
 
 use crate::rules::{program_of, rendered, Files};
@@ -26,7 +29,10 @@ struct GrammarRules {
     code: Code,
     text: Source,
     has_imports: bool,
+    assets: RwLock<Arc<Assets>>,
 }
+
+type Assets = HashMap<Arc<str>, Arc<Asset>>;
 
 #[pymethods]
 impl GrammarRules {
@@ -61,6 +67,31 @@ impl GrammarRules {
             .collect()
     }
 
+    /// The names of assets that stand in the rules, and whether there are others that are computed.
+    #[getter]
+    fn asset_names(&self) -> (Vec<String>, bool) {
+        let found = asset_names(&self.code);
+        let written = found.written.iter().map(ToString::to_string).collect();
+        (written, found.computed)
+    }
+
+    /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
+    /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
+    fn add_asset(
+        &self,
+        name: &str,
+        points: PyReadonlyArray2<'_, f64>,
+        corners: PyReadonlyArray1<'_, u32>,
+        offsets: PyReadonlyArray1<'_, i64>,
+    ) -> PyResult<()> {
+        let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
+        let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
+        let asset = Asset::new(name.into(), mesh).ok_or_else(fault)?;
+        let mut known = self.assets.write().map_err(|_| fault())?;
+        Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
+        Ok(())
+    }
+
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
     #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0, shapes=5_000_000))]
@@ -88,7 +119,11 @@ impl GrammarRules {
             shapes,
             ..Limits::default()
         };
-        let found: Vec<Result<Derived, String>> = py.detach(|| {
+        let assets = match self.assets.read() {
+            Ok(known) => known.clone(),
+            Err(_) => return Err(PyValueError::new_err("the assets are not whole")),
+        };
+        let found: Vec<Result<Derived, Failed>> = py.detach(|| {
             lots.par_iter()
                 .zip(&seeds)
                 .zip(given)
@@ -97,6 +132,7 @@ impl GrammarRules {
                         seed,
                         limits,
                         attributes,
+                        assets: assets.clone(),
                         ..Options::default()
                     };
                     self.one(lot, rule, &options)
@@ -141,6 +177,32 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
+/// Faces over points; None where a number leads to none.
+fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
+    let rows = points.as_array();
+    if rows.ncols() != 3
+        || corners
+            .iter()
+            .any(|&corner| corner as usize >= rows.nrows())
+    {
+        return None;
+    }
+    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]].into();
+    let mut mesh = Mesh::with_points((0..rows.nrows()).map(place).collect());
+    for ends in offsets.windows(2) {
+        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
+        let face = corners.get(range).filter(|face| face.len() >= 3)?;
+        mesh.push_face(&[face]);
+    }
+    Some(mesh)
+}
+
+/// Why there is nothing, and the asset that is wanted where one is.
+struct Failed {
+    why: String,
+    missing_asset: Option<String>,
+}
+
 struct Derived {
     packed: Packed,
     surfaces: Surfaces,
@@ -165,6 +227,7 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
         code: lowered.code,
         text: Source::new(name.clone(), text.clone()),
         has_imports: program.units.len() > 1,
+        assets: RwLock::default(),
     })
 }
 
@@ -181,17 +244,23 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
-    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, String> {
-        let form = lot_form(lot).ok_or("the lot encloses nothing")?;
+    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
+        let form = lot_form(lot).ok_or_else(|| Failed {
+            why: "the lot encloses nothing".to_string(),
+            missing_asset: None,
+        })?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
         let tree = derive(&self.code, rule, start, options).map_err(|fault| {
             let name = self.text.name();
-            if self.has_imports {
-                // A fault does not say which file it is in.
-                return format!("{name} or what it imports: {}", fault.message);
-            }
             let place = self.text.position(fault.span.start);
-            format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+            Failed {
+                // A fault does not say which file it is in.
+                why: match self.has_imports {
+                    true => format!("{name} or what it imports: {}", fault.message),
+                    false => format!("{name}:{}:{}: {}", place.line, place.column, fault.message),
+                },
+                missing_asset: fault.missing_asset.map(|name| name.to_string()),
+            }
         })?;
         let packed = pack(&tree);
         let surfaces = surfaces(&tree, &packed);
@@ -204,6 +273,14 @@ impl GrammarRules {
             messages: tree.messages,
         })
     }
+}
+
+/// An asset that a lot's rules want and that is not known yet: add it and derive again.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+struct MissingAsset {
+    name: String,
+    /// What the lot's failure is where there is no such asset.
+    why: String,
 }
 
 /// The columns of one lot.
@@ -222,20 +299,37 @@ struct DerivedLot {
     feature_size_m: Py<PyArray2<f64>>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
+    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
+    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
+    instance_feature: Py<PyArray1<i32>>,
+    instance_look: Py<PyArray1<i32>>,
+    instance_asset: Py<PyArray1<i32>>,
+    instance_transform: Py<PyArray2<f64>>,
+    asset_names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
 }
 
-fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<Bound<'py, PyAny>> {
+fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
     let derived = match found {
         Ok(derived) => derived,
-        Err(why) => return Ok(why.into_pyobject(py)?.into_any()),
+        Err(failed) => match failed.missing_asset {
+            Some(name) => {
+                let why = failed.why;
+                return Ok(Bound::new(py, MissingAsset { name, why })?.into_any());
+            }
+            None => return Ok(failed.why.into_pyobject(py)?.into_any()),
+        },
     };
     let (packed, surfaces) = (derived.packed, derived.surfaces);
-    let of_polygon = |column: &[u32]| -> Vec<i32> {
-        let leaves = packed.polygon_feature.iter();
-        leaves.map(|&leaf| column[leaf as usize] as i32).collect()
+    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
+        let each = leaves.iter();
+        each.map(|&leaf| column[leaf as usize] as i32).collect()
     };
+    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
+    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
+    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
+    let name = |asset: &Arc<Asset>| asset.name.to_string();
     let looks = packed.looks.iter().map(|look| {
         let [r, g, b] = look.colour;
         let texture = look.texture.as_ref().map(ToString::to_string);
@@ -252,6 +346,11 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
+        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
+        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
+        instance_asset: assets.into_pyarray(py).unbind(),
+        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
+        asset_names: packed.assets.iter().map(name).collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
     };
@@ -265,5 +364,6 @@ fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("GrammarFault", m.py().get_type::<GrammarFault>())?;
     m.add_class::<GrammarRules>()?;
+    m.add_class::<MissingAsset>()?;
     m.add_class::<DerivedLot>()
 }

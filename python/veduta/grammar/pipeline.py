@@ -98,7 +98,8 @@ def run_derive(
         if result.up_to_date:
             waiting = []
         jobs_to_do = [
-            Job(b, files, options, source, out, folder.work_path(b.name)) for b in waiting
+            Job(b, files, options, source, rules.path.parent, out, folder.work_path(b.name))
+            for b in waiting
         ]
         with timed_step(steps, "build"):
             _process(jobs_to_do, folder, keys, result, progress, jobs)
