@@ -74,6 +74,7 @@ class GrammarRules:
         points: NDArray[np.float64],
         corners: NDArray[np.uint32],
         offsets: NDArray[np.int64],
+        box_m: NDArray[np.float64],
     ) -> None: ...
     def derive(
         self,

@@ -77,16 +77,22 @@ impl GrammarRules {
 
     /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
     /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
+    /// `box_m`: (2, 3) the corners of the box that fills a scope.
     fn add_asset(
         &self,
         name: &str,
         points: PyReadonlyArray2<'_, f64>,
         corners: PyReadonlyArray1<'_, u32>,
         offsets: PyReadonlyArray1<'_, i64>,
+        box_m: PyReadonlyArray2<'_, f64>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
         let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
-        let asset = Asset::new(name.into(), mesh).ok_or_else(fault)?;
+        let ends = places(&box_m).ok_or_else(fault)?;
+        let [low, high] = ends[..] else {
+            return Err(fault());
+        };
+        let asset = Asset::new(name.into(), mesh, (low.into(), high.into())).ok_or_else(fault)?;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())
@@ -177,18 +183,23 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
+/// The rows of three numbers; None where they have another count.
+fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
+    let rows = points.as_array();
+    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
+    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
+}
+
 /// Faces over points; None where a number leads to none.
 fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
-    let rows = points.as_array();
-    if rows.ncols() != 3
-        || corners
-            .iter()
-            .any(|&corner| corner as usize >= rows.nrows())
+    let places = places(points)?;
+    if corners
+        .iter()
+        .any(|&corner| corner as usize >= places.len())
     {
         return None;
     }
-    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]].into();
-    let mut mesh = Mesh::with_points((0..rows.nrows()).map(place).collect());
+    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
     for ends in offsets.windows(2) {
         let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
         let face = corners.get(range).filter(|face| face.len() >= 3)?;

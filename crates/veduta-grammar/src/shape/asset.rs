@@ -19,14 +19,18 @@ pub struct Asset {
 }
 
 impl Asset {
-    /// None where there is no face, or a place is no number.
-    pub fn new(name: Arc<str>, mesh: Mesh) -> Option<Self> {
-        let (low, high) = mesh.bounds()?;
-        if mesh.is_empty() || !mesh.points.iter().all(|point| point.is_finite()) {
+    /// `low` and `high` are the corners of the box that will fill scopes. None where there is no
+    /// face, where a place is no number, or where points lie off a box that is flat.
+    pub fn new(name: Arc<str>, mesh: Mesh, (low, high): (DVec3, DVec3)) -> Option<Self> {
+        let size = high - low;
+        let fits = |point: &DVec3| {
+            let off = (*point - low).abs();
+            point.is_finite() && (0..3).all(|axis| size[axis] > 0.0 || off[axis] == 0.0)
+        };
+        if mesh.is_empty() || !size.is_finite() || !mesh.points.iter().all(fits) {
             return None;
         }
         let solid = mesh.is_closed();
-        let size = high - low;
         let unit = Arc::new(mesh.mapped(|point| over(point - low, size)));
         Some(Self {
             name,

@@ -16,9 +16,10 @@ from veduta import _core
 from veduta.place.instances import SharedMesh
 from veduta.place.material import Colour
 
-CREASE_RAD = np.radians(38.0)
+CREASE_RAD = np.radians(48.0)
 """Faces that turn less than this at an edge are shaded as one curved surface."""
-PLANE_TOLERANCE_M = 1e-3
+PLANE_TOLERANCE_M = 5e-3
+"""Faces of swept curves are a little warped."""
 
 
 @dataclass(frozen=True)
@@ -42,6 +43,8 @@ class Asset:
 
     points_m: (v, 3) float64. corners: (c,) uint32, point numbers face by face, counter-clockwise
     seen from outside. offsets: (f + 1,) int64, first corner of each face. face_slot: (f,) int32.
+    given_box_m: the box that fills a scope where it is not that around the points: all levels of
+    detail have the finest one's, so that they stand in the same place.
     """
 
     name: str
@@ -50,12 +53,14 @@ class Asset:
     offsets: NDArray[np.int64]
     face_slot: NDArray[np.int32]
     slots: tuple[Slot, ...]
+    given_box_m: NDArray[np.float64] | None = None
 
-    @property
-    def size_m(self) -> NDArray[np.float64]:
-        """(3,) the extent along x, y and z."""
-        size: NDArray[np.float64] = self.points_m.max(axis=0) - self.points_m.min(axis=0)
-        return size
+    @cached_property
+    def box_m(self) -> NDArray[np.float64]:
+        """(2, 3) the corners of the box that fills a scope."""
+        if self.given_box_m is not None:
+            return self.given_box_m
+        return np.stack([self.points_m.min(axis=0), self.points_m.max(axis=0)])
 
     @cached_property
     def triangles(self) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.float64]]:

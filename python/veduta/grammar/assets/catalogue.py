@@ -8,8 +8,9 @@ from __future__ import annotations
 
 import functools
 from collections.abc import Callable
+from dataclasses import replace
 
-from veduta.grammar.assets import windows
+from veduta.grammar.assets import doors, railings, roofs, stonework, windows
 from veduta.grammar.assets.asset import Asset
 
 PREFIX = "builtin/"
@@ -23,6 +24,33 @@ MAKERS: dict[str, Maker] = {
     "window-lancet": windows.lancet,
     "window-fixed": windows.fixed,
     "window-ribbon": windows.ribbon,
+    "door-double": doors.double,
+    "door-single": doors.single,
+    "door-glazed": doors.glazed,
+    "door-garage": doors.garage,
+    "door-step": doors.step,
+    "shop-front": doors.shop,
+    "railing-iron": railings.iron,
+    "railing-bars": railings.bars,
+    "railing-balustrade": railings.balustrade,
+    "railing-glass": railings.glass,
+    "cornice": stonework.cornice,
+    "cornice-dentils": stonework.dentils,
+    "string-course": stonework.string_course,
+    "plinth": stonework.plinth,
+    "console": stonework.console,
+    "modillion": stonework.modillion,
+    "quoin": stonework.quoin,
+    "keystone": stonework.keystone,
+    "window-hood": stonework.hood,
+    "dormer-pediment": roofs.pediment,
+    "dormer-arched": roofs.arched,
+    "dormer-shed": roofs.shed,
+    "dormer-gabled": roofs.gabled,
+    "skylight": roofs.skylight,
+    "chimney-stack": roofs.stack,
+    "chimney-single": roofs.single,
+    "chimney-pot": roofs.one_pot,
 }
 
 
@@ -38,4 +66,7 @@ def builtin(name: str) -> Asset | None:
     maker = MAKERS.get(plain)
     if not name.startswith(PREFIX) or maker is None or level not in ("", "0", "1", "2"):
         return None
-    return maker(name, int(level or 0))
+    finest = maker(name, 0)
+    if level in ("", "0"):
+        return finest
+    return replace(maker(name, int(level)), given_box_m=finest.box_m)

@@ -63,6 +63,10 @@ class Model:
         flat = np.asarray(outline, dtype=np.float64)
         self.add(_at(flat, z), [list(range(len(flat)))], slot)
 
+    def facet(self, corners: ArrayLike, slot: str) -> None:
+        """One flat face whose edges stay sharp, however little it turns from the next."""
+        self.add(corners, [list(range(len(np.asarray(corners))))], slot)
+
     def prism(
         self,
         outline: ArrayLike,
@@ -152,6 +156,18 @@ class Model:
         """A bar of round section along a path in x and y."""
         turn = 2.0 * np.pi * (np.arange(sides) + 0.5) / sides
         self.sweep(radius * np.column_stack([np.cos(turn), np.sin(turn)]), path, slot, z=z)
+
+    def insert(self, other: Model, at: Sequence[float]) -> None:
+        """All of another model, moved; its slots must be known here by the same names."""
+        before = 0
+        slots = iter(other._face_slot)
+        for points, faces in zip(other._points, other._faces, strict=True):
+            for face in faces:
+                number = next(slots)
+                corners = [corner - before for corner in face]
+                own = points[corners] + np.asarray(at, dtype=np.float64)
+                self.add(own, [list(range(len(own)))], other._slots[number].name)
+            before += len(points)
 
     def asset(self, name: str) -> Asset:
         """All that was added."""

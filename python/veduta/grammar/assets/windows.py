@@ -32,19 +32,26 @@ def framed(model: Model, x: Span, y: Span, width: float, z: Span, level: int) ->
     model.sweep(moulding(width, z[0], z[1], level), path, "frame", closed=True)
 
 
-def bars(model: Model, x: Span, y: Span, across: int, up: int, z: Span, width: float) -> None:
+def bars(
+    model: Model,
+    x: Span,
+    y: Span,
+    across: int,
+    up: int,
+    z: Span,
+    width: float,
+    slot: str = "frame",
+) -> None:
     """Glazing bars that divide an opening into `across` by `up` panes."""
     half = width / 2
     for k in range(1, across):
         at = x[0] + (x[1] - x[0]) * k / across
-        model.box(
-            (at - half, y[0], z[0]), (at + half, y[1], z[1]), "frame", without="back bottom top"
-        )
+        low, high = (at - half, y[0], z[0]), (at + half, y[1], z[1])
+        model.box(low, high, slot, without="back bottom top")
     for k in range(1, up):
         at = y[0] + (y[1] - y[0]) * k / up
-        model.box(
-            (x[0], at - half, z[0]), (x[1], at + half, z[1]), "frame", without="back left right"
-        )
+        low, high = (x[0], at - half, z[0]), (x[1], at + half, z[1])
+        model.box(low, high, slot, without="back left right")
 
 
 def flat_window(
@@ -125,8 +132,8 @@ def raised(model: Model, x: Span, y: Span, z: Span, slot: str, level: int) -> No
         (x[0] + slope, y[1] - slope),
     ]
     points = [(*p, z[0]) for p in low] + [(*p, z[1]) for p in high]
-    faces = [[0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]]
-    model.add(points, faces, slot)
+    for face in ([0, 1, 5, 4], [1, 2, 6, 5], [2, 3, 7, 6], [3, 0, 4, 7], [4, 5, 6, 7]):
+        model.facet([points[corner] for corner in face], slot)
 
 
 def meeting_stile(model: Model, x: float, y: Span, knob: float, level: int) -> None:
