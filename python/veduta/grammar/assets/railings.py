@@ -34,7 +34,7 @@ def iron(name: str, level: int) -> Asset:
         return model.asset(name)
     for x in (0.075, 0.525):
         post(model, x, 0.0 if x < 0.1 else 0.085, 0.915, 0.009)
-    turns, steps, sides = ((1.6, 18, 5), (0.9, 7, 4))[level]
+    turns, steps, sides = ((1.6, 18, 5), (0.8, 6, 3))[level]
     for side in (-1.0, 1.0):
         scroll(model, 0.3, side, (0.085, 0.74), turns, steps, sides)
     frieze(model, (0.76, 0.915), level)
@@ -61,7 +61,7 @@ def scroll(
         lower[:, 0] = 2 * (middle + side * 0.095) - lower[:, 0]
         upper[:, 0] = 2 * (middle + side * 0.085) - upper[:, 0]
     start, end = lower[-1], upper[-1]
-    share = np.linspace(0.0, 1.0, 9)[1:-1, None]
+    share = np.linspace(0.0, 1.0, 9 if sides > 3 else 5)[1:-1, None]
     pull = np.array([[-side * 0.28, 0.0]])
     swing = (1 - share) ** 3 * start + 3 * (1 - share) ** 2 * share * (start + pull + [0.0, low])
     swing += 3 * (1 - share) * share**2 * (end + pull - [0.0, high]) + share**3 * end
