@@ -68,7 +68,7 @@ class Instances:
             for group in self.groups
         ]
         every = np.concatenate(corners)
-        return every.min(axis=0), every.max(axis=0)
+        return every.min(axis=0).round(6), every.max(axis=0).round(6)
 
     def feature_area_m2(self, features: int) -> NDArray[np.float64]:
         """(features,) the summed area of the triangles of each feature."""

@@ -12,6 +12,7 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from veduta.place.material import Material
+from veduta.place.flatten import flattened
 from veduta.place.part import Part
 
 # (part, world_from_part 4x4)
@@ -45,7 +46,8 @@ class RayScene:
         self.materials: list[Material] = []
         self.first_feature: list[int] = []
         features = polygons = 0
-        for part, world_from_part in parts:
+        for placed, world_from_part in parts:
+            part = flattened(placed)
             triangles = part.triangles
             turn = world_from_part[:3, :3]
             world = part.positions_m.astype(np.float64) @ turn.T + world_from_part[:3, 3]
