@@ -42,9 +42,9 @@ impl GrammarRules {
     fn starts(&self) -> Vec<String> {
         let mut names: Vec<usize> = self.code.start.into_iter().collect();
         let all = 0..self.code.rules.len();
-        names.extend(
-            all.filter(|rule| self.code.rules[*rule].params == 0 && Some(*rule) != self.code.start),
-        );
+        names.extend(all.filter(|rule| {
+            self.code.rules[*rule].params.is_empty() && Some(*rule) != self.code.start
+        }));
         let name = |rule: usize| self.code.rules[rule].name.to_string();
         names.into_iter().map(name).collect()
     }

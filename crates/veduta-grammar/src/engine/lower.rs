@@ -162,7 +162,7 @@ impl<'a> Lowering<'a> {
         code.rules.push(Rule {
             name: self.shared(rule.name),
             symbol: rule.name.symbol,
-            params: definition.arity,
+            params: rule.params.iter().map(|name| self.shared(*name)).collect(),
             locals,
             body,
         });

@@ -6,6 +6,7 @@
 mod arrays;
 mod code;
 mod colours;
+mod draws;
 mod evaluate;
 mod fault;
 mod functions;
@@ -21,6 +22,7 @@ mod operators;
 mod overrides;
 mod pack;
 mod random;
+mod rederive;
 mod run;
 mod selection;
 mod shape_attributes;
@@ -31,19 +33,21 @@ mod tree;
 mod value;
 
 pub use code::{Code, Expr, ExprKind};
+pub use draws::Taken;
 pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
 pub use lower::{lower, Lowered};
 pub use operations::names as operation_names;
-pub use overrides::{Edit, Overrides};
+pub use overrides::{Edit, Edited, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
 pub use random::Stream;
+pub use rederive::rederive;
 pub use run::{derive, Options};
 pub use state::{Extra, Look, Place, State};
 pub use surfaces::{surfaces, Surfaces};
 pub use texture_map::TextureMap;
-pub use tree::{Node, Tree};
+pub use tree::{Known, Node, Told, Tree};
 pub use value::{Array, Value};
 
 /// The names of all functions that derive.
