@@ -9,21 +9,22 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options, Packed, State,
-    Surfaces, Value,
+    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Fault, Limits, Options, Packed,
+    State, Surfaces, Tree, Value,
 };
 use veduta_grammar::{check, Source};
 
+use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
 
-type Rings = Vec<Vec<[f64; 3]>>;
+pub type Rings = Vec<Vec<[f64; 3]>>;
 
 /// Checked rule files, ready to derive.
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
-struct GrammarRules {
-    code: Code,
+pub struct GrammarRules {
+    pub code: Code,
     text: Source,
     has_imports: bool,
 }
@@ -63,7 +64,7 @@ impl GrammarRules {
 
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
-    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn derive<'py>(
         &self,
@@ -72,14 +73,16 @@ impl GrammarRules {
         seeds: Vec<u64>,
         start: Option<&str>,
         attributes: Option<Vec<HashMap<String, Given>>>,
+        edits: Option<Vec<Vec<GivenEdit>>>,
         seconds: f64,
         shapes: usize,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
-        if seeds.len() != lots.len() || given.len() != lots.len() {
+        let edits = edits.unwrap_or_else(|| lots.iter().map(|_| Vec::new()).collect());
+        if [seeds.len(), given.len(), edits.len()] != [lots.len(); 3] {
             return Err(PyValueError::new_err(
-                "each lot needs a seed and attributes",
+                "each lot needs a seed, attributes and edits",
             ));
         }
         let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
@@ -92,12 +95,13 @@ impl GrammarRules {
             lots.par_iter()
                 .zip(&seeds)
                 .zip(given)
-                .map(|((lot, &seed), attributes)| {
+                .zip(edits)
+                .map(|(((lot, &seed), attributes), edits)| {
                     let options = Options {
                         seed,
                         limits,
                         attributes,
-                        ..Options::default()
+                        overrides: overrides_of(edits),
                     };
                     self.one(lot, rule, &options)
                 })
@@ -109,7 +113,7 @@ impl GrammarRules {
 
 /// A value given from outside.
 #[derive(FromPyObject)]
-enum Given {
+pub enum Given {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -125,9 +129,27 @@ impl From<Given> for Value {
     }
 }
 
-fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
+pub fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
     let each = given.into_iter();
     each.map(|(name, value)| (name, value.into())).collect()
+}
+
+/// A value for outside; an array is what `str` makes of it.
+#[derive(IntoPyObject)]
+pub enum GivenBack {
+    Bool(bool),
+    Number(f64),
+    Text(String),
+}
+
+impl From<&Value> for GivenBack {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Bool(is) => Self::Bool(*is),
+            Value::Number(number) => Self::Number(*number),
+            Value::Text(_) | Value::Array(_) => Self::Text(value.to_string()),
+        }
+    }
 }
 
 /// What an expression is where it says so itself; of alternatives, the first speaks for all.
@@ -141,12 +163,13 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-struct Derived {
+pub struct Derived {
     packed: Packed,
     surfaces: Surfaces,
     names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
 fn read(files: &Files) -> Result<GrammarRules, String> {
@@ -169,7 +192,7 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
 }
 
 impl GrammarRules {
-    fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
+    pub fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
         let found = match name {
             Some(name) => self.code.rule_named(name),
             None => self.code.start,
@@ -184,25 +207,34 @@ impl GrammarRules {
     fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, String> {
         let form = lot_form(lot).ok_or("the lot encloses nothing")?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
-        let tree = derive(&self.code, rule, start, options).map_err(|fault| {
-            let name = self.text.name();
-            if self.has_imports {
-                // A fault does not say which file it is in.
-                return format!("{name} or what it imports: {}", fault.message);
-            }
-            let place = self.text.position(fault.span.start);
-            format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
-        })?;
-        let packed = pack(&tree);
-        let surfaces = surfaces(&tree, &packed);
-        let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
-        Ok(Derived {
-            names: surfaces.node.iter().map(name).collect(),
-            packed,
-            surfaces,
-            log_prior: tree.log_prior,
-            messages: tree.messages,
-        })
+        let tree = derive(&self.code, rule, start, options).map_err(|fault| self.told(&fault))?;
+        Ok(derived_of(&tree))
+    }
+
+    /// A fault with its place in the file.
+    pub fn told(&self, fault: &Fault) -> String {
+        let name = self.text.name();
+        if self.has_imports {
+            // A fault does not say which file it is in.
+            return format!("{name} or what it imports: {}", fault.message);
+        }
+        let place = self.text.position(fault.span.start);
+        format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+    }
+}
+
+/// The columns of the leaves of a tree.
+pub fn derived_of(tree: &Tree) -> Derived {
+    let packed = pack(tree);
+    let surfaces = surfaces(tree, &packed);
+    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
+    Derived {
+        names: surfaces.node.iter().map(name).collect(),
+        packed,
+        surfaces,
+        log_prior: tree.log_prior,
+        messages: tree.messages.clone(),
+        edit_faults: edit_faults(tree),
     }
 }
 
@@ -224,13 +256,18 @@ struct DerivedLot {
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
     log_prior: f64,
     messages: Vec<String>,
+    /// Path and fault of each edit that could not be done.
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
 fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<Bound<'py, PyAny>> {
-    let derived = match found {
-        Ok(derived) => derived,
-        Err(why) => return Ok(why.into_pyobject(py)?.into_any()),
-    };
+    match found {
+        Ok(derived) => lot_to_python(py, derived),
+        Err(why) => Ok(why.into_pyobject(py)?.into_any()),
+    }
+}
+
+pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
     let (packed, surfaces) = (derived.packed, derived.surfaces);
     let of_polygon = |column: &[u32]| -> Vec<i32> {
         let leaves = packed.polygon_feature.iter();
@@ -254,11 +291,12 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         looks: looks.collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
+        edit_faults: derived.edit_faults,
     };
     Ok(Bound::new(py, lot)?.into_any())
 }
 
-fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
+pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
     Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
 }
 

@@ -11,6 +11,7 @@ from typing import Any
 from veduta import _core
 from veduta.formats.gltf import write_glb
 from veduta.grammar.building import NothingBuiltError, build_part
+from veduta.grammar.edits import fault_told
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
@@ -101,6 +102,7 @@ def _derive_all(rules: _core.GrammarRules, job: Job) -> list[_core.DerivedLot | 
             [seed_of(lots[index], job.options.derive.seed) for index in sound],
             start=job.options.derive.start,
             attributes=[found for found in given if not isinstance(found, str)],
+            edits=[[edit.core for edit in lots[index].edits] for index in sound],
             seconds=job.options.derive.seconds,
             shapes=MAX_SHAPES,
         )
@@ -156,6 +158,8 @@ def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
 def _part_of(lot: Lot, derived: _core.DerivedLot | str) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
+    if fault := fault_told(lot.edits, derived.edit_faults):
+        raise NothingBuiltError(fault)
     return build_part(derived, lot.id)
 
 

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import difflib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -14,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.grammar.city_lots import city_epsg, city_outlines
+from veduta.grammar.edits import Edit
 from veduta.grammar.frames import Frame, find_frame, named_crs
 from veduta.grammar.outline import Attribute, Outline, plain_attributes
 from veduta.grammar.rings import RingFault, clean_rings, numbers_of
@@ -34,7 +36,7 @@ class Lot:
 
     rings_m: (n, 2) each, about `anchor_m`; the outline first, counter-clockwise seen from above,
     its first edge along the street; holes run clockwise. anchor_m: x, y, z from the origin of all
-    lots. attributes: what the file says of it.
+    lots. attributes: what the file says of it. edits: what is otherwise at single shapes.
     """
 
     id: str
@@ -42,6 +44,7 @@ class Lot:
     rings_m: tuple[NDArray[np.float64], ...]
     anchor_m: tuple[float, float, float]
     attributes: dict[str, Attribute] = field(default_factory=dict)
+    edits: tuple[Edit, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -78,6 +81,19 @@ def read_lots(path: Path) -> Lots:
     lots, more = place_lots(path, outlines, frame)
     notes += frame.notes
     return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
+
+
+def edited_lots(lots: Lots, path: Path, edits: Mapping[str, tuple[Edit, ...]]) -> Lots:
+    """The lots with the edits of the file `path`; InputError for those of a lot that is not there."""
+    ids = [lot.id for lot in lots.lots]
+    for name in sorted(set(edits) - set(ids)):
+        line = edits[name][0].where.rpartition(":")[2]
+        near = difflib.get_close_matches(name, ids, n=1)
+        hint = f"Did you mean `{near[0]}`?" if near else f"There are: {', '.join(ids[:12])}."
+        raise InputError(path, f"line {line} edits the lot `{name}`, which is not there", hint)
+    return replace(
+        lots, lots=tuple(replace(lot, edits=edits.get(lot.id, ())) for lot in lots.lots)
+    )
 
 
 def _of_geojson(
