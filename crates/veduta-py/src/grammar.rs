@@ -9,10 +9,10 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Fault, Limits, Options, Packed,
-    State, Surfaces, Tree, Value,
+    derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault, Limits, Options,
+    Packed, State, Surfaces, Tree, Value,
 };
-use veduta_grammar::{check, Source};
+use veduta_grammar::{check, Checked, Program, Source, Style};
 
 use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::rules::{program_of, rendered, Files};
@@ -27,15 +27,25 @@ pub struct GrammarRules {
     pub code: Code,
     text: Source,
     has_imports: bool,
+    styles: Vec<String>,
 }
 
 #[pymethods]
 impl GrammarRules {
     /// `files` are name and text of each file, the main one first; the others are what it may
     /// import, under the names in its import statements.
+    /// `style` is one of the main file's; `Default` where it is None.
     #[new]
-    fn new(py: Python<'_>, files: Files) -> PyResult<Self> {
-        py.detach(|| read(&files)).map_err(GrammarFault::new_err)
+    #[pyo3(signature = (files, style=None))]
+    fn new(py: Python<'_>, files: Files, style: Option<&str>) -> PyResult<Self> {
+        py.detach(|| read(&files, style))
+            .map_err(GrammarFault::new_err)
+    }
+
+    /// The styles of the main file, `Default` first.
+    #[getter]
+    fn styles(&self) -> Vec<String> {
+        self.styles.clone()
     }
 
     /// Names of the rules that need no arguments, the start rule first.
@@ -172,7 +182,7 @@ pub struct Derived {
     edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-fn read(files: &Files) -> Result<GrammarRules, String> {
+fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
     let (name, text) = files.first().ok_or_else(missing)?;
     let program = program_of(files).ok_or_else(missing)?;
@@ -180,7 +190,11 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
     if checked.has_errors() {
         return Err(checked.render(&program));
     }
-    let lowered = lower(&program, &checked);
+    let styles = style_names(&program, &checked);
+    let wanted = style.unwrap_or("Default");
+    let style = styles.iter().position(|one| one == wanted);
+    let style = style.ok_or_else(|| format!("{name} has no style `{wanted}`"))?;
+    let lowered = lower_in_style(&program, &checked, style);
     if lowered.has_errors() {
         return Err(rendered(&program, &lowered.diagnostics));
     }
@@ -188,7 +202,19 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
         code: lowered.code,
         text: Source::new(name.clone(), text.clone()),
         has_imports: program.units.len() > 1,
+        styles,
     })
+}
+
+fn style_names(program: &Program, checked: &Checked) -> Vec<String> {
+    let main = checked.definitions.first();
+    let styles = main.into_iter().flat_map(|defined| &defined.styles);
+    let name = |style: &Style| {
+        style
+            .name
+            .map_or("Default", |name| program.names.text(name))
+    };
+    styles.map(|style| name(style).to_string()).collect()
 }
 
 impl GrammarRules {

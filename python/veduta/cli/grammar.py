@@ -25,7 +25,8 @@ HELP = f"""usage: veduta grammar check RULES
 
   check     Check a rule file and what it imports; every fault is shown with its line
   format    Lay out rule files in the house style
-  derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
+  derive    Derive a building for each lot of a file (GeoJSON, CityJSON, GeoPackage, OBJ), or for
+            a synthetic street
   sample    Show what the rules can make: random derivations in a picture
   tree      Show how a building is derived: its shapes, their choices and paths
 
@@ -103,7 +104,8 @@ def _derive(arguments: list[str]) -> int:
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    given = read_attributes(call.attr)
+    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     progress = Progress(quiet=call.quiet)
     result = run_derive(
         call.rules,

@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions
+from veduta.grammar.options import DeriveOptions, LotOptions
 from veduta.grammar.sampling import SampleOptions
 
 Rules = Annotated[
@@ -30,7 +30,7 @@ LotsFile = Annotated[
     tyro.conf.arg(
         metavar="LOTS",
         help_behavior_hint="",
-        help="GeoJSON or CityJSON with the lots; a synthetic street where it is not given",
+        help="GeoJSON, CityJSON, GeoPackage or OBJ with the lots; a synthetic street if not given",
     ),
 ]
 OneLot = Annotated[
@@ -51,9 +51,7 @@ LotName = Annotated[
 ]
 Edits = Annotated[
     Path | None,
-    tyro.conf.arg(
-        metavar="FILE", help_behavior_hint="", help="edits of single shapes, one a line"
-    ),
+    tyro.conf.arg(metavar="FILE", help_behavior_hint="", help="edits of single shapes, one a line"),
 ]
 Picture = Annotated[
     Path, tyro.conf.arg(aliases=["-o"], metavar="SHEET", help="the picture to write (PNG or JPEG)")
@@ -76,13 +74,17 @@ Count = Annotated[
 Depth = Annotated[
     int,
     tyro.conf.arg(
-        metavar="N", help_behavior_hint="", help="rules within each other that are shown, up to 1000"
+        metavar="N",
+        help_behavior_hint="",
+        help="rules within each other that are shown, up to 1000",
     ),
 ]
 At = Annotated[
     str,
     tyro.conf.arg(
-        metavar="PATH", help_behavior_hint="", help="shape to begin with, such as /0/2; / is the lot"
+        metavar="PATH",
+        help_behavior_hint="",
+        help="shape to begin with, such as /0/2; / is the lot",
     ),
 ]
 Attr = Annotated[
@@ -131,6 +133,7 @@ class DeriveCall:
     attr: Attr = ()
     edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False
@@ -153,6 +156,7 @@ class SampleCall:
     lot: LotName = None
     attr: Attr = ()
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)
     sheet: SampleOptions = field(default_factory=SampleOptions)
     quiet: Quiet = False
 
@@ -176,3 +180,4 @@ class TreeCall:
     attr: Attr = ()
     edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)

@@ -30,10 +30,11 @@ def sample(arguments: list[str]) -> int:
         raise InputError(
             f"--count {call.count}", f"is not from 1 to {MAX_SAMPLES}", "Give another."
         )
-    rules = parse_rules(call.rules)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    rules = parse_rules(call.rules, style=call.derive.style)
+    given = read_attributes(call.attr)
+    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     options = check_options(rules.core, rules.path, options)
-    lot = find_lot(call.lots, call.lot)
+    lot = find_lot(call.lots, call.lot, call.read)
     samples = draw_samples(rules, lot, options, call.count)
     cells = picture_cells(samples, call.sheet, Progress(quiet=call.quiet))
     sheet = sheet_of(rules.path.stem, lot, samples, cells, call.sheet)
@@ -67,17 +68,20 @@ def tree(arguments: list[str]) -> int:
         path, _ = parse_path(call.at)
     except EditFault as fault:
         raise InputError("--at", str(fault), "Take one from the tree, or / for all.") from fault
-    rules = parse_rules(call.rules)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    rules = parse_rules(call.rules, style=call.derive.style)
+    given = read_attributes(call.attr)
+    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     options = check_options(rules.core, rules.path, options)
-    lot = find_lot(call.lots, call.lot)
+    lot = find_lot(call.lots, call.lot, call.read)
     edits = edits_of(call.edits, lot.id)
     derivation = derive_lot(rules, lot, options, call.derive.seed, edits)
     start = derivation.shape(path)
     if start is None:
-        raise InputError(f"--at {call.at}", "is no shape of this tree", "Look at the tree above it.")
+        raise InputError(
+            f"--at {call.at}", "is no shape of this tree", "Look at the tree above it."
+        )
     rows = tree_rows(start, call.depth)
-    head = heading(f"{rules.path.stem} on {lot.name}", call.derive.seed, derivation)
+    head = heading(f"{rules.path.stem} on the lot {lot.name}", call.derive.seed, derivation)
     if call.out is None:
         sys.stdout.write(f"{head}\n{tree_text(rows)}")
     elif call.out.suffix.lower() == ".svg":

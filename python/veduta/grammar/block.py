@@ -65,14 +65,14 @@ class BlockResult:
 
 
 @functools.lru_cache(maxsize=1)
-def _rules(files: tuple[tuple[str, str], ...]) -> _core.GrammarRules:
+def _rules(files: tuple[tuple[str, str], ...], style: str | None) -> _core.GrammarRules:
     """Compiled once in each process."""
-    return _core.GrammarRules(list(files))
+    return _core.GrammarRules(list(files), style)
 
 
 def run_block(job: Job) -> BlockResult:
     """Derive each lot and write its model into the work folder."""
-    rules = _rules(job.files)
+    rules = _rules(job.files, job.options.derive.style)
     result = BlockResult()
     with timed_step(result.steps, "derive"):
         derived = _derive_all(rules, job)

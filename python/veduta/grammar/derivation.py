@@ -23,7 +23,7 @@ from numpy.typing import ArrayLike, NDArray
 from veduta import _core
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.outline import Attribute
-from veduta.grammar.rules import RuleFiles, compile_rules, find_rules, read_rules
+from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.run.errors import InputError, VedutaError
 
 SECONDS = 60.0
@@ -285,10 +285,13 @@ class Shape:
         return self._tree.children(self._number)
 
 
-def parse(rules: str | Path | RuleFiles) -> Rules:
-    """The rules of a file, or of a style that Veduta brings along; InputError with all faults."""
-    files = rules if isinstance(rules, RuleFiles) else read_rules(find_rules(str(rules)))
-    return Rules(files.path, compile_rules(files))
+def parse(rules: str | Path, *, style: str | None = None) -> Rules:
+    """The rules of a file, or of one that Veduta brings along; InputError with all faults.
+
+    style: one of the styles in the file (`style Name`); `Default` where it is None.
+    """
+    files = read_rules(find_rules(str(rules)))
+    return Rules(files.path, compile_rules(files, style))
 
 
 def derive(

@@ -101,7 +101,7 @@ def read_edits(path: Path) -> dict[str, tuple[Edit, ...]]:
             raise InputError(
                 path,
                 f"line {number}: {fault}",
-                "Write LOT PATH and delete, NAME = VALUE or choice K = N; docs/grammar.md has more.",
+                "Write LOT PATH and delete, NAME = VALUE or choice K = N.",
             ) from fault
     return {lot: tuple(edits[key] for key in sorted(edits)) for lot, edits in found.items()}
 

@@ -10,8 +10,8 @@ import numpy as np
 from veduta.grammar.block import attributes_of, seed_of
 from veduta.grammar.derivation import Derivation, Rules, derive
 from veduta.grammar.edits import Edit, fault_told
-from veduta.grammar.lots import Lot, read_lots
-from veduta.grammar.options import GrammarOptions
+from veduta.grammar.lots import Lot, read_lots, require_lots
+from veduta.grammar.options import GrammarOptions, LotOptions
 from veduta.run.errors import InputError
 
 WIDTH_M, DEPTH_M = 14.0, 12.0
@@ -21,18 +21,19 @@ PLAIN_ID = "lot"
 def plain_lot(width_m: float = WIDTH_M, depth_m: float = DEPTH_M) -> Lot:
     """A rectangle with its first edge, the front, along x."""
     corners = [[0.0, 0.0], [width_m, 0.0], [width_m, depth_m], [0.0, depth_m]]
-    return Lot(PLAIN_ID, PLAIN_ID, (np.array(corners),), (0.0, 0.0, 0.0))
+    return Lot(PLAIN_ID, f"{width_m:g} x {depth_m:g} m", (np.array(corners),), (0.0, 0.0, 0.0))
 
 
-def find_lot(path: Path | None, lot_id: str | None) -> Lot:
+def find_lot(path: Path | None, lot_id: str | None, options: LotOptions | None = None) -> Lot:
     """The lot of this id, the first of the file, or the plain one where there is no file."""
+    require_lots(path, options)
     if path is None:
         if lot_id not in (None, PLAIN_ID):
             raise InputError(
                 f"--lot {lot_id}", "names a lot, but there are none", "Give --lots, too."
             )
         return plain_lot()
-    lots = read_lots(path).lots
+    lots = read_lots(path, options).lots
     if lot_id is None:
         return lots[0]
     found = [lot for lot in lots if lot_id in (lot.id, lot.name)]

@@ -17,7 +17,7 @@ from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
-from veduta.grammar.lots import Lots, edited_lots, read_lots
+from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import place_of
 from veduta.grammar.report import derive_report
@@ -81,7 +81,7 @@ def run_derive(
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
         rules = read_rules(find_rules(rules_name))
-        options = check_options(compile_rules(rules), rules.path, options)
+        options = check_options(compile_rules(rules, options.derive.style), rules.path, options)
         files = tuple(rules.texts)
         lots = _lots(lots_path, options)
         if edits_path is not None:
@@ -115,7 +115,10 @@ def run_derive(
 
 
 def _lots(path: Path | None, options: GrammarOptions) -> Lots:
-    return demo_lots(DEMO_LOTS, options.derive.seed) if path is None else read_lots(path)
+    require_lots(path, options.lots)
+    if path is None:
+        return demo_lots(DEMO_LOTS, options.derive.seed)
+    return read_lots(path, options.lots)
 
 
 def _blocks(lots: Lots) -> list[Block]:

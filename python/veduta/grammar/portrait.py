@@ -41,7 +41,8 @@ CLASS_COLOURS: Mapping[SemanticClass, str] = {
     SemanticClass.GROUND: "#b5b5a8",
     SemanticClass.OTHER: "#b9b2c0",
 }
-"""sRGB. Windows blue, balconies green, cornices yellow, doors red, as the figure of `sampling` has them."""
+"""sRGB. Windows blue, balconies green, cornices yellow, doors red, as in the figure that
+`sampling` names."""
 
 
 def in_class_colours(part: Part) -> Part:

@@ -58,9 +58,7 @@ class Sample:
     part: Part
 
 
-def draw_samples(
-    rules: Rules, lot: Lot, options: GrammarOptions, count: int
-) -> list[Sample]:
+def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) -> list[Sample]:
     """Derivations with the seeds from that of the options on."""
     found = []
     first = options.derive.seed

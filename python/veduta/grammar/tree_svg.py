@@ -9,8 +9,7 @@ from html import escape
 from veduta.grammar.edits import path_text
 from veduta.grammar.portrait import CLASS_COLOURS
 from veduta.grammar.tree_rows import Row
-from veduta.grammar.tree_text import choice_text, label, size_text
-from veduta.place.semantics import SemanticClass
+from veduta.grammar.tree_text import choice_text, label, parameters_text, size_text
 
 ROW_PX, STEP_PX, BOX_PX, LETTER_PX = 30, 46, 22, 6.6
 MARGIN_PX = 24
@@ -21,12 +20,15 @@ _UNPRINTABLE = re.compile(r"[^\t\n\r\x20-\ud7ff\ue000-\ufffd]")
 
 
 def tree_svg(title: str, rows: Sequence[Row]) -> str:
-    """An SVG of the rows; a box says what a shape is, its tooltip has the path for an edits file."""
+    """An SVG of the rows; the tooltip of a box has the path for a file of edits."""
     body, width = [], _width(title) + 2 * MARGIN_PX
+    above: list[float] = []
     for number, row in enumerate(rows):
         x, y = MARGIN_PX + row.depth * STEP_PX, MARGIN_PX + 40 + number * ROW_PX
         drawn, right = _box(row, x, y)
-        body.append(_link(rows, number, y) + drawn)
+        del above[row.depth :]
+        body.append((_link(above[-1], x, y) if above else "") + drawn)
+        above.append(y)
         width = max(width, right + MARGIN_PX)
     height = MARGIN_PX * 2 + 40 + len(rows) * ROW_PX
     head = (
@@ -39,12 +41,6 @@ def tree_svg(title: str, rows: Sequence[Row]) -> str:
     return head + "\n".join(body) + "</svg>\n"
 
 
-def classes_shown(rows: Sequence[Row]) -> list[SemanticClass]:
-    """The classes of the rows, as the drawing colours them."""
-    names = {row.surface_class for row in rows}
-    return [one for one in SemanticClass if one.value in names]
-
-
 def _box(row: Row, x: float, y: float) -> tuple[str, float]:
     """A row's box and what stands beside it; the x at which all of it ends."""
     name = row.name + ("." if row.is_leaf else "")
@@ -54,9 +50,13 @@ def _box(row: Row, x: float, y: float) -> tuple[str, float]:
     behind = ""
     if row.count > 1:
         behind = f'<rect x="{x + 3}" y="{y + 3}" width="{width:.1f}" {_side(colour)}/>'
-    beside = [size_text(row), *(choice_text(choice) for choice in row.choices)]
+    beside = [
+        parameters_text(row),
+        size_text(row),
+        *(choice_text(choice) for choice in row.choices),
+    ]
     beside += [f"+ {row.hidden} shapes below"] if row.hidden else []
-    text = "   ".join(word for word in beside if word)
+    text = "  ·  ".join(word for word in beside if word)
     ink = "#ffffff" if _is_dark(colour) else "#26282c"
     tip = f"{label(row)}\n{path_text(row.path, row.name)}"
     drawn = (
@@ -72,18 +72,12 @@ def _side(colour: str) -> str:
     return f'height="{BOX_PX}" rx="4" fill="{colour}" stroke="#8d8f93" stroke-width="0.8"'
 
 
-def _link(rows: Sequence[Row], number: int, y: float) -> str:
-    """The line from the parent's box."""
-    row = rows[number]
-    if row.depth == 0:
-        return ""
-    parent = next(at for at in range(number - 1, -1, -1) if rows[at].depth == row.depth - 1)
-    x = MARGIN_PX + (row.depth - 1) * STEP_PX + 16
-    top = MARGIN_PX + 40 + parent * ROW_PX + BOX_PX
-    right, middle = MARGIN_PX + row.depth * STEP_PX, y + BOX_PX / 2
+def _link(parent_y: float, x: float, y: float) -> str:
+    """The line from the box of the parent, which begins a step further left."""
+    left, middle = x - STEP_PX + 16, y + BOX_PX / 2
     return (
-        f'<path d="M{x} {top} V{middle - 6} Q{x} {middle} {x + 6} {middle} H{right}" '
-        'fill="none" stroke="#b9b7b0"/>'
+        f'<path d="M{left} {parent_y + BOX_PX} V{middle - 6} Q{left} {middle} {left + 6} {middle} '
+        f'H{x}" fill="none" stroke="#b9b7b0"/>'
     )
 
 

@@ -6,7 +6,6 @@ from collections.abc import Sequence
 
 from veduta.grammar.derivation import Choice, Derivation
 from veduta.grammar.edits import path_text
-from veduta.grammar.outline import Attribute
 from veduta.grammar.sampling import prior_text
 from veduta.grammar.sheet import shown
 from veduta.grammar.tree_rows import Row
@@ -33,7 +32,8 @@ def heading(subject: str, seed: int, derivation: Derivation) -> str:
 
 def label(row: Row) -> str:
     """A row in words: name, parameters, how many, size, class, choices, what is hidden."""
-    words = [row.name + ("." if row.is_leaf else "") + _parameters(row.parameters)]
+    given = f"({parameters_text(row)})" if row.parameters else ""
+    words = [row.name + ("." if row.is_leaf else "") + given]
     if row.count > 1:
         words.append(f"×{row.count}")
     words.append(size_text(row))
@@ -45,6 +45,11 @@ def label(row: Row) -> str:
     return "  ".join(word for word in words if word)
 
 
+def parameters_text(row: Row) -> str:
+    """What the rule was given: `i=2, n=5`."""
+    return ", ".join(f"{name}={shown(value)}" for name, value in row.parameters.items())
+
+
 def size_text(row: Row) -> str:
     """The size of the scope (m), without directions that have no extent."""
     sides = [f"{side:.2f}" for side in row.size_m if side > 1e-6]
@@ -54,12 +59,6 @@ def size_text(row: Row) -> str:
 def choice_text(choice: Choice) -> str:
     """`2 of 4 (30 %)`: the alternative that was taken, from 1, and its chance."""
     return f"[{choice.index + 1} of {choice.of}: {100 * choice.chance:.3g} %]"
-
-
-def _parameters(values: dict[str, Attribute]) -> str:
-    if not values:
-        return ""
-    return "(" + ", ".join(f"{name}={shown(value)}" for name, value in values.items()) + ")"
 
 
 def _stem(row: Row) -> str:
