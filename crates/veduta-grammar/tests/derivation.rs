@@ -206,7 +206,7 @@ fn an_edit_takes_a_choice_or_a_shape_away() {
     let free = try_derive(text, &options_of(7)).unwrap();
     let wanted = if names(&free)[2] == "B" { 1 } else { 0 };
     let choose = Edit {
-        choices: vec![wanted],
+        choices: vec![Some(wanted)],
         ..Edit::default()
     };
     let delete = Edit {

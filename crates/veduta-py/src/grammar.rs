@@ -11,36 +11,49 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options,
-    Packed, State, Surfaces, Value,
+    asset_names, derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault,
+    Limits, Options, Packed, State, Surfaces, Tree, Value,
 };
 use veduta_grammar::shape::Asset;
-use veduta_grammar::{check, Source};
+use veduta_grammar::{check, Checked, Program, Source, Style};
 
+use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
+// Told, and the name of the asset.
+create_exception!(_core, AssetWanted, GrammarFault);
 
-type Rings = Vec<Vec<[f64; 3]>>;
+pub type Rings = Vec<Vec<[f64; 3]>>;
 
 /// Checked rule files, ready to derive.
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
-struct GrammarRules {
-    code: Code,
+pub struct GrammarRules {
+    pub code: Code,
     text: Source,
     has_imports: bool,
     assets: RwLock<Arc<Assets>>,
+    styles: Vec<String>,
 }
 
-type Assets = HashMap<Arc<str>, Arc<Asset>>;
+pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 
 #[pymethods]
 impl GrammarRules {
     /// `files` are name and text of each file, the main one first; the others are what it may
     /// import, under the names in its import statements.
+    /// `style` is one of the main file's; `Default` where it is None.
     #[new]
-    fn new(py: Python<'_>, files: Files) -> PyResult<Self> {
-        py.detach(|| read(&files)).map_err(GrammarFault::new_err)
+    #[pyo3(signature = (files, style=None))]
+    fn new(py: Python<'_>, files: Files, style: Option<&str>) -> PyResult<Self> {
+        py.detach(|| read(&files, style))
+            .map_err(GrammarFault::new_err)
+    }
+
+    /// The styles of the main file, `Default` first.
+    #[getter]
+    fn styles(&self) -> Vec<String> {
+        self.styles.clone()
     }
 
     /// Names of the rules that need no arguments, the start rule first.
@@ -48,9 +61,9 @@ impl GrammarRules {
     fn starts(&self) -> Vec<String> {
         let mut names: Vec<usize> = self.code.start.into_iter().collect();
         let all = 0..self.code.rules.len();
-        names.extend(
-            all.filter(|rule| self.code.rules[*rule].params == 0 && Some(*rule) != self.code.start),
-        );
+        names.extend(all.filter(|rule| {
+            self.code.rules[*rule].params.is_empty() && Some(*rule) != self.code.start
+        }));
         let name = |rule: usize| self.code.rules[rule].name.to_string();
         names.into_iter().map(name).collect()
     }
@@ -100,7 +113,7 @@ impl GrammarRules {
 
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
-    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn derive<'py>(
         &self,
@@ -109,14 +122,16 @@ impl GrammarRules {
         seeds: Vec<u64>,
         start: Option<&str>,
         attributes: Option<Vec<HashMap<String, Given>>>,
+        edits: Option<Vec<Vec<GivenEdit>>>,
         seconds: f64,
         shapes: usize,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
-        if seeds.len() != lots.len() || given.len() != lots.len() {
+        let edits = edits.unwrap_or_else(|| lots.iter().map(|_| Vec::new()).collect());
+        if [seeds.len(), given.len(), edits.len()] != [lots.len(); 3] {
             return Err(PyValueError::new_err(
-                "each lot needs a seed and attributes",
+                "each lot needs a seed, attributes and edits",
             ));
         }
         let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
@@ -125,21 +140,19 @@ impl GrammarRules {
             shapes,
             ..Limits::default()
         };
-        let assets = match self.assets.read() {
-            Ok(known) => known.clone(),
-            Err(_) => return Err(PyValueError::new_err("the assets are not whole")),
-        };
+        let assets = self.known_assets();
         let found: Vec<Result<Derived, Failed>> = py.detach(|| {
             lots.par_iter()
                 .zip(&seeds)
                 .zip(given)
-                .map(|((lot, &seed), attributes)| {
+                .zip(edits)
+                .map(|(((lot, &seed), attributes), edits)| {
                     let options = Options {
                         seed,
                         limits,
                         attributes,
                         assets: assets.clone(),
-                        ..Options::default()
+                        overrides: overrides_of(edits),
                     };
                     self.one(lot, rule, &options)
                 })
@@ -151,7 +164,7 @@ impl GrammarRules {
 
 /// A value given from outside.
 #[derive(FromPyObject)]
-enum Given {
+pub enum Given {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -167,9 +180,27 @@ impl From<Given> for Value {
     }
 }
 
-fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
+pub fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
     let each = given.into_iter();
     each.map(|(name, value)| (name, value.into())).collect()
+}
+
+/// A value for outside; an array is what `str` makes of it.
+#[derive(IntoPyObject)]
+pub enum GivenBack {
+    Bool(bool),
+    Number(f64),
+    Text(String),
+}
+
+impl From<&Value> for GivenBack {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Bool(is) => Self::Bool(*is),
+            Value::Number(number) => Self::Number(*number),
+            Value::Text(_) | Value::Array(_) => Self::Text(value.to_string()),
+        }
+    }
 }
 
 /// What an expression is where it says so itself; of alternatives, the first speaks for all.
@@ -209,20 +240,21 @@ fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64])
 }
 
 /// Why there is nothing, and the asset that is wanted where one is.
-struct Failed {
-    why: String,
-    missing_asset: Option<String>,
+pub struct Failed {
+    pub why: String,
+    pub missing_asset: Option<String>,
 }
 
-struct Derived {
+pub struct Derived {
     packed: Packed,
     surfaces: Surfaces,
     names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-fn read(files: &Files) -> Result<GrammarRules, String> {
+fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
     let (name, text) = files.first().ok_or_else(missing)?;
     let program = program_of(files).ok_or_else(missing)?;
@@ -230,7 +262,11 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
     if checked.has_errors() {
         return Err(checked.render(&program));
     }
-    let lowered = lower(&program, &checked);
+    let styles = style_names(&program, &checked);
+    let wanted = style.unwrap_or("Default");
+    let style = styles.iter().position(|one| one == wanted);
+    let style = style.ok_or_else(|| format!("{name} has no style `{wanted}`"))?;
+    let lowered = lower_in_style(&program, &checked, style);
     if lowered.has_errors() {
         return Err(rendered(&program, &lowered.diagnostics));
     }
@@ -239,11 +275,23 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
         text: Source::new(name.clone(), text.clone()),
         has_imports: program.units.len() > 1,
         assets: RwLock::default(),
+        styles,
     })
 }
 
+fn style_names(program: &Program, checked: &Checked) -> Vec<String> {
+    let main = checked.definitions.first();
+    let styles = main.into_iter().flat_map(|defined| &defined.styles);
+    let name = |style: &Style| {
+        style
+            .name
+            .map_or("Default", |name| program.names.text(name))
+    };
+    styles.map(|style| name(style).to_string()).collect()
+}
+
 impl GrammarRules {
-    fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
+    pub fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
         let found = match name {
             Some(name) => self.code.rule_named(name),
             None => self.code.start,
@@ -261,28 +309,52 @@ impl GrammarRules {
             missing_asset: None,
         })?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
-        let tree = derive(&self.code, rule, start, options).map_err(|fault| {
-            let name = self.text.name();
-            let place = self.text.position(fault.span.start);
-            Failed {
-                // A fault does not say which file it is in.
-                why: match self.has_imports {
-                    true => format!("{name} or what it imports: {}", fault.message),
-                    false => format!("{name}:{}:{}: {}", place.line, place.column, fault.message),
-                },
-                missing_asset: fault.missing_asset.map(|name| name.to_string()),
-            }
+        let tree = derive(&self.code, rule, start, options).map_err(|fault| Failed {
+            why: self.told(&fault),
+            missing_asset: fault.missing_asset.map(|name| name.to_string()),
         })?;
-        let packed = pack(&tree);
-        let surfaces = surfaces(&tree, &packed);
-        let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
-        Ok(Derived {
-            names: surfaces.node.iter().map(name).collect(),
-            packed,
-            surfaces,
-            log_prior: tree.log_prior,
-            messages: tree.messages,
-        })
+        Ok(derived_of(&tree))
+    }
+
+    /// A fault with its place in the file.
+    pub fn told(&self, fault: &Fault) -> String {
+        let name = self.text.name();
+        if self.has_imports {
+            // A fault does not say which file it is in.
+            return format!("{name} or what it imports: {}", fault.message);
+        }
+        let place = self.text.position(fault.span.start);
+        format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+    }
+
+    /// A fault as Python has it: with the name of the asset where one is wanted.
+    pub fn raised(&self, fault: &Fault) -> PyErr {
+        match &fault.missing_asset {
+            Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
+            None => GrammarFault::new_err(self.told(fault)),
+        }
+    }
+
+    /// The assets that are known by now.
+    pub fn known_assets(&self) -> Arc<Assets> {
+        self.assets
+            .read()
+            .map_or_else(|_| Arc::default(), |known| known.clone())
+    }
+}
+
+/// The columns of the leaves of a tree.
+pub fn derived_of(tree: &Tree) -> Derived {
+    let packed = pack(tree);
+    let surfaces = surfaces(tree, &packed);
+    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
+    Derived {
+        names: surfaces.node.iter().map(name).collect(),
+        packed,
+        surfaces,
+        log_prior: tree.log_prior,
+        messages: tree.messages.clone(),
+        edit_faults: edit_faults(tree),
     }
 }
 
@@ -319,19 +391,24 @@ struct DerivedLot {
     asset_names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
+    /// Path and fault of each edit that could not be done.
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
 fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
-    let derived = match found {
-        Ok(derived) => derived,
+    match found {
+        Ok(derived) => lot_to_python(py, derived),
         Err(failed) => match failed.missing_asset {
             Some(name) => {
                 let why = failed.why;
-                return Ok(Bound::new(py, MissingAsset { name, why })?.into_any());
+                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
             }
-            None => return Ok(failed.why.into_pyobject(py)?.into_any()),
+            None => Ok(failed.why.into_pyobject(py)?.into_any()),
         },
-    };
+    }
+}
+
+pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
     let (packed, surfaces) = (derived.packed, derived.surfaces);
     let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
         let each = leaves.iter();
@@ -364,15 +441,17 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<B
         asset_names: packed.assets.iter().map(name).collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
+        edit_faults: derived.edit_faults,
     };
     Ok(Bound::new(py, lot)?.into_any())
 }
 
-fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
+pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
     Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("AssetWanted", m.py().get_type::<AssetWanted>())?;
     m.add("GrammarFault", m.py().get_type::<GrammarFault>())?;
     m.add_class::<GrammarRules>()?;
     m.add_class::<MissingAsset>()?;

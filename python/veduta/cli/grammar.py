@@ -1,4 +1,4 @@
-"""`veduta grammar check | format | derive`: rule files, and the buildings that they make."""
+"""`veduta grammar ACTION`: rule files, and the buildings that they make."""
 
 from __future__ import annotations
 
@@ -11,18 +11,24 @@ if TYPE_CHECKING:
     from veduta.grammar.pipeline import DeriveResult
 
 SUMMARY = "Make buildings from rule files (CGA) and lots; check and format rule files"
-ACTIONS = ("check", "format", "derive")
+ACTIONS = ("check", "format", "derive", "sample", "tree")
 MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
-                             [--start TEXT] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
+                             [--edits FILE] [--start TEXT] [--seconds FLOAT] [--force]
+                             [--jobs N] [--quiet]
+       veduta grammar sample RULES -o SHEET [-n N] [--lots LOTS] [--lot ID] [--colours HOW] ...
+       veduta grammar tree RULES [-o FILE] [--lots LOTS] [--lot ID] [--at PATH] [--depth N] ...
 
 {SUMMARY}.
 
   check     Check a rule file and what it imports; every fault is shown with its line
   format    Lay out rule files in the house style
-  derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
+  derive    Derive a building for each lot of a file (GeoJSON, CityJSON, GeoPackage, OBJ), or for
+            a synthetic street
+  sample    Show what the rules can make: random derivations in a picture
+  tree      Show how a building is derived: its shapes, their choices and paths
 
 RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann).
 `veduta grammar ACTION --help` explains the options of an action."""
@@ -40,6 +46,10 @@ def run(arguments: list[str]) -> int:
         near = difflib.get_close_matches(action, ACTIONS, n=1)
         hint = f"Did you mean `{near[0]}`?" if near else f"Actions: {', '.join(ACTIONS)}."
         raise InputError(action, "is not an action of veduta grammar", hint)
+    if action in ("sample", "tree"):
+        from veduta.cli import grammar_show
+
+        return {"sample": grammar_show.sample, "tree": grammar_show.tree}[action](rest)
     return {"check": _check, "format": _format, "derive": _derive}[action](rest)
 
 
@@ -94,10 +104,18 @@ def _derive(arguments: list[str]) -> int:
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    given = read_attributes(call.attr)
+    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     progress = Progress(quiet=call.quiet)
     result = run_derive(
-        call.rules, call.lots, call.out, options, progress, force=call.force, jobs=call.jobs
+        call.rules,
+        call.lots,
+        call.out,
+        options,
+        progress,
+        edits_path=call.edits,
+        force=call.force,
+        jobs=call.jobs,
     )
     _tell_failures(result)
     if not call.quiet:

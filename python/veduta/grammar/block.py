@@ -12,6 +12,7 @@ from veduta import _core
 from veduta.formats.gltf import write_glb
 from veduta.grammar.assets.library import Library
 from veduta.grammar.building import NothingBuiltError, build_part
+from veduta.grammar.edits import fault_told
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
@@ -70,17 +71,18 @@ class BlockResult:
 
 
 @functools.lru_cache(maxsize=1)
-def _rules(files: tuple[tuple[str, str], ...], folder: Path) -> tuple[_core.GrammarRules, Library]:
+def _rules(
+    files: tuple[tuple[str, str], ...], style: str | None, folder: Path
+) -> tuple[_core.GrammarRules, Library]:
     """Compiled once in each process, with the assets that are named in the rules."""
-    rules, library = _core.GrammarRules(list(files)), Library(folder)
-    for name in rules.asset_names[0]:
-        library.add_to(rules, name)
+    rules, library = _core.GrammarRules(list(files), style), Library(folder)
+    library.add_written_to(rules)
     return rules, library
 
 
 def run_block(job: Job) -> BlockResult:
     """Derive each lot and write its model into the work folder."""
-    rules, library = _rules(job.files, job.folder)
+    rules, library = _rules(job.files, job.options.derive.style, job.folder)
     result = BlockResult()
     with timed_step(result.steps, "derive"):
         derived = _derive_all(rules, library, job)
@@ -107,8 +109,13 @@ def _derive_all(
         lots = job.block.lots[first : first + AT_ONCE]
         given = [attributes_of(lot, kinds, job.options) for lot in lots]
         sound = [index for index, found in enumerate(given) if not isinstance(found, str)]
-        wanted = [found for found in given if not isinstance(found, str)]
-        made = _with_assets(rules, library, [lots[index] for index in sound], wanted, job.options)
+        made = _with_assets(
+            rules,
+            library,
+            [lots[index] for index in sound],
+            [found for found in given if not isinstance(found, str)],
+            job.options,
+        )
         by_index: dict[int, _core.DerivedLot | str] = dict(zip(sound, made, strict=True))
         by_index |= {index: found for index, found in enumerate(given) if isinstance(found, str)}
         derived += [by_index[index] for index in range(len(lots))]
@@ -130,6 +137,7 @@ def _with_assets(
             [seed_of(lots[index], options.derive.seed) for index in waiting],
             start=options.derive.start,
             attributes=[given[index] for index in waiting],
+            edits=[[edit.core for edit in lots[index].edits] for index in waiting],
             seconds=options.derive.seconds,
             shapes=MAX_SHAPES,
         )
@@ -198,8 +206,9 @@ def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
 def _part_of(lot: Lot, derived: _core.DerivedLot | str, library: Library) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
-    assets = {name: library[name] for name in derived.asset_names}
-    return build_part(derived, lot.id, assets)
+    if fault := fault_told(lot.edits, derived.edit_faults):
+        raise NothingBuiltError(fault)
+    return build_part(derived, lot.id, library.assets_of(derived))
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:

@@ -35,13 +35,21 @@ impl Code {
             .iter()
             .position(|rule| rule.name.as_ref() == name)
     }
+
+    /// The number of the attribute of this name.
+    pub fn attribute_named(&self, name: &str) -> Option<usize> {
+        self.globals
+            .iter()
+            .position(|global| global.is_attribute && global.name.as_ref() == name)
+    }
 }
 
 #[derive(Debug, Clone)]
 pub struct Rule {
     pub name: Arc<str>,
     pub symbol: Symbol,
-    pub params: usize,
+    /// The names of its parameters, which are in the first slots.
+    pub params: Vec<Arc<str>>,
     /// Values of `with`, in the slots after the parameters.
     pub locals: Vec<Expr>,
     pub body: Body,

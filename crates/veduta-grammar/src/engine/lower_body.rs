@@ -53,8 +53,8 @@ impl Lowering<'_> {
     /// A rule, an operation, or, where the name is neither, a leaf.
     fn call(&mut self, call: &Call) -> Step {
         match self.target(call.name) {
-            Some(Target::Rule { unit, index }) => Step::Rule {
-                rule: self.numbers.rule(unit, index),
+            Some(Target::Rule { index, .. }) => Step::Rule {
+                rule: self.numbers.rule(self.place(call.name), index),
                 args: self.exprs(call.args()),
                 span: call.span,
             },
@@ -96,7 +96,10 @@ impl Lowering<'_> {
         let mut lowered = Vec::with_capacity(args.len());
         for (index, arg) in args.iter().enumerate() {
             lowered.push(match (&arg.kind, self.word(arg)) {
-                (ExprKind::Name(name), _) if named && index == 0 => Arg::Word(self.shared(*name)),
+                (ExprKind::Name(name), _) if named && index == 0 => {
+                    let attribute = self.attribute_name(*name);
+                    Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
+                }
                 (_, Some(word)) => Arg::Word(word),
                 (_, None) => {
                     let (sizing, expr) = self.sized(arg);

@@ -56,7 +56,7 @@ impl Lowering<'_> {
     fn name(&mut self, name: Ident) -> ExprKind {
         match self.target(name) {
             Some(Target::Local(slot)) => ExprKind::Slot(slot),
-            Some(Target::Value { unit, index }) => self.defined(unit, index, Vec::new()),
+            Some(Target::Value { index, .. }) => self.defined(name, index, Vec::new()),
             Some(Target::Attribute) => match ShapeAttribute::named(self.text(name)) {
                 Some(attribute) => ExprKind::Attribute(attribute),
                 None => self.not_yet(name),
@@ -98,7 +98,7 @@ impl Lowering<'_> {
     fn function_call(&mut self, name: Ident, args: &[ast::Expr]) -> ExprKind {
         let lowered = self.exprs(args);
         match self.target(name) {
-            Some(Target::Value { unit, index }) => self.defined(unit, index, lowered),
+            Some(Target::Value { index, .. }) => self.defined(name, index, lowered),
             Some(Target::Function(_)) => match Function::named(self.text(name)) {
                 Some((function, fewest, most)) if args.len() >= fewest && args.len() <= most => {
                     ExprKind::Builtin {
@@ -119,8 +119,8 @@ impl Lowering<'_> {
         }
     }
 
-    fn defined(&self, unit: usize, index: usize, args: Vec<Expr>) -> ExprKind {
-        match self.numbers.value(unit, index) {
+    fn defined(&self, name: Ident, index: usize, args: Vec<Expr>) -> ExprKind {
+        match self.numbers.value(self.place(name), index) {
             Number::Global(global) => ExprKind::Global(global),
             Number::Function(function) => ExprKind::Call { function, args },
         }

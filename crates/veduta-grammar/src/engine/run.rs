@@ -7,14 +7,15 @@ use std::time::Instant;
 use crate::shape::Asset;
 use crate::Span;
 
-use super::code::{Body, Code, Expr, Operation, Step};
+use super::code::{Body, Code, Expr, Operation, Rule, Step};
+use super::draws::Draws;
 use super::evaluate::{alternative, Scene};
 use super::fault::Fault;
 use super::limits::Limits;
-use super::overrides::Overrides;
+use super::overrides::{Edit, Edited, Overrides};
 use super::random::Stream;
 use super::state::State;
-use super::tree::{Node, Tree};
+use super::tree::{Known, Node, Told, Tree};
 use super::value::Value;
 
 /// How often the clock is looked at: every so many shapes.
@@ -45,7 +46,6 @@ pub struct Run<'a> {
     globals: Vec<Global>,
     waiting: Vec<Waiting>,
     started: Instant,
-    forced: Vec<u16>,
 }
 
 #[derive(Clone)]
@@ -57,11 +57,11 @@ enum Global {
 }
 
 /// A shape that its rule has still to be applied to.
-struct Waiting {
-    node: u32,
-    args: Vec<Value>,
-    stream: Stream,
-    depth: usize,
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Waiting {
+    pub node: u32,
+    pub stream: Stream,
+    pub depth: usize,
 }
 
 /// A rule at work on one shape.
@@ -74,8 +74,7 @@ pub struct Frame {
     /// Where the children's streams come from: the rule's own draws do not move them.
     origin: Stream,
     children: u32,
-    log_prior: f64,
-    choices: Vec<u16>,
+    draws: Draws,
     fate: Fate,
 }
 
@@ -92,31 +91,52 @@ enum Fate {
 
 /// Derives the tree of `rule` from a start shape.
 pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Result<Tree, Fault> {
-    let mut run = Run {
-        code,
-        options,
-        tree: Tree::default(),
-        calls: 0,
-        globals: vec![Global::Unknown; code.globals.len()],
-        waiting: Vec::new(),
-        started: Instant::now(),
-        forced: Vec::new(),
-    };
+    let mut run = Run::new(code, options, Tree::default());
     run.start(rule, start)?;
-    while let Some(next) = run.waiting.pop() {
-        run.apply(next)?;
-    }
-    run.tree.leaves.sort_unstable_by_key(|&leaf| leaf);
+    run.work()?;
+    run.know_all();
+    run.tree.settle();
+    options.overrides.report_missed(&mut run.tree, &[]);
     Ok(run.tree)
 }
 
-impl Run<'_> {
+impl<'a> Run<'a> {
+    pub(super) fn new(code: &'a Code, options: &'a Options, tree: Tree) -> Self {
+        let mut globals = vec![Global::Unknown; code.globals.len()];
+        for known in &tree.globals {
+            globals[known.global as usize] = Global::Known(known.value.clone());
+        }
+        Self {
+            code,
+            options,
+            tree,
+            calls: 0,
+            globals,
+            waiting: Vec::new(),
+            started: Instant::now(),
+        }
+    }
+
+    /// What is to be derived next.
+    pub(super) fn wait(&mut self, next: Waiting) {
+        self.waiting.push(next);
+    }
+
+    /// Applies rules until no shape waits.
+    pub(super) fn work(&mut self) -> Result<(), Fault> {
+        while let Some(next) = self.waiting.pop() {
+            self.apply(next)?;
+        }
+        Ok(())
+    }
+
     fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
         let called = &self.code.rules[rule];
-        if called.params > 0 {
+        if !called.params.is_empty() {
             let message = format!(
                 "{} needs {} arguments and cannot start",
-                called.name, called.params
+                called.name,
+                called.params.len()
             );
             return Err(Fault::at(Span::default(), message));
         }
@@ -125,12 +145,14 @@ impl Run<'_> {
             place: 0,
             name: called.name.clone(),
             rule: Some(rule as u32),
+            args: Box::default(),
             choices: Vec::new(),
             state,
+            first_child: 0,
+            child_count: 0,
         });
-        self.waiting.push(Waiting {
+        self.wait(Waiting {
             node: 0,
-            args: Vec::new(),
             stream: Stream::new(self.options.seed),
             depth: 0,
         });
@@ -144,20 +166,22 @@ impl Run<'_> {
         let Some(rule) = node.rule.map(|rule| &code.rules[rule as usize]) else {
             return Ok(());
         };
+        let overrides = &self.options.overrides;
+        let edit = overrides.edit(&self.tree, next.node);
         let mut frame = Frame {
             node: next.node,
             state: node.state.clone(),
-            slots: next.args,
+            slots: node.args.to_vec(),
             stream: next.stream,
             depth: next.depth,
             origin: next.stream,
             children: 0,
-            log_prior: 0.0,
-            choices: Vec::new(),
+            draws: Draws::of(edit.filter(|edit| edit.fits(node))),
             fate: Fate::Untouched,
         };
-        self.forced = self.options.overrides.choices(&self.tree, next.node);
-        let waiting = self.waiting.len();
+        let unfit = edit.and_then(|edit| self.set_values(edit, rule, &mut frame));
+        let (waiting, first) = (self.waiting.len(), self.tree.nodes.len());
+        let told = (self.tree.messages.len(), self.tree.reports.len());
         for local in &rule.locals {
             let value = self.evaluate(local, &mut frame)?;
             frame.slots.push(value);
@@ -167,9 +191,57 @@ impl Run<'_> {
             self.leave(&rule.name, &mut frame)?;
         }
         self.waiting[waiting..].reverse();
-        self.tree.log_prior += frame.log_prior;
-        self.tree.nodes[next.node as usize].choices = frame.choices;
+        self.tell(next.node, told);
+        if edit.is_some() {
+            let path = self.tree.path(next.node);
+            let fault = unfit.or_else(|| frame.draws.fault());
+            self.tree.edited.push(Edited { path, fault });
+        }
+        let count = self.tree.nodes.len() - first;
+        let node = &mut self.tree.nodes[next.node as usize];
+        node.choices = frame.draws.taken;
+        (node.first_child, node.child_count) = (first as u32, count as u32);
         Ok(())
+    }
+
+    /// Sets what an edit gives: parameters of the rule, or attributes. Gives what it cannot set.
+    fn set_values(&self, edit: &Edit, rule: &Rule, frame: &mut Frame) -> Option<String> {
+        let name = &self.tree.nodes[frame.node as usize].name;
+        if let Some(fault) = edit.misnamed(name) {
+            return Some(fault);
+        }
+        if edit.delete {
+            return Some("the start shape cannot be deleted".into());
+        }
+        for (name, value) in &edit.values {
+            let parameter = rule.params.iter().position(|one| one == name);
+            if let Some(slot) = parameter {
+                frame.slots[slot] = value.clone();
+                continue;
+            }
+            let Some(global) = self.code.attribute_named(name) else {
+                let rule = &rule.name;
+                return Some(format!(
+                    "`{name}` is neither a parameter of {rule} nor an attribute"
+                ));
+            };
+            let set = frame.state.set.get_or_insert_default();
+            Arc::make_mut(set).insert(global, value.clone());
+        }
+        None
+    }
+
+    /// Keeps whose the messages and reports are that came after `before`.
+    fn tell(&mut self, node: u32, before: (usize, usize)) {
+        let messages = self.tree.messages.len() - before.0;
+        let reports = self.tree.reports.len() - before.1;
+        if messages + reports > 0 {
+            self.tree.told.push(Told {
+                node,
+                messages,
+                reports,
+            });
+        }
     }
 
     /// Runs a body on the frame's shape; `frame.fate` tells what became of it.
@@ -177,10 +249,7 @@ impl Run<'_> {
         match body {
             Body::Steps(steps) => self.run_steps(steps, frame),
             Body::Choice(choice) => match self.choose(choice, &mut frame.scene())? {
-                Some(taken) => {
-                    frame.choices.push(taken as u16);
-                    self.run_body(alternative(choice, taken), frame)
-                }
+                Some(taken) => self.run_body(alternative(choice, taken), frame),
                 None => Ok(()),
             },
         }
@@ -257,12 +326,11 @@ impl Run<'_> {
         }
         let name = self.code.rules[rule].name.clone();
         let stream = frame.origin.child(frame.children);
-        let Some(node) = self.add(name, Some(rule as u32), frame, span)? else {
+        let Some(node) = self.add(name, Some(rule as u32), args, frame, span)? else {
             return Ok(());
         };
-        self.waiting.push(Waiting {
+        self.wait(Waiting {
             node,
-            args,
             stream,
             depth,
         });
@@ -276,9 +344,7 @@ impl Run<'_> {
 
     /// The current shape stays as a leaf.
     fn leave(&mut self, name: &Arc<str>, frame: &mut Frame) -> Result<(), Fault> {
-        if let Some(leaf) = self.add(name.clone(), None, frame, Span::default())? {
-            self.tree.leaves.push(leaf);
-        }
+        self.add(name.clone(), None, Vec::new(), frame, Span::default())?;
         Ok(())
     }
 
@@ -287,17 +353,18 @@ impl Run<'_> {
         &mut self,
         name: Arc<str>,
         rule: Option<u32>,
+        args: Vec<Value>,
         frame: &mut Frame,
         span: Span,
     ) -> Result<Option<u32>, Fault> {
         let place = frame.children;
         frame.children += 1;
-        if self
-            .options
-            .overrides
-            .deletes(&self.tree, frame.node, place)
-        {
-            return Ok(None);
+        let overrides = &self.options.overrides;
+        if let Some((path, edit)) = overrides.edited_child(&self.tree, frame.node, place) {
+            if edit.delete && edit.misnamed(&name).is_none() {
+                self.tree.edited.push(Edited { path, fault: None });
+                return Ok(None);
+            }
         }
         let count = self.tree.nodes.len();
         if count >= self.options.limits.shapes {
@@ -311,8 +378,11 @@ impl Run<'_> {
             place,
             name,
             rule,
+            args: args.into(),
             choices: Vec::new(),
             state: frame.state.clone(),
+            first_child: 0,
+            child_count: 0,
         });
         Ok(Some(count as u32))
     }
@@ -332,6 +402,7 @@ impl Run<'_> {
             }
             Global::Unknown => {}
         }
+        let mut draws = Draws::default();
         let given = self.options.attributes.get(global.name.as_ref());
         let value = if let Some(value) = given.filter(|_| global.is_attribute) {
             value.clone()
@@ -342,23 +413,33 @@ impl Run<'_> {
                 slots: &mut Vec::new(),
                 state: &start,
                 stream: &mut Stream::new(self.options.seed).child(u32::MAX - index as u32),
-                log_prior: &mut 0.0,
+                draws: &mut draws,
             };
             let found = self.with_locals(&global.locals, &global.value, &mut scene);
             self.globals[index] = Global::Unknown;
             found?
         };
         self.globals[index] = Global::Known(value.clone());
+        self.tree.globals.push(Known {
+            global: index as u32,
+            name: global.name.clone(),
+            is_attribute: global.is_attribute,
+            value: value.clone(),
+            choices: draws.taken,
+        });
         Ok(value)
     }
 
-    /// The alternative that an override asks for, if there is one.
-    pub(super) fn forced_choice(&mut self, count: usize) -> Option<usize> {
-        if self.forced.is_empty() {
-            return None;
+    /// Evaluates the attributes and constants that nothing has needed: the prior is that of all,
+    /// and does not depend on which of them a tree uses. Those that fail were not needed.
+    fn know_all(&mut self) {
+        let start = self.tree.nodes[0].state.clone();
+        let messages = self.tree.messages.len();
+        for index in 0..self.globals.len() {
+            let _ = self.global(index, &start);
         }
-        let choice = usize::from(self.forced.remove(0));
-        (choice < count).then_some(choice)
+        self.tree.messages.truncate(messages);
+        self.tree.globals.sort_by_key(|known| known.global);
     }
 
     /// What `print` is given; what is beyond the most messages is dropped.
@@ -399,7 +480,7 @@ impl Frame {
             slots: &mut self.slots,
             state: &self.state,
             stream: &mut self.stream,
-            log_prior: &mut self.log_prior,
+            draws: &mut self.draws,
         }
     }
 

@@ -35,6 +35,15 @@ class Library:
         asset = self[name]
         rules.add_asset(name, asset.points_m, asset.corners, asset.offsets, asset.box_m)
 
+    def add_written_to(self, rules: _core.GrammarRules) -> None:
+        """Hand over the assets whose names stand in the rules; InputError where one is none."""
+        for name in rules.asset_names[0]:
+            self.add_to(rules, name)
+
+    def assets_of(self, derived: _core.DerivedLot) -> dict[str, Asset]:
+        """The assets that a building was made with."""
+        return {name: self[name] for name in derived.asset_names}
+
     def digest(self, rules: _core.GrammarRules) -> str:
         """The digest of all assets that the rules name, or may name; InputError where one is none."""
         written, computed = rules.asset_names
