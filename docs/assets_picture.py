@@ -21,7 +21,9 @@ from veduta.place.material import Material
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 
-COLUMNS, CELL_M, FILL = 8, 2.0, 1.6
+COLUMNS, CELL_M, FILL = 9, 2.0, 1.6
+BOARD = (0.13, 0.105, 0.88, 0.615)
+"""Where the board is in the picture: left, top, right, bottom, as shares of its sides."""
 
 
 def sheet(level: int = 0) -> Part:
@@ -77,7 +79,7 @@ def write(part: Part, folder: Path) -> None:
         id="assets", name="assets", model="assets.glb", arrangement="single",
         bounds=Bounds(min=low, max=high),
     )  # fmt: skip
-    start = Start(eye=(across, -1.3 * high[2], up), target=(across, 0.0, 0.9 * up))
+    start = Start(eye=(across, -1.75 * high[2], up), target=(across, 0.0, 1.0 * up))
     write_place(Place(parts=[placed], start=start), folder / "place.json")
 
 
@@ -93,7 +95,10 @@ def main() -> None:
     write(sheet(given.level), work / "place")
     photograph(work / "place", work / "shots", script="assets_picture.mjs")
     with Image.open(work / "shots" / "sheet.png") as picture:
-        save(picture.convert("RGB"), "assets.jpg")
+        left, top, right, bottom = (
+            round(share * side) for share, side in zip(BOARD, picture.size * 2, strict=True)
+        )
+        save(picture.convert("RGB").crop((left, top, right, bottom)), "assets.jpg")
 
 
 if __name__ == "__main__":

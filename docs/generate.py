@@ -21,6 +21,7 @@ from veduta.cli.grammar_call import DeriveCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
+from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
@@ -94,6 +95,20 @@ def classes_table() -> str:
     return table(("label", "class", "colour"), rows)
 
 
+def assets_table() -> str:
+    """What Veduta brings along for `i`, with its size and triangles by level of detail."""
+    rows = []
+    for name in builtin_names():
+        levels = [builtin(f"{name}@{level}") for level in range(LEVELS)]
+        assets = [asset for asset in levels if asset is not None]
+        low, high = assets[0].box_m
+        size = " x ".join(f"{side:.2f}" for side in (high - low).tolist())
+        triangles = " / ".join(str(len(asset.shared_mesh.indices)) for asset in assets)
+        parts = ", ".join(slot.name for slot in assets[0].slots)
+        rows.append((f"`{name}`", described(name), size, parts, triangles))
+    return table(("name", "what it is", "x, y, z (m)", "parts", "triangles"), rows)
+
+
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A markdown table."""
     lines = [columns, ["---"] * len(columns), *rows]
@@ -101,6 +116,7 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
+    "assets.md": {"assets": assets_table},
     "demo.md": {"options": lambda: options_table(DemoCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),

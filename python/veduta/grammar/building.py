@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,7 +29,11 @@ class NothingBuiltError(ValueError):
     """The rules left no surface on the lot."""
 
 
-def build_part(derived: _core.DerivedLot, part_id: str, assets: Mapping[str, Asset]) -> Part:
+def build_part(
+    derived: _core.DerivedLot,
+    part_id: str,
+    assets: Mapping[str, Asset] = MappingProxyType({}),
+) -> Part:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
     `assets` are those that stand in the lot, by name. Surfaces that are none in single precision
@@ -141,7 +146,7 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
 
 
 def _materials(looks: list[Look]) -> tuple[dict[Material, int], NDArray[np.int32]]:
-    """The materials with their numbers, and (looks,) the material of each look: looks that are told apart."""
+    """The materials with their numbers, and (looks,) the material of each look."""
     number_of: dict[Material, int] = {}
     rows = []
     for red, green, blue, _, _, name in looks:

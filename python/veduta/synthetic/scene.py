@@ -11,8 +11,8 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from veduta.place.material import Material
 from veduta.place.flatten import flattened
+from veduta.place.material import Material
 from veduta.place.part import Part
 
 # (part, world_from_part 4x4)

@@ -1,6 +1,7 @@
 /** A mesh that stands many times in a part: each instance is of one feature. */
 import {
   Box3,
+  type BufferAttribute,
   BufferGeometry,
   InstancedBufferAttribute,
   InstancedMesh,
@@ -27,9 +28,9 @@ export function instancedFeatures(
   table: FeatureTable,
   file: string,
 ): InstancedFeatures {
-  const ids = mesh.geometry.getAttribute(FEATURE_ATTRIBUTE);
+  const ids = mesh.geometry.getAttribute(FEATURE_ATTRIBUTE) as BufferAttribute | undefined;
   const given = Array.from({ length: mesh.count }, (_, index) =>
-    index < (ids?.count ?? 0) ? Math.round(ids?.getX(index) ?? -1) : -1,
+    ids === undefined || index >= ids.count ? -1 : Math.round(ids.getX(index)),
   );
   const unknown = given.find((row) => table.rows[row] === undefined);
   if (unknown !== undefined) {

@@ -60,7 +60,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   const meshes: FeatureMesh[] = [];
   const instanced: InstancedFeatures[] = [];
   scene.traverse((node) => {
-    if (node instanceof InstancedMesh) instanced.push(instancedFeatures(node, table, part.model));
+    if (node instanceof InstancedMesh) instanced.push(instancedFeatures(node as InstancedMesh, table, part.model));
     else if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
   });
   const drawn = [...meshes, ...instanced].map(({ mesh }) => mesh);

@@ -7,6 +7,7 @@ street, `@2` for afar.
 from __future__ import annotations
 
 import functools
+import re
 from collections.abc import Callable
 from dataclasses import replace
 
@@ -57,6 +58,12 @@ MAKERS: dict[str, Maker] = {
 def builtin_names() -> list[str]:
     """All names, without levels."""
     return [PREFIX + name for name in MAKERS]
+
+
+def described(name: str) -> str:
+    """One line about an asset, without its measures."""
+    text = (MAKERS[name.removeprefix(PREFIX)].__doc__ or "").split("\n", maxsplit=1)[0]
+    return re.sub(r",? \d[^:,]* m( by .*)?\.$", "", text).rstrip(".")
 
 
 @functools.lru_cache(maxsize=512)

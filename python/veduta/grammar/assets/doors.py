@@ -68,8 +68,8 @@ def double(name: str, level: int) -> Asset:
         leaf(model, x, (0.0, 2.5), [(0.05, 0.2), (0.26, 0.48), (0.54, 0.96)], 1, level)
     model.box((0.77, 0.0, FRONT), (0.83, 2.5, FRONT + 0.025), "leaf", without="back bottom")
     transom(model, (0.07, 1.53), (2.5, 3.13), 4, level)
-    for x in (0.7, 0.9):
-        knob(model, x, 1.25, level)
+    for at in (0.7, 0.9):
+        knob(model, at, 1.25, level)
     return model.asset(name)
 
 
@@ -109,14 +109,13 @@ def shop(name: str, level: int) -> Asset:
         model.box((0.96, 0.55, -0.12), (1.02, 2.5, -0.06), "leaf", without="back bottom top")
         model.box((1.98, 0.55, -0.12), (2.04, 2.5, -0.06), "leaf", without="back bottom top")
         return model.asset(name)
-    for x in (0.98, 2.02):
-        model.box(
-            (x - 0.03, 0.55, -0.12), (x + 0.03, 2.5, -0.05), "leaf", without="back bottom top"
-        )
+    for at in (0.98, 2.02):
+        low, high = (at - 0.03, 0.55, -0.12), (at + 0.03, 2.5, -0.05)
+        model.box(low, high, "leaf", without="back bottom top")
     model.box((0.14, 2.05, -0.12), (2.86, 2.1, -0.06), "leaf", without="back left right")
     for k in range(3):
-        x = 0.17 + k * 0.9
-        raised(model, (x, x + 0.85), (0.08, 0.48), (0.0, 0.03), "leaf", level)
+        left = 0.17 + k * 0.9
+        raised(model, (left, left + 0.85), (0.08, 0.48), (0.0, 0.03), "leaf", level)
     model.box((0.14, 0.52, 0.0), (2.86, 0.58, 0.05), "leaf", without="back")
     raised(model, (0.2, 2.8), (2.6, 2.98), (0.02, 0.045), "leaf", level)
     section = [(0.02, 3.02), (0.1, 3.04), (0.14, 3.1), (0.18, 3.12), (0.18, 3.2), (0.02, 3.2)]
@@ -124,10 +123,10 @@ def shop(name: str, level: int) -> Asset:
     if level == 0:
         for x in ((0.03, 0.11), (2.89, 2.97)):
             raised(model, x, (0.6, 2.4), (0.05, 0.065), "leaf", level)
-        for x in (0.98, 2.02):
+        for at in (0.98, 2.02):
             model.lathe(
                 [(0.012, 0.58), (0.02, 0.62), (0.012, 0.66), (0.012, 1.98), (0.02, 2.03)],
-                (x, -0.04),
+                (at, -0.04),
                 "leaf",
                 sides=6,
             )

@@ -140,7 +140,7 @@ def balustrade(name: str, level: int) -> Asset:
     ]
     if level == 2:
         base, rail = (
-            base[:3] + [(-0.11, 0.13)],
+            [*base[:3], (-0.11, 0.13)],
             [(-0.12, 0.76), (0.12, 0.76), (0.12, 0.95), (-0.12, 0.95)],
         )
     model.prism(base, (0.0, WIDTH), "stone", axis="x", caps="none")

@@ -16,10 +16,12 @@ CLASSICAL: list[Span] = [
 ]  # fmt: skip
 """z and y (m): bed moulding, corona and cyma recta, with a slope on top."""
 STRING: list[Span] = [
-    (0.0, 0.0), (0.03, 0.0), (0.045, 0.03), (0.07, 0.05), (0.11, 0.06), (0.12, 0.09), (0.12, 0.15), (0.0, 0.18),
+    (0.0, 0.0), (0.03, 0.0), (0.045, 0.03), (0.07, 0.05), (0.11, 0.06), (0.12, 0.09), (0.12, 0.15),
+    (0.0, 0.18),
 ]  # fmt: skip
 BASE: list[Span] = [
-    (0.0, 0.0), (0.12, 0.0), (0.12, 0.3), (0.1, 0.33), (0.09, 0.37), (0.06, 0.4), (0.05, 0.45), (0.0, 0.45),
+    (0.0, 0.0), (0.12, 0.0), (0.12, 0.3), (0.1, 0.33), (0.09, 0.37), (0.06, 0.4), (0.05, 0.45),
+    (0.0, 0.45),
 ]  # fmt: skip
 
 
@@ -93,9 +95,8 @@ def console(name: str, level: int) -> Asset:
             for x in ((0.0, 0.02), (0.2, 0.22)):
                 volute(model, centre, radius, x)
         fluting = _s_curve(steps)[1:-2]
-        rib = np.array([[0.0, 0.0], [0.0, 0.012]])
-        for x in (0.055, 0.1, 0.145):
-            ribbon(model, fluting, (x - 0.012, x + 0.012), float(rib[1, 1]))
+        for at in (0.055, 0.1, 0.145):
+            ribbon(model, fluting, (at - 0.012, at + 0.012), 0.012)
     return model.asset(name)
 
 
