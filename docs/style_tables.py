@@ -7,7 +7,7 @@ from pathlib import Path
 
 STYLES = Path(__file__).resolve().parents[1] / "python/veduta/grammar/styles"
 _ATTRIBUTE = re.compile(r"((?:^@[^\n]*\n)+)^attr (\w+) = ((?:[^\n]+\n)+)", re.MULTILINE)
-_ANNOTATION = re.compile(r"^@(\w+)(?:\((.*)\))?$", re.MULTILINE)
+_ANNOTATION = re.compile(r'@(\w+)(?:\(((?:"[^"]*"|[^")])*)\))?')
 
 
 def attribute_rows(style: str) -> list[tuple[str, str, str, str]]:

@@ -24,7 +24,8 @@ HELP = f"""usage: veduta grammar check RULES
   format    Lay out rule files in the house style
   derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
 
-RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann).
+RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann,
+victorian, ...: see docs/styles.md).
 `veduta grammar ACTION --help` explains the options of an action."""
 
 
