@@ -7,6 +7,7 @@ written, and the exit code is 1 when a page is out of date.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -14,6 +15,7 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import tyro
 from pydantic import BaseModel
+from style_tables import attribute_rows
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
@@ -22,6 +24,7 @@ from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
 from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
+from veduta.grammar.rules import style_names
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
@@ -109,6 +112,11 @@ def assets_table() -> str:
     return table(("name", "what it is", "x, y, z (m)", "parts", "triangles"), rows)
 
 
+def attributes_table(style: str) -> str:
+    """What a style takes, group by group."""
+    return table(("attribute", "takes", "default", "what it is"), attribute_rows(style))
+
+
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A markdown table."""
     lines = [columns, ["---"] * len(columns), *rows]
@@ -124,6 +132,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "classes": classes_table,
     },
     "grammar.md": {"options": lambda: options_table(DeriveCall)},
+    "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},
 }
 
 
