@@ -36,7 +36,7 @@ class Library:
         rules.add_asset(name, asset.points_m, asset.corners, asset.offsets, asset.box_m)
 
     def digest(self, rules: _core.GrammarRules) -> str:
-        """The digest of all assets that the rules name or may name; InputError where one is none."""
+        """The digest of all assets that the rules may name; InputError where one is none."""
         written, computed = rules.asset_names
         total = hashlib.sha256()
         for name in written:
