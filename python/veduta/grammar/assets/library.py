@@ -45,7 +45,7 @@ class Library:
         return {name: self[name] for name in derived.asset_names}
 
     def digest(self, rules: _core.GrammarRules) -> str:
-        """The digest of all assets that the rules name or may name; InputError where one is none."""
+        """The digest of all assets that the rules may name; InputError where one is none."""
         written, computed = rules.asset_names
         total = hashlib.sha256()
         for name in written:
