@@ -19,7 +19,7 @@ from style_tables import attribute_rows
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
-from veduta.cli.grammar_call import DeriveCall
+from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
@@ -62,6 +62,8 @@ def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
 def _takes(schema: dict[str, Any]) -> str:
     if schema.get("type") == "array":
         return f"{schema['minItems']} numbers"
+    if schema.get("format") == "path":
+        return "file"
     if "enum" in schema:
         return ", ".join(f"`{value}`" for value in schema["enum"])
     bounds = [text.format(schema[key]) for key, text in _BOUNDS.items() if key in schema]
@@ -131,7 +133,11 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "files": files_table,
         "classes": classes_table,
     },
-    "grammar.md": {"options": lambda: options_table(DeriveCall)},
+    "grammar.md": {
+        "options": lambda: options_table(DeriveCall),
+        "sample": lambda: options_table(SampleCall),
+        "tree": lambda: options_table(TreeCall),
+    },
     "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},
 }
 

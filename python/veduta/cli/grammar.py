@@ -15,11 +15,15 @@ ACTIONS = ("check", "format", "derive", "sample", "tree")
 MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
-       veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
-                             [--edits FILE] [--start TEXT] [--seconds FLOAT] [--force]
-                             [--jobs N] [--quiet]
-       veduta grammar sample RULES -o SHEET [-n N] [--lots LOTS] [--lot ID] [--colours HOW] ...
-       veduta grammar tree RULES [-o FILE] [--lots LOTS] [--lot ID] [--at PATH] [--depth N] ...
+       veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--edits FILE]
+                             [--seed INT] [--start TEXT] [--style TEXT] [--seconds FLOAT]
+                             [--layer TEXT] [--up y|z] [--terrain PATH] [--ground lowest|mean]
+                             [--force] [--jobs N] [--quiet]
+       veduta grammar sample RULES -o SHEET [--count N] [--lots LOTS] [--lot ID]
+                             [--colours classes|real|both] [--columns INT] [--width INT]
+                             [--rays INT] and others of derive
+       veduta grammar tree RULES [-o FILE] [--lots LOTS] [--lot ID] [--at PATH] [--depth N]
+                             and others of derive
 
 {SUMMARY}.
 

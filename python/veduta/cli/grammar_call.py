@@ -9,8 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions, LotOptions
-from veduta.grammar.sampling import SampleOptions
+from veduta.grammar.options import DeriveOptions, LotOptions, SampleOptions
 
 Rules = Annotated[
     tyro.conf.Positional[str],
@@ -68,7 +67,10 @@ Drawing = Annotated[
 Count = Annotated[
     int,
     tyro.conf.arg(
-        aliases=["-n"], metavar="N", help_behavior_hint="", help="how many buildings, up to 64"
+        aliases=["-n"],
+        metavar="N",
+        help_behavior_hint="",
+        help="how many buildings, up to 64; 9 if not given",
     ),
 ]
 Depth = Annotated[
@@ -76,7 +78,7 @@ Depth = Annotated[
     tyro.conf.arg(
         metavar="N",
         help_behavior_hint="",
-        help="rules within each other that are shown, up to 1000",
+        help="rules within each other that are shown, up to 1000; 6 if not given",
     ),
 ]
 At = Annotated[

@@ -1,4 +1,4 @@
-"""The options of `veduta grammar derive`."""
+"""The options of `veduta grammar derive`, `sample` and `tree`."""
 
 from __future__ import annotations
 
@@ -45,6 +45,23 @@ class LotOptions(Options):
     ground: Literal["lowest", "mean"] = Field(
         default="lowest",
         description="where a lot stands on the terrain: at its lowest place, or at the mean",
+    )
+
+
+class SampleOptions(Options):
+    """What the sheet shows."""
+
+    colours: Literal["classes", "real", "both"] = Field(
+        default="classes", description="a colour for each class, those of the rules, or both"
+    )
+    columns: Annotated[int, Field(ge=1, le=12)] | None = Field(
+        default=None, description="buildings in a row; about as many as rows if not given"
+    )
+    width: Annotated[int, Field(ge=120, le=1600)] = Field(
+        default=400, description="width of one picture (px)"
+    )
+    rays: Annotated[int, Field(ge=1, le=6)] = Field(
+        default=2, description="rays for a pixel along each side; more are smoother and slower"
     )
 
 

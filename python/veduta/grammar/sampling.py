@@ -9,44 +9,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Literal
 
 import numpy as np
 from PIL import Image
-from pydantic import Field
 
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.derivation import Derivation, Rules
 from veduta.grammar.lots import Lot
 from veduta.grammar.one_lot import derive_lot
-from veduta.grammar.options import GrammarOptions
+from veduta.grammar.options import GrammarOptions, SampleOptions
 from veduta.grammar.outline import Attribute
 from veduta.grammar.portrait import AZIMUTH_RAD, Box, in_class_colours, portrait
 from veduta.grammar.sheet import MAX_FACTS, Cell, draw_sheet
 from veduta.place.part import Part
 from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
-from veduta.run.options import Options
 from veduta.run.progress import Progress
 
 MAX_SAMPLES = 64
-
-
-class SampleOptions(Options):
-    """What the sheet shows."""
-
-    colours: Literal["classes", "real", "both"] = Field(
-        default="classes", description="a colour for each class, those of the rules, or both"
-    )
-    columns: Annotated[int, Field(ge=1, le=12)] | None = Field(
-        default=None, description="buildings in a row; about as many as rows if not given"
-    )
-    width: Annotated[int, Field(ge=120, le=1600)] = Field(
-        default=400, description="width of one picture (px)"
-    )
-    rays: Annotated[int, Field(ge=1, le=6)] = Field(
-        default=2, description="rays for a pixel along each side; more are smoother and slower"
-    )
 
 
 @dataclass(frozen=True)
