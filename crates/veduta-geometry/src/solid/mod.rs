@@ -1,5 +1,6 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
+mod boolean;
 mod cut;
 mod envelope;
 mod extrude;
@@ -13,6 +14,7 @@ mod raised;
 mod roofs;
 mod weld;
 
+pub use boolean::{boolean, relation, Boolean, BooleanError, Combined, Relation};
 pub use cut::{cut, Piece, Sides};
 pub use envelope::{envelope, Bound};
 pub use extrude::extrude;
