@@ -38,6 +38,10 @@ const OPERATIONS: &[&str] = &[
     "extrude(\"x\", #)",
     "innerRectangle(scope) { shape : @ | remainder = @ }",
     "innerRectangle(edge) { shape : @ | remainder : @ }",
+    "inline { @ @ }",
+    "inline(unify) @",
+    "intersect { t(#, #, #) @ }",
+    "label(\"a\")",
     "mirror(true, false, # > 1)",
     "mirrorScope(true, true, false)",
     "normalizeUV(0, uv, collectiveAllFaces)",
@@ -53,6 +57,8 @@ const OPERATIONS: &[&str] = &[
     "print(geometry.volume + geometry.area(side) + geometry.angle(azimuth))",
     "print(geometry.isConcave + geometry.boundaryLength + geometry.nVertices)",
     "print(geometry.du(0, unitSpace) + sum(comp(fe) { all : scope.sx }))",
+    "print(inside() + touches(all) + overlaps(intra, \"a\"))",
+    "print(minimumDistance(all, \"a\") + contextCompare(all, \"a\", area.largest))",
     "print(geometry.isPlanar(#)) print(geometry.isRectangular(#))",
     "projectUV(0)",
     "r(#, #, #)",
@@ -87,6 +93,7 @@ const OPERATIONS: &[&str] = &[
     "split(z, noAdjust) { { ~# : @ }* }",
     "splitArea(x) { # : @ | { ~# : @ }* }",
     "splitArea(y) { '0.3 : @ | ~1 : @ }",
+    "subtract(swap) { r(#, #, #) primitiveCube() }",
     "t(#, '#, #)",
     "tag(\"ab\")",
     "taper(#)",
@@ -95,6 +102,7 @@ const OPERATIONS: &[&str] = &[
     "translate(rel, scope, #, #, #)",
     "translate(abs, world, #, #, #)",
     "translateUV(0, #, #)",
+    "union @",
 ];
 
 const NUMBERS: &[&str] = &[

@@ -9,6 +9,7 @@ use crate::{Span, Symbol};
 use super::functions::Function;
 use super::measures::Measure;
 use super::operations::OperationId;
+use super::queries::Query;
 use super::shape_attributes::ShapeAttribute;
 
 /// Rule files that belong together, ready to run.
@@ -20,6 +21,8 @@ pub struct Code {
     pub functions: Vec<UserFunction>,
     /// The rule that a derivation begins with where none is named.
     pub start: Option<usize>,
+    /// Whether a rule asks about other shapes.
+    pub asks: bool,
     /// The texts of all symbols.
     pub names: Vec<Arc<str>>,
 }
@@ -40,6 +43,8 @@ impl Code {
 #[derive(Debug, Clone)]
 pub struct Rule {
     pub name: Arc<str>,
+    /// The number of its file.
+    pub unit: usize,
     pub symbol: Symbol,
     pub params: usize,
     /// Values of `with`, in the slots after the parameters.
@@ -50,6 +55,7 @@ pub struct Rule {
 #[derive(Debug, Clone)]
 pub struct Global {
     pub name: Arc<str>,
+    pub unit: usize,
     /// Whether it may be set from outside.
     pub is_attribute: bool,
     /// Values of `with`, by slot.
@@ -60,6 +66,7 @@ pub struct Global {
 #[derive(Debug, Clone)]
 pub struct UserFunction {
     pub name: Arc<str>,
+    pub unit: usize,
     pub params: usize,
     pub locals: Vec<Expr>,
     pub value: Expr,
@@ -94,6 +101,11 @@ pub enum ExprKind {
     /// A function of the current shape's geometry.
     Measure {
         measure: Measure,
+        args: Vec<Expr>,
+    },
+    /// A question about other shapes.
+    Query {
+        query: Query,
         args: Vec<Expr>,
     },
     /// `comp(f) { selector : value | ... }`: an array of a value for each component.

@@ -5,6 +5,8 @@ use crate::Span;
 /// A fault at a place in a rule file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
+    /// The number of the file in the program: 0 is the main one, the others are imported.
+    pub unit: Option<usize>,
     pub span: Span,
     pub message: String,
 }
@@ -12,8 +14,15 @@ pub struct Fault {
 impl Fault {
     pub fn at(span: Span, message: impl Into<String>) -> Self {
         Self {
+            unit: None,
             span,
             message: message.into(),
         }
+    }
+
+    /// The fault with the file of what was at work, where it is not known yet.
+    pub fn within(mut self, unit: usize) -> Self {
+        self.unit.get_or_insert(unit);
+        self
     }
 }

@@ -39,11 +39,13 @@ pub fn lower(program: &Program, checked: &Checked) -> Lowered {
             resolution: &checked.resolutions[unit],
             numbers: &numbers,
             unit,
+            asks: false,
             diagnostics: Vec::new(),
         };
         lowering.imports();
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
+        lowered.code.asks |= lowering.asks;
         lowered.diagnostics.push(lowering.diagnostics);
     }
     if lowered.code.start.is_none()
@@ -114,6 +116,8 @@ fn is_global(definition: &Definition) -> bool {
 pub(super) struct Lowering<'a> {
     pub program: &'a Program,
     pub numbers: &'a Numbers,
+    /// Whether a rule of the file asks about other shapes.
+    pub asks: bool,
     resolution: &'a Resolution,
     unit: usize,
     diagnostics: Vec<Diagnostic>,
@@ -161,6 +165,7 @@ impl<'a> Lowering<'a> {
         let body = self.body(&rule.body);
         code.rules.push(Rule {
             name: self.shared(rule.name),
+            unit: self.unit,
             symbol: rule.name.symbol,
             params: definition.arity,
             locals,
@@ -175,6 +180,7 @@ impl<'a> Lowering<'a> {
         if is_global(definition) {
             code.globals.push(Global {
                 name,
+                unit: self.unit,
                 is_attribute: definition.role == Role::Attr,
                 locals,
                 value: expr,
@@ -182,6 +188,7 @@ impl<'a> Lowering<'a> {
         } else {
             code.functions.push(UserFunction {
                 name,
+                unit: self.unit,
                 params: definition.arity,
                 locals,
                 value: expr,

@@ -8,7 +8,9 @@ mod code;
 mod colours;
 mod evaluate;
 mod fault;
+mod frame;
 mod functions;
+mod globals;
 mod limits;
 mod lists;
 mod lot;
@@ -16,15 +18,19 @@ mod lower;
 mod lower_body;
 mod lower_expression;
 mod measures;
+mod nested;
+mod occluders;
 mod operations;
 mod operators;
 mod overrides;
 mod pack;
+mod queries;
 mod random;
 mod run;
 mod selection;
 mod shape_attributes;
 mod state;
+mod steps;
 mod surfaces;
 mod texture_map;
 mod tree;
@@ -35,11 +41,12 @@ pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
 pub use lower::{lower, Lowered};
+pub use occluders::Occluder;
 pub use operations::names as operation_names;
 pub use overrides::{Edit, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
 pub use random::Stream;
-pub use run::{derive, Options};
+pub use run::{derive, occluders, Options};
 pub use state::{Extra, Look, Place, State};
 pub use surfaces::{surfaces, Surfaces};
 pub use texture_map::TextureMap;
@@ -50,6 +57,7 @@ pub use value::{Array, Value};
 pub fn function_names() -> impl Iterator<Item = &'static str> {
     functions::Function::names()
         .chain(measures::Measure::names())
+        .chain(queries::Query::names())
         .chain(["comp"])
 }
 

@@ -1,6 +1,7 @@
 //! Shapes: an oriented box, and geometry in shares of that box.
 
 mod components;
+mod distances;
 mod form;
 mod scope;
 mod selecting;
@@ -9,6 +10,7 @@ mod splitting;
 mod surroundings;
 
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
+pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};
 pub use selecting::{is_meant, Frames};

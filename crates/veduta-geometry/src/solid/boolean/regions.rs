@@ -141,8 +141,8 @@ impl Graph {
             let part = parts.len();
             let mut open = vec![start];
             while let Some(point) = open.pop() {
-                if !parts.contains_key(&point) {
-                    parts.insert(point, part);
+                let is_new = parts.insert(point, part).is_none();
+                if is_new {
                     open.extend(&self.around[&point]);
                 }
             }

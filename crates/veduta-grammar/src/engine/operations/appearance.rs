@@ -6,7 +6,8 @@ use std::sync::Arc;
 use super::super::code::{Arg, Operation};
 use super::super::colours::parsed;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::value::Value;
 use super::{number, word};
 

@@ -7,7 +7,8 @@ use veduta_geometry::solid::Mesh;
 
 use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
 use super::word;
@@ -26,6 +27,7 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         let message = format!("`{kind}` is no component: f, e, fe, v or h");
         return Err(Fault::at(op.span, message));
     };
+    run.record(None, &frame.state);
     let whole = frame.state.clone();
     let choosing = Choosing::of(&whole.form, kind, run);
     let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;

@@ -2,7 +2,8 @@
 
 use super::super::code::{Body, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::state::{Place, State};
 use super::{axes, word};
 use crate::shape::{self, cells, Geometry, Pattern, Size};

@@ -8,7 +8,8 @@ use veduta_geometry::{triangulate, PolygonSet};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use crate::shape::{Form, Geometry, TOLERANCE};
 
 /// `deleteHoles()`: the faces without their holes. The walls of a shaft through a solid stay, so

@@ -4,6 +4,7 @@ mod appearance;
 mod components;
 mod dividing;
 mod envelopes;
+mod inlining;
 mod inner_rectangles;
 mod meshes;
 mod offsets;
@@ -24,7 +25,8 @@ use std::sync::Arc;
 
 use super::code::{Arg, Operation, Sizing};
 use super::fault::Fault;
-use super::run::{Frame, Run};
+use super::frame::Frame;
+use super::run::Run;
 use super::value::Value;
 use crate::shape::Geometry;
 
@@ -50,7 +52,10 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("deleteUV", textures::delete, 1, 1),
     ("envelope", envelopes::envelope, 4, 10),
     ("extrude", solids::extrude, 1, 2),
+    ("inline", inlining::inline, 0, 1),
     ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
+    ("intersect", inlining::intersect, 0, 1),
+    ("label", speech::label, 1, 1),
     ("mirror", scopes::mirror, 3, 3),
     ("mirrorScope", scopes::mirror_scope, 3, 3),
     ("normalizeUV", textures::normalize, 3, 3),
@@ -87,6 +92,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("shapeU", wings::u, 3, 3),
     ("split", dividing::split, 1, 2),
     ("splitArea", dividing::split_area, 1, 2),
+    ("subtract", inlining::subtract, 0, 1),
     ("t", transform::move_scope, 3, 3),
     ("tag", tags::tag, 1, 1),
     ("taper", standing::taper, 1, 1),
@@ -94,6 +100,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("tileUV", textures::tile_uv, 3, 3),
     ("translate", transform::translate, 5, 5),
     ("translateUV", textures::translate, 3, 3),
+    ("union", inlining::union, 0, 1),
 ];
 
 impl OperationId {

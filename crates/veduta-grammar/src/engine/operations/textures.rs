@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use super::super::code::{Arg, Operation, Sizing};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::texture_map::{layer, map_of, TextureMap};
 use super::{axes, number, word};
 
