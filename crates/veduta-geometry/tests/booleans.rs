@@ -1,5 +1,7 @@
 //! Union, difference and intersection against hand-worked volumes, identities and random points.
 
+#![allow(clippy::unwrap_used)] // helpers of tests
+
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use veduta_geometry::solid::{

@@ -1,6 +1,7 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
 mod boolean;
+mod cleanup;
 mod cut;
 mod envelope;
 mod extrude;
@@ -15,6 +16,7 @@ mod roofs;
 mod weld;
 
 pub use boolean::{boolean, relation, Boolean, BooleanError, Combined, Relation};
+pub use cleanup::{cleaned, Cleaning};
 pub use cut::{cut, Piece, Sides};
 pub use envelope::{envelope, Bound};
 pub use extrude::extrude;

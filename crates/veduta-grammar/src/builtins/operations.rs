@@ -174,6 +174,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("rotateUV", &[2], &[]),
     plain("deleteUV", &[1], &[]),
     plain("copyUV", &[2], &[]),
+    plain("bakeUV", &[1], &[]),
     // Transformations
     plain("t", &[3], &[]),
     plain("translate", &[5], &[MODES, SYSTEMS]),

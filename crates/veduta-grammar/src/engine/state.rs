@@ -3,6 +3,8 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
+
 use crate::shape::Form;
 
 use super::texture_map::{TextureMap, LAYERS};
@@ -46,6 +48,8 @@ pub struct Extra {
     pub projections: [Option<TextureMap>; LAYERS],
     /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
     pub maps: [Option<TextureMap>; LAYERS],
+    /// Origin and axes of the pivot; None is the world.
+    pub pivot: Option<(DVec3, DMat3)>,
 }
 
 impl Extra {

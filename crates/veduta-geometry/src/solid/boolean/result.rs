@@ -4,9 +4,13 @@ use std::collections::{HashMap, HashSet};
 
 use glam::DVec3;
 
+use super::super::cleanup::without_idle_points;
 use super::super::loops::{nested, traced};
-use super::super::mesh::{Face, Mesh};
+use super::super::mesh::Mesh;
 use super::{Boolean, Combined, Overlay, Region, Side};
+
+/// The sine of an angle up to which edges are straight.
+const STRAIGHT: f64 = 1e-9;
 
 /// The faces of the result; `closed` says of each mesh whether it is.
 pub fn of(overlay: &Overlay, operation: Boolean, closed: [bool; 2]) -> Combined {
@@ -34,7 +38,7 @@ pub fn of(overlay: &Overlay, operation: Boolean, closed: [bool; 2]) -> Combined 
         }
     }
     Combined {
-        mesh: without_idle_points(&mesh).compact(),
+        mesh: without_idle_points(&mesh, STRAIGHT).compact(),
         sources,
     }
 }
@@ -81,35 +85,4 @@ fn together(points: &[DVec3], regions: &[&Region], normal: DVec3) -> Vec<Vec<Vec
     let all: HashSet<(u32, u32)> = edges.iter().copied().collect();
     edges.retain(|&(from, to)| !all.contains(&(to, from)));
     nested(points, traced(points, &edges, normal), normal)
-}
-
-/// The mesh without points at which no more than two straight edges meet.
-fn without_idle_points(mesh: &Mesh) -> Mesh {
-    const STRAIGHT: f64 = 1e-9;
-    let mut beside: HashMap<u32, HashSet<u32>> = HashMap::new();
-    for (from, to) in mesh.faces().flat_map(Face::edges) {
-        beside.entry(from).or_default().insert(to);
-        beside.entry(to).or_default().insert(from);
-    }
-    let is_idle = |point: u32| {
-        let neighbours: Vec<u32> = beside[&point].iter().copied().collect();
-        let [a, b] = neighbours[..] else {
-            return false;
-        };
-        let [here, a, b] = [point, a, b].map(|p| mesh.points[p as usize]);
-        let (one, other) = (
-            (here - a).normalize_or_zero(),
-            (b - here).normalize_or_zero(),
-        );
-        one.dot(other) > 0.0 && one.cross(other).length() <= STRAIGHT
-    };
-    let mut kept = Mesh::with_points(mesh.points.clone());
-    for face in mesh.faces() {
-        let rings: Vec<Vec<u32>> = face
-            .rings()
-            .map(|ring| ring.iter().copied().filter(|&p| !is_idle(p)).collect())
-            .collect();
-        kept.push_face(&rings);
-    }
-    kept
 }

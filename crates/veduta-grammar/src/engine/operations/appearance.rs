@@ -8,6 +8,7 @@ use super::super::colours::parsed;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
+use super::super::state::Look;
 use super::super::value::Value;
 use super::{number, word};
 
@@ -56,6 +57,19 @@ pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let path = word(run, op, 0, frame)?;
     let look = Arc::make_mut(&mut frame.state.look);
     look.texture = (!path.is_empty()).then_some(path);
+    frame.changed();
+    Ok(())
+}
+
+/// `resetMaterial()`, `resetMaterial(shape | geometry | all)`: white and opaque without a texture,
+/// as at first; what the surface is in the model stays.
+pub fn reset_material(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let look = Arc::make_mut(&mut frame.state.look);
+    let class = look.class.clone();
+    *look = Look {
+        class,
+        ..Look::default()
+    };
     frame.changed();
     Ok(())
 }

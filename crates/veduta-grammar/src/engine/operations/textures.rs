@@ -151,6 +151,15 @@ pub fn copy(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     Ok(())
 }
 
+/// `bakeUV(layer)`: the texture stays where it lies now on the shape and on all children, where it
+/// would else cover the scope of each.
+pub fn bake(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let map = current(run, op, frame)?;
+    let layer = layer_at(run, op, 0, frame)?;
+    set(frame, layer, map);
+    Ok(())
+}
+
 fn set(frame: &mut Frame, layer: usize, map: TextureMap) {
     frame.state.extra_mut().maps[layer] = Some(map);
     frame.changed();
