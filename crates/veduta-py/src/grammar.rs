@@ -24,8 +24,8 @@ type Rings = Vec<Vec<[f64; 3]>>;
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
 struct GrammarRules {
     code: Code,
-    text: Source,
-    has_imports: bool,
+    /// The files, as faults number them.
+    sources: Vec<Source>,
 }
 
 #[pymethods]
@@ -151,7 +151,6 @@ struct Derived {
 
 fn read(files: &Files) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
-    let (name, text) = files.first().ok_or_else(missing)?;
     let program = program_of(files).ok_or_else(missing)?;
     let checked = check(&program);
     if checked.has_errors() {
@@ -163,8 +162,7 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
     }
     Ok(GrammarRules {
         code: lowered.code,
-        text: Source::new(name.clone(), text.clone()),
-        has_imports: program.units.len() > 1,
+        sources: program.units.into_iter().map(|unit| unit.source).collect(),
     })
 }
 
@@ -185,13 +183,10 @@ impl GrammarRules {
         let form = lot_form(lot).ok_or("the lot encloses nothing")?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
         let tree = derive(&self.code, rule, start, options).map_err(|fault| {
-            let name = self.text.name();
-            if self.has_imports {
-                // A fault does not say which file it is in.
-                return format!("{name} or what it imports: {}", fault.message);
-            }
-            let place = self.text.position(fault.span.start);
-            format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+            let source = &self.sources[fault.unit.unwrap_or(0)];
+            let place = source.position(fault.span.start);
+            let (name, message) = (source.name(), fault.message);
+            format!("{name}:{}:{}: {message}", place.line, place.column)
         })?;
         let packed = pack(&tree);
         let surfaces = surfaces(&tree, &packed);

@@ -43,8 +43,9 @@ impl Code {
 #[derive(Debug, Clone)]
 pub struct Rule {
     pub name: Arc<str>,
-    /// The number of its file.
+    /// The number of its file, and its name there.
     pub unit: usize,
+    pub span: Span,
     pub symbol: Symbol,
     pub params: usize,
     /// Values of `with`, in the slots after the parameters.

@@ -1,5 +1,7 @@
 //! A rule at work on one shape.
 
+use crate::Span;
+
 use super::evaluate::Scene;
 use super::random::Stream;
 use super::state::State;
@@ -8,6 +10,8 @@ use super::value::Value;
 /// A rule at work on one shape.
 pub struct Frame {
     pub node: u32,
+    /// The name of the rule in its file.
+    pub span: Span,
     pub state: State,
     pub slots: Vec<Value>,
     pub stream: Stream,

@@ -166,6 +166,7 @@ impl<'a> Lowering<'a> {
         code.rules.push(Rule {
             name: self.shared(rule.name),
             unit: self.unit,
+            span: rule.name.span,
             symbol: rule.name.symbol,
             params: definition.arity,
             locals,

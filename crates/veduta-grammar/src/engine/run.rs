@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
                 "{} needs {} arguments and cannot start",
                 called.name, called.params
             );
-            return Err(Fault::at(Span::default(), message));
+            return Err(Fault::at(called.span, message).within(called.unit));
         }
         self.tree.nodes.push(Node {
             parent: None,
@@ -164,6 +164,7 @@ impl<'a> Run<'a> {
         };
         let mut frame = Frame {
             node: next.node,
+            span: rule.span,
             state: node.state.clone(),
             slots: next.args,
             stream: next.stream,

@@ -125,7 +125,7 @@ impl Run<'_> {
             self.record(None, &frame.state);
         }
         self.back();
-        if let Some(leaf) = self.add(name.clone(), None, frame, Span::default())? {
+        if let Some(leaf) = self.add(name.clone(), None, frame, frame.span)? {
             self.tree.leaves.push(leaf);
         }
         Ok(())
