@@ -115,6 +115,7 @@ const OPERATIONS: &[&str] = &[
     "translate(rel, scope, #, #, #)",
     "translate(abs, world, #, #, #)",
     "translateUV(0, #, #)",
+    "trim()",
     "union @",
 ];
 

@@ -183,6 +183,25 @@ fn splits_along_textures() {
 }
 
 #[test]
+fn walls_end_where_the_next_begins() {
+    // The wall of a box, 10 m by 3 m, made 14 m wide and 1 m thick: the mitres at its corners let
+    // it be 10 m wide at the back and 12 m at the front.
+    let wall = "extrude(3) comp(f) { front : W | all : NIL } \
+                W --> s(14, '1, 0) center(x) extrude(1) trim() print(geometry.volume) print(geometry.isClosedSurface)";
+    assert_eq!(said(&format!("Lot --> {wall}")), ["33", "true"]);
+    // Level edges do not trim until they are asked to: then the top and bottom are mitred, too.
+    let tall = wall.replace("s(14, '1, 0) center(x)", "s(14, 7, 0) center(xy)");
+    assert_eq!(said(&format!("Lot --> {tall}"))[0], "77");
+    let level = format!("Lot --> set(trim.horizontal, true) {tall}");
+    // 10 m by 3 m at the back, 12 m by 5 m at the front, and the rule of the prismoid.
+    let truth = (30.0 + 4.0 * 11.0 * 4.0 + 60.0) / 6.0;
+    let found: f64 = said(&level)[0].parse().unwrap();
+    assert!((found - truth).abs() < 1e-6, "{found} {truth}");
+    let off = format!("Lot --> set(trim.vertical, false) print(trim.vertical) {wall}");
+    assert_eq!(said(&off), ["false", "42", "true"]);
+}
+
+#[test]
 fn children_keep_a_baked_texture() {
     let cells = "split(x) { 5 : X | 5 : X } X --> print(geometry.vMin(0))";
     assert_eq!(said(&format!("Lot --> {cells}")), ["0", "0"]);

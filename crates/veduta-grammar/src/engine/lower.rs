@@ -40,12 +40,14 @@ pub fn lower(program: &Program, checked: &Checked) -> Lowered {
             numbers: &numbers,
             unit,
             asks: false,
+            trims: false,
             diagnostics: Vec::new(),
         };
         lowering.imports();
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
         lowered.code.asks |= lowering.asks;
+        lowered.code.trims |= lowering.trims;
         lowered.diagnostics.push(lowering.diagnostics);
     }
     if lowered.code.start.is_none()
@@ -118,6 +120,7 @@ pub(super) struct Lowering<'a> {
     pub numbers: &'a Numbers,
     /// Whether a rule of the file asks about other shapes.
     pub asks: bool,
+    pub trims: bool,
     resolution: &'a Resolution,
     unit: usize,
     diagnostics: Vec<Diagnostic>,

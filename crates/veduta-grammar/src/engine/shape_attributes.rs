@@ -30,13 +30,15 @@ pub enum ShapeAttribute {
     Elevation,
     PivotPlace(usize),
     PivotTurn(usize),
+    TrimLevel,
+    TrimSteep,
     StartName,
     StartPlace(usize),
     StartTurn(usize),
 }
 
 /// All shape attributes by their names.
-const TABLE: [(&str, ShapeAttribute); 37] = {
+const TABLE: [(&str, ShapeAttribute); 39] = {
     use ShapeAttribute as A;
     [
         ("scope.sx", A::ScopeSize(0)),
@@ -68,6 +70,8 @@ const TABLE: [(&str, ShapeAttribute); 37] = {
         ("pivot.ox", A::PivotTurn(0)),
         ("pivot.oy", A::PivotTurn(1)),
         ("pivot.oz", A::PivotTurn(2)),
+        ("trim.horizontal", A::TrimLevel),
+        ("trim.vertical", A::TrimSteep),
         ("initialShape.name", A::StartName),
         ("initialShape.startRule", A::StartName),
         ("initialShape.origin.px", A::StartPlace(0)),
@@ -122,6 +126,8 @@ impl ShapeAttribute {
             Self::Elevation => Value::Number(scope.origin.y),
             Self::PivotPlace(axis) => Value::Number(pivot(state).0[axis]),
             Self::PivotTurn(axis) => Value::Number(turn(pivot(state).1, axis)),
+            Self::TrimLevel => Value::Bool(state.extra.as_ref().is_some_and(|e| e.trims_level)),
+            Self::TrimSteep => Value::Bool(!state.extra.as_ref().is_some_and(|e| e.keeps_steep)),
             Self::StartName => Value::Text(first.name.clone()),
             Self::StartPlace(axis) => Value::Number(first.state.form.scope.origin[axis]),
             Self::StartTurn(axis) => Value::Number(turn(first.state.form.scope.axes, axis)),

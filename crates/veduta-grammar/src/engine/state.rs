@@ -7,6 +7,7 @@ use glam::{DMat3, DVec3};
 
 use crate::shape::Form;
 
+use super::operations::TrimPlane;
 use super::texture_map::{TextureMap, LAYERS};
 use super::value::Value;
 
@@ -50,6 +51,12 @@ pub struct Extra {
     pub maps: [Option<TextureMap>; LAYERS],
     /// Origin and axes of the pivot; None is the world.
     pub pivot: Option<(DVec3, DMat3)>,
+    /// The planes of `trim`.
+    pub trims: Vec<TrimPlane>,
+    /// `trim.horizontal`.
+    pub trims_level: bool,
+    /// The opposite of `trim.vertical`.
+    pub keeps_steep: bool,
 }
 
 impl Extra {

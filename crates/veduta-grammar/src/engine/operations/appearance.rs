@@ -115,6 +115,12 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
             let path = value.to_string();
             look.texture = (!path.is_empty()).then(|| path.into());
         }
+        ("trim.horizontal", _) => {
+            frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
+        }
+        ("trim.vertical", _) => {
+            frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
+        }
         ("material.name", _) => look.class = value.to_string().into(),
         (other, _) => {
             let message = format!("`{other}` is neither an attribute nor a property of materials");

@@ -23,7 +23,10 @@ mod standing;
 mod tags;
 mod textures;
 mod transform;
+mod trimming;
 mod wings;
+
+pub use trimming::TrimPlane;
 
 use std::sync::Arc;
 
@@ -112,6 +115,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("tileUV", textures::tile_uv, 3, 3),
     ("translate", transform::translate, 5, 5),
     ("translateUV", textures::translate, 3, 3),
+    ("trim", trimming::trim, 0, 0),
     ("union", inlining::union, 0, 1),
 ];
 
@@ -119,6 +123,11 @@ impl OperationId {
     /// The operation of this name.
     pub fn named(name: &str) -> Option<Self> {
         TABLE.iter().position(|entry| entry.0 == name).map(Self)
+    }
+
+    /// Whether shapes have to keep the planes that part them from each other.
+    pub fn trims(self) -> bool {
+        TABLE[self.0].0 == "trim"
     }
 
     /// The fewest and most arguments.

@@ -10,12 +10,14 @@ use super::super::run::Run;
 use super::{number, word};
 use crate::shape::{Form, Geometry, TOLERANCE};
 
-/// `resetGeometry()`: scope, geometry and pivot of the start shape. Looks, attributes and what
+/// `resetGeometry()`: scope, geometry and pivot of the start shape, and no planes for `trim`. Looks, attributes and what
 /// `setupProjection` has prepared stay.
 pub fn reset(run: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     frame.state.form = run.first().state.form.clone();
     if frame.state.extra.is_some() {
-        frame.state.extra_mut().pivot = None;
+        let extra = frame.state.extra_mut();
+        extra.pivot = None;
+        extra.trims.clear();
     }
     frame.changed();
     Ok(())
