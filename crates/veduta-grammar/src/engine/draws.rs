@@ -23,6 +23,8 @@ impl Taken {
 #[derive(Debug, Default)]
 pub struct Draws {
     pub taken: Vec<Taken>,
+    /// The logarithm of the chance of what inlined rules took.
+    pub inlined: f64,
     wanted: Vec<Option<u16>>,
 }
 
@@ -30,6 +32,7 @@ impl Draws {
     pub fn of(edit: Option<&Edit>) -> Self {
         Self {
             taken: Vec::new(),
+            inlined: 0.0,
             wanted: edit.map(|edit| edit.choices.clone()).unwrap_or_default(),
         }
     }

@@ -22,11 +22,20 @@ pub struct Node {
     pub args: Box<[Value]>,
     /// The random alternatives taken in that rule, in order.
     pub choices: Vec<Taken>,
+    /// The logarithm of the chance of the alternatives taken in rules that it inlined.
+    pub inlined: f64,
     /// The shape as the rule got it; of a leaf, as it stays.
     pub state: State,
     /// The number of its first child: children stand together, and all below them follows.
     pub first_child: u32,
     pub child_count: u32,
+}
+
+impl Node {
+    /// The logarithm of the chance of the alternatives that its rule took.
+    pub fn log_chance(&self) -> f64 {
+        self.choices.iter().map(Taken::log_chance).sum::<f64>() + self.inlined
+    }
 }
 
 /// The value of an attribute or constant that was needed, or that is drawn by chance.
@@ -129,9 +138,7 @@ impl Tree {
             if node.rule.is_none() {
                 self.leaves.push(number as u32);
             }
-            for taken in &node.choices {
-                self.log_prior += taken.log_chance();
-            }
+            self.log_prior += node.log_chance();
         }
     }
 }
