@@ -59,6 +59,7 @@ def grammar_operations() -> list[str]: ...
 
 # grammar.rs
 class GrammarFault(ValueError): ...
+class AssetWanted(GrammarFault): ...
 
 _Value = bool | float | str
 _Edit = tuple[list[int], str | None, bool, list[int | None], list[tuple[str, _Value]]]
@@ -71,6 +72,16 @@ class GrammarRules:
     def starts(self) -> list[str]: ...
     @property
     def attributes(self) -> list[tuple[str, str]]: ...
+    @property
+    def asset_names(self) -> tuple[list[str], bool]: ...
+    def add_asset(
+        self,
+        name: str,
+        points: NDArray[np.float64],
+        corners: NDArray[np.uint32],
+        offsets: NDArray[np.int64],
+        box_m: NDArray[np.float64],
+    ) -> None: ...
     def derive(
         self,
         lots: list[list[list[tuple[float, float, float]]]],
@@ -81,7 +92,11 @@ class GrammarRules:
         edits: list[list[_Edit]] | None = None,
         seconds: float = 60.0,
         shapes: int = 5_000_000,
-    ) -> list[DerivedLot | str]: ...
+    ) -> list[DerivedLot | MissingAsset | str]: ...
+
+class MissingAsset:
+    name: str
+    why: str
 
 class DerivedLot:
     positions_m: NDArray[np.float64]
@@ -94,6 +109,11 @@ class DerivedLot:
     feature_class: list[str]
     feature_size_m: NDArray[np.float64]
     looks: list[tuple[float, float, float, float, str | None, str]]
+    instance_feature: NDArray[np.int32]
+    instance_look: NDArray[np.int32]
+    instance_asset: NDArray[np.int32]
+    instance_transform: NDArray[np.float64]
+    asset_names: list[str]
     log_prior: float
     messages: list[str]
     edit_faults: list[tuple[list[int], str]]

@@ -89,15 +89,15 @@ impl Derivation {
             },
             attributes: values(attributes.unwrap_or_default()),
             overrides: overrides_of(edits.unwrap_or_default()),
+            assets: rules.get().known_assets(),
         };
         let with = rules.get();
         let rule = with.start_rule(start)?;
-        let tree = py.detach(|| {
-            let form = lot_form(&lot).ok_or("the lot encloses nothing")?;
-            let start = State::new(form, (seed & 0xffff_ffff) as u32);
-            derive(&with.code, rule, start, &options).map_err(|fault| with.told(&fault))
-        });
-        let tree = tree.map_err(GrammarFault::new_err)?;
+        let form = lot_form(&lot);
+        let form = form.ok_or_else(|| GrammarFault::new_err("the lot encloses nothing"))?;
+        let start = State::new(form, (seed & 0xffff_ffff) as u32);
+        let tree = py.detach(|| derive(&with.code, rule, start, &options));
+        let tree = tree.map_err(|fault| with.raised(&fault))?;
         Ok(Self {
             rules,
             options,
@@ -115,11 +115,12 @@ impl Derivation {
     ) -> PyResult<bool> {
         let before = std::mem::replace(&mut self.options.overrides, overrides_of(edits));
         let with = self.rules.get();
+        self.options.assets = with.known_assets();
         let (tree, options) = (&mut self.tree, &self.options);
         let found = py.detach(|| rederive(&with.code, tree, &path, options));
         found.map_err(|fault| {
             self.options.overrides = before;
-            GrammarFault::new_err(with.told(&fault))
+            with.raised(&fault)
         })
     }
 

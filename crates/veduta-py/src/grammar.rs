@@ -1,23 +1,28 @@
 //! `veduta_grammar` for Python: rule files in, columns of polygons out, the GIL released between.
 
 use std::collections::HashMap;
+use std::sync::{Arc, RwLock};
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault, Limits, Options,
-    Packed, State, Surfaces, Tree, Value,
+    asset_names, derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault,
+    Limits, Options, Packed, State, Surfaces, Tree, Value,
 };
+use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
 use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
+// Told, and the name of the asset.
+create_exception!(_core, AssetWanted, GrammarFault);
 
 pub type Rings = Vec<Vec<[f64; 3]>>;
 
@@ -27,8 +32,11 @@ pub struct GrammarRules {
     pub code: Code,
     text: Source,
     has_imports: bool,
+    assets: RwLock<Arc<Assets>>,
     styles: Vec<String>,
 }
+
+pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 
 #[pymethods]
 impl GrammarRules {
@@ -72,6 +80,37 @@ impl GrammarRules {
             .collect()
     }
 
+    /// The names of assets that stand in the rules, and whether there are others that are computed.
+    #[getter]
+    fn asset_names(&self) -> (Vec<String>, bool) {
+        let found = asset_names(&self.code);
+        let written = found.written.iter().map(ToString::to_string).collect();
+        (written, found.computed)
+    }
+
+    /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
+    /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
+    /// `box_m`: (2, 3) the corners of the box that fills a scope.
+    fn add_asset(
+        &self,
+        name: &str,
+        points: PyReadonlyArray2<'_, f64>,
+        corners: PyReadonlyArray1<'_, u32>,
+        offsets: PyReadonlyArray1<'_, i64>,
+        box_m: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
+        let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
+        let ends = places(&box_m).ok_or_else(fault)?;
+        let [low, high] = ends[..] else {
+            return Err(fault());
+        };
+        let asset = Asset::new(name.into(), mesh, (low.into(), high.into())).ok_or_else(fault)?;
+        let mut known = self.assets.write().map_err(|_| fault())?;
+        Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
+        Ok(())
+    }
+
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
     #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
@@ -101,7 +140,8 @@ impl GrammarRules {
             shapes,
             ..Limits::default()
         };
-        let found: Vec<Result<Derived, String>> = py.detach(|| {
+        let assets = self.known_assets();
+        let found: Vec<Result<Derived, Failed>> = py.detach(|| {
             lots.par_iter()
                 .zip(&seeds)
                 .zip(given)
@@ -111,6 +151,7 @@ impl GrammarRules {
                         seed,
                         limits,
                         attributes,
+                        assets: assets.clone(),
                         overrides: overrides_of(edits),
                     };
                     self.one(lot, rule, &options)
@@ -173,6 +214,37 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
+/// The rows of three numbers; None where they have another count.
+fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
+    let rows = points.as_array();
+    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
+    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
+}
+
+/// Faces over points; None where a number leads to none.
+fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
+    let places = places(points)?;
+    if corners
+        .iter()
+        .any(|&corner| corner as usize >= places.len())
+    {
+        return None;
+    }
+    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
+    for ends in offsets.windows(2) {
+        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
+        let face = corners.get(range).filter(|face| face.len() >= 3)?;
+        mesh.push_face(&[face]);
+    }
+    Some(mesh)
+}
+
+/// Why there is nothing, and the asset that is wanted where one is.
+pub struct Failed {
+    pub why: String,
+    pub missing_asset: Option<String>,
+}
+
 pub struct Derived {
     packed: Packed,
     surfaces: Surfaces,
@@ -202,6 +274,7 @@ fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
         code: lowered.code,
         text: Source::new(name.clone(), text.clone()),
         has_imports: program.units.len() > 1,
+        assets: RwLock::default(),
         styles,
     })
 }
@@ -230,10 +303,16 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
-    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, String> {
-        let form = lot_form(lot).ok_or("the lot encloses nothing")?;
+    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
+        let form = lot_form(lot).ok_or_else(|| Failed {
+            why: "the lot encloses nothing".to_string(),
+            missing_asset: None,
+        })?;
         let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
-        let tree = derive(&self.code, rule, start, options).map_err(|fault| self.told(&fault))?;
+        let tree = derive(&self.code, rule, start, options).map_err(|fault| Failed {
+            why: self.told(&fault),
+            missing_asset: fault.missing_asset.map(|name| name.to_string()),
+        })?;
         Ok(derived_of(&tree))
     }
 
@@ -246,6 +325,21 @@ impl GrammarRules {
         }
         let place = self.text.position(fault.span.start);
         format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+    }
+
+    /// A fault as Python has it: with the name of the asset where one is wanted.
+    pub fn raised(&self, fault: &Fault) -> PyErr {
+        match &fault.missing_asset {
+            Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
+            None => GrammarFault::new_err(self.told(fault)),
+        }
+    }
+
+    /// The assets that are known by now.
+    pub fn known_assets(&self) -> Arc<Assets> {
+        self.assets
+            .read()
+            .map_or_else(|_| Arc::default(), |known| known.clone())
     }
 }
 
@@ -264,6 +358,14 @@ pub fn derived_of(tree: &Tree) -> Derived {
     }
 }
 
+/// An asset that a lot's rules want and that is not known yet: add it and derive again.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+struct MissingAsset {
+    name: String,
+    /// What the lot's failure is where there is no such asset.
+    why: String,
+}
+
 /// The columns of one lot.
 #[pyclass(frozen, get_all, module = "veduta._core")]
 struct DerivedLot {
@@ -280,25 +382,42 @@ struct DerivedLot {
     feature_size_m: Py<PyArray2<f64>>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
+    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
+    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
+    instance_feature: Py<PyArray1<i32>>,
+    instance_look: Py<PyArray1<i32>>,
+    instance_asset: Py<PyArray1<i32>>,
+    instance_transform: Py<PyArray2<f64>>,
+    asset_names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
     /// Path and fault of each edit that could not be done.
     edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<Bound<'py, PyAny>> {
+fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
     match found {
         Ok(derived) => lot_to_python(py, derived),
-        Err(why) => Ok(why.into_pyobject(py)?.into_any()),
+        Err(failed) => match failed.missing_asset {
+            Some(name) => {
+                let why = failed.why;
+                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
+            }
+            None => Ok(failed.why.into_pyobject(py)?.into_any()),
+        },
     }
 }
 
 pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
     let (packed, surfaces) = (derived.packed, derived.surfaces);
-    let of_polygon = |column: &[u32]| -> Vec<i32> {
-        let leaves = packed.polygon_feature.iter();
-        leaves.map(|&leaf| column[leaf as usize] as i32).collect()
+    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
+        let each = leaves.iter();
+        each.map(|&leaf| column[leaf as usize] as i32).collect()
     };
+    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
+    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
+    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
+    let name = |asset: &Arc<Asset>| asset.name.to_string();
     let looks = packed.looks.iter().map(|look| {
         let [r, g, b] = look.colour;
         let texture = look.texture.as_ref().map(ToString::to_string);
@@ -315,6 +434,11 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
+        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
+        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
+        instance_asset: assets.into_pyarray(py).unbind(),
+        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
+        asset_names: packed.assets.iter().map(name).collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
         edit_faults: derived.edit_faults,
@@ -327,7 +451,9 @@ pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("AssetWanted", m.py().get_type::<AssetWanted>())?;
     m.add("GrammarFault", m.py().get_type::<GrammarFault>())?;
     m.add_class::<GrammarRules>()?;
+    m.add_class::<MissingAsset>()?;
     m.add_class::<DerivedLot>()
 }

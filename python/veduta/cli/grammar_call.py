@@ -16,7 +16,7 @@ Rules = Annotated[
     tyro.conf.arg(
         metavar="RULES",
         help_behavior_hint="",
-        help="a rule file (.cga), or a style that Veduta brings along (haussmann)",
+        help="a rule file (.cga), or a style that Veduta brings along (such as haussmann)",
     ),
 ]
 Files = Annotated[

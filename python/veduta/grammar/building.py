@@ -7,11 +7,15 @@ from one application of a rule are one feature (a window with its frames and pan
 from __future__ import annotations
 
 from collections import Counter
+from collections.abc import Mapping
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.grammar.assets.asset import Asset
+from veduta.grammar.instancing import instances_of
 from veduta.place.material import Material
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -25,28 +29,41 @@ class NothingBuiltError(ValueError):
     """The rules left no surface on the lot."""
 
 
-def build_part(derived: _core.DerivedLot, part_id: str) -> Part:
+def build_part(
+    derived: _core.DerivedLot,
+    part_id: str,
+    assets: Mapping[str, Asset] = MappingProxyType({}),
+) -> Part:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
-    Surfaces that are none in single precision (slivers, lines that cross) are left out and noted.
+    `assets` are those that stand in the lot, by name. Surfaces that are none in single precision
+    (slivers, lines that cross) are left out and noted.
     """
     every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
-    if not every.any():
+    has_assets = len(derived.instance_feature) > 0
+    if not every.any() and not has_assets:
         raise NothingBuiltError("the rules leave nothing on it")
-    part = _part(derived, part_id, every)
+    part = _part(derived, part_id, every, assets)
     if _has_triangles(part):
         return part
     kept = _sound(part)
-    if not kept.any():
+    if not kept.any() and not has_assets:
         raise NothingBuiltError("the rules leave no surface on it")
-    return _part(derived, part_id, kept)
+    return _part(derived, part_id, kept, assets)
 
 
-def _part(derived: _core.DerivedLot, part_id: str, kept: NDArray[np.bool_]) -> Part:
-    """The part of the (p,) polygons that are kept."""
+def _part(
+    derived: _core.DerivedLot,
+    part_id: str,
+    kept: NDArray[np.bool_],
+    assets: Mapping[str, Asset],
+) -> Part:
+    """The part of the (p,) polygons that are kept, and of all instances."""
     vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
-    used, feature = np.unique(derived.polygon_feature[kept], return_inverse=True)
-    materials, material_of_look = _materials(derived.looks)
+    of_polygon = derived.polygon_feature[kept]
+    used = np.unique(np.concatenate([of_polygon, derived.instance_feature]))
+    number_of, material_of_look = _materials(derived.looks)
+    instances = instances_of(derived, used, assets, number_of)
     with np.errstate(over="ignore"):  # what is too far away is found not to be finite
         positions = derived.positions_m[vertices].astype(np.float32)
     return Part(
@@ -55,10 +72,11 @@ def _part(derived: _core.DerivedLot, part_id: str, kept: NDArray[np.bool_]) -> P
         uv=derived.uv[vertices],
         ring_offsets=rings,
         polygon_offsets=polygons,
-        polygon_feature=feature.reshape(-1).astype(np.int32),
+        polygon_feature=np.searchsorted(used, of_polygon).astype(np.int32),
         polygon_material=material_of_look[derived.polygon_look[kept]],
         features=_features(derived, used, part_id),
-        materials=materials,
+        materials=tuple(number_of),
+        instances=instances,
         notes=_notes(derived, int((~kept).sum())),
     )
 
@@ -66,7 +84,7 @@ def _part(derived: _core.DerivedLot, part_id: str, kept: NDArray[np.bool_]) -> P
 def _has_triangles(part: Part) -> bool:
     """Whether all polygons can be triangulated; the part keeps the triangles."""
     try:
-        return len(part.triangles.indices) > 0
+        return len(part.triangles.indices) > 0 or len(part.polygon_feature) == 0
     except _core.PolygonFault:
         return False
 
@@ -127,8 +145,8 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
     )
 
 
-def _materials(looks: list[Look]) -> tuple[tuple[Material, ...], NDArray[np.int32]]:
-    """The materials, and (looks,) the material of each look: looks that are told apart."""
+def _materials(looks: list[Look]) -> tuple[dict[Material, int], NDArray[np.int32]]:
+    """The materials with their numbers, and (looks,) the material of each look."""
     number_of: dict[Material, int] = {}
     rows = []
     for red, green, blue, _, _, name in looks:
@@ -136,7 +154,7 @@ def _materials(looks: list[Look]) -> tuple[tuple[Material, ...], NDArray[np.int3
         colour = (round(red, 4), round(green, 4), round(blue, 4))
         material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
         rows.append(number_of.setdefault(material, len(number_of)))
-    return tuple(number_of), np.array(rows, dtype=np.int32)
+    return number_of, np.array(rows, dtype=np.int32)
 
 
 def _notes(derived: _core.DerivedLot, dropped: int) -> tuple[str, ...]:

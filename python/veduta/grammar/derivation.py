@@ -13,19 +13,22 @@ nothing else. Lots are metres: x east, y north, z up, the first edge along the s
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from veduta import _core
+from veduta.grammar.assets.library import Library
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.outline import Attribute
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.run.errors import InputError, VedutaError
 
+T = TypeVar("T")
 SECONDS = 60.0
 MAX_SHAPES = 5_000_000
 
@@ -40,6 +43,18 @@ class Rules:
 
     path: Path
     core: _core.GrammarRules
+    library: Library
+
+    def with_assets(self, make: Callable[[], T]) -> T:
+        """What `make` gives, again where an asset is wanted whose name only the derivation shows.
+
+        GrammarFault where the rules fail; InputError where there is no such asset.
+        """
+        while True:
+            try:
+                return make()
+            except _core.AssetWanted as wanted:
+                self.library.add_to(self.core, str(wanted.args[1]))
 
     @property
     def starts(self) -> list[str]:
@@ -171,7 +186,8 @@ class Derivation:
         """Bring the tree up to the edits at a path; what stands against it."""
         self._version += 1
         try:
-            found = self._core.rederive(list(path), [edit.core for edit in self.edits])
+            edits = [edit.core for edit in self.edits]
+            found = self.rules.with_assets(lambda: self._core.rederive(list(path), edits))
         except _core.GrammarFault as fault:
             return str(fault)
         if not found:
@@ -291,7 +307,9 @@ def parse(rules: str | Path, *, style: str | None = None) -> Rules:
     style: one of the styles in the file (`style Name`); `Default` where it is None.
     """
     files = read_rules(find_rules(str(rules)))
-    return Rules(files.path, compile_rules(files, style))
+    core, library = compile_rules(files, style), Library(files.path.parent)
+    library.add_written_to(core)
+    return Rules(files.path, core, library)
 
 
 def derive(
@@ -311,8 +329,9 @@ def derive(
     in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more than `shapes`.
     """
     rings = [_ring(ring) for ring in lot]
-    try:
-        core = _core.Derivation(
+
+    def derived() -> _core.Derivation:
+        return _core.Derivation(
             rules.core,
             rings,
             seed,
@@ -322,6 +341,9 @@ def derive(
             seconds=seconds,
             shapes=shapes,
         )
+
+    try:
+        core = rules.with_assets(derived)
     except _core.GrammarFault as fault:
         raise InputError(
             rules.path, f"cannot be derived: {fault}", "Mend the rules or the lot."

@@ -13,6 +13,7 @@ from typing import Any
 from pydantic import JsonValue
 
 from veduta.formats.place_json import write_place
+from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import demo_lots
 from veduta.grammar.edits import read_edits
@@ -29,7 +30,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "1"
+VERSION = "2"
 COMMAND = "grammar derive"
 DEMO_LOTS = 14
 FEW = 32
@@ -81,7 +82,9 @@ def run_derive(
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
         rules = read_rules(find_rules(rules_name))
-        options = check_options(compile_rules(rules, options.derive.style), rules.path, options)
+        compiled = compile_rules(rules, options.derive.style)
+        options = check_options(compiled, rules.path, options)
+        assets = Library(rules.path.parent).digest(compiled)
         files = tuple(rules.texts)
         lots = _lots(lots_path, options)
         if edits_path is not None:
@@ -89,7 +92,8 @@ def run_derive(
     blocks = _blocks(lots)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
-        block.name: _key("block", options, [files_digest(files), _told(block)]) for block in blocks
+        block.name: _key("block", options, [files_digest(files), assets, _told(block)])
+        for block in blocks
     }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
     failed: JsonValue = [failure.model_dump() for failure in lots.failures]
@@ -102,7 +106,8 @@ def run_derive(
         if result.up_to_date:
             waiting = []
         jobs_to_do = [
-            Job(b, files, options, source, out, folder.work_path(b.name)) for b in waiting
+            Job(b, files, options, source, rules.path.parent, out, folder.work_path(b.name))
+            for b in waiting
         ]
         with timed_step(steps, "build"):
             _process(jobs_to_do, folder, keys, result, progress, jobs)

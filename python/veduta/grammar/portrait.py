@@ -11,6 +11,7 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.place.flatten import flattened
 from veduta.place.material import Material
 from veduta.place.part import NO_PARENT, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -46,7 +47,8 @@ CLASS_COLOURS: Mapping[SemanticClass, str] = {
 
 
 def in_class_colours(part: Part) -> Part:
-    """The part with a plain material for each class."""
+    """The part with a plain material for each class, and its instances as polygons."""
+    part = flattened(part)
     classes = list(SemanticClass)
     materials = tuple(Material(one.value, _rgb(CLASS_COLOURS[one]), 0.9) for one in classes)
     of_polygon = part.features.class_code[part.polygon_feature].astype(np.int32)

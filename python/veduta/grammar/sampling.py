@@ -45,7 +45,8 @@ def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) ->
     for seed in range(first, first + count):
         made = derive_lot(rules, lot, options, seed)
         try:
-            part = build_part(made.columns(), lot.id)
+            columns = made.columns()
+            part = build_part(columns, lot.id, rules.library.assets_of(columns))
         except NothingBuiltError as fault:
             raise InputError(
                 f"seed {seed}", f"makes no building: {fault}", "Mend the rules."

@@ -4,6 +4,7 @@
 //! be called from many threads. Frame of rule files: metres, right-handed, y up.
 
 mod arrays;
+mod asset_names;
 mod code;
 mod colours;
 mod draws;
@@ -33,6 +34,7 @@ mod texture_map;
 mod tree;
 mod value;
 
+pub use asset_names::{asset_names, AssetNames};
 pub use code::{Code, Expr, ExprKind};
 pub use draws::Taken;
 pub use fault::Fault;

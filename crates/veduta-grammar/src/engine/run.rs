@@ -4,6 +4,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::shape::Asset;
 use crate::Span;
 
 use super::code::{Body, Code, Expr, Operation, Rule, Step};
@@ -31,6 +32,8 @@ pub struct Options {
     /// Values of attributes by name, instead of those in the file.
     pub attributes: HashMap<String, Value>,
     pub overrides: Overrides,
+    /// What `i` may insert, by name.
+    pub assets: Arc<HashMap<Arc<str>, Arc<Asset>>>,
 }
 
 /// A derivation at work.

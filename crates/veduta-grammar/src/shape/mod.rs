@@ -1,5 +1,6 @@
 //! Shapes: an oriented box, and geometry in shares of that box.
 
+mod asset;
 mod components;
 mod form;
 mod scope;
@@ -8,6 +9,7 @@ mod sizes;
 mod splitting;
 mod surroundings;
 
+pub use asset::{Asset, Instance};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};

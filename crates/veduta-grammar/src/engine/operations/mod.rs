@@ -1,6 +1,7 @@
 //! The operations that shapes are made with; each is a function of the run and the frame.
 
 mod appearance;
+mod assets;
 mod components;
 mod dividing;
 mod envelopes;
@@ -50,6 +51,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("deleteUV", textures::delete, 1, 1),
     ("envelope", envelopes::envelope, 4, 10),
     ("extrude", solids::extrude, 1, 2),
+    ("i", assets::insert, 1, 4),
     ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
     ("mirror", scopes::mirror, 3, 3),
     ("mirrorScope", scopes::mirror_scope, 3, 3),
@@ -121,6 +123,9 @@ pub(super) fn run(
     operation: &Operation,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
+    if matches!(frame.state.form.geometry, Geometry::Instance(_)) {
+        assets::open_for(TABLE[operation.id.0].0, frame);
+    }
     TABLE[operation.id.0].1(run, operation, frame)?;
     let form = &frame.state.form;
     let extent = form.scope.origin.abs().max(form.scope.size.abs());
