@@ -45,7 +45,7 @@ LotName = Annotated[
     tyro.conf.arg(
         metavar="ID",
         help_behavior_hint="",
-        help="which lot of LOTS; the first where it is not given",
+        help="which lot of LOTS, or of the synthetic street; the first of LOTS if not given",
     ),
 ]
 Edits = Annotated[

@@ -9,7 +9,7 @@ import difflib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 
 from veduta.grammar.city_lots import city_epsg, city_outlines
 from veduta.grammar.edits import Edit
+from veduta.grammar.feature_stream import FeatureStream
 from veduta.grammar.frames import Frame, find_frame, named_crs
 from veduta.grammar.object_lots import object_outlines
 from veduta.grammar.options import LotOptions
@@ -103,11 +104,15 @@ def _outlines_of(
     if path.suffix.lower() == ".obj":
         outlines, failures = object_outlines(path, options.up)
         return outlines, failures, [f"OBJ: {options.up} is up, the unit is taken for metres"], None
+    if _size(path) > MAX_BYTES:
+        stream = FeatureStream(path)
+        outlines, failures, notes = _of_features(path, stream.features())
+        return outlines, failures, notes, named_crs(path, stream.members)
     document = _read_json(path)
     if document.get("type") == "CityJSON":
         outlines, failures = city_outlines(path, document)
         return outlines, failures, [], city_epsg(document)
-    outlines, failures, notes = _of_geojson(path, document)
+    outlines, failures, notes = _of_features(path, _features(path, document))
     return outlines, failures, notes, named_crs(path, document)
 
 
@@ -122,14 +127,17 @@ def edited_lots(lots: Lots, path: Path, edits: Mapping[str, tuple[Edit, ...]]) -
     return replace(lots, lots=tuple(replace(lot, edits=edits.get(lot.id, ())) for lot in lots.lots))
 
 
-def _of_geojson(
-    path: Path, document: dict[str, Any]
+def _size(path: Path) -> int:
+    """Bytes of a file; 0 where there is none, which reading it tells."""
+    try:
+        return path.stat().st_size if path.is_file() else 0
+    except OSError:
+        return 0
+
+
+def _of_features(
+    path: Path, features: Iterable[Any]
 ) -> tuple[list[Outline], list[Failure], list[str]]:
-    features = list(_features(path, document))
-    if len(features) > MAX_LOTS:
-        raise InputError(
-            path, f"has {len(features)} features, more than {MAX_LOTS}", "Cut it into several."
-        )
     outlines, failures, others = _outlines(path, features)
     told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
     notes = [f"left out, for they are no polygons: {told}"] if others else []
@@ -246,13 +254,15 @@ def _features(path: Path, document: dict[str, Any]) -> Iterator[dict[str, Any]]:
 
 
 def _outlines(
-    path: Path, features: list[dict[str, Any]]
+    path: Path, features: Iterable[Any]
 ) -> tuple[list[Outline], list[Failure], Counter[str]]:
     """The polygons of all features, the faults of bad ones, and how many are something else."""
     found: list[Outline] = []
     failures: list[Failure] = []
     others: Counter[str] = Counter()
     for number, feature in enumerate(features, 1):
+        if number > MAX_LOTS:
+            raise InputError(path, f"has more than {MAX_LOTS} features", "Cut it into several.")
         subject = f"{path}: feature {number}"
         try:
             polygons, kind = _polygons(feature)

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from veduta.grammar.block import attributes_of, seed_of
+from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.derivation import Derivation, Rules, derive
 from veduta.grammar.edits import Edit, fault_told
 from veduta.grammar.lots import Lot, read_lots, require_lots
@@ -24,16 +25,19 @@ def plain_lot(width_m: float = WIDTH_M, depth_m: float = DEPTH_M) -> Lot:
     return Lot(PLAIN_ID, f"{width_m:g} x {depth_m:g} m", (np.array(corners),), (0.0, 0.0, 0.0))
 
 
-def find_lot(path: Path | None, lot_id: str | None, options: LotOptions | None = None) -> Lot:
-    """The lot of this id, the first of the file, or the plain one where there is no file."""
+def find_lot(
+    path: Path | None, lot_id: str | None, options: LotOptions | None = None, seed: int = 0
+) -> Lot:
+    """The lot of this id, or the first of the file.
+
+    Where there is no file: the lot of this id in the synthetic street of `derive` with this seed,
+    or the plain one.
+    """
     require_lots(path, options)
-    if path is None:
-        if lot_id not in (None, PLAIN_ID):
-            raise InputError(
-                f"--lot {lot_id}", "names a lot, but there are none", "Give --lots, too."
-            )
+    if path is None and lot_id in (None, PLAIN_ID):
         return plain_lot()
-    lots = read_lots(path, options).lots
+    named = "the synthetic street" if path is None else str(path)
+    lots = (demo_lots(DEMO_LOTS, seed) if path is None else read_lots(path, options)).lots
     if lot_id is None:
         return lots[0]
     found = [lot for lot in lots if lot_id in (lot.id, lot.name)]
@@ -41,7 +45,7 @@ def find_lot(path: Path | None, lot_id: str | None, options: LotOptions | None =
         ids = [lot.id for lot in lots]
         near = difflib.get_close_matches(lot_id, ids, n=1)
         hint = f"Did you mean `{near[0]}`?" if near else f"It has: {', '.join(ids[:12])}."
-        raise InputError(f"--lot {lot_id}", f"is no lot of {path}", hint)
+        raise InputError(f"--lot {lot_id}", f"is no lot of {named}", hint)
     return found[0]
 
 

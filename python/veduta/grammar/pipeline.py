@@ -15,7 +15,7 @@ from pydantic import JsonValue
 from veduta.formats.place_json import write_place
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
-from veduta.grammar.demo import demo_lots
+from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
@@ -32,7 +32,6 @@ from veduta.run.report import Failure, StepRecord, timed_step
 
 VERSION = "2"
 COMMAND = "grammar derive"
-DEMO_LOTS = 14
 FEW = 32
 """Lots of the smallest block."""
 MOST_BLOCKS = 64

@@ -55,6 +55,18 @@ def in_class_colours(part: Part) -> Part:
     return replace(part, materials=materials, polygon_material=of_polygon)
 
 
+def turned(part: Part, along: NDArray[np.float64]) -> Part:
+    """The part with its instances as polygons, turned so that the direction `along` (2,) is x."""
+    part = flattened(part)
+    (x, y), length = along, float(np.hypot(*along))
+    if y == 0 and x > 0:
+        return part
+    level = np.array([[x, y], [-y, x]]) / length
+    points = part.positions_m.copy()
+    points[:, :2] = part.positions_m[:, :2] @ level.T
+    return replace(part, positions_m=points)
+
+
 Box = tuple[NDArray[np.float64], NDArray[np.float64]]
 
 

@@ -11,6 +11,7 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.grammar.building import NothingBuiltError, build_part
@@ -19,7 +20,7 @@ from veduta.grammar.lots import Lot
 from veduta.grammar.one_lot import derive_lot
 from veduta.grammar.options import GrammarOptions, SampleOptions
 from veduta.grammar.outline import Attribute
-from veduta.grammar.portrait import AZIMUTH_RAD, Box, in_class_colours, portrait
+from veduta.grammar.portrait import AZIMUTH_RAD, Box, in_class_colours, portrait, turned
 from veduta.grammar.sheet import MAX_FACTS, Cell, draw_sheet
 from veduta.place.part import Part
 from veduta.place.semantics import SemanticClass
@@ -31,17 +32,24 @@ MAX_SAMPLES = 64
 
 @dataclass(frozen=True)
 class Sample:
-    """A random derivation and the part that was built of it."""
+    """A random derivation and the part that was built of it.
+
+    along: (2,) the direction of its front from left to right. box_m: lower and upper corner of the
+    part, turned so that its front looks to -y.
+    """
 
     seed: int
     derivation: Derivation
     part: Part
+    along: NDArray[np.float64]
+    box_m: Box
 
 
 def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) -> list[Sample]:
     """Derivations with the seeds from that of the options on."""
     found = []
     first = options.derive.seed
+    along = lot.rings_m[0][1] - lot.rings_m[0][0]
     for seed in range(first, first + count):
         made = derive_lot(rules, lot, options, seed)
         try:
@@ -51,7 +59,8 @@ def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) ->
             raise InputError(
                 f"seed {seed}", f"makes no building: {fault}", "Mend the rules."
             ) from fault
-        found.append(Sample(seed, made, part))
+        low, high = (np.array(corner) for corner in turned(part, along).bounds_m)
+        found.append(Sample(seed, made, part, along, (low, high)))
     return found
 
 
@@ -65,17 +74,17 @@ def picture_cells(
     cells = []
     with progress.over(len(samples)):
         for sample in samples:
-            views = []
+            views, part = [], turned(sample.part, sample.along)
             if options.colours != "classes":
-                views.append(sample.part)
+                views.append(part)
             if options.colours != "real":
-                views.append(in_class_colours(sample.part))
+                views.append(in_class_colours(part))
             values = sample.derivation.attributes
             cells.append(
                 Cell(
                     title=f"seed {sample.seed}",
                     prior=prior_text(sample.derivation.log_prior),
-                    facts=[(name, values[name]) for name in facts],
+                    facts=[(name, values[name]) for name in facts if name in values],
                     pictures=[portrait(view, box, size, options.rays) for view in views],
                 )
             )
@@ -122,8 +131,8 @@ def columns_of(count: int, options: SampleOptions) -> int:
 
 def _box_m(samples: Sequence[Sample]) -> Box:
     """The box around all samples, which stand on each other's places."""
-    low = np.array([sample.part.bounds_m[0] for sample in samples]).min(axis=0)
-    return low, np.array([sample.part.bounds_m[1] for sample in samples]).max(axis=0)
+    low = np.array([sample.box_m[0] for sample in samples]).min(axis=0)
+    return low, np.array([sample.box_m[1] for sample in samples]).max(axis=0)
 
 
 def _height_px(box_m: Box, width: int) -> int:

@@ -30,7 +30,7 @@ def bad_calls(folder: Path) -> dict[str, tuple[list[object], str]]:
         "colours": ([*sample, "-o", sheet, "--colours", "pretty"], "colours"),
         "folder": ([*sample, "-o", folder / "no" / "s.png", "-n", "1"], "cannot be written"),
         "rules": (["sample", folder / "bad.cga", "-o", sheet], "has faults"),
-        "lot without lots": ([*shown, "--lot", "house-1"], "Give --lots, too"),
+        "lot of the street": ([*shown, "--lot", "nort-1"], "Did you mean `north-1`"),
         "lot": ([*shown, "--lots", folder / "lots.geojson", "--lot", "hous-1"], "Did you mean"),
         "path": ([*shown, "--at", "0/1"], "is no path"),
         "shape": ([*shown, "--at", "/7/7"], "is no shape of this tree"),

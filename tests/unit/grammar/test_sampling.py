@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -90,6 +91,20 @@ def test_one_scale_holds_for_all(rules: grammar.Rules) -> None:
     assert len(pairs[0].pictures) == 2
     assert sheet.width > 4 * 120
     assert sheet.size == sheet_of("house", plain_lot(), samples[:2], pairs, both).size
+
+
+def test_the_front_of_any_lot_is_seen(rules: grammar.Rules) -> None:
+    plain = plain_lot()
+    turn = np.array([[0.6, -0.8], [0.8, 0.6]])
+    lots = [plain, replace(plain, rings_m=(plain.rings_m[0] @ turn.T,))]
+    options = SampleOptions(width=120, rays=1)
+    pictures = []
+    for lot in lots:
+        samples = draw_samples(rules, lot, GrammarOptions(), 1)
+        (cell,) = picture_cells(samples, options, Progress(quiet=True))
+        pictures.append(cell.pictures[0].astype(float))
+    assert pictures[0].shape == pictures[1].shape
+    assert np.abs(pictures[0] - pictures[1]).mean() < 1.0
 
 
 def test_samples_are_what_derive_makes(rules: grammar.Rules) -> None:

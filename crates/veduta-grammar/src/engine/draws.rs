@@ -13,9 +13,45 @@ pub struct Taken {
     pub chance: f64,
 }
 
-impl Taken {
-    pub fn log_chance(&self) -> f64 {
-        self.chance.ln()
+/// A sum of the logarithms of chances. It is the same in any order, so that parts can be taken
+/// out again: it counts in steps of 2^-64, and chances of 0 apart.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub struct LogSum {
+    steps: i128,
+    zeros: u64,
+}
+
+const STEPS: f64 = 18_446_744_073_709_551_616.0;
+
+impl LogSum {
+    pub fn of<'a>(all: impl IntoIterator<Item = &'a Taken>) -> Self {
+        let mut sum = Self::default();
+        for taken in all {
+            if taken.chance > 0.0 {
+                sum.steps += (taken.chance.ln() * STEPS) as i128;
+            } else {
+                sum.zeros += 1;
+            }
+        }
+        sum
+    }
+
+    pub fn add(&mut self, other: Self) {
+        self.steps += other.steps;
+        self.zeros += other.zeros;
+    }
+
+    /// Takes out what has been added before.
+    pub fn take(&mut self, other: Self) {
+        self.steps -= other.steps;
+        self.zeros = self.zeros.saturating_sub(other.zeros);
+    }
+
+    pub fn value(&self) -> f64 {
+        if self.zeros > 0 {
+            return f64::NEG_INFINITY;
+        }
+        self.steps as f64 / STEPS
     }
 }
 
@@ -23,8 +59,8 @@ impl Taken {
 #[derive(Debug, Default)]
 pub struct Draws {
     pub taken: Vec<Taken>,
-    /// The logarithm of the chance of what inlined rules took.
-    pub inlined: f64,
+    /// Of what inlined rules took.
+    pub inlined: LogSum,
     wanted: Vec<Option<u16>>,
 }
 
@@ -32,7 +68,7 @@ impl Draws {
     pub fn of(edit: Option<&Edit>) -> Self {
         Self {
             taken: Vec::new(),
-            inlined: 0.0,
+            inlined: LogSum::default(),
             wanted: edit.map(|edit| edit.choices.clone()).unwrap_or_default(),
         }
     }

@@ -34,7 +34,7 @@ impl Run<'_> {
         let made = self.tree.nodes.drain(nodes..);
         let mut left = Vec::new();
         for node in made {
-            frame.draws.inlined += node.log_chance();
+            frame.draws.inlined.add(node.log_sum());
             if node.rule.is_none() {
                 left.push(node.state);
             }

@@ -1,6 +1,7 @@
 //! Deriving one shape of a tree anew, and what is below it; the rest stays as it is.
 
 use std::cmp::Ordering;
+use std::ops::Range;
 use std::time::Instant;
 
 use super::code::Code;
@@ -44,7 +45,6 @@ pub fn rederive(
         ));
     }
     tree.put(root, &own, derived);
-    tree.settle();
     options.overrides.report_missed(tree, &own);
     Ok(true)
 }
@@ -115,6 +115,10 @@ impl Tree {
             }
         }
         let told = self.told_again(root, own, &mut part);
+        let place = root as usize;
+        let (start, end) = (old.start as usize, old.end as usize);
+        self.log_sum.take(self.log_sum_in(place..place + 1));
+        self.log_sum.take(self.log_sum_in(start..end));
         if let Some(derived) = part.nodes.pop() {
             let node = &mut self.nodes[root as usize];
             node.choices = derived.choices;
@@ -122,36 +126,33 @@ impl Tree {
             node.child_count = derived.child_count;
         }
         let (before, after) = (old.len() as u32, new.len() as u32);
-        let end = old.end;
-        let empty = self.without_children(root, own, end);
-        self.nodes.splice(old.start as usize..end as usize, new);
         let past = |number: u32| number - before + after;
-        for (number, node) in self.nodes.iter_mut().enumerate() {
-            let number = number as u32;
-            let is_new = number >= old.start && number < old.start + after;
-            if is_new || number == root {
-                continue;
-            }
-            if let Some(parent) = node.parent.filter(|parent| *parent >= end) {
-                node.parent = Some(past(parent));
-            }
-            let was = if number < old.start {
-                number
-            } else {
-                number + before - after
-            };
-            let stays = node.first_child == end && empty.contains(&was);
-            if node.rule.is_some() && node.first_child >= end && !stays {
-                node.first_child = past(node.first_child);
-            }
+        let empty = match before == after {
+            true => Vec::new(),
+            false => self.without_children(root, own, old.end),
+        };
+        self.nodes.splice(start..end, new);
+        if before != after {
+            self.renumber(root, &old, after, &empty);
         }
+        let first = self.leaves.partition_point(|leaf| *leaf < old.start);
+        let last = self.leaves.partition_point(|leaf| *leaf < old.end);
+        let leaves = self.leaves_in(start..start + after as usize);
+        let count = leaves.len();
+        self.leaves.splice(first..last, leaves);
+        let later = self.leaves.iter_mut().skip(first + count);
+        later.for_each(|leaf| *leaf = past(*leaf));
+        self.log_sum.add(self.log_sum_in(place..place + 1));
+        self.log_sum
+            .add(self.log_sum_in(start..start + after as usize));
+        self.log_prior = self.log_sum.value();
         self.told = told
             .into_iter()
             .map(|(number, one)| Told {
                 node: match number {
                     Place::New if one.node == lead => root,
                     Place::New => shift(one.node),
-                    Place::Old if one.node >= end => past(one.node),
+                    Place::Old if one.node >= old.end => past(one.node),
                     Place::Old => one.node,
                 },
                 ..one
@@ -159,6 +160,32 @@ impl Tree {
             .collect();
         self.edited.retain(|one| !one.path.starts_with(own));
         self.edited.extend(part.edited);
+    }
+
+    /// Numbers the shapes anew after `after` shapes have taken the place of those of `old`; the
+    /// first children of those in `empty` (which have none) stay.
+    fn renumber(&mut self, root: u32, old: &Range<u32>, after: u32, empty: &[u32]) {
+        let before = old.len() as u32;
+        let past = |number: u32| number - before + after;
+        for (number, node) in self.nodes.iter_mut().enumerate() {
+            let number = number as u32;
+            let is_new = number >= old.start && number < old.start + after;
+            if is_new || number == root {
+                continue;
+            }
+            if let Some(parent) = node.parent.filter(|parent| *parent >= old.end) {
+                node.parent = Some(past(parent));
+            }
+            let was = if number < old.start {
+                number
+            } else {
+                number + before - after
+            };
+            let stays = node.first_child == old.end && empty.contains(&was);
+            if node.rule.is_some() && node.first_child >= old.end && !stays {
+                node.first_child = past(node.first_child);
+            }
+        }
     }
 
     /// The shapes before `root` in the order of work, whose children would begin at `end`, but

@@ -8,7 +8,7 @@ use crate::shape::Asset;
 use crate::Span;
 
 use super::code::{Code, Expr, Rule};
-use super::draws::Draws;
+use super::draws::{Draws, LogSum};
 use super::fault::Fault;
 use super::frame::{Fate, Frame};
 use super::globals::Global;
@@ -162,7 +162,7 @@ impl<'a> Run<'a> {
             rule: Some(rule as u32),
             args: Box::default(),
             choices: Vec::new(),
-            inlined: 0.0,
+            inlined: LogSum::default(),
             state,
             first_child: 0,
             child_count: 0,

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::Span;
 
 use super::code::{Body, Step};
+use super::draws::LogSum;
 use super::evaluate::alternative;
 use super::fault::Fault;
 use super::frame::{Fate, Frame};
@@ -159,7 +160,7 @@ impl Run<'_> {
             rule,
             args: args.into(),
             choices: Vec::new(),
-            inlined: 0.0,
+            inlined: LogSum::default(),
             state: frame.state.clone(),
             first_child: 0,
             child_count: 0,

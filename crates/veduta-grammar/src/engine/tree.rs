@@ -3,7 +3,7 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use super::draws::Taken;
+use super::draws::{LogSum, Taken};
 use super::overrides::Edited;
 use super::state::State;
 use super::value::Value;
@@ -23,7 +23,7 @@ pub struct Node {
     /// The random alternatives taken in that rule, in order.
     pub choices: Vec<Taken>,
     /// The logarithm of the chance of the alternatives taken in rules that it inlined.
-    pub inlined: f64,
+    pub inlined: LogSum,
     /// The shape as the rule got it; of a leaf, as it stays.
     pub state: State,
     /// The number of its first child: children stand together, and all below them follows.
@@ -32,9 +32,11 @@ pub struct Node {
 }
 
 impl Node {
-    /// The logarithm of the chance of the alternatives that its rule took.
-    pub fn log_chance(&self) -> f64 {
-        self.choices.iter().map(Taken::log_chance).sum::<f64>() + self.inlined
+    /// Of the chances of the alternatives that its rule took, and the rules that it inlined.
+    pub(super) fn log_sum(&self) -> LogSum {
+        let mut sum = LogSum::of(&self.choices);
+        sum.add(self.inlined);
+        sum
     }
 }
 
@@ -67,6 +69,7 @@ pub struct Tree {
     /// The sum of the logarithms of the chances of all random alternatives taken: in the rules of
     /// all shapes, and in all attributes and constants.
     pub log_prior: f64,
+    pub(super) log_sum: LogSum,
     /// In the order of the code.
     pub globals: Vec<Known>,
     /// What `report` collected: key and value, in order.
@@ -127,18 +130,26 @@ impl Tree {
         self.leaves.iter().map(|&leaf| &self.nodes[leaf as usize])
     }
 
-    /// Finds the leaves and the prior of the nodes that are there now.
+    /// Finds the leaves and the prior of a new tree.
     pub(super) fn settle(&mut self) {
-        self.leaves.clear();
-        self.log_prior = 0.0;
-        for known in &self.globals {
-            self.log_prior += known.choices.iter().map(Taken::log_chance).sum::<f64>();
+        self.leaves = self.leaves_in(0..self.nodes.len());
+        self.log_sum = LogSum::of(self.globals.iter().flat_map(|known| &known.choices));
+        self.log_sum.add(self.log_sum_in(0..self.nodes.len()));
+        self.log_prior = self.log_sum.value();
+    }
+
+    pub(super) fn leaves_in(&self, range: Range<usize>) -> Vec<u32> {
+        let numbers = range.start as u32..;
+        let nodes = self.nodes[range].iter().zip(numbers);
+        let leaves = nodes.filter(|(node, _)| node.rule.is_none());
+        leaves.map(|(_, number)| number).collect()
+    }
+
+    pub(super) fn log_sum_in(&self, range: Range<usize>) -> LogSum {
+        let mut sum = LogSum::default();
+        for node in &self.nodes[range] {
+            sum.add(node.log_sum());
         }
-        for (number, node) in self.nodes.iter().enumerate() {
-            if node.rule.is_none() {
-                self.leaves.push(number as u32);
-            }
-            self.log_prior += node.log_chance();
-        }
+        sum
     }
 }
