@@ -31,6 +31,7 @@ impl Run<'_> {
             std::mem::take(&mut self.tree.leaves),
             std::mem::take(&mut self.forced),
             self.trail.clone(),
+            self.at,
         );
         let nodes = self.tree.nodes.len();
         self.run_cell(body, state, frame)?;
@@ -41,7 +42,13 @@ impl Run<'_> {
         self.tree.leaves.sort_unstable();
         let left = self.tree.leaves().map(|leaf| leaf.state.clone()).collect();
         self.tree.nodes.truncate(nodes);
-        (self.waiting, self.tree.leaves, self.forced, self.trail) = outer;
+        (
+            self.waiting,
+            self.tree.leaves,
+            self.forced,
+            self.trail,
+            self.at,
+        ) = outer;
         self.nested -= 1;
         Ok(left)
     }

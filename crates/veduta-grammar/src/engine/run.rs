@@ -47,6 +47,8 @@ pub struct Run<'a> {
     pub(super) made: usize,
     /// Operations that inline others now, one in another.
     pub(super) nested: usize,
+    /// The node whose rule is at work.
+    pub(super) at: u32,
     /// Where the current shape stands; None where no rule asks about other shapes.
     pub(super) trail: Option<Trail>,
     /// What the first of two passes collects.
@@ -112,6 +114,7 @@ impl<'a> Run<'a> {
             forced: Vec::new(),
             made: 0,
             nested: 0,
+            at: 0,
             trail: code.asks.then(Trail::default),
             recorded: None,
             around: Vec::new(),
@@ -178,6 +181,7 @@ impl<'a> Run<'a> {
         if let Some(trail) = &mut self.trail {
             *trail = Trail::at(next.trail);
         }
+        self.at = next.node;
         self.forced = self.options.overrides.choices(&self.tree, next.node);
         let waiting = self.waiting.len();
         self.run_rule(rule, &mut frame)
