@@ -1,6 +1,6 @@
 //! The pages on the language and its operations keep up with the reader and the engine.
 
-#![allow(clippy::panic)] // helpers of tests
+#![allow(clippy::panic, clippy::unwrap_used)] // helpers of tests
 
 use veduta_grammar::builtins::operations::OPERATIONS;
 use veduta_grammar::engine::operation_names;

@@ -26,6 +26,8 @@ fn booleans_with_a_cube_in_the_corner() {
         assert!((found - truth).abs() < 1e-9, "{operation}: {found}");
     }
     let swapped = volume(&format!("extrude(3) subtract(swap) {cube}"));
+    let both = volume("subtract { extrude(3) | t(9, 2, 5) primitiveCube(2, 2, 2) }");
+    assert!((both - 179.0).abs() < 1e-9, "{both}");
     assert!((swapped - 7.0).abs() < 1e-9, "{swapped}");
 }
 

@@ -82,13 +82,9 @@ impl Lowering<'_> {
         }
         let (cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
-            Some(Block::Body { body, .. }) => {
-                let cell = Cell::Part {
-                    selector: Selector::Word("all".into()),
-                    combined: false,
-                    body: self.body(body),
-                };
-                (vec![cell], false)
+            Some(Block::Body { body, .. }) => (vec![self.whole(body)], false),
+            Some(Block::Operands { first, second, .. }) => {
+                (vec![self.whole(first), self.whole(second)], false)
             }
             None => (Vec::new(), false),
         };
@@ -114,6 +110,15 @@ impl Lowering<'_> {
             cells,
             repeat,
             span: call.span,
+        }
+    }
+
+    /// A block without selectors as a cell.
+    fn whole(&mut self, body: &ast::Body) -> Cell {
+        Cell::Part {
+            selector: Selector::Word("all".into()),
+            combined: false,
+            body: self.body(body),
         }
     }
 

@@ -121,7 +121,7 @@ impl Lowering<'_> {
         }
         match Query::named(self.text(name)) {
             Some(query) => {
-                self.asks = true;
+                self.asks |= query.is_about_others();
                 ExprKind::Query { query, args }
             }
             None => self.not_yet(name),

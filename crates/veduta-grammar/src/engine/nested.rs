@@ -26,7 +26,11 @@ impl Run<'_> {
         }
         self.check_time(span)?;
         self.nested += 1;
-        let outer = (std::mem::take(&mut self.waiting), self.trail.clone());
+        let outer = (
+            std::mem::take(&mut self.waiting),
+            self.trail.clone(),
+            self.at,
+        );
         let nodes = self.tree.nodes.len();
         self.run_cell(body, state, frame)?;
         self.waiting.reverse();
@@ -39,7 +43,7 @@ impl Run<'_> {
                 left.push(node.state);
             }
         }
-        (self.waiting, self.trail) = outer;
+        (self.waiting, self.trail, self.at) = outer;
         self.nested -= 1;
         Ok(left)
     }

@@ -31,6 +31,8 @@ pub enum Query {
     Distance,
     /// `contextCount(target, label)`
     Count,
+    /// `getTreeKey()`: the way from the start shape to the rule's shape, as a list.
+    TreeKey,
     /// `contextCompare(target, label, world.highest | area.largest | ...)`: how many come before it.
     Rank,
 }
@@ -38,6 +40,7 @@ pub enum Query {
 const TABLE: &[(&str, Query)] = &[
     ("contextCompare", Query::Rank),
     ("contextCount", Query::Count),
+    ("getTreeKey", Query::TreeKey),
     ("inside", Query::Inside),
     ("minimumDistance", Query::Distance),
     ("overlaps", Query::Overlaps),
@@ -58,12 +61,18 @@ impl Query {
         TABLE.iter().map(|entry| entry.0)
     }
 
+    /// Whether the answer has to do with other shapes.
+    pub fn is_about_others(self) -> bool {
+        self != Self::TreeKey
+    }
+
     /// The answer where there is nothing.
     fn nothing(self) -> Value {
         match self {
             Self::Inside | Self::Overlaps | Self::Touches => Value::Bool(false),
             Self::Distance => Value::Number(f64::INFINITY),
             Self::Count | Self::Rank => Value::Number(0.0),
+            Self::TreeKey => Value::text("0;"),
         }
     }
 
@@ -87,6 +96,11 @@ impl Run<'_> {
         state: &State,
         span: Span,
     ) -> Result<Value, Fault> {
+        if query == Query::TreeKey {
+            let path = self.tree.path(self.at);
+            let all = path.iter().map(|place| format!("{place};"));
+            return Ok(Value::text(&format!("0;{}", all.collect::<String>())));
+        }
         if self.recorded.is_some() {
             return Ok(query.nothing());
         }
@@ -103,6 +117,7 @@ impl Run<'_> {
                 self.occluded(query, all, state, span)
             }
             _ if label.is_empty() => Ok(query.nothing()),
+            Query::TreeKey => Ok(query.nothing()),
             Query::Count => Ok(Value::Number(
                 own.chain(others).filter(is_meant).count() as f64
             )),

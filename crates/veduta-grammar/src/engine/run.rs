@@ -50,6 +50,8 @@ pub struct Run<'a> {
     pub(super) made: usize,
     /// Operations that inline others now, one in another.
     pub(super) nested: usize,
+    /// The node whose rule is at work.
+    pub(super) at: u32,
     /// Where the current shape stands; None where no rule asks about other shapes.
     pub(super) trail: Option<Trail>,
     /// What the first of two passes collects.
@@ -120,6 +122,7 @@ impl<'a> Run<'a> {
             waiting: Vec::new(),
             made: 0,
             nested: 0,
+            at: 0,
             trail: code.asks.then(Trail::default),
             recorded: None,
             around: Vec::new(),
@@ -199,6 +202,7 @@ impl<'a> Run<'a> {
         if let Some(trail) = &mut self.trail {
             *trail = Trail::at(next.trail);
         }
+        self.at = next.node;
         let unfit = edit.and_then(|edit| self.set_values(edit, rule, &mut frame));
         let (waiting, first) = (self.waiting.len(), self.tree.nodes.len());
         let told = (self.tree.messages.len(), self.tree.reports.len());

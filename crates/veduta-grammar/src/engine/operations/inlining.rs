@@ -3,7 +3,7 @@
 use glam::DVec3;
 use veduta_geometry::solid::{boolean, joined, Boolean, Mesh};
 
-use super::super::code::{Body, Cell, Operation};
+use super::super::code::{Cell, Operation};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
@@ -22,14 +22,14 @@ pub fn inline(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         0 => "append".into(),
         _ => word(run, op, 0, frame)?,
     };
-    let left = left_by(run, op, frame)?;
+    let left = left_by(run, op, 0, frame)?;
     frame.state = together(run, op, left, &how, &frame.state)?;
     frame.changed();
     Ok(())
 }
 
 /// `union Rule`, `union { operations }`, `union(swap) ...`: the current shape and what the rule
-/// leaves, as one. With `swap` looks and attributes are those of what the rule leaves.
+/// leaves, as one. `union { operations | operations }`: what the two leave of the current shape. With `swap` looks and attributes are those of what the rule leaves.
 pub fn union(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     combine(run, op, Boolean::Union, frame)
 }
@@ -51,30 +51,43 @@ fn combine(
     how: Boolean,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    let swapped = !op.args.is_empty() && word(run, op, 0, frame)?.as_ref() == "swap";
-    let left = left_by(run, op, frame)?;
-    let other = together(run, op, left, "unify", &frame.state)?;
-    let (first, second) = if swapped {
-        (other, frame.state.clone())
+    let (first, second) = if let [_, _] = op.cells[..] {
+        (operand(run, op, 0, frame)?, operand(run, op, 1, frame)?)
     } else {
-        (frame.state.clone(), other)
+        let swapped = !op.args.is_empty() && word(run, op, 0, frame)?.as_ref() == "swap";
+        let other = operand(run, op, 0, frame)?;
+        if swapped {
+            (other, frame.state.clone())
+        } else {
+            (frame.state.clone(), other)
+        }
     };
     frame.state = combined(run, op, first, &second, how)?;
     frame.changed();
     Ok(())
 }
 
-/// The shapes that an operation's rule or block leaves of the current one.
-fn left_by(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<Vec<State>, Fault> {
-    let state = frame.state.clone();
-    run.inlined(body_of(op)?, state, op.span, frame)
+/// What a rule or a block of an operation leaves of the current shape, united.
+fn operand(
+    run: &mut Run<'_>,
+    op: &Operation,
+    cell: usize,
+    frame: &mut Frame,
+) -> Result<State, Fault> {
+    let left = left_by(run, op, cell, frame)?;
+    together(run, op, left, "unify", &frame.state)
 }
 
-fn body_of(op: &Operation) -> Result<&Body, Fault> {
-    match op.cells.first() {
-        Some(Cell::Part { body, .. }) => Ok(body),
-        _ => Err(Fault::at(op.span, "a rule or a block is needed")),
-    }
+fn left_by(
+    run: &mut Run<'_>,
+    op: &Operation,
+    cell: usize,
+    frame: &mut Frame,
+) -> Result<Vec<State>, Fault> {
+    let Some(Cell::Part { body, .. }) = op.cells.get(cell) else {
+        return Err(Fault::at(op.span, "a rule or a block is needed"));
+    };
+    run.inlined(body, frame.state.clone(), op.span, frame)
 }
 
 /// Several shapes as one, of which `current` says what they do not agree about.
