@@ -121,6 +121,21 @@ def test_openings_lie_behind_the_wall(style: str) -> None:
     assert (np.abs(corners[..., 1]) > 0.1).all()
 
 
+@pytest.mark.parametrize("style", style_names())
+def test_every_attribute_is_documented(style: str) -> None:
+    """A group, a text, and what it takes: a range, words, a colour, or true and false."""
+    text = find_rules(style).read_text("utf-8")
+    found = re.findall(r"((?:^@.*\n)+)attr (\w+) = (.*)", text, re.MULTILINE)
+    kinds = dict(rules_of(style).attributes)
+    assert {name for _, name, _ in found} == set(kinds)
+    assert {"LOD", "height", "storeys"} <= set(kinds)
+    for notes, name, default in found:
+        assert "@Group(" in notes, name
+        assert "@Description(" in notes, name
+        told = re.search(r"@(Range\(min=|Enum\(|Color)", notes)
+        assert told or default.endswith(("true", "false")), name
+
+
 @pytest.mark.parametrize("path", sorted((STYLES / "parts").glob("*.cga")), ids=lambda p: p.stem)
 def test_parts_are_sound(path: Path) -> None:
     verdict = check_rules(read_rules(path))
