@@ -44,14 +44,14 @@ class Scene:
 
 
 SCENES = {
-    "haussmann": Scene((17, 13, 15, 14), 13, (2, -19, 1.7), (21, 0, 10.5)),
-    "louis-xiii": Scene((16, 13, 16), 13, (1, -19, 1.7), (17, 0, 8.5)),
-    "louis-xiv": Scene((25, 15, 15), 14, (1, -21, 1.7), (18, 0, 8.7)),
-    "restauration": Scene((13, 16, 15), 12, (2, -18, 1.7), (18, 0, 8), first_seed=4),
-    "victorian": Scene((12, 18, 12), 10, (1, -13, 1.7), (14, 0, 5.2)),
-    "gothic-revival": Scene((24, 16), 15, (1, -17, 1.7), (14.5, 0, 7.6), gap_m=7),
-    "modern-slab": Scene((42, 24), 12, (-3, -31, 1.7), (22, 0, 12), gap_m=10),
-    "suburban-house": Scene((20, 21, 20), 27, (3, -13, 4.5), (22, 8, 2.2), first_seed=1),
+    "haussmann": Scene((17, 13, 15, 14), 13, (0, -27, 5), (21, 0, 10.5)),
+    "louis-xiii": Scene((16, 13, 16), 13, (1, -26, 4), (18, 0, 8.5)),
+    "louis-xiv": Scene((25, 15, 15), 14, (2, -27, 4), (20, 0, 8.5)),
+    "restauration": Scene((13, 16, 15), 12, (0, -25, 4), (18, 0, 8.5)),
+    "victorian": Scene((12, 18, 12), 10, (-1, -16, 3), (13, 0, 5), first_seed=5),
+    "gothic-revival": Scene((24, 16), 15, (0, -21, 3), (15, 0, 7.2), gap_m=7),
+    "modern-slab": Scene((42, 24), 12, (-8, -40, 8), (23, 0, 12.5), gap_m=10),
+    "suburban-house": Scene((20, 21, 20), 27, (4, -11, 4.5), (20, 8, 2.2)),
 }
 
 
@@ -69,7 +69,7 @@ def _picture(style: str, scene: Scene) -> Image.Image:
     parts = [(part, np.eye(4)) for part in (*_buildings(style, scene), _ground())]
     camera = look_at(scene.eye_m, scene.target_m, SIZE_PX, scene.focal * SIZE_PX[0])
     light = daylight(3, sunny=True, azimuth_rad=-2.1, elevation_rad=0.75)
-    return Image.fromarray(develop(render(RayScene(parts), camera, light, samples=3), LENS, 0))
+    return Image.fromarray(develop(render(RayScene(parts), camera, light, samples=2), LENS, 0))
 
 
 def _buildings(style: str, scene: Scene) -> list[Part]:

@@ -121,6 +121,61 @@ def test_openings_lie_behind_the_wall(style: str) -> None:
     assert (np.abs(corners[..., 1]) > 0.1).all()
 
 
+@pytest.mark.parametrize("style", style_names())
+def test_every_attribute_is_documented(style: str) -> None:
+    """A group, a text, and what it takes: a range, words, a colour, or true and false."""
+    text = find_rules(style).read_text("utf-8")
+    found = re.findall(r"((?:^@.*\n)+)attr (\w+) = (.*)", text, re.MULTILINE)
+    kinds = dict(rules_of(style).attributes)
+    assert {name for _, name, _ in found} == set(kinds)
+    assert {"LOD", "height", "storeys"} <= set(kinds)
+    for notes, name, default in found:
+        assert "@Group(" in notes, name
+        assert "@Description(" in notes, name
+        told = re.search(r"@(Range\(min=|Enum\(|Color)", notes)
+        assert told or default.endswith(("true", "false")), name
+
+
+@pytest.mark.parametrize("style", style_names())
+def test_the_ends_of_all_ranges_derive(style: str) -> None:
+    """Each attribute at both ends of its range, and at each of its words, on two lots."""
+    text = find_rules(style).read_text("utf-8")
+    found = re.findall(r"((?:^@.*\n)+)attr (\w+) = ", text, re.MULTILINE)
+    tried: list[dict[str, float | str]] = []
+    for notes, name in found:
+        for low, high in re.findall(r"@Range\(min=([\d.]+), max=([\d.]+)\)", notes):
+            tried += [{name: float(low)}, {name: float(high)}]
+        for words in re.findall(r"@Enum\(([^)]*)\)", notes):
+            tried += [{name: word} for word in re.findall(r'"([^"]*)"', words)]
+    assert len(tried) >= 10
+    for lot in (LOTS["trapezoid"], LOTS["garden"]):
+        given = [{"LOD": 2.0} | each for each in tried]
+        for each, derived in zip(
+            given,
+            rules_of(style).derive([lot] * len(given), [3] * len(given), attributes=given),
+            strict=True,
+        ):
+            assert not isinstance(derived, str), (each, derived)
+            assert build_part(derived, "lot").notes == (), each
+
+
+@pytest.mark.parametrize(
+    "style", [name for name in style_names() if "sides" in dict(rules_of(name).attributes)]
+)
+def test_open_sides_have_windows(style: str) -> None:
+    """At level 1 a window is one pane; one that looks along x is on a side of the lot."""
+    counts = {}
+    for sides in ("blind", "open"):
+        (part,) = derive(style, [LOTS["rectangle"]], sides=sides, LOD=1.0)
+        windows = [
+            r for r in range(len(part.features)) if part.features.semantic(r).value == "window"
+        ]
+        chosen = np.isin(part.polygon_feature, windows)
+        counts[sides] = int((np.abs(part.triangles.polygon_normal[chosen][:, 0]) > 0.99).sum())
+    assert counts["blind"] == 0
+    assert counts["open"] >= 6
+
+
 @pytest.mark.parametrize("path", sorted((STYLES / "parts").glob("*.cga")), ids=lambda p: p.stem)
 def test_parts_are_sound(path: Path) -> None:
     verdict = check_rules(read_rules(path))
