@@ -11,6 +11,7 @@ mod draws;
 mod evaluate;
 mod fault;
 mod functions;
+mod globals;
 mod instances;
 mod limits;
 mod lists;

@@ -11,11 +11,12 @@ use super::code::{Body, Code, Expr, Operation, Rule, Step};
 use super::draws::Draws;
 use super::evaluate::{alternative, Scene};
 use super::fault::Fault;
+use super::globals::Global;
 use super::limits::Limits;
 use super::overrides::{Edit, Edited, Overrides};
 use super::random::Stream;
 use super::state::State;
-use super::tree::{Known, Node, Told, Tree};
+use super::tree::{Node, Told, Tree};
 use super::value::Value;
 
 /// How often the clock is looked at: every so many shapes.
@@ -43,17 +44,9 @@ pub struct Run<'a> {
     pub(super) tree: Tree,
     /// Functions being called now, one in another.
     pub(super) calls: usize,
-    globals: Vec<Global>,
+    pub(super) globals: Vec<Global>,
     waiting: Vec<Waiting>,
     started: Instant,
-}
-
-#[derive(Clone)]
-enum Global {
-    Unknown,
-    /// Being evaluated: a second look at it is a circle.
-    Open,
-    Known(Value),
 }
 
 /// A shape that its rule has still to be applied to.
@@ -385,61 +378,6 @@ impl<'a> Run<'a> {
             child_count: 0,
         });
         Ok(Some(count as u32))
-    }
-
-    /// The value of an attribute or a constant for a shape.
-    pub(super) fn global(&mut self, index: usize, state: &State) -> Result<Value, Fault> {
-        if let Some(value) = state.set.as_ref().and_then(|set| set.get(&index)) {
-            return Ok(value.clone());
-        }
-        let code = self.code;
-        let global = &code.globals[index];
-        match &self.globals[index] {
-            Global::Known(value) => return Ok(value.clone()),
-            Global::Open => {
-                let message = format!("{} depends on itself", global.name);
-                return Err(Fault::at(global.value.span, message));
-            }
-            Global::Unknown => {}
-        }
-        let mut draws = Draws::default();
-        let given = self.options.attributes.get(global.name.as_ref());
-        let value = if let Some(value) = given.filter(|_| global.is_attribute) {
-            value.clone()
-        } else {
-            self.globals[index] = Global::Open;
-            let start = self.tree.nodes[0].state.clone();
-            let mut scene = Scene {
-                slots: &mut Vec::new(),
-                state: &start,
-                stream: &mut Stream::new(self.options.seed).child(u32::MAX - index as u32),
-                draws: &mut draws,
-            };
-            let found = self.with_locals(&global.locals, &global.value, &mut scene);
-            self.globals[index] = Global::Unknown;
-            found?
-        };
-        self.globals[index] = Global::Known(value.clone());
-        self.tree.globals.push(Known {
-            global: index as u32,
-            name: global.name.clone(),
-            is_attribute: global.is_attribute,
-            value: value.clone(),
-            choices: draws.taken,
-        });
-        Ok(value)
-    }
-
-    /// Evaluates the attributes and constants that nothing has needed: the prior is that of all,
-    /// and does not depend on which of them a tree uses. Those that fail were not needed.
-    fn know_all(&mut self) {
-        let start = self.tree.nodes[0].state.clone();
-        let messages = self.tree.messages.len();
-        for index in 0..self.globals.len() {
-            let _ = self.global(index, &start);
-        }
-        self.tree.messages.truncate(messages);
-        self.tree.globals.sort_by_key(|known| known.global);
     }
 
     /// What `print` is given; what is beyond the most messages is dropped.
