@@ -263,8 +263,8 @@ fn what_does_not_derive_yet_is_said_before_anything_is_derived() {
         faults.map(|fault| fault.message).collect::<Vec<_>>()
     };
     assert_eq!(
-        wrong("Lot --> rectify(3)"),
-        ["`rectify` does not derive yet"]
+        wrong("Lot --> reduceGeometry(3)"),
+        ["`reduceGeometry` does not derive yet"]
     );
     assert_eq!(
         wrong("Lot --> s(material.shininess, 1, 1)"),

@@ -89,6 +89,7 @@ impl Derivation {
             attributes: values(attributes.unwrap_or_default()),
             overrides: overrides_of(edits.unwrap_or_default()),
             assets: rules.get().known_assets(),
+            neighbours: Vec::new(),
         };
         let with = rules.get();
         let rule = with.start_rule(start)?;

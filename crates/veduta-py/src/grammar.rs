@@ -31,8 +31,8 @@ pub type Rings = Vec<Vec<[f64; 3]>>;
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
 pub struct GrammarRules {
     pub code: Code,
-    text: Source,
-    has_imports: bool,
+    /// The files, as faults number them.
+    sources: Vec<Source>,
     assets: RwLock<Arc<Assets>>,
     styles: Vec<String>,
 }
@@ -154,6 +154,7 @@ impl GrammarRules {
                         attributes,
                         assets: assets.clone(),
                         overrides: overrides_of(edits),
+                        neighbours: Vec::new(),
                     };
                     self.one(lot, rule, &options)
                 })
@@ -216,7 +217,6 @@ pub struct Derived {
 
 fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
-    let (name, text) = files.first().ok_or_else(missing)?;
     let program = program_of(files).ok_or_else(missing)?;
     let checked = check(&program);
     if checked.has_errors() {
@@ -225,15 +225,14 @@ fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let styles = style_names(&program, &checked);
     let wanted = style.unwrap_or("Default");
     let style = styles.iter().position(|one| one == wanted);
-    let style = style.ok_or_else(|| format!("{name} has no style `{wanted}`"))?;
+    let style = style.ok_or_else(|| format!("{} has no style `{wanted}`", files[0].0))?;
     let lowered = lower_in_style(&program, &checked, style);
     if lowered.has_errors() {
         return Err(rendered(&program, &lowered.diagnostics));
     }
     Ok(GrammarRules {
         code: lowered.code,
-        text: Source::new(name.clone(), text.clone()),
-        has_imports: program.units.len() > 1,
+        sources: program.units.into_iter().map(|unit| unit.source).collect(),
         assets: RwLock::default(),
         styles,
     })
@@ -278,13 +277,10 @@ impl GrammarRules {
 
     /// A fault with its place in the file.
     pub fn told(&self, fault: &Fault) -> String {
-        let name = self.text.name();
-        if self.has_imports {
-            // A fault does not say which file it is in.
-            return format!("{name} or what it imports: {}", fault.message);
-        }
-        let place = self.text.position(fault.span.start);
-        format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+        let source = &self.sources[fault.unit.unwrap_or(0)];
+        let place = source.position(fault.span.start);
+        let (name, message) = (source.name(), &fault.message);
+        format!("{name}:{}:{}: {message}", place.line, place.column)
     }
 
     /// A fault as Python has it: with the name of the asset where one is wanted.

@@ -61,18 +61,23 @@ def run(arguments: list[str]) -> int:
 def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
-    from veduta.grammar.rules import check_rules, find_rules, read_rules
+    from veduta.grammar.assets.library import Library
+    from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
-    verdict = check_rules(read_rules(find_rules(call.rules)))
+    rules = read_rules(find_rules(call.rules))
+    verdict = check_rules(rules)
     print(verdict.told, end="")
+    faults: list[str] = []
+    if not verdict.errors and not verdict.underived:
+        faults = Library(rules.path.parent).faults(compile_rules(rules))
+        print("".join(f"error: {fault}\n" for fault in faults), end="")
     if verdict.underived:
         print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
-    print(
-        f"{call.rules}: {counted(verdict.errors, 'error')}, {counted(verdict.warnings, 'warning')}"
-    )
-    return 2 if verdict.errors else 0
+    errors = verdict.errors + len(faults)
+    print(f"{call.rules}: {counted(errors, 'error')}, {counted(verdict.warnings, 'warning')}")
+    return 2 if errors else 0
 
 
 def _format(arguments: list[str]) -> int:

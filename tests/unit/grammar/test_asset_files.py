@@ -154,5 +154,8 @@ def test_a_changed_file_changes_the_digest(tmp_path: Path) -> None:
         write(tmp_path, "a.obj", wedge)
         before = digest(rules)
         assert digest(rules) == before
+        write(tmp_path, "out/.veduta/record.json", "")
+        write(tmp_path, "out/parts/made.glb", "")
+        assert digest(rules) == before
         write(tmp_path, "a.obj", wedge.replace("v 2 0 1\n", "v 2 0 1.5\n"))
         assert digest(rules) != before

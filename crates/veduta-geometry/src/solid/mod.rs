@@ -1,5 +1,7 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
+mod boolean;
+mod cleanup;
 mod cut;
 mod envelope;
 mod extrude;
@@ -13,6 +15,8 @@ mod raised;
 mod roofs;
 mod weld;
 
+pub use boolean::{boolean, relation, Boolean, BooleanError, Combined, Relation};
+pub use cleanup::{cleaned, Cleaning};
 pub use cut::{cut, Piece, Sides};
 pub use envelope::{envelope, Bound};
 pub use extrude::extrude;

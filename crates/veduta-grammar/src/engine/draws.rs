@@ -59,6 +59,8 @@ impl LogSum {
 #[derive(Debug, Default)]
 pub struct Draws {
     pub taken: Vec<Taken>,
+    /// Of what inlined rules took.
+    pub inlined: LogSum,
     wanted: Vec<Option<u16>>,
 }
 
@@ -66,6 +68,7 @@ impl Draws {
     pub fn of(edit: Option<&Edit>) -> Self {
         Self {
             taken: Vec::new(),
+            inlined: LogSum::default(),
             wanted: edit.map(|edit| edit.choices.clone()).unwrap_or_default(),
         }
     }

@@ -58,6 +58,10 @@ impl Run<'_> {
                     .of(scene.state, object, &values)
                     .map_err(|message| Fault::at(expr.span, message))
             }
+            ExprKind::Query { query, args } => {
+                let values = self.values(args, scene)?;
+                self.answer(*query, &values, scene.state, expr.span)
+            }
             ExprKind::Components { kind, cells } => {
                 let values = self.component_values(*kind, cells, expr.span, scene)?;
                 let columns = values.len();
@@ -190,7 +194,7 @@ impl Run<'_> {
         };
         let value = self.with_locals(&called.locals, &called.value, &mut inner);
         self.calls -= 1;
-        value
+        value.map_err(|fault| fault.within(called.unit))
     }
 
     /// The value of an expression after those of its `with`, which it may use.

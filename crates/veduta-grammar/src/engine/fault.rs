@@ -7,6 +7,8 @@ use crate::Span;
 /// A fault at a place in a rule file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Fault {
+    /// The number of the file in the program: 0 is the main one, the others are imported.
+    pub unit: Option<usize>,
     pub span: Span,
     pub message: String,
     /// The asset that is wanted and not there: with it, the derivation may be tried again.
@@ -16,6 +18,7 @@ pub struct Fault {
 impl Fault {
     pub fn at(span: Span, message: impl Into<String>) -> Self {
         Self {
+            unit: None,
             span,
             message: message.into(),
             missing_asset: None,
@@ -28,5 +31,11 @@ impl Fault {
             missing_asset: Some(name.clone()),
             ..Self::at(span, format!("there is no asset `{name}`"))
         }
+    }
+
+    /// The fault with the file of what was at work, where it is not known yet.
+    pub fn within(mut self, unit: usize) -> Self {
+        self.unit.get_or_insert(unit);
+        self
     }
 }

@@ -1,4 +1,4 @@
-//! Attributes and constants: each is evaluated once for a start shape, when it is first needed.
+//! Attributes and constants, each evaluated once for a start shape.
 
 use super::draws::Draws;
 use super::evaluate::Scene;
@@ -9,9 +9,8 @@ use super::state::State;
 use super::tree::Known;
 use super::value::Value;
 
-/// What is known of an attribute or a constant.
 #[derive(Clone)]
-pub enum Global {
+pub(super) enum Global {
     Unknown,
     /// Being evaluated: a second look at it is a circle.
     Open,
@@ -30,7 +29,7 @@ impl Run<'_> {
             Global::Known(value) => return Ok(value.clone()),
             Global::Open => {
                 let message = format!("{} depends on itself", global.name);
-                return Err(Fault::at(global.value.span, message));
+                return Err(Fault::at(global.value.span, message).within(global.unit));
             }
             Global::Unknown => {}
         }
@@ -49,7 +48,7 @@ impl Run<'_> {
             };
             let found = self.with_locals(&global.locals, &global.value, &mut scene);
             self.globals[index] = Global::Unknown;
-            found?
+            found.map_err(|fault| fault.within(global.unit))?
         };
         self.globals[index] = Global::Known(value.clone());
         self.tree.globals.push(Known {

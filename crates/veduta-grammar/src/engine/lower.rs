@@ -52,11 +52,15 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             numbers: &numbers,
             instances: &instances,
             instance,
+            asks: false,
+            trims: false,
             diagnostics: vec![Vec::new(); program.units.len()],
         };
         let unit = instances[instance].unit;
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
+        lowered.code.asks |= lowering.asks;
+        lowered.code.trims |= lowering.trims;
         for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
             let new = new.into_iter().filter(|one| !all.contains(one));
             let new: Vec<Diagnostic> = new.collect();
@@ -152,11 +156,22 @@ fn is_global(definition: &Definition) -> bool {
 pub(super) struct Lowering<'a> {
     pub program: &'a Program,
     pub numbers: &'a Numbers,
+    /// Whether a rule of the file asks about other shapes.
+    pub asks: bool,
+    pub trims: bool,
     checked: &'a Checked,
     instances: &'a [Instance],
     instance: usize,
     /// By file.
     diagnostics: Vec<Vec<Diagnostic>>,
+}
+
+/// What an import statement has instead of a rule.
+struct Extension {
+    unit: usize,
+    span: Span,
+    params: Vec<Arc<str>>,
+    body: Body,
 }
 
 impl<'a> Lowering<'a> {
@@ -189,37 +204,49 @@ impl<'a> Lowering<'a> {
         {
             code.start = Some(code.rules.len());
         }
-        let (params, locals, body) = match self.extended(definition) {
-            Some((params, body)) => (params, Vec::new(), body),
-            None => {
-                let locals = self.locals(&rule.locals);
-                (self.shared_all(&rule.params), locals, self.body(&rule.body))
-            }
-        };
-        code.rules.push(Rule {
-            name: self.shared(rule.name),
-            symbol: rule.name.symbol,
-            params,
-            locals,
-            body,
+        let (name, symbol) = (self.shared(rule.name), rule.name.symbol);
+        code.rules.push(match self.extended(definition) {
+            Some(extension) => Rule {
+                name,
+                unit: extension.unit,
+                span: extension.span,
+                symbol,
+                params: extension.params,
+                locals: Vec::new(),
+                body: extension.body,
+            },
+            None => Rule {
+                name,
+                unit: self.own().unit,
+                span: rule.name.span,
+                symbol,
+                params: self.shared_all(&rule.params),
+                locals: self.locals(&rule.locals),
+                body: self.body(&rule.body),
+            },
         });
     }
 
     /// What the import statement has instead of an extension rule: its parameters and its body.
-    fn extended(&mut self, definition: &Definition) -> Option<(Vec<Arc<str>>, Body)> {
+    fn extended(&mut self, definition: &Definition) -> Option<Extension> {
         let import = self.own().import(self.instances, self.program)?;
         let mut overrides = import.overrides.iter().flatten();
         let found = overrides.find_map(|one| match one {
             Override::Rule { name, params, body }
                 if name.symbol == definition.name.symbol && params.len() == definition.arity =>
             {
-                Some((params, body))
+                Some((name, params, body))
             }
             _ => None,
         });
-        let (params, body) = found?;
+        let (name, params, body) = found?;
         let params = self.shared_all(params);
-        Some((params, self.above(|lowering| lowering.body(body))))
+        Some(self.above(|lowering| Extension {
+            unit: lowering.own().unit,
+            span: name.span,
+            params,
+            body: lowering.body(body),
+        }))
     }
 
     /// What is lowered by `work` stands in the importing file.
@@ -238,15 +265,17 @@ impl<'a> Lowering<'a> {
         definition: &Definition,
         code: &mut Code,
     ) {
+        let own = self.own().unit;
         match self.numbers.value(self.instance, index) {
             Number::Global(number) if number < code.globals.len() => {} // of the importing file
             Number::Global(number) => {
-                let (locals, value) = match self.imposed(definition) {
-                    Some(value) => (Vec::new(), value),
-                    None => (self.locals(&value.locals), self.expr(&value.value)),
+                let (unit, locals, value) = match self.imposed(definition) {
+                    Some((unit, value)) => (unit, Vec::new(), value),
+                    None => (own, self.locals(&value.locals), self.expr(&value.value)),
                 };
                 code.globals.push(Global {
                     name: self.numbers.globals[number].clone(),
+                    unit,
                     is_attribute: definition.role == Role::Attr,
                     locals,
                     value,
@@ -257,6 +286,7 @@ impl<'a> Lowering<'a> {
                 let expr = self.expr(&value.value);
                 code.functions.push(UserFunction {
                     name: self.shared(value.name),
+                    unit: own,
                     params: definition.arity,
                     locals,
                     value: expr,
@@ -266,7 +296,8 @@ impl<'a> Lowering<'a> {
     }
 
     /// The value that the import statement gives an attribute, evaluated in the importing file.
-    fn imposed(&mut self, definition: &Definition) -> Option<super::code::Expr> {
+    /// With the number of this file.
+    fn imposed(&mut self, definition: &Definition) -> Option<(usize, super::code::Expr)> {
         let import = self.own().import(self.instances, self.program)?;
         let mut overrides = import.overrides.iter().flatten();
         let value = overrides.find_map(|one| match one {
@@ -277,7 +308,7 @@ impl<'a> Lowering<'a> {
             }
             _ => None,
         })?;
-        Some(self.above(|lowering| lowering.expr(value)))
+        Some(self.above(|lowering| (lowering.own().unit, lowering.expr(value))))
     }
 
     fn locals(&mut self, locals: &[ast::Local]) -> Vec<super::code::Expr> {

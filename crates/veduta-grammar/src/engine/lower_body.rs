@@ -73,6 +73,7 @@ impl Lowering<'_> {
 
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
         let args = call.args();
+        self.trims |= id.trims();
         let (fewest, most) = id.arguments();
         if args.len() < fewest || args.len() > most {
             let name = self.text(call.name);
@@ -81,13 +82,9 @@ impl Lowering<'_> {
         }
         let (cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
-            Some(Block::Body { body, .. }) => {
-                let cell = Cell::Part {
-                    selector: Selector::Word("all".into()),
-                    combined: false,
-                    body: self.body(body),
-                };
-                (vec![cell], false)
+            Some(Block::Body { body, .. }) => (vec![self.whole(body)], false),
+            Some(Block::Operands { first, second, .. }) => {
+                (vec![self.whole(first), self.whole(second)], false)
             }
             None => (Vec::new(), false),
         };
@@ -113,6 +110,15 @@ impl Lowering<'_> {
             cells,
             repeat,
             span: call.span,
+        }
+    }
+
+    /// A block without selectors as a cell.
+    fn whole(&mut self, body: &ast::Body) -> Cell {
+        Cell::Part {
+            selector: Selector::Word("all".into()),
+            combined: false,
+            body: self.body(body),
         }
     }
 

@@ -7,6 +7,7 @@ use super::code::{Expr, ExprKind};
 use super::functions::Function;
 use super::lower::{Lowering, Number};
 use super::measures::Measure;
+use super::queries::Query;
 use super::selection::kind_named;
 use super::shape_attributes::ShapeAttribute;
 
@@ -107,15 +108,23 @@ impl Lowering<'_> {
                     }
                 }
                 Some(_) => self.not_yet(name),
-                None => match Measure::named(self.text(name)) {
-                    Some(measure) => ExprKind::Measure {
-                        measure,
-                        args: lowered,
-                    },
-                    None => self.not_yet(name),
-                },
+                None => self.of_shape(name, lowered),
             },
             _ => self.not_yet(name),
+        }
+    }
+
+    /// A function of the current shape, or of those around it.
+    fn of_shape(&mut self, name: Ident, args: Vec<Expr>) -> ExprKind {
+        if let Some(measure) = Measure::named(self.text(name)) {
+            return ExprKind::Measure { measure, args };
+        }
+        match Query::named(self.text(name)) {
+            Some(query) => {
+                self.asks |= query.is_about_others();
+                ExprKind::Query { query, args }
+            }
+            None => self.not_yet(name),
         }
     }
 

@@ -10,6 +10,7 @@ mod colours;
 mod draws;
 mod evaluate;
 mod fault;
+mod frame;
 mod functions;
 mod globals;
 mod instances;
@@ -20,16 +21,20 @@ mod lower;
 mod lower_body;
 mod lower_expression;
 mod measures;
+mod nested;
+mod occluders;
 mod operations;
 mod operators;
 mod overrides;
 mod pack;
+mod queries;
 mod random;
 mod rederive;
 mod run;
 mod selection;
 mod shape_attributes;
 mod state;
+mod steps;
 mod surfaces;
 mod texture_map;
 mod tree;
@@ -42,12 +47,13 @@ pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
 pub use lower::{lower, lower_in_style, Lowered};
+pub use occluders::Occluder;
 pub use operations::names as operation_names;
 pub use overrides::{Edit, Edited, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
 pub use random::Stream;
 pub use rederive::rederive;
-pub use run::{derive, Options};
+pub use run::{derive, occluders, Options};
 pub use state::{Extra, Look, Place, State};
 pub use surfaces::{surfaces, Surfaces};
 pub use texture_map::TextureMap;
@@ -58,6 +64,7 @@ pub use value::{Array, Value};
 pub fn function_names() -> impl Iterator<Item = &'static str> {
     functions::Function::names()
         .chain(measures::Measure::names())
+        .chain(queries::Query::names())
         .chain(["comp"])
 }
 

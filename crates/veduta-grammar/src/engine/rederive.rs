@@ -2,12 +2,13 @@
 
 use std::cmp::Ordering;
 use std::ops::Range;
+use std::time::Instant;
 
 use super::code::Code;
 use super::fault::Fault;
 use super::overrides::Edited;
 use super::random::Stream;
-use super::run::{Options, Run, Waiting};
+use super::run::{derive, Options, Run, Waiting};
 use super::tree::{Node, Told, Tree};
 use crate::Span;
 
@@ -25,6 +26,13 @@ pub fn rederive(
     let Some(root) = nearest(tree, path, options) else {
         return Ok(false);
     };
+    if code.asks {
+        // Answers about other shapes may change anywhere.
+        let first = &tree.nodes[0];
+        let rule = first.rule.map_or(0, |rule| rule as usize);
+        *tree = derive(code, rule, first.state.clone(), options)?;
+        return Ok(true);
+    }
     let own = tree.path(root);
     let derived = part(code, tree, root, options)?;
     let kept = tree.nodes.len() - tree.below(root).len();
@@ -81,11 +89,12 @@ fn part(code: &Code, tree: &Tree, root: u32, options: &Options) -> Result<Tree, 
     }
     let streams = path.iter();
     let stream = streams.fold(Stream::new(options.seed), |one, &place| one.child(place));
-    let mut run = Run::new(code, options, line);
+    let mut run = Run::new(code, options, line, Instant::now());
     run.wait(Waiting {
         node: path.len() as u32,
         stream,
         depth: path.len(),
+        trail: Vec::new(),
     });
     run.work()?;
     Ok(run.tree)
@@ -113,6 +122,7 @@ impl Tree {
         if let Some(derived) = part.nodes.pop() {
             let node = &mut self.nodes[root as usize];
             node.choices = derived.choices;
+            node.inlined = derived.inlined;
             node.child_count = derived.child_count;
         }
         let (before, after) = (old.len() as u32, new.len() as u32);

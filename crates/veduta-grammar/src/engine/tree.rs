@@ -22,11 +22,22 @@ pub struct Node {
     pub args: Box<[Value]>,
     /// The random alternatives taken in that rule, in order.
     pub choices: Vec<Taken>,
+    /// The logarithm of the chance of the alternatives taken in rules that it inlined.
+    pub inlined: LogSum,
     /// The shape as the rule got it; of a leaf, as it stays.
     pub state: State,
     /// The number of its first child: children stand together, and all below them follows.
     pub first_child: u32,
     pub child_count: u32,
+}
+
+impl Node {
+    /// Of the chances of the alternatives that its rule took, and the rules that it inlined.
+    pub(super) fn log_sum(&self) -> LogSum {
+        let mut sum = LogSum::of(&self.choices);
+        sum.add(self.inlined);
+        sum
+    }
 }
 
 /// The value of an attribute or constant that was needed, or that is drawn by chance.
@@ -135,6 +146,10 @@ impl Tree {
     }
 
     pub(super) fn log_sum_in(&self, range: Range<usize>) -> LogSum {
-        LogSum::of(self.nodes[range].iter().flat_map(|node| &node.choices))
+        let mut sum = LogSum::default();
+        for node in &self.nodes[range] {
+            sum.add(node.log_sum());
+        }
+        sum
     }
 }

@@ -2,6 +2,7 @@
 
 mod asset;
 mod components;
+mod distances;
 mod form;
 mod scope;
 mod selecting;
@@ -11,6 +12,7 @@ mod surroundings;
 
 pub use asset::{Asset, Instance};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
+pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};
 pub use selecting::{is_meant, Frames};

@@ -8,13 +8,15 @@ import os
 from pathlib import Path
 
 from veduta import _core
+from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
 from veduta.run.errors import InputError
 
-MOST_FILES = 2_000
-"""Files below a rule file's folder that are looked at where asset names are computed."""
+MOST_FILES, MOST_FOLDERS = 2_000, 10_000
+"""Files and folders below a rule file that are looked at where asset names are computed."""
+_READ = (*SUFFIXES, ".mtl")
 
 
 class Library:
@@ -58,6 +60,16 @@ class Library:
             total.update(hashlib.sha256(path.read_bytes()).digest())
         return total.hexdigest()
 
+    def faults(self, rules: _core.GrammarRules) -> list[str]:
+        """What is wrong with the assets whose names stand in the rules."""
+        told = []
+        for name in rules.asset_names[0]:
+            try:
+                _ = self[name]
+            except InputError as error:
+                told.append(str(error))
+        return told
+
     def _found(self, name: str) -> Asset:
         asset = builtin(name)
         if asset is not None:
@@ -74,11 +86,13 @@ class Library:
 def _files_below(folder: Path) -> list[Path]:
     """Asset files and their materials, as many as are looked at."""
     found: list[Path] = []
-    for where, folders, names in os.walk(folder):
+    for seen, (where, folders, names) in enumerate(os.walk(folder)):
+        if ".veduta" in folders:  # results of a call, which would change its own key
+            folders.clear()
+            continue
         folders.sort()
-        for name in sorted(names):
-            if name.lower().endswith((*SUFFIXES, ".mtl")):
-                found.append(Path(where) / name)
-            if len(found) >= MOST_FILES:
-                return found
-    return found
+        paths = [Path(where) / name for name in sorted(names) if name.lower().endswith(_READ)]
+        found += [path for path in paths if path.is_file() and path.stat().st_size <= LARGEST_BYTES]
+        if len(found) >= MOST_FILES or seen >= MOST_FOLDERS:
+            break
+    return found[:MOST_FILES]

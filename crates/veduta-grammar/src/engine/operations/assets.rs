@@ -4,7 +4,8 @@ use glam::DVec3;
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::word;
 use crate::shape::{Geometry, Instance, Scope};
 
