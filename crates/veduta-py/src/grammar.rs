@@ -18,6 +18,7 @@ use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
 use crate::derivation::{edit_faults, overrides_of, GivenEdit};
+use crate::given::{values, Given};
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
@@ -160,47 +161,6 @@ impl GrammarRules {
                 .collect()
         });
         found.into_iter().map(|one| to_python(py, one)).collect()
-    }
-}
-
-/// A value given from outside.
-#[derive(FromPyObject)]
-pub enum Given {
-    Bool(bool),
-    Number(f64),
-    Text(String),
-}
-
-impl From<Given> for Value {
-    fn from(given: Given) -> Self {
-        match given {
-            Given::Bool(is) => Value::Bool(is),
-            Given::Number(number) => Value::Number(number),
-            Given::Text(text) => Value::text(&text),
-        }
-    }
-}
-
-pub fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
-    let each = given.into_iter();
-    each.map(|(name, value)| (name, value.into())).collect()
-}
-
-/// A value for outside; an array is what `str` makes of it.
-#[derive(IntoPyObject)]
-pub enum GivenBack {
-    Bool(bool),
-    Number(f64),
-    Text(String),
-}
-
-impl From<&Value> for GivenBack {
-    fn from(value: &Value) -> Self {
-        match value {
-            Value::Bool(is) => Self::Bool(*is),
-            Value::Number(number) => Self::Number(*number),
-            Value::Text(_) | Value::Array(_) => Self::Text(value.to_string()),
-        }
     }
 }
 

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod chain;
 mod derivation;
+mod given;
 mod grammar;
 mod polygons;
 mod rules;
