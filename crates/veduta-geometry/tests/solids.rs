@@ -136,10 +136,10 @@ fn roofs_of_a_rectangle() {
     let slope = 0.5;
     // A hip roof is a gable roof without a pyramid at each end.
     let (long, wide, high) = (12.0, 8.0, 4.0 * slope);
-    let hip = roofed(&rectangle(long, wide), RoofKind::Hip, slope).unwrap();
+    let hip = roofed(&rectangle(long, wide), &RoofKind::HIP, slope).unwrap();
     assert!(hip.is_closed());
     assert!((hip.volume() - wide * high * (3.0 * long - wide) / 6.0).abs() < TOLERANCE);
-    let gable = roofed(&rectangle(long, wide), RoofKind::Gable, slope).unwrap();
+    let gable = roofed(&rectangle(long, wide), &RoofKind::GABLE, slope).unwrap();
     assert!(gable.is_closed());
     assert!((gable.volume() - wide * high * long / 2.0).abs() < TOLERANCE);
     let (low, up) = gable.bounds().unwrap();
@@ -148,7 +148,7 @@ fn roofs_of_a_rectangle() {
 
 #[test]
 fn a_square_has_two_gables() {
-    let gable = roofed(&rectangle(6.0, 6.0), RoofKind::Gable, 1.0).unwrap();
+    let gable = roofed(&rectangle(6.0, 6.0), &RoofKind::GABLE, 1.0).unwrap();
     assert!((gable.volume() - 6.0 * 6.0 * 3.0 / 2.0).abs() < TOLERANCE);
     assert_eq!(gable.face_count(), 5);
 }
@@ -169,8 +169,8 @@ fn star() -> impl Strategy<Value = Mesh> {
 proptest! {
     #[test]
     fn roofs_close_over_any_outline(sheet in star(), slope in 0.1..3.0f64) {
-        for kind in [RoofKind::Hip, RoofKind::Gable] {
-            let solid = roofed(&sheet, kind, slope).unwrap();
+        for kind in [RoofKind::HIP, RoofKind::GABLE] {
+            let solid = roofed(&sheet, &kind, slope).unwrap();
             prop_assert!(solid.is_closed());
             prop_assert!(solid.volume() > 0.0);
         }

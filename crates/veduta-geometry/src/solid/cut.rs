@@ -41,6 +41,45 @@ pub fn cut(mesh: &Mesh, axis: usize, at: f64, tolerance: f64, solid: bool) -> Si
     }
 }
 
+/// The faces of `mesh` cut along the planes where the coordinate `axis` is one of `levels`, as one
+/// mesh over shared points; and for each face that of the original which it is a part of. The
+/// points of the original keep their numbers.
+///
+/// A face of which `whole` says so is not cut, but gets the points where the planes cross its edges.
+pub fn scored(
+    mesh: &Mesh,
+    axis: usize,
+    levels: &[f64],
+    tolerance: f64,
+    whole: impl Fn(u32) -> bool,
+) -> (Mesh, Vec<u32>) {
+    let mut now = mesh.clone();
+    let mut sources: Vec<u32> = (0..mesh.face_count() as u32).collect();
+    for &at in levels {
+        let mut cutter = Cutter::new(&now, axis, at, tolerance);
+        let mut faces = Vec::with_capacity(now.face_count());
+        for face in now.faces() {
+            let source = sources[face.index()];
+            if whole(source) {
+                let rings = face.rings().map(|ring| cutter.with_crossings(ring));
+                faces.push((rings.collect(), source));
+                continue;
+            }
+            let mut sides = [Builder::default(), Builder::default()];
+            cutter.cut_face(face, &mut sides, false);
+            let parts = sides.into_iter().flat_map(|side| side.faces);
+            faces.extend(parts.map(|(rings, _)| (rings, source)));
+        }
+        now = Mesh::with_points(cutter.points);
+        sources.clear();
+        for (rings, source) in &faces {
+            now.push_face(rings);
+            sources.push(*source);
+        }
+    }
+    (now, sources)
+}
+
 const BELOW: usize = 0;
 const ABOVE: usize = 1;
 
@@ -162,6 +201,22 @@ impl Cutter {
         self.height.push(0.0);
         self.on_edge.insert(key, number);
         number
+    }
+
+    /// A ring with the points where the plane crosses it.
+    fn with_crossings(&mut self, ring: &[u32]) -> Vec<u32> {
+        let mut points = Vec::with_capacity(ring.len() + 2);
+        for (k, &here) in ring.iter().enumerate() {
+            let next = ring[(k + 1) % ring.len()];
+            push_new(&mut points, here);
+            if self.side(here) != self.side(next) {
+                let at = self.crossing(here, next);
+                if at != next {
+                    push_new(&mut points, at);
+                }
+            }
+        }
+        points
     }
 
     /// Chains to rings: on the plane, an end is followed by the next beginning along the line.

@@ -78,7 +78,7 @@ pub fn run_shapes(
 ) -> Result<(), Fault> {
     let total = shapes.len();
     for (form, index) in shapes {
-        let mut state = whole.with_form(form);
+        let mut state = whole.component(form);
         state.comp = Place { index, total };
         state.selector = name.clone();
         run.run_cell(body, state, frame)?;
