@@ -131,6 +131,45 @@ fn rectangle(x: f64, y: f64) -> Mesh {
     ]])
 }
 
+/// Cut along its shoulders, at the tip of a notch from either side, and along a hole.
+#[test]
+fn cuts_through_corners_and_along_sides() {
+    let ring = |corners: &[[f64; 2]]| -> Vec<DVec3> {
+        corners.iter().map(|&[x, y]| v(x, y, 0.0)).collect()
+    };
+    let t = ring(&[
+        [0.0, 0.0],
+        [12.0, 0.0],
+        [12.0, 5.0],
+        [8.0, 5.0],
+        [8.0, 10.0],
+        [4.0, 10.0],
+        [4.0, 5.0],
+        [0.0, 5.0],
+    ]);
+    let notch = ring(&[[0.0, 0.0], [6.0, 0.0], [6.0, 8.0], [3.0, 4.0], [0.0, 8.0]]);
+    let turned = ring(&[[0.0, 0.0], [3.0, 4.0], [6.0, 0.0], [6.0, 8.0], [0.0, 8.0]]);
+    let square = ring(&[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]]);
+    let hole = ring(&[[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0]]);
+    for (rings, at, below, above) in [
+        (vec![t], 5.0, vec![(6, 60.0)], vec![(4, 20.0)]),
+        (vec![notch], 4.0, vec![(5, 24.0)], vec![(3, 6.0), (3, 6.0)]),
+        (vec![turned], 4.0, vec![(3, 6.0), (3, 6.0)], vec![(5, 24.0)]),
+        (vec![square, hole], 3.0, vec![(6, 27.0)], vec![(8, 45.0)]),
+    ] {
+        let found = cut(&Mesh::polygon(&rings), 1, at, TOLERANCE, false);
+        let faces = |mesh: &Mesh| -> Vec<(usize, f64)> {
+            let one = |face: veduta_geometry::solid::Face<'_>| {
+                assert_eq!(face.ring_count(), 1);
+                (face.outline().len(), face.area_vector().z)
+            };
+            mesh.faces().map(one).collect()
+        };
+        assert_eq!(faces(&found.below.mesh), below);
+        assert_eq!(faces(&found.above.mesh), above);
+    }
+}
+
 #[test]
 fn roofs_of_a_rectangle() {
     let slope = 0.5;

@@ -5,12 +5,14 @@ use pyo3::prelude::*;
 mod chain;
 mod grammar;
 mod polygons;
+mod roofs;
 mod rules;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
+    roofs::register(m)?;
     rules::register(m)?;
     polygons::register(m)
 }

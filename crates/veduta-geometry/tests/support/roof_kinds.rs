@@ -108,6 +108,11 @@ pub fn fault(solid: &Mesh, rings: &[Vec<[f64; 2]>], outline_m2: Option<f64>) -> 
             if sides.insert((point, next), ()).is_some() {
                 return Some(format!("side {point} {next} twice"));
             }
+            let [a, b, c] = [before, point, next].map(|p| solid.points[p as usize]);
+            let (from, to) = (b - a, c - b);
+            if from.cross(to).length() < 1e-9 * from.length() * to.length() && from.dot(to) < 0.0 {
+                return Some(format!("a spike at point {point}"));
+            }
             let fan = around.entry(point).or_default();
             if fan.insert(before, next).is_some() {
                 return Some(format!("point {point} twice in a corner"));
