@@ -110,17 +110,17 @@ def cgal(outlines: list[Outline]) -> tuple[list[Row], str]:
 def table(outlines: list[Outline]) -> list[Row]:
     """Which type of roof applies to which outlines, with all checks."""
     rng = np.random.default_rng(7)
-    courts = {over.name for over in outlines if len(over.ring_offsets) > 2}
+    courts = {number for number, over in enumerate(outlines) if len(over.ring_offsets) > 2}
     rows: list[Row] = []
     for kind in TYPES:
-        sound = set()
-        for over in outlines:
+        sound: set[int] = set()
+        for number, over in enumerate(outlines):
             try:
                 made = solid(kind, over)
             except _core.RoofFault:
                 continue
             if not faults(made, over, rng):
-                sound.add(over.name)
+                sound.add(number)
         rows.append(
             {
                 "type": kind,
