@@ -60,7 +60,7 @@ impl Across {
     /// One plane that rises with x.
     pub fn shed(&self, slope: f64) -> Mesh {
         let plane = [slope, 0.0, -slope * self.low[0]];
-        self.over(&self.plan(), |_| plane)
+        self.over(&self.plan(), 0.0, |_| plane)
     }
 
     /// Two planes that meet in a ridge at the share `at` of the width, each with its own slope.
@@ -123,7 +123,8 @@ impl Across {
             let (u, v) = (0.5 * (p.x + p.y), 0.5 * (p.x - p.y));
             DVec3::new(centre[0] + half[0] * u, centre[1] + half[1] * v, 0.0)
         });
-        self.over(&plan, |[x, y]| {
+        // Where it hangs over, the lowest places are not at corners.
+        self.over(&plan, CURB_SHARE, |[x, y]| {
             let [u, v] = share(x, y);
             let axis = usize::from(v.abs() < u.abs());
             let fall = -[u, v][axis].signum() * height / half[axis];
@@ -135,11 +136,12 @@ impl Across {
 
     fn cut_at(&self, lines: &[f64], plane: impl Fn(f64) -> Plane) -> Mesh {
         let (plan, _) = scored(&self.plan(), 0, lines, self.near(), |_| false);
-        self.over(&plan, |[x, _]| plane(x))
+        self.over(&plan, 0.0, |[x, _]| plane(x))
     }
 
-    /// The solid with the plane that `plane` gives for a place within each face.
-    fn over(&self, plan: &Mesh, plane: impl Fn([f64; 2]) -> Plane) -> Mesh {
+    /// The solid with the plane that `plane` gives for a place within each face. What hangs over
+    /// below height 0 gets its floor by the share `deeper` farther down.
+    fn over(&self, plan: &Mesh, deeper: f64, plane: impl Fn([f64; 2]) -> Plane) -> Mesh {
         let mut heights: Vec<Plane> = plan
             .faces()
             .map(|face| {
@@ -159,6 +161,7 @@ impl Across {
                 .map(|p| x * p.x + y * p.y + base)
                 .fold(lowest, f64::min);
         }
+        lowest *= 1.0 + deeper;
         for plane in &mut heights {
             plane[2] -= lowest;
         }

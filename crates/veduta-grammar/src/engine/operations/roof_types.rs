@@ -14,7 +14,7 @@ use super::standing::upright;
 use super::{number, numbers, positive, value};
 
 /// The most steps of a round roof, and teeth of a sawtooth roof.
-const MOST_PARTS: f64 = 1000.0;
+const MOST_PARTS: f64 = 100.0;
 /// In how many steps a roof is round where that is not told.
 const STEPS: f64 = 8.0;
 /// How thick the slab of a flat roof is where that is not told (m).
@@ -24,7 +24,7 @@ const SLAB_M: f64 = 0.2;
 pub fn mansard(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let (rise, upper, knee) = two_slopes(run, op, frame)?;
     let reach = optional(run, op, 3, 0.0, frame)?;
-    rise.build(op, frame, [reach, 0.0], |_, _| {
+    rise.build(run, op, frame, [reach, 0.0], |_, _| {
         Ok(RoofKind::Mansard { upper, knee })
     })
 }
@@ -33,7 +33,7 @@ pub fn mansard(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
 pub fn gambrel(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let (rise, upper, knee) = two_slopes(run, op, frame)?;
     let reach = reaches(run, op, 3, frame)?;
-    rise.build(op, frame, reach, |_, _| {
+    rise.build(run, op, frame, reach, |_, _| {
         let gables = Gables::Triangles;
         Ok(RoofKind::Gambrel {
             gables,
@@ -62,7 +62,7 @@ pub fn half_hip(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     let clipped = share(run, op, rise.arguments, frame)?;
     let reach = reaches(run, op, rise.arguments + 1, frame)?;
     no_more(op, rise.arguments + 3)?;
-    rise.build(op, frame, reach, |_, _| {
+    rise.build(run, op, frame, reach, |_, _| {
         let gables = Gables::Triangles;
         Ok(RoofKind::HalfHip { gables, clipped })
     })
@@ -75,7 +75,7 @@ pub fn dutch(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let share = share(run, op, rise.arguments, frame)?;
     let reach = optional(run, op, rise.arguments + 1, 0.0, frame)?;
     no_more(op, rise.arguments + 2)?;
-    rise.build(op, frame, [reach, 0.0], |_, _| {
+    rise.build(run, op, frame, [reach, 0.0], |_, _| {
         Ok(RoofKind::Dutch { share })
     })
 }
@@ -91,7 +91,7 @@ pub fn saltbox(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
         true => Some(value(run, op, 4, frame)?),
         false => None,
     };
-    rise.build(op, frame, reach, |_, face| {
+    rise.build(run, op, frame, reach, |_, face| {
         let number = |edge: &Value| edge_number(op, edge, face);
         let front = front.as_ref().map(number).transpose()?;
         Ok(RoofKind::Saltbox { back, front })
@@ -126,7 +126,7 @@ pub fn per_edge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
         ));
     }
     let rise = Rise::angle(flattest.atan().to_degrees());
-    rise.build(op, frame, reach, |_, _| {
+    rise.build(run, op, frame, reach, |_, _| {
         Ok(RoofKind::PerEdge(slopes.clone()))
     })
 }
@@ -142,7 +142,7 @@ pub fn skillion(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     let reach = optional(run, op, rise.arguments + 1, 0.0, frame)?;
     no_more(op, rise.arguments + 2)?;
     let form = frame.state.form.clone();
-    rise.build(op, frame, [reach, 0.0], |_, face| {
+    rise.build(run, op, frame, [reach, 0.0], |_, face| {
         let axes = upright(&form, face.normal());
         let towards = axes.z_axis * turn.cos() + axes.x_axis * turn.sin();
         Ok(RoofKind::Skillion { towards })
@@ -191,7 +191,7 @@ fn planes(
         false => None,
     };
     no_more(op, first + 2)?;
-    rise.build(op, frame, [reach, 0.0], |_, face| {
+    rise.build(run, op, frame, [reach, 0.0], |_, face| {
         Ok(kind(match &edge {
             Some(edge) => Along::Edge(edge_number(op, edge, face)?),
             None => Along::Longest,
@@ -204,7 +204,7 @@ pub fn dome(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     let height = above_zero(run, op, 0, frame)?;
     let reach = optional(run, op, 1, 0.0, frame)?;
     let steps = parts(run, op, 2, STEPS, frame)?;
-    Rise::angle(45.0).build(op, frame, [reach, 0.0], |_, _| {
+    Rise::angle(45.0).build(run, op, frame, [reach, 0.0], |_, _| {
         Ok(RoofKind::Dome { height, steps })
     })
 }
@@ -214,7 +214,7 @@ pub fn onion(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let height = above_zero(run, op, 0, frame)?;
     let reach = optional(run, op, 1, 0.0, frame)?;
     let steps = parts(run, op, 2, STEPS, frame)?;
-    Rise::angle(45.0).build(op, frame, [reach, 0.0], |_, _| {
+    Rise::angle(45.0).build(run, op, frame, [reach, 0.0], |_, _| {
         Ok(RoofKind::Onion { height, steps })
     })
 }
@@ -224,7 +224,7 @@ pub fn vault(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let height = above_zero(run, op, 0, frame)?;
     let reach = reaches(run, op, 1, frame)?;
     let steps = parts(run, op, 3, STEPS, frame)?;
-    Rise::angle(45.0).build(op, frame, reach, |_, _| {
+    Rise::angle(45.0).build(run, op, frame, reach, |_, _| {
         let gables = Gables::Triangles;
         Ok(RoofKind::Vault {
             gables,
@@ -247,7 +247,7 @@ pub fn flat(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     let parapet = slab + above;
     // Its eaves are level, so that the overhang is, too.
     let reach = reach * 2f64.sqrt();
-    Rise::angle(45.0).build(op, frame, [reach, 0.0], |_, _| {
+    Rise::angle(45.0).build(run, op, frame, [reach, 0.0], |_, _| {
         Ok(RoofKind::Flat {
             slab,
             parapet,

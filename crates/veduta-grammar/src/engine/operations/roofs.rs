@@ -27,7 +27,9 @@ pub fn hip(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
     let reach = optional(run, op, rise.arguments, 0.0, frame)?;
     let even = is_even(run, op, rise.arguments + 1, frame)?;
     no_more(op, rise.arguments + 2)?;
-    rise.build(op, frame, [reach, 0.0], |_, _| Ok(RoofKind::Hip { even }))
+    rise.build(run, op, frame, [reach, 0.0], |_, _| {
+        Ok(RoofKind::Hip { even })
+    })
 }
 
 /// `roofGable(angle)`, `roofGable(angle, eaves, gables, even, index)` and both with
@@ -47,7 +49,7 @@ pub fn gable(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
         false => None,
     };
     no_more(op, first + 4)?;
-    rise.build(op, frame, reach, |sheet, face| {
+    rise.build(run, op, frame, reach, |sheet, face| {
         let gables = match &chosen {
             None => Gables::Triangles,
             Some(Value::Array(edges)) => {
@@ -76,7 +78,7 @@ pub fn pyramid(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let rise = Rise::of(run, op, frame)?;
     let reach = optional(run, op, rise.arguments, 0.0, frame)?;
     no_more(op, rise.arguments + 1)?;
-    rise.build(op, frame, [reach, 0.0], |_, _| Ok(RoofKind::Pyramid))
+    rise.build(run, op, frame, [reach, 0.0], |_, _| Ok(RoofKind::Pyramid))
 }
 
 /// `roofShed(angle)`, `roofShed(angle, edge)`, and both with `byAngle | byHeight, value`: one plane
@@ -91,7 +93,7 @@ pub fn shed(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     };
     let reach = optional(run, op, rise.arguments + 1, 0.0, frame)?;
     no_more(op, rise.arguments + 2)?;
-    rise.build(op, frame, [reach, 0.0], |_, face| {
+    rise.build(run, op, frame, [reach, 0.0], |_, face| {
         let count = face.outline().len() as f64;
         let edge = edge.rem_euclid(count) as u32 % count as u32;
         Ok(RoofKind::Shed { edge })
@@ -106,7 +108,7 @@ pub fn ridge(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let reach = optional(run, op, rise.arguments, 0.0, frame)?;
     no_more(op, rise.arguments + 1)?;
     let form = frame.state.form.clone();
-    rise.build(op, frame, [reach, 0.0], |_, face| {
+    rise.build(run, op, frame, [reach, 0.0], |_, face| {
         let along = upright(&form, face.normal()).x_axis;
         Ok(RoofKind::Ridge(Along::Direction(along)))
     })
@@ -246,6 +248,7 @@ impl Rise {
     /// the overhangs of the eaves, down the slope, and of the gables, level.
     pub fn build(
         &self,
+        run: &Run<'_>,
         op: &Operation,
         frame: &mut Frame,
         reach: [f64; 2],
@@ -258,7 +261,7 @@ impl Rise {
         let up = sheet.face(0).normal();
         let axes = upright(&frame.state.form, up);
         let slope = if self.by_height {
-            let unit = over_each(op, &sheet, 1.0, Overhang::default(), &kind)?;
+            let unit = over_each(run, op, &sheet, 1.0, Overhang::default(), &kind)?;
             let height = Form::around(unit, axes, true).scope.size.y;
             checked_slope(op, self.value / height.max(f64::MIN_POSITIVE))?
         } else {
@@ -268,7 +271,7 @@ impl Rise {
             eaves: reach[0] / slope.hypot(1.0),
             gables: reach[1],
         };
-        let solid = over_each(op, &sheet, slope, overhang, &kind)?;
+        let solid = over_each(run, op, &sheet, slope, overhang, &kind)?;
         stand(frame, solid, up);
         frame.state.extra_mut().is_roof = true;
         Ok(())
@@ -276,6 +279,7 @@ impl Rise {
 }
 
 fn over_each(
+    run: &Run<'_>,
     op: &Operation,
     sheet: &Mesh,
     slope: f64,
@@ -284,6 +288,7 @@ fn over_each(
 ) -> Result<Mesh, Fault> {
     let mut solid = Mesh::new();
     for face in sheet.faces() {
+        run.check_time(op.span)?;
         let kind = kind(sheet, face)?;
         let alone = sheet.of_faces([face.index()]);
         let roof = roofed_over(&alone, &kind, slope, overhang);
