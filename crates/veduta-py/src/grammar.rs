@@ -162,6 +162,48 @@ impl GrammarRules {
         });
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
+
+    /// Derives and packs the lots on so many cores, and keeps nothing: how many leaves and polygons
+    /// there were, and the seconds that it took. For benchmarks.
+    #[pyo3(signature = (lots, seeds, cores, *, start=None))]
+    fn pace(
+        &self,
+        py: Python<'_>,
+        lots: Vec<Rings>,
+        seeds: Vec<u64>,
+        cores: usize,
+        start: Option<&str>,
+    ) -> PyResult<(usize, usize, f64)> {
+        let (rule, assets) = (self.start_rule(start)?, self.known_assets());
+        let one = |(lot, &seed): (&Rings, &u64)| {
+            let form = lot_form(lot).ok_or("the lot encloses nothing")?;
+            let options = Options {
+                seed,
+                assets: assets.clone(),
+                ..Options::default()
+            };
+            let state = State::new(form, (seed & 0xffff_ffff) as u32);
+            let tree = derive(&self.code, rule, state, &options).map_err(|fault| fault.message)?;
+            let packed = pack(&tree);
+            let leaves = packed.feature_node.len();
+            Ok::<_, String>((leaves, packed.polygon_feature.len()))
+        };
+        let measured: Result<_, String> = py.detach(|| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();
+            let pool = pool.map_err(|why| why.to_string())?;
+            let began = std::time::Instant::now();
+            let sum = |a: (usize, usize), b: (usize, usize)| Ok((a.0 + b.0, a.1 + b.1));
+            let work = || {
+                lots.par_iter()
+                    .zip(&seeds)
+                    .map(one)
+                    .try_reduce(|| (0, 0), sum)
+            };
+            let (leaves, polygons) = pool.install(work)?;
+            Ok((leaves, polygons, began.elapsed().as_secs_f64()))
+        });
+        measured.map_err(GrammarFault::new_err)
+    }
 }
 
 /// What an expression is where it says so itself; of alternatives, the first speaks for all.

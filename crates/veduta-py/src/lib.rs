@@ -7,6 +7,7 @@ mod derivation;
 mod given;
 mod grammar;
 mod polygons;
+mod roofs;
 mod rules;
 
 #[pymodule]
@@ -14,6 +15,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
     derivation::register(m)?;
+    roofs::register(m)?;
     rules::register(m)?;
     polygons::register(m)
 }
