@@ -1,6 +1,7 @@
 //! `veduta_grammar` for Python: rule files in, columns of polygons out, the GIL released between.
 
 use std::collections::HashMap;
+use std::sync::Arc;
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
@@ -194,7 +195,7 @@ impl GrammarRules {
             format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
         })?;
         let packed = pack(&tree);
-        let surfaces = surfaces(&tree, &packed);
+        let surfaces = surfaces(&tree, &packed, &self.code);
         let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
         Ok(Derived {
             names: surfaces.node.iter().map(name).collect(),
@@ -220,6 +221,12 @@ struct DerivedLot {
     /// What each surface is, as the rules have it; empty where they do not say it.
     feature_class: Vec<String>,
     feature_size_m: Py<PyArray2<f64>>,
+    /// What the rules say of each surface in the attributes `surface`, `solid` and `provenance`,
+    /// and which `surface` it was made in; empty where they say nothing.
+    feature_surface: Vec<String>,
+    feature_within: Vec<String>,
+    feature_solid: Vec<String>,
+    feature_provenance: Vec<String>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
     log_prior: f64,
@@ -249,13 +256,21 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
         polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
         feature_name: derived.names,
-        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
+        feature_class: texts(&surfaces.class),
+        feature_surface: texts(&surfaces.name),
+        feature_within: texts(&surfaces.within),
+        feature_solid: texts(&surfaces.solid),
+        feature_provenance: texts(&surfaces.provenance),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
     };
     Ok(Bound::new(py, lot)?.into_any())
+}
+
+fn texts(column: &[Arc<str>]) -> Vec<String> {
+    column.iter().map(ToString::to_string).collect()
 }
 
 fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {

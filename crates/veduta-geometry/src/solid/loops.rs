@@ -39,7 +39,7 @@ pub fn close_in_plane<'a>(
 
 /// Rings along directed edges, each edge once. Where several go on from a point, the one that
 /// turns left most sharply does, so that rings which touch in a point stay apart.
-fn traced(points: &[DVec3], edges: &[(u32, u32)], normal: DVec3) -> Vec<Vec<u32>> {
+pub fn traced(points: &[DVec3], edges: &[(u32, u32)], normal: DVec3) -> Vec<Vec<u32>> {
     let flat = Flat::new(normal);
     let mut from: HashMap<u32, Vec<usize>> = HashMap::new();
     for (index, edge) in edges.iter().enumerate() {

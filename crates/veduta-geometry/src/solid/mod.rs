@@ -1,6 +1,7 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
 mod cut;
+mod dissolve;
 mod envelope;
 mod extrude;
 mod inner_rectangle;
@@ -14,6 +15,7 @@ mod roofs;
 mod weld;
 
 pub use cut::{cut, Piece, Sides};
+pub use dissolve::{dissolve, Corner, Sheet};
 pub use envelope::{envelope, Bound};
 pub use extrude::extrude;
 pub use inner_rectangle::inner_rectangle;
