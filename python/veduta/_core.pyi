@@ -19,7 +19,6 @@ def triangulate_polygons(
     polygon_offsets: NDArray[np.int64],
     tolerance_m: float,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
-
 def dissolve_polygons(
     positions_m: NDArray[np.float64],
     uv: NDArray[np.float64],

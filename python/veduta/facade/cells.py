@@ -13,15 +13,19 @@ from veduta.facade.rectangles import Rectangle
 
 # Sizes in rule files are whole millimetres.
 DECIMALS = 3
-LEAST_M = 0.5 * 10**-DECIMALS
+LEAST_M = 0.0005
 
 
 @dataclass(frozen=True)
 class Cell:
-    """A rectangle, and what stands in it in the words of the rule file."""
+    """A rectangle, and what stands in it in the words of the rule file.
+
+    upright: the same with wall below and above it, with places for the three heights; or nothing.
+    """
 
     rectangle: Rectangle
     content: str
+    upright: str = ""
 
 
 class StuckError(ValueError):
@@ -58,9 +62,7 @@ def parted(cells: Sequence[Cell], region: Rectangle) -> tuple[list[Cell], list[C
             return kept, dropped
 
 
-def splits(
-    cells: Sequence[Cell], region: Rectangle, rest: str, height: str = "{}"
-) -> str:
+def splits(cells: Sequence[Cell], region: Rectangle, rest: str, height: str = "{}") -> str:
     """The operations that cut the region into the cells; what is between them is `rest`.
 
     Cells keep their sizes, and what is between them takes what is left. `height` makes of a height
@@ -68,6 +70,9 @@ def splits(
     """
     if not cells:
         return rest
+    column = _column(cells, region)
+    if column:
+        return column
     for axis in ("x", "z"):
         groups = _groups(cells, axis)
         low, high = _ends(region, axis)
@@ -77,6 +82,16 @@ def splits(
     if len(cells) > 1:
         raise StuckError(cells)
     return cells[0].content
+
+
+def _column(cells: Sequence[Cell], region: Rectangle) -> str:
+    """A cell that is as wide as the region, with what is below and above it, in its own words."""
+    (cell, *others), place = cells, cells[0].rectangle
+    heights = (place.z0 - region.z0, place.height, region.z1 - place.z1)
+    is_wide = _is_near(place.x0, region.x0) and _is_near(place.x1, region.x1)
+    if others or not is_wide or min(heights) <= LEAST_M:
+        return ""
+    return cell.upright.format(*map(metres, heights))
 
 
 Group = tuple[float, float, list[Cell]]
@@ -95,9 +110,7 @@ def _groups(cells: Sequence[Cell], axis: str) -> list[Group]:
     return groups
 
 
-def _split(
-    groups: Sequence[Group], region: Rectangle, axis: str, rest: str, height: str
-) -> str:
+def _split(groups: Sequence[Group], region: Rectangle, axis: str, rest: str, height: str) -> str:
     at, end = _ends(region, axis)
     parts = []
     shape = "{}" if axis == "x" else height

@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
-from veduta.facade.derived import dissolved
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.plan import Plan, plan_building
-from veduta.facade.rule_file import PHOTO_TEXTURE, RULES, WALL_TEXTURE, Seen, write_rules
+from veduta.facade.rule_file import Known, write_rules
+from veduta.facade.rule_head import PHOTO_TEXTURE, RULES, WALL_TEXTURE
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
-from veduta.facade.textures import FacadeTextures, make_textures
+from veduta.facade.textures import make_textures
 from veduta.grammar.building import build_part as part_of
 from veduta.place.material import Texture
 from veduta.place.part import Features, Part
@@ -26,6 +26,7 @@ from veduta.place.semantics import Provenance
 from veduta.run.errors import InputError
 
 Rect = tuple[float, float, float, float]
+FRONT = "front wall"
 _NO_RECT: Rect = (np.nan, np.nan, np.nan, np.nan)
 
 
@@ -56,9 +57,11 @@ def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id:
     rules = write_rules(plan, textures, _roof_provenance(document), document.source.image)
     images = {PHOTO_TEXTURE: textures.front, WALL_TEXTURE: textures.wall}
     part = _derived(rules.text, plan, images, part_id)
+    facade = document.facade
+    wall_px = (facade.x_px, facade.y_px, facade.width_px, facade.height_px)
     part = replace(
         part,
-        features=_with_photo(part, rules.seen),
+        features=_with_photo(part, rules.known, wall_px),
         attributes={
             "storeysAboveGround": document.storeys,
             "eavesHeight_m": plan.eaves_m,
@@ -75,28 +78,39 @@ def build_part(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: 
 
 
 def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str) -> Part:
-    """The part on a lot of the plan's size, whose cells are the faces that they were cut from."""
+    """The part on a lot of the plan's size."""
     x, y = plan.width_m, plan.depth_m
     lot = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (x, y, 0.0), (0.0, y, 0.0)]
     (derived,) = _core.GrammarRules([(RULES, text)]).derive([[lot]], [0])
     if isinstance(derived, str):
         raise ValueError(f"the rules of {part_id} do not derive: {derived}")
-    return dissolved(part_of(derived, part_id, images), derived.positions_m)
+    part = part_of(derived, part_id, images)
+    # What lies a little beside the photo takes its border: the sides of a narrow balcony.
+    return replace(part, uv=np.clip(part.uv, 0.0, 1.0))
+
+
 def _roof_provenance(document: FacadeDocument) -> Provenance:
     """Of the roof that the photo shows: as the document's extents have it."""
     roofs = [extent.provenance for extent in document.extents if extent.class_ == "roof"]
     return Provenance(roofs[0]) if roofs else Provenance.INFERRED
 
 
-def _with_photo(part: Part, seen: Mapping[str, Seen]) -> Features:
-    """The features, with where the photo shows them."""
-    rows = [seen.get(name) for name in part.features.name]
-    rects = [_NO_RECT if row is None else photo_rect(row.element) for row in rows]
-    heights = [None if row is None else row.seen_height_m for row in rows]
+def _with_photo(part: Part, known: Mapping[str, Known], wall_px: Rect) -> Features:
+    """The features, with where the photo shows them, and the sizes that the plan has for them."""
+    features = part.features
+    rows = [known.get(name) for name in features.name]
+    derived = zip(features.width_m.tolist(), features.height_m.tolist(), strict=True)
+    sizes = [own if row is None else row.size_m for row, own in zip(rows, derived, strict=True)]
+    elements = [None if row is None else row.element for row in rows]
+    rects = [_NO_RECT if element is None else photo_rect(element) for element in elements]
+    rects[features.name.index(FRONT)] = wall_px
+    seen = [np.nan if row is None else row.seen_height_m for row in rows]
     return replace(
-        part.features,
+        features,
+        width_m=np.array([width for width, _ in sizes]),
+        height_m=np.array([height for _, height in sizes]),
         photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
-        seen_height_m=np.array([np.nan if h is None else h for h in heights]),
+        seen_height_m=np.array(seen, dtype=np.float64),
     )
 
 

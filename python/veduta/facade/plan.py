@@ -169,7 +169,7 @@ def _free_line(wanted_m: float, openings: Sequence[Opening]) -> float | None:
     for foot, top in spans:
         if foot < high and top > high:
             high = top
-    for foot, top in reversed(sorted(spans, key=lambda span: span[1])):
+    for foot, top in sorted(spans, key=lambda span: span[1], reverse=True):
         if foot < low and top > low:
             low = foot
     near = low if wanted_m - low < high - wanted_m else high

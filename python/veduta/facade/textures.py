@@ -101,9 +101,7 @@ def _in_photo(whole: PixelBox, photo: Pixels) -> PixelBox:
     height, width = photo.shape[:2]
     x0 = min(max(whole.x0, 0), width - 1)
     y0 = min(max(whole.y0, 0), height - 1)
-    return PixelBox(
-        x0, y0, min(max(whole.x1, x0 + 1), width), min(max(whole.y1, y0 + 1), height)
-    )
+    return PixelBox(x0, y0, min(max(whole.x1, x0 + 1), width), min(max(whole.y1, y0 + 1), height))
 
 
 def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) -> Colours:

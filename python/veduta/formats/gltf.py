@@ -29,7 +29,8 @@ __all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 JPEG_QUALITY = 90
 _FLOAT, _UINT = 5126, 5125
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
-_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP = 9729, 9987, 33071
+_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
+_BESIDE_UV = 1e-3
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 
 
@@ -167,7 +168,7 @@ def _add_primitives(root: dict[str, Any], part: Part, binary: _Bin) -> None:
                 "material": len(materials),
             }
         )
-        materials.append(_material(root, material, binary))
+        materials.append(_material(root, material, binary, _wrap(part.uv[used])))
     root["materials"] = materials
 
 
@@ -190,7 +191,13 @@ def _vertex_features(part: Part) -> NDArray[np.float32]:
     return part.polygon_feature[_polygon_of_vertex(part)].astype(np.float32)
 
 
-def _material(root: dict[str, Any], material: Material, binary: _Bin) -> dict[str, Any]:
+def _wrap(uv: NDArray[np.float32]) -> int:
+    """A texture is repeated where surfaces ask for more than it has."""
+    low, high = float(uv.min()), float(uv.max())
+    return _REPEAT if low < -_BESIDE_UV or high > 1.0 + _BESIDE_UV else _CLAMP
+
+
+def _material(root: dict[str, Any], material: Material, binary: _Bin, wrap: int) -> dict[str, Any]:
     shading: dict[str, Any] = {
         "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
         "metallicFactor": material.metalness,
@@ -205,8 +212,8 @@ def _material(root: dict[str, Any], material: Material, binary: _Bin) -> dict[st
             {
                 "magFilter": _LINEAR,
                 "minFilter": _LINEAR_MIPMAP_LINEAR,
-                "wrapS": _CLAMP,
-                "wrapT": _CLAMP,
+                "wrapS": wrap,
+                "wrapT": wrap,
             }
         )
         textures = root.setdefault("textures", [])

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -14,6 +15,8 @@ from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
+from veduta.grammar.textures import read_textures
+from veduta.place.material import Texture
 from veduta.place.part import Part
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
@@ -36,7 +39,10 @@ class Block:
 
 @dataclass(frozen=True)
 class Job:
-    """A block to work on; `files` are the rule files, `source` is what failures name."""
+    """A block to work on; `files` are the rule files, `source` is what failures name.
+
+    textures: the files of the pictures that the rules name, by those names.
+    """
 
     block: Block
     files: tuple[tuple[str, str], ...]
@@ -44,6 +50,7 @@ class Job:
     source: str
     out: Path
     work: Path
+    textures: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -75,10 +82,11 @@ def run_block(job: Job) -> BlockResult:
     result = BlockResult()
     with timed_step(result.steps, "derive"):
         derived = _derive_all(rules, job)
+    textures = read_textures(job.textures)
     with timed_step(result.steps, "write"):
         for lot, found in zip(job.block.lots, derived, strict=True):
             try:
-                part = _part_of(lot, found)
+                part = _part_of(lot, found, textures)
             except NothingBuiltError as fault:
                 subject = f"{job.source}: {lot.name}"
                 result.failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
@@ -153,10 +161,10 @@ def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
     return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]
 
 
-def _part_of(lot: Lot, derived: _core.DerivedLot | str) -> Part:
+def _part_of(lot: Lot, derived: _core.DerivedLot | str, textures: Mapping[str, Texture]) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
-    return build_part(derived, lot.id)
+    return build_part(derived, lot.id, textures)
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.grammar.dissolving import dissolved
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -40,13 +41,14 @@ def build_part(
 ) -> Part:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
-    textures: by the names that the rules have for them; others are left out and noted. Surfaces that are none in single precision (slivers, lines that cross) are left out and noted.
+    textures: by the names that the rules have for them; others are left out and noted. Surfaces
+    that are none in single precision (slivers, lines that cross) are left out and noted.
     """
     every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
     if not every.any():
         raise NothingBuiltError("the rules leave nothing on it")
     shown = textures or {}
-    part = _part(derived, part_id, every, shown)
+    part = _joined(_part(derived, part_id, every, shown), derived)
     if _has_triangles(part):
         return part
     kept = _sound(part)
@@ -79,6 +81,16 @@ def _part(
         materials=materials,
         notes=_notes(derived, int((~kept).sum()), textures),
     )
+
+
+def _joined(part: Part, derived: _core.DerivedLot) -> Part:
+    """With the cells of surfaces that the rules name as the faces that they were cut from."""
+    if not any(derived.feature_surface):
+        return part
+    try:
+        return dissolved(part, derived.positions_m)
+    except _core.PolygonFault:  # a sliver: the polygons are looked at one by one
+        return part
 
 
 def _has_triangles(part: Part) -> bool:

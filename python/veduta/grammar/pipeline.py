@@ -21,6 +21,7 @@ from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import place_of
 from veduta.grammar.report import derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
@@ -81,11 +82,15 @@ def run_derive(
         rules = read_rules(find_rules(rules_name))
         options = check_options(compile_rules(rules), rules.path, options)
         files = tuple(rules.texts)
+        textures = find_textures(rules.path, [text for _, text in files])
+        read_textures(textures)
         lots = _lots(lots_path, options)
     blocks = _blocks(lots)
+    pictures: JsonValue = textures_digests(textures)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
-        block.name: _key("block", options, [files_digest(files), _told(block)]) for block in blocks
+        block.name: _key("block", options, [files_digest(files), _told(block), pictures])
+        for block in blocks
     }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
     failed: JsonValue = [failure.model_dump() for failure in lots.failures]
@@ -98,7 +103,7 @@ def run_derive(
         if result.up_to_date:
             waiting = []
         jobs_to_do = [
-            Job(b, files, options, source, out, folder.work_path(b.name)) for b in waiting
+            Job(b, files, options, source, out, folder.work_path(b.name), textures) for b in waiting
         ]
         with timed_step(steps, "build"):
             _process(jobs_to_do, folder, keys, result, progress, jobs)

@@ -1,4 +1,8 @@
-"""A part whose surfaces splits have cut into cells, as the faces that they were cut from."""
+"""A part whose surfaces splits have cut into cells, as the faces that they were cut from.
+
+Cells share no corners with their neighbours (the corner of one lies on the edge of another). As
+faces they do, so that what the rules close is closed in the part, to the last bit.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +16,12 @@ from veduta.place.part import Part
 
 # Corners of cells that are nearer to each other are one (m).
 NEAR_M = 1e-6
-# Places are whole multiples of this (m): what the engine leaves beside 0 is not before the wall.
+# Places are whole multiples of this (m): what the engine leaves beside 0 is 0.
 GRID_M = 1e-6
 
 
 def dissolved(part: Part, positions_m: NDArray[np.float64]) -> Part:
-    """Cells of one surface, material and plane become one polygon; shells close exactly.
+    """The part with the cells of one surface, material and plane as one polygon.
 
     positions_m: (v, 3), those of the part in double precision.
     """
@@ -39,7 +43,7 @@ def dissolved(part: Part, positions_m: NDArray[np.float64]) -> Part:
     return replace(
         part,
         positions_m=(np.round(places / GRID_M) * GRID_M + 0.0).astype(np.float32),
-        uv=np.clip(uv, 0.0, 1.0).astype(np.float32),
+        uv=uv.astype(np.float32),
         ring_offsets=rings,
         polygon_offsets=polygons,
         polygon_feature=feature.astype(np.int32),
