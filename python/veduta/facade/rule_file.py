@@ -15,13 +15,21 @@ from pathlib import Path
 import numpy as np
 
 from veduta import _core
-from veduta.facade.cells import Cell, metres, splits
+from veduta.facade.cells import LEAST_M, Cell, metres, splits
 from veduta.facade.document import Element
 from veduta.facade.dormers import LID_M, LID_SIDE_M, Dormer
 from veduta.facade.layout import Opening
 from veduta.facade.plan import Band, Plan
 from veduta.facade.rectangles import Rectangle
-from veduta.facade.rule_head import DEEP_M, RULES, SHALLOW_M, WIDE_M, floor_attribute, rule_head
+from veduta.facade.rule_head import (
+    DEEP_M,
+    RULES,
+    SHALLOW_M,
+    WIDE_M,
+    floor_attribute,
+    floor_foot,
+    rule_head,
+)
 from veduta.facade.textures import FacadeTextures
 from veduta.place.semantics import Provenance
 
@@ -159,9 +167,16 @@ class _Writer:
         name, place = self._name(balcony), balcony.rectangle
         out = DEEP_M if place.width >= WIDE_M else SHALLOW_M
         self.known[f"floor and sides of {name}"] = Known((place.width, out))
-        sizes = (place.x0, place.z0, place.width, place.height)
+        x, w, h = map(metres, (place.x0, place.width, place.height))
         said = balcony.element.provenance
-        return f'Balcony("{name}", "{said}", {", ".join(map(metres, sizes))})'
+        return f'Balcony("{name}", "{said}", {x}, {self._height(place.z0)}, {w}, {h})'
+
+    def _height(self, z_m: float) -> str:
+        """A height over the ground, told from the foot of its floor or from the eaves."""
+        levels = [(band.foot_m, floor_foot(band)) for band in self.plan.bands]
+        levels.append((self.plan.eaves_m, "eaves"))
+        foot_m, name = [level for level in levels if level[0] <= z_m + LEAST_M][-1]
+        return metres(z_m) if name == "0" else f"{name} + {metres(z_m - foot_m)}"
 
     def _dormer(self, number: int, dormer: Dormer) -> Cell:
         self.parts |= {"dormer", "window", "panel", "reveal"}
@@ -182,9 +197,14 @@ class _Writer:
             name, place = f"chimney {number}", chimney.front
             self.known[name] = Known((place.width, place.height), chimney.element)
             self.known[f"sides and back of {name}"] = Known(_NO_SIZE)
-            sizes = (place.x0, place.z0, place.width, place.height, chimney.near_m, chimney.far_m)
+            high = place.z1 - self._roof_edge_m()
+            sizes = (place.x0, place.width, high, chimney.near_m, chimney.far_m)
             calls += f' [ Chimney("{name}", {", ".join(map(metres, sizes))}) ]'
         return calls
+
+    def _roof_edge_m(self) -> float:
+        mansard = self.plan.mansard
+        return self.plan.eaves_m if mansard is None else mansard.break_m
 
 
 @cache

@@ -30,6 +30,11 @@ def floor_attribute(band: Band) -> str:
     return "groundFloor" if band.floor == 0 else f"floor{band.floor}"
 
 
+def floor_foot(band: Band) -> str:
+    """The constant that has the height of a floor's foot over the ground."""
+    return "0" if band.floor == 0 else f"foot{band.floor}"
+
+
 def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str]) -> str:
     """The comment and the attributes; `parts` are those of `parts/*.cga` that the file has."""
     text = _HEAD.format(
@@ -42,7 +47,7 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
             f"attr {floor_attribute(band)} = {metres(band.top_m - band.foot_m)}\n"
             for band in plan.bands
         ),
-        eaves=" + ".join(map(floor_attribute, plan.bands)),
+        feet=_feet(plan),
         front=PHOTO_TEXTURE,
         wall=WALL_TEXTURE,
         photo_width=f"{textures.width_m:.7g}",
@@ -65,7 +70,20 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
         text += _DORMER
     if "balcony" in parts:
         text += _BALCONY + (_ON_THE_WALL if plan.mansard is None else _ON_THE_ROOF)
-    return text + (_CHIMNEY if "chimney" in parts else "")
+    if "chimney" in parts:
+        edge = "eaves" if plan.mansard is None else "eaves + lowerRoof"
+        text += _CHIMNEY.format(edge=edge)
+    return text
+
+
+def _feet(plan: Plan) -> str:
+    """The constants that have the heights of the feet of the floors, and of the eaves."""
+    names = [*map(floor_foot, plan.bands[1:]), "eaves"]
+    text, before = "", ""
+    for band, name in zip(plan.bands, names, strict=True):
+        text += f"const {name} = {before}{floor_attribute(band)}\n"
+        before = f"{name} + "
+    return text
 
 
 def _colours(colours: Colours, parts: Set[str]) -> str:
@@ -102,8 +120,9 @@ version "2024.0"
 
 attr width = {width}
 attr depth = {depth}
-{floors}const eaves = {eaves}
-
+{floors}
+// Where floors and roof begin, over the ground.
+{feet}
 // What a surface is called, which solid beside the body it closes, and where it comes from:
 // measured in the photo, inferred from what was measured, or invented.
 @Hidden
@@ -160,6 +179,7 @@ behind(y) = case y <= eaves : 0 else : min(y + slab - eaves, lowerRoof) / tan(ro
 """
 _ON_THE_WALL = "behind(y) = 0\n"
 _CHIMNEY = f"""
-// How far a chimney reaches into the roof.
+// Chimneys stand on this edge of the roof, and reach so far down into it.
+const roofEdge = {{edge}}
 attr chimneyFoot = {metres(FOOT_M)}
 """

@@ -55,12 +55,18 @@ def textures_digests(files: Mapping[str, str]) -> dict[str, JsonValue]:
 
 def read_textures(files: Mapping[str, str]) -> dict[str, Texture]:
     """The pictures by the names that rules have for them; InputError where one cannot be read."""
-    return {name: _read(path) for name, path in files.items()}
+    return {name: _read(path, *_changed(path)) for name, path in files.items()}
 
 
-@lru_cache(maxsize=MAX_TEXTURES)
-def _read(path: str) -> Texture:
-    """Read once in each process."""
+def _changed(path: str) -> tuple[int, int]:
+    """When a picture and its mask were last written (ns); 0 where there is none."""
+    mask = Path(path).with_name(mask_name(path))
+    return os.stat(path).st_mtime_ns, mask.stat().st_mtime_ns if mask.is_file() else 0
+
+
+@lru_cache(maxsize=16)
+def _read(path: str, _written: int, _mask_written: int) -> Texture:
+    """Read once in each process, unless it changes."""
     pixels = read_image(Path(path)).pixels
     height, width = pixels.shape[:2]
     if height * width > MAX_PIXELS:
