@@ -130,6 +130,7 @@ def test_rules_alone_say_what_surfaces_are() -> None:
         ({"setback": 0.0}, None),
         ({"setback": 0.35}, None),
         ({"roofAngle": 68.0}, None),
+        ({"roofAngle": 55.0}, None),
         ({"lowerRoof": 4.0}, None),
         ({"slab": 0.25, "railing": 0.1, "deep": 1.0}, None),
         ({"frame": 0.1, "lid": 0.2, "cheek": 0.2}, None),
