@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from itertools import pairwise
+from math import cos, radians, sin
 
 import numpy as np
 import pytest
@@ -20,6 +22,7 @@ from veduta.facade.plan import plan_building
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import RULES
 from veduta.grammar.building import build_part
+from veduta.place.material import Texture
 from veduta.place.part import Part
 
 LOT = [(0.0, 0.0, 0.0), (12.0, 0.0, 0.0), (12.0, 10.0, 0.0), (0.0, 10.0, 0.0)]
@@ -29,13 +32,18 @@ def rules_of(document: FacadeDocument) -> str:
     return build_model(document, sample_photo(document), "sample").rules
 
 
-def derived(text: str, attributes: dict[str, float] | None = None) -> Part:
-    """The rules alone, as `veduta grammar derive` takes them, without textures."""
+def derived(
+    text: str,
+    attributes: dict[str, float] | None = None,
+    lot: list[tuple[float, float, float]] = LOT,
+    textures: Mapping[str, Texture] | None = None,
+) -> Part:
+    """The rules alone, as `veduta grammar derive` takes them."""
     (found,) = _core.GrammarRules([(RULES, text)]).derive(
-        [[LOT]], [0], attributes=[dict(attributes or {})]
+        [[lot]], [0], attributes=[dict(attributes or {})]
     )
     assert not isinstance(found, str), found
-    return build_part(found, "sample")
+    return build_part(found, "sample", textures)
 
 
 def points_of(part: Part, name: str) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:
@@ -119,6 +127,22 @@ def test_rules_alone_say_what_surfaces_are() -> None:
             getattr(alone.features, column), getattr(model.features, column)
         )
     assert alone.positions_m.tobytes() == model.positions_m.tobytes()
+
+
+def test_the_building_turns_with_its_lot() -> None:
+    document = sample_document()
+    model = build_model(document, sample_photo(document), "sample")
+    angle = radians(30.0)
+    turn = np.array([[cos(angle), sin(angle)], [-sin(angle), cos(angle)]])
+    turned = [(*(np.array([x, y]) @ turn).tolist(), 0.0) for x, y, _ in LOT]
+    there = derived(model.rules, lot=turned, textures=model.textures)
+    assert_closed(there)
+    own = model.part
+    np.testing.assert_allclose(
+        there.positions_m[:, :2], own.positions_m[:, :2].astype(np.float64) @ turn, atol=1e-5
+    )
+    np.testing.assert_allclose(there.positions_m[:, 2], own.positions_m[:, 2], atol=1e-5)
+    np.testing.assert_allclose(np.clip(there.uv, 0, 1), own.uv, atol=1e-5)
 
 
 @pytest.mark.parametrize(
