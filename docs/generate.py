@@ -7,6 +7,7 @@ written, and the exit code is 1 when a page is out of date.
 from __future__ import annotations
 
 import dataclasses
+import functools
 import sys
 from collections.abc import Callable, Sequence
 from pathlib import Path
@@ -14,13 +15,16 @@ from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import tyro
 from pydantic import BaseModel
+from style_tables import attribute_rows
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
-from veduta.cli.grammar_call import DeriveCall
+from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
+from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
+from veduta.grammar.rules import style_names
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
@@ -58,6 +62,8 @@ def _model_rows(model: type[BaseModel]) -> list[Sequence[str]]:
 def _takes(schema: dict[str, Any]) -> str:
     if schema.get("type") == "array":
         return f"{schema['minItems']} numbers"
+    if schema.get("format") == "path":
+        return "file"
     if "enum" in schema:
         return ", ".join(f"`{value}`" for value in schema["enum"])
     bounds = [text.format(schema[key]) for key, text in _BOUNDS.items() if key in schema]
@@ -94,6 +100,25 @@ def classes_table() -> str:
     return table(("label", "class", "colour"), rows)
 
 
+def assets_table() -> str:
+    """What Veduta brings along for `i`, with its size and triangles by level of detail."""
+    rows = []
+    for name in builtin_names():
+        levels = [builtin(f"{name}@{level}") for level in range(LEVELS)]
+        assets = [asset for asset in levels if asset is not None]
+        low, high = assets[0].box_m
+        size = " x ".join(f"{side:.2f}" for side in (high - low).tolist())
+        triangles = " / ".join(str(len(asset.shared_mesh.indices)) for asset in assets)
+        parts = ", ".join(slot.name for slot in assets[0].slots)
+        rows.append((f"`{name}`", described(name), size, parts, triangles))
+    return table(("name", "what it is", "x, y, z (m)", "parts", "triangles"), rows)
+
+
+def attributes_table(style: str) -> str:
+    """What a style takes, group by group."""
+    return table(("attribute", "takes", "default", "what it is"), attribute_rows(style))
+
+
 def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     """A markdown table."""
     lines = [columns, ["---"] * len(columns), *rows]
@@ -101,13 +126,19 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
 
 
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
+    "assets.md": {"assets": assets_table},
     "demo.md": {"options": lambda: options_table(DemoCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),
         "files": files_table,
         "classes": classes_table,
     },
-    "grammar.md": {"options": lambda: options_table(DeriveCall)},
+    "grammar.md": {
+        "options": lambda: options_table(DeriveCall),
+        "sample": lambda: options_table(SampleCall),
+        "tree": lambda: options_table(TreeCall),
+    },
+    "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},
 }
 
 

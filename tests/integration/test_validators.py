@@ -15,7 +15,11 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.model import build_part
 from veduta.facade.options import ModelSizes
 from veduta.formats.cityjson import write_cityjson
-from veduta.formats.gltf import write_glb
+from veduta.formats.gltf import read_glb, write_glb
+from veduta.grammar.options import GrammarOptions
+from veduta.grammar.pipeline import run_derive
+from veduta.place.semantics import SemanticClass
+from veduta.run.progress import Progress
 
 ROOT = Path(__file__).resolve().parents[2]
 CJVAL_COMMAND = "cargo install cjval --features build-binary --root build/cjval"
@@ -70,6 +74,27 @@ def test_files_are_valid(tmp_path: Path, name: str, setback_m: float) -> None:
     assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
     report = validate_city(tmp_path / "model.city.json")
     assert (report["valid"], report["has_warnings"]) == (True, False), report["checks"]
+
+
+def test_repeated_assets_are_valid(tmp_path: Path) -> None:
+    rules = tmp_path / "rules.cga"
+    rules.write_text(
+        "Lot --> extrude(6) comp(f) { side : Front | all : Plain. }\n"
+        "Front --> split(x) { { ~2 : split(y) { { ~3 : Bay }* } }* }\n"
+        'Bay --> set(material.name, "window") i("builtin/window-casement@" + split.index)\n'
+    )
+    out = tmp_path / "out"
+    options = GrammarOptions()
+    lots = tmp_path / "lots.geojson"
+    square = [[0, 0], [600, 0], [600, 20], [0, 20], [0, 0]]
+    lots.write_text(json.dumps({"type": "Polygon", "coordinates": [square]}))
+    run_derive(str(rules), lots, out, options, Progress(quiet=True), jobs=1)
+    (model,) = out.glob("parts/*/*.glb")
+    issues = validate_gltf(model)
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    part = read_glb(model)
+    assert part.instances is not None
+    assert len(part.instances) == int((part.features.class_code == SemanticClass.WINDOW.code).sum())
 
 
 def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:

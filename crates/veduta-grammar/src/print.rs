@@ -223,6 +223,13 @@ impl Printer<'_> {
                     self.body(body);
                     self.word("}");
                 }
+                Block::Operands { first, second, .. } => {
+                    self.word("{");
+                    self.body(first);
+                    self.word("|");
+                    self.body(second);
+                    self.word("}");
+                }
                 Block::Cells { cells, repeat, .. } => {
                     self.cells(cells, Self::body);
                     if *repeat {

@@ -206,7 +206,7 @@ fn an_edit_takes_a_choice_or_a_shape_away() {
     let free = try_derive(text, &options_of(7)).unwrap();
     let wanted = if names(&free)[2] == "B" { 1 } else { 0 };
     let choose = Edit {
-        choices: vec![wanted],
+        choices: vec![Some(wanted)],
         ..Edit::default()
     };
     let delete = Edit {
@@ -263,8 +263,8 @@ fn what_does_not_derive_yet_is_said_before_anything_is_derived() {
         faults.map(|fault| fault.message).collect::<Vec<_>>()
     };
     assert_eq!(
-        wrong("Lot --> rectify(3)"),
-        ["`rectify` does not derive yet"]
+        wrong("Lot --> reduceGeometry(3)"),
+        ["`reduceGeometry` does not derive yet"]
     );
     assert_eq!(
         wrong("Lot --> s(material.shininess, 1, 1)"),

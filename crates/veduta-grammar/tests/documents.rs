@@ -1,8 +1,25 @@
-//! The page on the language keeps up with the reader.
+//! The pages on the language and its operations keep up with the reader and the engine.
+
+#![allow(clippy::panic, clippy::unwrap_used)] // helpers of tests
 
 use veduta_grammar::builtins::operations::OPERATIONS;
 use veduta_grammar::engine::operation_names;
 use veduta_grammar::{check, format, limits, Program, Source};
+
+mod support;
+
+/// The pages on operations.
+const PAGES: &[&str] = &[
+    include_str!("../../../docs/operations/context.md"),
+    include_str!("../../../docs/operations/creation.md"),
+    include_str!("../../../docs/operations/flow.md"),
+    include_str!("../../../docs/operations/inlining.md"),
+    include_str!("../../../docs/operations/manipulation.md"),
+    include_str!("../../../docs/operations/subdivision.md"),
+    include_str!("../../../docs/operations/textures.md"),
+    include_str!("../../../docs/operations/transformations.md"),
+];
+const OPERATIONS_PAGE: &str = include_str!("../../../docs/operations/index.md");
 
 const PAGE: &str = include_str!("../../../docs/grammar-language.md");
 
@@ -31,6 +48,46 @@ fn the_page_says_what_derives() {
         let cells: Vec<&str> = row.unwrap_or_default().split('|').collect();
         let derives = operation_names().any(|name| name == operation.name);
         assert_eq!(cells[5].trim().starts_with("yes"), derives, "{start}");
+    }
+}
+
+#[test]
+fn examples_print_what_their_pages_say() {
+    for page in PAGES {
+        for section in page.split("\n## ").skip(1) {
+            let name = section.lines().next().unwrap_or_default();
+            let example = section.split("```cga\n").nth(1);
+            let example = example.and_then(|rest| rest.split("```").next());
+            let said = section.split("\nprints `").nth(1);
+            let said = said.and_then(|rest| rest.split('`').next());
+            let (Some(example), Some(said)) = (example, said) else {
+                panic!("{name} has no example with what it prints");
+            };
+            assert!(
+                example.contains(name),
+                "the example of {name} does not use it"
+            );
+            assert_eq!(support::said(example).join(", "), said, "{name}");
+        }
+    }
+}
+
+#[test]
+fn every_operation_that_derives_has_a_section_and_no_other() {
+    let sections = PAGES.iter().flat_map(|page| page.split("\n## ").skip(1));
+    let sections: Vec<&str> = sections
+        .filter_map(|section| section.lines().next())
+        .collect();
+    for operation in OPERATIONS {
+        let derives = operation_names().any(|name| name == operation.name);
+        let is_missing = OPERATIONS_PAGE.contains(&format!("`{}`", operation.name));
+        let has_section = sections.contains(&operation.name);
+        assert_eq!(has_section, derives, "{}", operation.name);
+        assert!(
+            derives || is_missing,
+            "{} is not named as missing",
+            operation.name
+        );
     }
 }
 

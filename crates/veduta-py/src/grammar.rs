@@ -1,41 +1,59 @@
 //! `veduta_grammar` for Python: rule files in, columns of polygons out, the GIL released between.
 
 use std::collections::HashMap;
-use std::sync::Arc;
+use std::sync::{Arc, RwLock};
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
+use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options, Packed, State,
-    Surfaces, Value,
+    asset_names, derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault,
+    Limits, Options, Packed, State, Surfaces, Tree, Value,
 };
-use veduta_grammar::{check, Source};
+use veduta_grammar::shape::Asset;
+use veduta_grammar::{check, Checked, Program, Source, Style};
 
+use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
+// Told, and the name of the asset.
+create_exception!(_core, AssetWanted, GrammarFault);
 
-type Rings = Vec<Vec<[f64; 3]>>;
+pub type Rings = Vec<Vec<[f64; 3]>>;
 
 /// Checked rule files, ready to derive.
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
-struct GrammarRules {
-    code: Code,
-    text: Source,
-    has_imports: bool,
+pub struct GrammarRules {
+    pub code: Code,
+    /// The files, as faults number them.
+    sources: Vec<Source>,
+    assets: RwLock<Arc<Assets>>,
+    styles: Vec<String>,
 }
+
+pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 
 #[pymethods]
 impl GrammarRules {
     /// `files` are name and text of each file, the main one first; the others are what it may
     /// import, under the names in its import statements.
+    /// `style` is one of the main file's; `Default` where it is None.
     #[new]
-    fn new(py: Python<'_>, files: Files) -> PyResult<Self> {
-        py.detach(|| read(&files)).map_err(GrammarFault::new_err)
+    #[pyo3(signature = (files, style=None))]
+    fn new(py: Python<'_>, files: Files, style: Option<&str>) -> PyResult<Self> {
+        py.detach(|| read(&files, style))
+            .map_err(GrammarFault::new_err)
+    }
+
+    /// The styles of the main file, `Default` first.
+    #[getter]
+    fn styles(&self) -> Vec<String> {
+        self.styles.clone()
     }
 
     /// Names of the rules that need no arguments, the start rule first.
@@ -43,9 +61,9 @@ impl GrammarRules {
     fn starts(&self) -> Vec<String> {
         let mut names: Vec<usize> = self.code.start.into_iter().collect();
         let all = 0..self.code.rules.len();
-        names.extend(
-            all.filter(|rule| self.code.rules[*rule].params == 0 && Some(*rule) != self.code.start),
-        );
+        names.extend(all.filter(|rule| {
+            self.code.rules[*rule].params.is_empty() && Some(*rule) != self.code.start
+        }));
         let name = |rule: usize| self.code.rules[rule].name.to_string();
         names.into_iter().map(name).collect()
     }
@@ -62,9 +80,40 @@ impl GrammarRules {
             .collect()
     }
 
+    /// The names of assets that stand in the rules, and whether there are others that are computed.
+    #[getter]
+    fn asset_names(&self) -> (Vec<String>, bool) {
+        let found = asset_names(&self.code);
+        let written = found.written.iter().map(ToString::to_string).collect();
+        (written, found.computed)
+    }
+
+    /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
+    /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
+    /// `box_m`: (2, 3) the corners of the box that fills a scope.
+    fn add_asset(
+        &self,
+        name: &str,
+        points: PyReadonlyArray2<'_, f64>,
+        corners: PyReadonlyArray1<'_, u32>,
+        offsets: PyReadonlyArray1<'_, i64>,
+        box_m: PyReadonlyArray2<'_, f64>,
+    ) -> PyResult<()> {
+        let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
+        let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
+        let ends = places(&box_m).ok_or_else(fault)?;
+        let [low, high] = ends[..] else {
+            return Err(fault());
+        };
+        let asset = Asset::new(name.into(), mesh, (low.into(), high.into())).ok_or_else(fault)?;
+        let mut known = self.assets.write().map_err(|_| fault())?;
+        Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
+        Ok(())
+    }
+
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
-    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn derive<'py>(
         &self,
@@ -73,14 +122,16 @@ impl GrammarRules {
         seeds: Vec<u64>,
         start: Option<&str>,
         attributes: Option<Vec<HashMap<String, Given>>>,
+        edits: Option<Vec<Vec<GivenEdit>>>,
         seconds: f64,
         shapes: usize,
     ) -> PyResult<Vec<Bound<'py, PyAny>>> {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
-        if seeds.len() != lots.len() || given.len() != lots.len() {
+        let edits = edits.unwrap_or_else(|| lots.iter().map(|_| Vec::new()).collect());
+        if [seeds.len(), given.len(), edits.len()] != [lots.len(); 3] {
             return Err(PyValueError::new_err(
-                "each lot needs a seed and attributes",
+                "each lot needs a seed, attributes and edits",
             ));
         }
         let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
@@ -89,16 +140,20 @@ impl GrammarRules {
             shapes,
             ..Limits::default()
         };
-        let found: Vec<Result<Derived, String>> = py.detach(|| {
+        let assets = self.known_assets();
+        let found: Vec<Result<Derived, Failed>> = py.detach(|| {
             lots.par_iter()
                 .zip(&seeds)
                 .zip(given)
-                .map(|((lot, &seed), attributes)| {
+                .zip(edits)
+                .map(|(((lot, &seed), attributes), edits)| {
                     let options = Options {
                         seed,
                         limits,
                         attributes,
-                        ..Options::default()
+                        assets: assets.clone(),
+                        overrides: overrides_of(edits),
+                        neighbours: Vec::new(),
                     };
                     self.one(lot, rule, &options)
                 })
@@ -110,7 +165,7 @@ impl GrammarRules {
 
 /// A value given from outside.
 #[derive(FromPyObject)]
-enum Given {
+pub enum Given {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -126,9 +181,27 @@ impl From<Given> for Value {
     }
 }
 
-fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
+pub fn values(given: HashMap<String, Given>) -> HashMap<String, Value> {
     let each = given.into_iter();
     each.map(|(name, value)| (name, value.into())).collect()
+}
+
+/// A value for outside; an array is what `str` makes of it.
+#[derive(IntoPyObject)]
+pub enum GivenBack {
+    Bool(bool),
+    Number(f64),
+    Text(String),
+}
+
+impl From<&Value> for GivenBack {
+    fn from(value: &Value) -> Self {
+        match value {
+            Value::Bool(is) => Self::Bool(*is),
+            Value::Number(number) => Self::Number(*number),
+            Value::Text(_) | Value::Array(_) => Self::Text(value.to_string()),
+        }
+    }
 }
 
 /// What an expression is where it says so itself; of alternatives, the first speaks for all.
@@ -142,35 +215,82 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-struct Derived {
+/// The rows of three numbers; None where they have another count.
+fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
+    let rows = points.as_array();
+    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
+    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
+}
+
+/// Faces over points; None where a number leads to none.
+fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
+    let places = places(points)?;
+    if corners
+        .iter()
+        .any(|&corner| corner as usize >= places.len())
+    {
+        return None;
+    }
+    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
+    for ends in offsets.windows(2) {
+        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
+        let face = corners.get(range).filter(|face| face.len() >= 3)?;
+        mesh.push_face(&[face]);
+    }
+    Some(mesh)
+}
+
+/// Why there is nothing, and the asset that is wanted where one is.
+pub struct Failed {
+    pub why: String,
+    pub missing_asset: Option<String>,
+}
+
+pub struct Derived {
     packed: Packed,
     surfaces: Surfaces,
     names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-fn read(files: &Files) -> Result<GrammarRules, String> {
+fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
-    let (name, text) = files.first().ok_or_else(missing)?;
     let program = program_of(files).ok_or_else(missing)?;
     let checked = check(&program);
     if checked.has_errors() {
         return Err(checked.render(&program));
     }
-    let lowered = lower(&program, &checked);
+    let styles = style_names(&program, &checked);
+    let wanted = style.unwrap_or("Default");
+    let style = styles.iter().position(|one| one == wanted);
+    let style = style.ok_or_else(|| format!("{} has no style `{wanted}`", files[0].0))?;
+    let lowered = lower_in_style(&program, &checked, style);
     if lowered.has_errors() {
         return Err(rendered(&program, &lowered.diagnostics));
     }
     Ok(GrammarRules {
         code: lowered.code,
-        text: Source::new(name.clone(), text.clone()),
-        has_imports: program.units.len() > 1,
+        sources: program.units.into_iter().map(|unit| unit.source).collect(),
+        assets: RwLock::default(),
+        styles,
     })
 }
 
+fn style_names(program: &Program, checked: &Checked) -> Vec<String> {
+    let main = checked.definitions.first();
+    let styles = main.into_iter().flat_map(|defined| &defined.styles);
+    let name = |style: &Style| {
+        style
+            .name
+            .map_or("Default", |name| program.names.text(name))
+    };
+    styles.map(|style| name(style).to_string()).collect()
+}
+
 impl GrammarRules {
-    fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
+    pub fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
         let found = match name {
             Some(name) => self.code.rule_named(name),
             None => self.code.start,
@@ -182,29 +302,64 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
-    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, String> {
-        let form = lot_form(lot).ok_or("the lot encloses nothing")?;
-        let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
-        let tree = derive(&self.code, rule, start, options).map_err(|fault| {
-            let name = self.text.name();
-            if self.has_imports {
-                // A fault does not say which file it is in.
-                return format!("{name} or what it imports: {}", fault.message);
-            }
-            let place = self.text.position(fault.span.start);
-            format!("{name}:{}:{}: {}", place.line, place.column, fault.message)
+    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
+        let form = lot_form(lot).ok_or_else(|| Failed {
+            why: "the lot encloses nothing".to_string(),
+            missing_asset: None,
         })?;
-        let packed = pack(&tree);
-        let surfaces = surfaces(&tree, &packed, &self.code);
-        let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
-        Ok(Derived {
-            names: surfaces.node.iter().map(name).collect(),
-            packed,
-            surfaces,
-            log_prior: tree.log_prior,
-            messages: tree.messages,
-        })
+        let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
+        let tree = derive(&self.code, rule, start, options).map_err(|fault| Failed {
+            why: self.told(&fault),
+            missing_asset: fault.missing_asset.map(|name| name.to_string()),
+        })?;
+        Ok(derived_of(&tree, &self.code))
     }
+
+    /// A fault with its place in the file.
+    pub fn told(&self, fault: &Fault) -> String {
+        let source = &self.sources[fault.unit.unwrap_or(0)];
+        let place = source.position(fault.span.start);
+        let (name, message) = (source.name(), &fault.message);
+        format!("{name}:{}:{}: {message}", place.line, place.column)
+    }
+
+    /// A fault as Python has it: with the name of the asset where one is wanted.
+    pub fn raised(&self, fault: &Fault) -> PyErr {
+        match &fault.missing_asset {
+            Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
+            None => GrammarFault::new_err(self.told(fault)),
+        }
+    }
+
+    /// The assets that are known by now.
+    pub fn known_assets(&self) -> Arc<Assets> {
+        self.assets
+            .read()
+            .map_or_else(|_| Arc::default(), |known| known.clone())
+    }
+}
+
+/// The columns of the leaves of a tree.
+pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
+    let packed = pack(tree);
+    let surfaces = surfaces(tree, &packed, code);
+    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
+    Derived {
+        names: surfaces.node.iter().map(name).collect(),
+        packed,
+        surfaces,
+        log_prior: tree.log_prior,
+        messages: tree.messages.clone(),
+        edit_faults: edit_faults(tree),
+    }
+}
+
+/// An asset that a lot's rules want and that is not known yet: add it and derive again.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+struct MissingAsset {
+    name: String,
+    /// What the lot's failure is where there is no such asset.
+    why: String,
 }
 
 /// The columns of one lot.
@@ -229,20 +384,42 @@ struct DerivedLot {
     feature_provenance: Vec<String>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
+    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
+    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
+    instance_feature: Py<PyArray1<i32>>,
+    instance_look: Py<PyArray1<i32>>,
+    instance_asset: Py<PyArray1<i32>>,
+    instance_transform: Py<PyArray2<f64>>,
+    asset_names: Vec<String>,
     log_prior: f64,
     messages: Vec<String>,
+    /// Path and fault of each edit that could not be done.
+    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<Bound<'py, PyAny>> {
-    let derived = match found {
-        Ok(derived) => derived,
-        Err(why) => return Ok(why.into_pyobject(py)?.into_any()),
-    };
+fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
+    match found {
+        Ok(derived) => lot_to_python(py, derived),
+        Err(failed) => match failed.missing_asset {
+            Some(name) => {
+                let why = failed.why;
+                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
+            }
+            None => Ok(failed.why.into_pyobject(py)?.into_any()),
+        },
+    }
+}
+
+pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
     let (packed, surfaces) = (derived.packed, derived.surfaces);
-    let of_polygon = |column: &[u32]| -> Vec<i32> {
-        let leaves = packed.polygon_feature.iter();
-        leaves.map(|&leaf| column[leaf as usize] as i32).collect()
+    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
+        let each = leaves.iter();
+        each.map(|&leaf| column[leaf as usize] as i32).collect()
     };
+    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
+    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
+    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
+    let name = |asset: &Arc<Asset>| asset.name.to_string();
     let looks = packed.looks.iter().map(|look| {
         let [r, g, b] = look.colour;
         let texture = look.texture.as_ref().map(ToString::to_string);
@@ -263,8 +440,14 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, String>) -> PyResult<B
         feature_provenance: texts(&surfaces.provenance),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
+        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
+        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
+        instance_asset: assets.into_pyarray(py).unbind(),
+        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
+        asset_names: packed.assets.iter().map(name).collect(),
         log_prior: derived.log_prior,
         messages: derived.messages,
+        edit_faults: derived.edit_faults,
     };
     Ok(Bound::new(py, lot)?.into_any())
 }
@@ -273,12 +456,14 @@ fn texts(column: &[Arc<str>]) -> Vec<String> {
     column.iter().map(ToString::to_string).collect()
 }
 
-fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
+pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
     Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("AssetWanted", m.py().get_type::<AssetWanted>())?;
     m.add("GrammarFault", m.py().get_type::<GrammarFault>())?;
     m.add_class::<GrammarRules>()?;
+    m.add_class::<MissingAsset>()?;
     m.add_class::<DerivedLot>()
 }

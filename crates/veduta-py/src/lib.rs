@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod chain;
+mod derivation;
 mod grammar;
 mod polygons;
 mod rules;
@@ -11,6 +12,7 @@ mod rules;
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
+    derivation::register(m)?;
     rules::register(m)?;
     polygons::register(m)
 }

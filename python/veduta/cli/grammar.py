@@ -1,4 +1,4 @@
-"""`veduta grammar check | format | derive`: rule files, and the buildings that they make."""
+"""`veduta grammar ACTION`: rule files, and the buildings that they make."""
 
 from __future__ import annotations
 
@@ -11,20 +11,31 @@ if TYPE_CHECKING:
     from veduta.grammar.pipeline import DeriveResult
 
 SUMMARY = "Make buildings from rule files (CGA) and lots; check and format rule files"
-ACTIONS = ("check", "format", "derive")
+ACTIONS = ("check", "format", "derive", "sample", "tree")
 MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
-       veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
-                             [--start TEXT] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
+       veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--edits FILE]
+                             [--seed INT] [--start TEXT] [--style TEXT] [--seconds FLOAT]
+                             [--layer TEXT] [--up y|z] [--terrain PATH] [--ground lowest|mean]
+                             [--force] [--jobs N] [--quiet]
+       veduta grammar sample RULES -o SHEET [--count N] [--lots LOTS] [--lot ID]
+                             [--colours classes|real|both] [--columns INT] [--width INT]
+                             [--rays INT] and others of derive
+       veduta grammar tree RULES [-o FILE] [--lots LOTS] [--lot ID] [--at PATH] [--depth N]
+                             and others of derive
 
 {SUMMARY}.
 
   check     Check a rule file and what it imports; every fault is shown with its line
   format    Lay out rule files in the house style
-  derive    Derive a building for each lot (GeoJSON, CityJSON), or for a synthetic street
+  derive    Derive a building for each lot of a file (GeoJSON, CityJSON, GeoPackage, OBJ), or for
+            a synthetic street
+  sample    Show what the rules can make: random derivations in a picture
+  tree      Show how a building is derived: its shapes, their choices and paths
 
-RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann).
+RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann,
+victorian, ...: see docs/styles.md).
 `veduta grammar ACTION --help` explains the options of an action."""
 
 
@@ -40,24 +51,33 @@ def run(arguments: list[str]) -> int:
         near = difflib.get_close_matches(action, ACTIONS, n=1)
         hint = f"Did you mean `{near[0]}`?" if near else f"Actions: {', '.join(ACTIONS)}."
         raise InputError(action, "is not an action of veduta grammar", hint)
+    if action in ("sample", "tree"):
+        from veduta.cli import grammar_show
+
+        return {"sample": grammar_show.sample, "tree": grammar_show.tree}[action](rest)
     return {"check": _check, "format": _format, "derive": _derive}[action](rest)
 
 
 def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
-    from veduta.grammar.rules import check_rules, find_rules, read_rules
+    from veduta.grammar.assets.library import Library
+    from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
-    verdict = check_rules(read_rules(find_rules(call.rules)))
+    rules = read_rules(find_rules(call.rules))
+    verdict = check_rules(rules)
     print(verdict.told, end="")
+    faults: list[str] = []
+    if not verdict.errors and not verdict.underived:
+        faults = Library(rules.path.parent).faults(compile_rules(rules))
+        print("".join(f"error: {fault}\n" for fault in faults), end="")
     if verdict.underived:
         print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
-    print(
-        f"{call.rules}: {counted(verdict.errors, 'error')}, {counted(verdict.warnings, 'warning')}"
-    )
-    return 2 if verdict.errors else 0
+    errors = verdict.errors + len(faults)
+    print(f"{call.rules}: {counted(errors, 'error')}, {counted(verdict.warnings, 'warning')}")
+    return 2 if errors else 0
 
 
 def _format(arguments: list[str]) -> int:
@@ -94,10 +114,18 @@ def _derive(arguments: list[str]) -> int:
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    given = read_attributes(call.attr)
+    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     progress = Progress(quiet=call.quiet)
     result = run_derive(
-        call.rules, call.lots, call.out, options, progress, force=call.force, jobs=call.jobs
+        call.rules,
+        call.lots,
+        call.out,
+        options,
+        progress,
+        edits_path=call.edits,
+        force=call.force,
+        jobs=call.jobs,
     )
     _tell_failures(result)
     if not call.quiet:

@@ -1,4 +1,4 @@
-"""The arguments of `veduta grammar check`, `format` and `derive`."""
+"""The arguments of the actions of `veduta grammar`."""
 
 from __future__ import annotations
 
@@ -9,14 +9,14 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions
+from veduta.grammar.options import DeriveOptions, LotOptions, SampleOptions
 
 Rules = Annotated[
     tyro.conf.Positional[str],
     tyro.conf.arg(
         metavar="RULES",
         help_behavior_hint="",
-        help="a rule file (.cga), or a style that Veduta brings along (haussmann)",
+        help="a rule file (.cga), or a style that Veduta brings along (such as haussmann)",
     ),
 ]
 Files = Annotated[
@@ -29,7 +29,64 @@ LotsFile = Annotated[
     tyro.conf.arg(
         metavar="LOTS",
         help_behavior_hint="",
-        help="GeoJSON or CityJSON with the lots; a synthetic street where it is not given",
+        help="GeoJSON, CityJSON, GeoPackage or OBJ with the lots; a synthetic street if not given",
+    ),
+]
+OneLot = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="LOTS",
+        help_behavior_hint="",
+        help="file of lots to take one of; a lot of 14 x 12 m where it is not given",
+    ),
+]
+LotName = Annotated[
+    str | None,
+    tyro.conf.arg(
+        metavar="ID",
+        help_behavior_hint="",
+        help="which lot of LOTS, or of the synthetic street; the first of LOTS if not given",
+    ),
+]
+Edits = Annotated[
+    Path | None,
+    tyro.conf.arg(metavar="FILE", help_behavior_hint="", help="edits of single shapes, one a line"),
+]
+Picture = Annotated[
+    Path, tyro.conf.arg(aliases=["-o"], metavar="SHEET", help="the picture to write (PNG or JPEG)")
+]
+Drawing = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        aliases=["-o"],
+        metavar="FILE",
+        help_behavior_hint="",
+        help="write it as a drawing (.svg) or as text (.txt), and print nothing",
+    ),
+]
+Count = Annotated[
+    int,
+    tyro.conf.arg(
+        aliases=["-n"],
+        metavar="N",
+        help_behavior_hint="",
+        help="how many buildings, up to 64; 9 if not given",
+    ),
+]
+Depth = Annotated[
+    int,
+    tyro.conf.arg(
+        metavar="N",
+        help_behavior_hint="",
+        help="rules within each other that are shown, up to 1000; 6 if not given",
+    ),
+]
+At = Annotated[
+    str,
+    tyro.conf.arg(
+        metavar="PATH",
+        help_behavior_hint="",
+        help="shape to begin with, such as /0/2; / is the lot",
     ),
 ]
 Attr = Annotated[
@@ -76,7 +133,53 @@ class DeriveCall:
     out: Out
     lots: LotsFile = None
     attr: Attr = ()
+    edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False
+
+
+@dataclass(frozen=True)
+class SampleCall:
+    """Show what the rules can make: random derivations on one lot, in a picture.
+
+    Each building has its seed and the logarithm of its prior probability; `veduta grammar tree`
+    with the same lot and seed shows how it came about.
+
+    Exit codes: 0 done, 2 bad use or input, 1 a bug.
+    """
+
+    rules: Rules
+    out: Picture
+    count: Count = 9
+    lots: OneLot = None
+    lot: LotName = None
+    attr: Attr = ()
+    derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)
+    sheet: SampleOptions = field(default_factory=SampleOptions)
+    quiet: Quiet = False
+
+
+@dataclass(frozen=True)
+class TreeCall:
+    """Show how a building is derived: each shape with its rule, size, choices and path.
+
+    Neighbours that are alike are one row. A path such as /0/2:Floor names the shape in a file of
+    edits (`veduta grammar derive --edits`).
+
+    Exit codes: 0 done, 2 bad use or input, 1 a bug.
+    """
+
+    rules: Rules
+    lots: OneLot = None
+    lot: LotName = None
+    at: At = "/"
+    depth: Depth = 6
+    out: Drawing = None
+    attr: Attr = ()
+    edits: Edits = None
+    derive: DeriveOptions = field(default_factory=DeriveOptions)
+    read: LotOptions = field(default_factory=LotOptions)

@@ -82,9 +82,9 @@ def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str)
     x, y = plan.width_m, plan.depth_m
     lot = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (x, y, 0.0), (0.0, y, 0.0)]
     (derived,) = _core.GrammarRules([(RULES, text)]).derive([[lot]], [0])
-    if isinstance(derived, str):
+    if not isinstance(derived, _core.DerivedLot):
         raise ValueError(f"the rules of {part_id} do not derive: {derived}")
-    part = part_of(derived, part_id, images)
+    part = part_of(derived, part_id, textures=images)
     # What lies a little beside the photo takes its border: the sides of a narrow balcony.
     return replace(part, uv=np.clip(part.uv, 0.0, 1.0))
 

@@ -16,6 +16,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.place.flatten import flattened
 from veduta.place.part import NO_PARENT, Part
 from veduta.place.semantics import CITYJSON_SURFACE, OPENINGS
 from veduta.run.atomic import write_bytes
@@ -33,7 +34,8 @@ def write_cityjson(part: Part, path: Path) -> None:
 
 
 def cityjson(part: Part) -> dict[str, Any]:
-    """The CityJSON object of the part."""
+    """The CityJSON object of the part; what stands in it many times is written each time."""
+    part = flattened(part)
     low = np.floor(part.positions_m.min(axis=0).astype(np.float64))
     steps = np.round((part.positions_m.astype(np.float64) - low) / GRID_M).astype(np.int64)
     vertices, vertex_of = np.unique(steps, axis=0, return_inverse=True)

@@ -4,6 +4,7 @@ glTF is y-up: (x, y, z) of the part becomes (x, z, -y) here and nowhere else. On
 material; faces have flat normals; no vertex is shared between features. The feature table is in
 `scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
 of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
+Meshes that stand many times are nodes of their own (`gltf_instances`).
 """
 
 from __future__ import annotations
@@ -19,6 +20,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from veduta.formats.gltf_bin import GltfBin, y_up
+from veduta.formats.gltf_instances import add_instances
 from veduta.formats.gltf_read import read_glb
 from veduta.place.material import Material
 from veduta.place.part import Features, Part
@@ -27,48 +30,9 @@ from veduta.run.atomic import write_bytes
 __all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 
 JPEG_QUALITY = 90
-_FLOAT, _UINT = 5126, 5125
-_ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 _LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
 _BESIDE_UV = 1e-3
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
-
-
-class _Bin:
-    """The binary chunk and the views into it."""
-
-    def __init__(self) -> None:
-        self.content = bytearray()
-        self.views: list[dict[str, Any]] = []
-        self.accessors: list[dict[str, Any]] = []
-
-    def add(self, data: bytes, target: int | None = None) -> int:
-        """Append bytes at a multiple of four; returns the buffer view."""
-        self.content.extend(b"\0" * (-len(self.content) % 4))
-        view = {"buffer": 0, "byteOffset": len(self.content), "byteLength": len(data)}
-        if target is not None:
-            view["target"] = target
-        self.content.extend(data)
-        self.views.append(view)
-        return len(self.views) - 1
-
-    def add_array(
-        self, values: NDArray[np.float32] | NDArray[np.uint32], kind: str, *, bounds: bool = False
-    ) -> int:
-        """Append an array; returns the accessor."""
-        is_index = values.dtype == np.uint32
-        target = _ELEMENT_ARRAY_BUFFER if is_index else _ARRAY_BUFFER
-        accessor: dict[str, Any] = {
-            "bufferView": self.add(np.ascontiguousarray(values).tobytes(), target),
-            "componentType": _UINT if is_index else _FLOAT,
-            "count": len(values),
-            "type": kind,
-        }
-        if bounds:
-            accessor["min"] = values.min(axis=0).tolist()
-            accessor["max"] = values.max(axis=0).tolist()
-        self.accessors.append(accessor)
-        return len(self.accessors) - 1
 
 
 def write_glb(part: Part, path: Path) -> None:
@@ -78,7 +42,7 @@ def write_glb(part: Part, path: Path) -> None:
 
 def glb_bytes(part: Part) -> bytes:
     """The part as a GLB file's content."""
-    binary = _Bin()
+    binary = GltfBin()
     root: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "veduta"},
         "scene": 0,
@@ -94,10 +58,16 @@ def glb_bytes(part: Part) -> bytes:
                 },
             }
         ],
-        "nodes": [{"mesh": 0, "name": part.id}],
-        "meshes": [{"primitives": []}],
+        "nodes": [{"name": part.id}],
+        "meshes": [],
+        "materials": [],
     }
-    _add_primitives(root, part, binary)
+    materials = _Materials(root, part, binary)
+    if len(part.polygon_feature):
+        root["nodes"][0]["mesh"] = 0
+        root["meshes"].append({"primitives": _primitives(part, materials, binary)})
+    if part.instances is not None:
+        add_instances(root, part.instances, materials.number, binary)
     root["bufferViews"] = binary.views
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
@@ -142,39 +112,50 @@ def _rounded(value: float) -> float | None:
     return None if math.isnan(value) else round(value, 4)
 
 
-def _add_primitives(root: dict[str, Any], part: Part, binary: _Bin) -> None:
-    """One primitive and one material for each material of the part that is used."""
+class _Materials:
+    """The materials of the file: those of the part that are used, in the order of use."""
+
+    def __init__(self, root: dict[str, Any], part: Part, binary: GltfBin) -> None:
+        self._root, self._part, self._binary = root, part, binary
+        self._number_of: dict[int, int] = {}
+
+    def number(self, row: int) -> int:
+        """The number in the file of a material of the part."""
+        if row not in self._number_of:
+            material, wrap = self._part.materials[row], _wrap(self._part, row)
+            entry = _material(self._root, material, self._binary, wrap)
+            self._number_of[row] = len(self._number_of)
+            self._root["materials"].append(entry)
+        return self._number_of[row]
+
+
+def _primitives(part: Part, materials: _Materials, binary: GltfBin) -> list[dict[str, Any]]:
+    """One primitive for each material of the part that polygons have."""
     triangles = part.triangles
     normal = _vertex_normals(part)
     feature = _vertex_features(part)
     material_of_triangle = part.polygon_material[triangles.polygon]
-    materials: list[dict[str, Any]] = []
+    primitives: list[dict[str, Any]] = []
     for number, material in enumerate(part.materials):
         chosen = triangles.indices[material_of_triangle == number]
         if len(chosen) == 0:
             continue
         used, indices = np.unique(chosen, return_inverse=True)
         attributes = {
-            "POSITION": binary.add_array(_y_up(part.positions_m[used]), "VEC3", bounds=True),
-            "NORMAL": binary.add_array(_y_up(normal[used]), "VEC3"),
+            "POSITION": binary.add_array(y_up(part.positions_m[used]), "VEC3", bounds=True),
+            "NORMAL": binary.add_array(y_up(normal[used]), "VEC3"),
             "_FEATURE_ID_0": binary.add_array(feature[used], "SCALAR"),
         }
         if material.texture is not None:
             attributes["TEXCOORD_0"] = binary.add_array(part.uv[used], "VEC2")
-        root["meshes"][0]["primitives"].append(
+        primitives.append(
             {
                 "attributes": attributes,
                 "indices": binary.add_array(indices.reshape(-1).astype(np.uint32), "SCALAR"),
-                "material": len(materials),
+                "material": materials.number(number),
             }
         )
-        materials.append(_material(root, material, binary, _wrap(part.uv[used])))
-    root["materials"] = materials
-
-
-def _y_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
-    """(x, y, z) with z up to glTF's (x, z, -y); no negative zeros."""
-    return np.stack([vectors[:, 0], vectors[:, 2], -vectors[:, 1]], axis=1) + np.float32(0.0)
+    return primitives
 
 
 def _polygon_of_vertex(part: Part) -> NDArray[np.int64]:
@@ -191,13 +172,17 @@ def _vertex_features(part: Part) -> NDArray[np.float32]:
     return part.polygon_feature[_polygon_of_vertex(part)].astype(np.float32)
 
 
-def _wrap(uv: NDArray[np.float32]) -> int:
-    """A texture is repeated where surfaces ask for more than it has."""
-    low, high = float(uv.min()), float(uv.max())
-    return _REPEAT if low < -_BESIDE_UV or high > 1.0 + _BESIDE_UV else _CLAMP
+def _wrap(part: Part, row: int) -> int:
+    """A texture is repeated where surfaces of its material ask for more than it has."""
+    corners = np.repeat(part.polygon_material, np.diff(part.ring_offsets[part.polygon_offsets]))
+    uv = part.uv[corners == row]
+    beside = (uv < -_BESIDE_UV) | (uv > 1.0 + _BESIDE_UV)
+    return _REPEAT if beside.any() else _CLAMP
 
 
-def _material(root: dict[str, Any], material: Material, binary: _Bin, wrap: int) -> dict[str, Any]:
+def _material(
+    root: dict[str, Any], material: Material, binary: GltfBin, wrap: int
+) -> dict[str, Any]:
     shading: dict[str, Any] = {
         "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
         "metallicFactor": material.metalness,
@@ -229,7 +214,7 @@ def _linear(srgb: float) -> float:
     return round(value, 6)
 
 
-def _image(root: dict[str, Any], data: bytes, mime: str, binary: _Bin) -> int:
+def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int:
     images = root.setdefault("images", [])
     images.append({"bufferView": binary.add(data), "mimeType": mime})
     return len(images) - 1

@@ -17,6 +17,8 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from veduta.formats.gltf_instances import INSTANCING, part_placement
+from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -29,7 +31,7 @@ _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 _REMEDY = "Let Veduta write it again."
 _DTYPES = {5126: np.float32, 5125: np.uint32}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3}
+_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
 
 @dataclass(frozen=True)
@@ -90,8 +92,10 @@ def _part(glb: _Glb) -> Part:
     if glb.root["asset"].get("generator") != "veduta":
         raise ValueError("another program wrote it")
     extras = glb.root["scenes"][0]["extras"]["veduta"]
-    positions, uv, features, materials = [], [], [], []
-    for primitive in glb.root["meshes"][0]["primitives"]:
+    positions, uv = [np.zeros((0, 3), np.float32)], [np.zeros((0, 2), np.float32)]
+    features, materials = [np.zeros(0, np.int32)], [np.zeros(0, np.int32)]
+    own = glb.root["meshes"][0]["primitives"] if "mesh" in glb.root["nodes"][0] else []
+    for primitive in own:
         attributes = primitive["attributes"]
         corners = glb.array(primitive["indices"])
         points = glb.array(attributes["POSITION"])
@@ -118,6 +122,52 @@ def _part(glb: _Glb) -> Part:
         materials=tuple(_material(glb, entry) for entry in glb.root["materials"]),
         attributes=dict(extras.get("attributes", {})),
         notes=tuple(extras.get("notes", ())),
+        instances=_instances(glb, len(table)),
+    )
+
+
+def _instances(glb: _Glb, features: int) -> Instances | None:
+    """What stands many times; None where there is nothing."""
+    nodes = [node for node in glb.root["nodes"] if INSTANCING in node.get("extensions", {})]
+    if not nodes:
+        return None
+    names = list(dict.fromkeys(glb.root["meshes"][node["mesh"]]["name"] for node in nodes))
+    meshes: dict[str, SharedMesh] = {}
+    groups = []
+    for node in nodes:
+        mesh = glb.root["meshes"][node["mesh"]]
+        meshes.setdefault(mesh["name"], _shared_mesh(glb, mesh))
+        told = node["extensions"][INSTANCING]["attributes"]
+        feature = glb.array(told["_FEATURE_ID_0"]).astype(np.int32)
+        if not 0 <= int(feature.min()) <= int(feature.max()) < features:
+            raise ValueError("an instance names a feature that is not in the table")
+        place = [glb.array(told[name]) for name in ("TRANSLATION", "ROTATION", "SCALE")]
+        groups.append(
+            InstanceGroup(
+                mesh=names.index(mesh["name"]),
+                materials=tuple(primitive["material"] for primitive in mesh["primitives"]),
+                part_from_mesh=part_placement(*place),
+                feature=feature,
+            )
+        )
+    return Instances(tuple(meshes[name] for name in names), tuple(groups))
+
+
+def _shared_mesh(glb: _Glb, mesh: dict[str, Any]) -> SharedMesh:
+    primitives = mesh["primitives"]
+    attributes = primitives[0]["attributes"]
+    positions = glb.array(attributes["POSITION"])
+    corners = [glb.array(primitive["indices"]).reshape(-1, 3) for primitive in primitives]
+    if max(int(own.max()) for own in corners) >= len(positions):
+        raise ValueError(f"mesh {mesh['name']} has triangles without points")
+    slots = [glb.root["materials"][primitive["material"]]["name"] for primitive in primitives]
+    return SharedMesh(
+        name=mesh["name"],
+        positions_m=_z_up(positions),
+        normals=_z_up(glb.array(attributes["NORMAL"])),
+        indices=np.concatenate(corners),
+        slot=np.repeat(np.arange(len(corners)), [len(own) for own in corners]).astype(np.int32),
+        slots=tuple(slots),
     )
 
 

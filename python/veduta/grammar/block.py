@@ -11,13 +11,16 @@ from typing import Any
 
 from veduta import _core
 from veduta.formats.gltf import write_glb
+from veduta.grammar.assets.library import Library
 from veduta.grammar.building import NothingBuiltError, build_part
+from veduta.grammar.edits import fault_told
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.grammar.textures import read_textures
 from veduta.place.material import Texture
 from veduta.place.part import Part
+from veduta.run.errors import InputError
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
 
@@ -41,6 +44,7 @@ class Block:
 class Job:
     """A block to work on; `files` are the rule files, `source` is what failures name.
 
+    folder: where the rules lie, and the assets that they name.
     textures: the files of the pictures that the rules name, by those names.
     """
 
@@ -48,6 +52,7 @@ class Job:
     files: tuple[tuple[str, str], ...]
     options: GrammarOptions
     source: str
+    folder: Path
     out: Path
     work: Path
     textures: Mapping[str, str] = field(default_factory=dict)
@@ -71,22 +76,26 @@ class BlockResult:
 
 
 @functools.lru_cache(maxsize=1)
-def _rules(files: tuple[tuple[str, str], ...]) -> _core.GrammarRules:
-    """Compiled once in each process."""
-    return _core.GrammarRules(list(files))
+def _rules(
+    files: tuple[tuple[str, str], ...], style: str | None, folder: Path
+) -> tuple[_core.GrammarRules, Library]:
+    """Compiled once in each process, with the assets that are named in the rules."""
+    rules, library = _core.GrammarRules(list(files), style), Library(folder)
+    library.add_written_to(rules)
+    return rules, library
 
 
 def run_block(job: Job) -> BlockResult:
     """Derive each lot and write its model into the work folder."""
-    rules = _rules(job.files)
+    rules, library = _rules(job.files, job.options.derive.style, job.folder)
     result = BlockResult()
     with timed_step(result.steps, "derive"):
-        derived = _derive_all(rules, job)
+        derived = _derive_all(rules, library, job)
     textures = read_textures(job.textures)
     with timed_step(result.steps, "write"):
         for lot, found in zip(job.block.lots, derived, strict=True):
             try:
-                part = _part_of(lot, found, textures)
+                part = _part_of(lot, found, library, textures)
             except NothingBuiltError as fault:
                 subject = f"{job.source}: {lot.name}"
                 result.failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
@@ -97,25 +106,64 @@ def run_block(job: Job) -> BlockResult:
     return result
 
 
-def _derive_all(rules: _core.GrammarRules, job: Job) -> list[_core.DerivedLot | str]:
+def _derive_all(
+    rules: _core.GrammarRules, library: Library, job: Job
+) -> list[_core.DerivedLot | str]:
     kinds = dict(rules.attributes)
     derived: list[_core.DerivedLot | str] = []
     for first in range(0, len(job.block.lots), AT_ONCE):
         lots = job.block.lots[first : first + AT_ONCE]
         given = [attributes_of(lot, kinds, job.options) for lot in lots]
         sound = [index for index, found in enumerate(given) if not isinstance(found, str)]
-        made = rules.derive(
-            [_rings(lots[index]) for index in sound],
-            [seed_of(lots[index], job.options.derive.seed) for index in sound],
-            start=job.options.derive.start,
-            attributes=[found for found in given if not isinstance(found, str)],
-            seconds=job.options.derive.seconds,
-            shapes=MAX_SHAPES,
+        made = _with_assets(
+            rules,
+            library,
+            [lots[index] for index in sound],
+            [found for found in given if not isinstance(found, str)],
+            job.options,
         )
         by_index: dict[int, _core.DerivedLot | str] = dict(zip(sound, made, strict=True))
         by_index |= {index: found for index, found in enumerate(given) if isinstance(found, str)}
         derived += [by_index[index] for index in range(len(lots))]
     return derived
+
+
+def _with_assets(
+    rules: _core.GrammarRules,
+    library: Library,
+    lots: list[Lot],
+    given: list[dict[str, Attribute]],
+    options: GrammarOptions,
+) -> list[_core.DerivedLot | str]:
+    """Derive lots; again where one wants an asset whose name only the derivation shows."""
+    found: list[_core.DerivedLot | str | None] = [None] * len(lots)
+    while waiting := [index for index, one in enumerate(found) if one is None]:
+        made = rules.derive(
+            [_rings(lots[index]) for index in waiting],
+            [seed_of(lots[index], options.derive.seed) for index in waiting],
+            start=options.derive.start,
+            attributes=[given[index] for index in waiting],
+            edits=[[edit.core for edit in lots[index].edits] for index in waiting],
+            seconds=options.derive.seconds,
+            shapes=MAX_SHAPES,
+        )
+        for index, one in zip(waiting, made, strict=True):
+            if isinstance(one, _core.MissingAsset):
+                found[index] = _fault_of(rules, library, one)
+            else:
+                found[index] = one
+    return [one for one in found if one is not None]
+
+
+def _fault_of(
+    rules: _core.GrammarRules, library: Library, missing: _core.MissingAsset
+) -> str | None:
+    """Makes the asset known; why it cannot be where it cannot."""
+    try:
+        library.add_to(rules, missing.name)
+    except InputError as error:
+        return f"{missing.why} ({error})"
+    return None
 
 
 def attributes_of(
@@ -161,10 +209,17 @@ def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
     return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]
 
 
-def _part_of(lot: Lot, derived: _core.DerivedLot | str, textures: Mapping[str, Texture]) -> Part:
+def _part_of(
+    lot: Lot,
+    derived: _core.DerivedLot | str,
+    library: Library,
+    textures: Mapping[str, Texture],
+) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
-    return build_part(derived, lot.id, textures)
+    if fault := fault_told(lot.edits, derived.edit_faults):
+        raise NothingBuiltError(fault)
+    return build_part(derived, lot.id, library.assets_of(derived), textures)
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:
@@ -177,10 +232,14 @@ def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:
         "anchor_m": list(lot.anchor_m),
         "bounds": [list(low), list(high)],
         "polygons": len(part.polygon_feature),
-        "triangles": len(part.triangles.indices),
+        "triangles": len(part.triangles.indices) + _triangles_of_assets(part),
         "classes": {
             part.features.semantic(row).value: int((classes == classes[row]).sum())
             for row in sorted({int((classes == code).argmax()) for code in set(classes.tolist())})
         },
         "notes": list(part.notes),
     }
+
+
+def _triangles_of_assets(part: Part) -> int:
+    return 0 if part.instances is None else part.instances.triangle_count

@@ -11,12 +11,15 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping
 from pathlib import PurePath
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.grammar.assets.asset import Asset
 from veduta.grammar.dissolving import dissolved
+from veduta.grammar.instancing import instances_of
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -37,36 +40,43 @@ class NothingBuiltError(ValueError):
 
 
 def build_part(
-    derived: _core.DerivedLot, part_id: str, textures: Mapping[str, Texture] | None = None
+    derived: _core.DerivedLot,
+    part_id: str,
+    assets: Mapping[str, Asset] = MappingProxyType({}),
+    textures: Mapping[str, Texture] = MappingProxyType({}),
 ) -> Part:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
-    textures: by the names that the rules have for them; others are left out and noted. Surfaces
-    that are none in single precision (slivers, lines that cross) are left out and noted.
+    `assets` are those that stand in the lot, by name; `textures` by the names that the rules have
+    for them, of which those that are missing are left out and noted. Surfaces that are none in
+    single precision (slivers, lines that cross) are left out and noted, too.
     """
     every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
-    if not every.any():
+    has_assets = len(derived.instance_feature) > 0
+    if not every.any() and not has_assets:
         raise NothingBuiltError("the rules leave nothing on it")
-    shown = textures or {}
-    part = _joined(_part(derived, part_id, every, shown), derived)
+    part = _joined(_part(derived, part_id, every, assets, textures), derived)
     if _has_triangles(part):
         return part
     kept = _sound(part)
-    if not kept.any():
+    if not kept.any() and not has_assets:
         raise NothingBuiltError("the rules leave no surface on it")
-    return _part(derived, part_id, kept, shown)
+    return _part(derived, part_id, kept, assets, textures)
 
 
 def _part(
     derived: _core.DerivedLot,
     part_id: str,
     kept: NDArray[np.bool_],
+    assets: Mapping[str, Asset],
     textures: Mapping[str, Texture],
 ) -> Part:
-    """The part of the (p,) polygons that are kept."""
+    """The part of the (p,) polygons that are kept, and of all instances."""
     vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
-    used, feature = np.unique(derived.polygon_feature[kept], return_inverse=True)
-    materials, material_of_look = _materials(derived.looks, textures)
+    of_polygon = derived.polygon_feature[kept]
+    used = np.unique(np.concatenate([of_polygon, derived.instance_feature]))
+    number_of, material_of_look = _materials(derived.looks, textures)
+    instances = instances_of(derived, used, assets, number_of)
     with np.errstate(over="ignore"):  # what is too far away is found not to be finite
         positions = derived.positions_m[vertices].astype(np.float32)
     return Part(
@@ -75,17 +85,18 @@ def _part(
         uv=_from_the_top(derived.uv[vertices]),
         ring_offsets=rings,
         polygon_offsets=polygons,
-        polygon_feature=feature.reshape(-1).astype(np.int32),
+        polygon_feature=np.searchsorted(used, of_polygon).astype(np.int32),
         polygon_material=material_of_look[derived.polygon_look[kept]],
         features=_features(derived, used, part_id),
-        materials=materials,
+        materials=tuple(number_of),
+        instances=instances,
         notes=_notes(derived, int((~kept).sum()), textures),
     )
 
 
 def _joined(part: Part, derived: _core.DerivedLot) -> Part:
     """With the cells of surfaces that the rules name as the faces that they were cut from."""
-    if not any(derived.feature_surface):
+    if not any(derived.feature_surface) or len(part.polygon_feature) == 0:
         return part
     try:
         return dissolved(part, derived.positions_m)
@@ -96,7 +107,7 @@ def _joined(part: Part, derived: _core.DerivedLot) -> Part:
 def _has_triangles(part: Part) -> bool:
     """Whether all polygons can be triangulated; the part keeps the triangles."""
     try:
-        return len(part.triangles.indices) > 0
+        return len(part.triangles.indices) > 0 or len(part.polygon_feature) == 0
     except _core.PolygonFault:
         return False
 
@@ -171,25 +182,20 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
 
 def _materials(
     looks: list[Look], textures: Mapping[str, Texture]
-) -> tuple[tuple[Material, ...], NDArray[np.int32]]:
-    """The materials, and (looks,) the material of each look: looks that are told apart."""
-    materials: list[Material] = []
-    number_of: dict[tuple[object, ...], int] = {}
+) -> tuple[dict[Material, int], NDArray[np.int32]]:
+    """The materials with their numbers, and (looks,) the material of each look."""
+    number_of: dict[Material, int] = {}
     rows = []
     for red, green, blue, _, image, name in looks:
         semantic = _KNOWN.get(name, SemanticClass.OTHER)
         colour = (round(red, 4), round(green, 4), round(blue, 4))
         texture = None if image is None else textures.get(image)
-        key = (semantic if texture is None else image, colour)
-        if key not in number_of:
-            number_of[key] = len(materials)
-            if texture is None:
-                material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
-            else:
-                material = Material(PurePath(str(image)).stem, colour, texture=texture)
-            materials.append(material)
-        rows.append(number_of[key])
-    return tuple(materials), np.array(rows, dtype=np.int32)
+        if texture is None:
+            material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
+        else:
+            material = Material(PurePath(str(image)).stem, colour, texture=texture)
+        rows.append(number_of.setdefault(material, len(number_of)))
+    return number_of, np.array(rows, dtype=np.int32)
 
 
 def _notes(

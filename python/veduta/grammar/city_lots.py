@@ -104,10 +104,10 @@ def _lots_of(
         raise RingFault("has no surface that it stands on, and no roof of one height")
     if not (ground or top):
         raise RingFault("has no surface that it stands on")
-    loops = [points[loop] for loop in _border(points, ground or top, seen_from_below=bool(ground))]
+    loops = [points[loop] for loop in border(points, ground or top, seen_from_below=bool(ground))]
     for loop in loops:
         loop[:, 2] = heights.min()
-    return _polygons(loops), float(np.ptp(heights))
+    return polygons_of(loops), float(np.ptp(heights))
 
 
 def _faces(city_object: dict[str, Any], count: int) -> Iterator[tuple[list[Loop], str]]:
@@ -164,7 +164,7 @@ def _up(points: NDArray[np.float64], ring: Loop) -> float:
     return float(normal[2]) / length if length > 0 else 0.0
 
 
-def _border(
+def border(
     points: NDArray[np.float64], faces: list[list[Loop]], *, seen_from_below: bool
 ) -> list[Loop]:
     """The edges that only one of the faces has, as closed loops; the faces lie left of them.
@@ -206,7 +206,7 @@ def _loops(edges: set[tuple[int, int]]) -> list[Loop]:
     return loops
 
 
-def _polygons(loops: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
+def polygons_of(loops: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
     """Outlines with the holes that lie in them."""
     outlines = [[loop] for loop in loops if _area(loop) > 0]
     if not outlines:

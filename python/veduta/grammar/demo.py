@@ -7,6 +7,7 @@ import numpy as np
 from veduta.grammar.lots import Lot, Lots
 from veduta.synthetic.lots import street_of_lots
 
+DEMO_LOTS = 14
 NOTE = "no lots were given: the street is synthetic"
 
 

@@ -1,12 +1,16 @@
-"""Building lots: outlines with holes on level ground, read from GeoJSON (or CityJSON)."""
+"""Building lots: outlines with holes on level ground, from files of several formats.
+
+Read: GeoJSON (here), CityJSON (`city_lots`), GeoPackage (`package_lots`), OBJ (`object_lots`).
+"""
 
 from __future__ import annotations
 
+import difflib
 import json
 import re
 from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -14,9 +18,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.grammar.city_lots import city_epsg, city_outlines
+from veduta.grammar.edits import Edit
+from veduta.grammar.feature_stream import FeatureStream
 from veduta.grammar.frames import Frame, find_frame, named_crs
+from veduta.grammar.object_lots import object_outlines
+from veduta.grammar.options import LotOptions
 from veduta.grammar.outline import Attribute, Outline, plain_attributes
+from veduta.grammar.package_lots import is_package, package_outlines
 from veduta.grammar.rings import RingFault, clean_rings, numbers_of
+from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 from veduta.run.report import Failure
@@ -34,7 +44,7 @@ class Lot:
 
     rings_m: (n, 2) each, about `anchor_m`; the outline first, counter-clockwise seen from above,
     its first edge along the street; holes run clockwise. anchor_m: x, y, z from the origin of all
-    lots. attributes: what the file says of it.
+    lots. attributes: what the file says of it. edits: what is otherwise at single shapes.
     """
 
     id: str
@@ -42,6 +52,7 @@ class Lot:
     rings_m: tuple[NDArray[np.float64], ...]
     anchor_m: tuple[float, float, float]
     attributes: dict[str, Attribute] = field(default_factory=dict)
+    edits: tuple[Edit, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -59,35 +70,74 @@ class Lots:
     look: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
 
 
-def read_lots(path: Path) -> Lots:
-    """The lots in a GeoJSON or CityJSON file; InputError where it has none that can be used."""
-    document = _read_json(path)
-    notes: list[str] = []
-    if document.get("type") == "CityJSON":
-        outlines, failures = city_outlines(path, document)
-        epsg = city_epsg(document)
-    else:
-        outlines, failures, notes = _of_geojson(path, document)
-        epsg = named_crs(path, document)
+def read_lots(path: Path, options: LotOptions | None = None) -> Lots:
+    """The lots in a file; InputError where it has none that can be used."""
+    options = options or LotOptions()
+    outlines, failures, notes, epsg = _outlines_of(path, options)
     if not outlines:
         reason = f" ({failures[0].reason})" if failures else ""
         raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
     if len(outlines) > MAX_LOTS:
         raise InputError(path, f"has more than {MAX_LOTS} polygons", "Cut it into several.")
     frame = find_frame(path, epsg, [outline.rings[0] for outline in outlines])
-    lots, more = place_lots(path, outlines, frame)
+    terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
+    lots, more = place_lots(path, outlines, frame, terrain, options.ground)
     notes += frame.notes
     return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
 
 
-def _of_geojson(
-    path: Path, document: dict[str, Any]
+def require_lots(path: Path | None, options: LotOptions | None) -> None:
+    """InputError where options say how to read a file of lots, but there is none."""
+    if path is None and options is not None and options != LotOptions():
+        changed = [name for name, value in options if value != getattr(LotOptions(), name)]
+        raise InputError(f"--{changed[0]}", "is about a file of lots", "Give --lots, too.")
+
+
+def _outlines_of(
+    path: Path, options: LotOptions
+) -> tuple[list[Outline], list[Failure], list[str], int | None]:
+    """What the file has, whatever its format, and its EPSG code."""
+    if is_package(path):
+        return package_outlines(path, options.layer, MAX_LOTS)
+    if options.layer is not None:
+        raise InputError(f"--layer {options.layer}", f"but {path} has no layers", "Leave it out.")
+    if path.suffix.lower() == ".obj":
+        outlines, failures = object_outlines(path, options.up)
+        return outlines, failures, [f"OBJ: {options.up} is up, the unit is taken for metres"], None
+    if _size(path) > MAX_BYTES:
+        stream = FeatureStream(path)
+        outlines, failures, notes = _of_features(path, stream.features())
+        return outlines, failures, notes, named_crs(path, stream.members)
+    document = _read_json(path)
+    if document.get("type") == "CityJSON":
+        outlines, failures = city_outlines(path, document)
+        return outlines, failures, [], city_epsg(document)
+    outlines, failures, notes = _of_features(path, _features(path, document))
+    return outlines, failures, notes, named_crs(path, document)
+
+
+def edited_lots(lots: Lots, path: Path, edits: Mapping[str, tuple[Edit, ...]]) -> Lots:
+    """The lots with the edits of the file `path`; InputError where it names another lot."""
+    ids = [lot.id for lot in lots.lots]
+    for name in sorted(set(edits) - set(ids)):
+        line = edits[name][0].where.rpartition(":")[2]
+        near = difflib.get_close_matches(name, ids, n=1)
+        hint = f"Did you mean `{near[0]}`?" if near else f"There are: {', '.join(ids[:12])}."
+        raise InputError(path, f"line {line} edits the lot `{name}`, which is not there", hint)
+    return replace(lots, lots=tuple(replace(lot, edits=edits.get(lot.id, ())) for lot in lots.lots))
+
+
+def _size(path: Path) -> int:
+    """Bytes of a file; 0 where there is none, which reading it tells."""
+    try:
+        return path.stat().st_size if path.is_file() else 0
+    except OSError:
+        return 0
+
+
+def _of_features(
+    path: Path, features: Iterable[Any]
 ) -> tuple[list[Outline], list[Failure], list[str]]:
-    features = list(_features(path, document))
-    if len(features) > MAX_LOTS:
-        raise InputError(
-            path, f"has {len(features)} features, more than {MAX_LOTS}", "Cut it into several."
-        )
     outlines, failures, others = _outlines(path, features)
     told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
     notes = [f"left out, for they are no polygons: {told}"] if others else []
@@ -95,9 +145,16 @@ def _of_geojson(
 
 
 def place_lots(
-    path: Path, outlines: list[Outline], frame: Frame
+    path: Path,
+    outlines: list[Outline],
+    frame: Frame,
+    terrain: Terrain | None = None,
+    ground: Ground = "lowest",
 ) -> tuple[tuple[Lot, ...], list[Failure]]:
-    """Lots with rings that can be built on, each about its own anchor; the failures of others."""
+    """Lots with rings that can be built on, each about its own anchor; the failures of others.
+
+    A lot stands as high as its lowest corner, or as the terrain says where there is one.
+    """
     found: list[Lot] = []
     failures: list[Failure] = []
     taken: set[str] = set()
@@ -105,9 +162,13 @@ def place_lots(
         try:
             rings = [frame.local(ring) for ring in outline.rings]
             low = np.floor(rings[0].min(axis=0))
-            ground = float(min(ring[:, 2].min() for ring in rings))
+            level = float(min(ring[:, 2].min() for ring in rings))
             flat = clean_rings([ring[:, :2] - low[:2] for ring in rings])
-        except RingFault as fault:
+            if terrain is not None:
+                east, north, up = frame.origin_m
+                own = [ring[:, :2] + (east, north) for ring in rings]
+                level = terrain.under(own, ground) - up
+        except (RingFault, NoGroundError) as fault:
             failures.append(Failure(subject=outline.subject, kind="input", reason=str(fault)))
             continue
         found.append(
@@ -115,7 +176,7 @@ def place_lots(
                 id=_own_id(outline.name, taken),
                 name=outline.name,
                 rings_m=tuple(flat),
-                anchor_m=(float(low[0]), float(low[1]), ground),
+                anchor_m=(float(low[0]), float(low[1]), level),
                 attributes=outline.attributes,
             )
         )
@@ -188,18 +249,20 @@ def _features(path: Path, document: dict[str, Any]) -> Iterator[dict[str, Any]]:
         raise InputError(
             path,
             f"is not GeoJSON of polygons: its type is {str(kind)[:40]!r}",
-            "Give a FeatureCollection of polygons, or CityJSON.",
+            "Give a FeatureCollection of polygons, CityJSON, GeoPackage or OBJ.",
         )
 
 
 def _outlines(
-    path: Path, features: list[dict[str, Any]]
+    path: Path, features: Iterable[Any]
 ) -> tuple[list[Outline], list[Failure], Counter[str]]:
     """The polygons of all features, the faults of bad ones, and how many are something else."""
     found: list[Outline] = []
     failures: list[Failure] = []
     others: Counter[str] = Counter()
     for number, feature in enumerate(features, 1):
+        if number > MAX_LOTS:
+            raise InputError(path, f"has more than {MAX_LOTS} features", "Cut it into several.")
         subject = f"{path}: feature {number}"
         try:
             polygons, kind = _polygons(feature)

@@ -1,8 +1,9 @@
-"""The options of `veduta grammar derive`."""
+"""The options of `veduta grammar derive`, `sample` and `tree`."""
 
 from __future__ import annotations
 
-from typing import Annotated
+from pathlib import Path
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -21,8 +22,46 @@ class DeriveOptions(Options):
     start: str | None = Field(
         default=None, description="rule to start with; the one with @StartRule if not given"
     )
+    style: str | None = Field(
+        default=None, description="style of the rule file to derive in; `Default` if not given"
+    )
     seconds: Annotated[float, Field(gt=0.0, le=3600.0)] = Field(
         default=20.0, description="longest time for one lot (s); a lot that takes longer fails"
+    )
+
+
+class LotOptions(Options):
+    """How a file of lots is read."""
+
+    layer: str | None = Field(
+        default=None, description="layer of a GeoPackage; its only layer of polygons if not given"
+    )
+    up: Literal["y", "z"] = Field(
+        default="y", description="the axis of an OBJ file that points up; with y, -z is north"
+    )
+    terrain: Path | None = Field(
+        default=None, description="GeoTIFF of heights that the lots stand on, in their CRS"
+    )
+    ground: Literal["lowest", "mean"] = Field(
+        default="lowest",
+        description="where a lot stands on the terrain: at its lowest place, or at the mean",
+    )
+
+
+class SampleOptions(Options):
+    """What the sheet shows."""
+
+    colours: Literal["classes", "real", "both"] = Field(
+        default="classes", description="a colour for each class, those of the rules, or both"
+    )
+    columns: Annotated[int, Field(ge=1, le=12)] | None = Field(
+        default=None, description="buildings in a row; about as many as rows if not given"
+    )
+    width: Annotated[int, Field(ge=120, le=1600)] = Field(
+        default=400, description="width of one picture (px)"
+    )
+    rays: Annotated[int, Field(ge=1, le=6)] = Field(
+        default=2, description="rays for a pixel along each side; more are smoother and slower"
     )
 
 
@@ -38,4 +77,5 @@ class GrammarOptions(Options):
     """All options of the verb that change its result."""
 
     derive: DeriveOptions = DeriveOptions()
+    lots: LotOptions = LotOptions()
     attributes: AttributeOptions = AttributeOptions()

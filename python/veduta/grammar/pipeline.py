@@ -13,10 +13,12 @@ from typing import Any
 from pydantic import JsonValue
 
 from veduta.formats.place_json import write_place
+from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
-from veduta.grammar.demo import demo_lots
+from veduta.grammar.demo import DEMO_LOTS, demo_lots
+from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
-from veduta.grammar.lots import Lots, read_lots
+from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import place_of
 from veduta.grammar.report import derive_report
@@ -29,9 +31,8 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "1"
+VERSION = "2"
 COMMAND = "grammar derive"
-DEMO_LOTS = 14
 FEW = 32
 """Lots of the smallest block."""
 MOST_BLOCKS = 64
@@ -73,6 +74,7 @@ def run_derive(
     options: GrammarOptions,
     progress: Progress,
     *,
+    edits_path: Path | None = None,
     force: bool = False,
     jobs: int | None = None,
 ) -> DeriveResult:
@@ -80,16 +82,20 @@ def run_derive(
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
         rules = read_rules(find_rules(rules_name))
-        options = check_options(compile_rules(rules), rules.path, options)
+        compiled = compile_rules(rules, options.derive.style)
+        options = check_options(compiled, rules.path, options)
+        assets = Library(rules.path.parent).digest(compiled)
         files = tuple(rules.texts)
         textures = find_textures(rules.path, [text for _, text in files])
         read_textures(textures)
         lots = _lots(lots_path, options)
+        if edits_path is not None:
+            lots = edited_lots(lots, edits_path, read_edits(edits_path))
     blocks = _blocks(lots)
     pictures: JsonValue = textures_digests(textures)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
-        block.name: _key("block", options, [files_digest(files), _told(block), pictures])
+        block.name: _key("block", options, [files_digest(files), assets, pictures, _told(block)])
         for block in blocks
     }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
@@ -103,7 +109,17 @@ def run_derive(
         if result.up_to_date:
             waiting = []
         jobs_to_do = [
-            Job(b, files, options, source, out, folder.work_path(b.name), textures) for b in waiting
+            Job(
+                b,
+                files,
+                options,
+                source,
+                rules.path.parent,
+                out,
+                folder.work_path(b.name),
+                textures,
+            )
+            for b in waiting
         ]
         with timed_step(steps, "build"):
             _process(jobs_to_do, folder, keys, result, progress, jobs)
@@ -116,7 +132,10 @@ def run_derive(
 
 
 def _lots(path: Path | None, options: GrammarOptions) -> Lots:
-    return demo_lots(DEMO_LOTS, options.derive.seed) if path is None else read_lots(path)
+    require_lots(path, options.lots)
+    if path is None:
+        return demo_lots(DEMO_LOTS, options.derive.seed)
+    return read_lots(path, options.lots)
 
 
 def _blocks(lots: Lots) -> list[Block]:
@@ -137,7 +156,11 @@ def files_digest(files: Sequence[tuple[str, str]]) -> str:
 def _told(block: Block) -> str:
     """The digest of all that is known of the lots of a block."""
     content = [
-        [lot.id, lot.name, lot.anchor_m, lot.attributes, [ring.tolist() for ring in lot.rings_m]]
+        [
+            *(lot.id, lot.name, lot.anchor_m, lot.attributes),
+            [ring.tolist() for ring in lot.rings_m],
+            [edit.core for edit in lot.edits],
+        ]
         for lot in block.lots
     ]
     return hashlib.sha256(json.dumps([block.name, content]).encode()).hexdigest()

@@ -32,15 +32,20 @@ def numbers_of(ring: Any) -> NDArray[np.float64]:
         raise RingFault("a point is no list of two or three numbers") from error
     if points.ndim != 2 or points.shape[1] < 2 or points.dtype.kind not in "iuf":
         raise RingFault("a point is no list of two or three numbers")
-    points = points.astype(np.float64)
+    points = closed_ring(points.astype(np.float64))
+    heights = points[:, 2:3] if points.shape[1] > 2 else np.zeros((len(points), 1))
+    return np.concatenate([points[:, :2], heights], axis=1)
+
+
+def closed_ring(points: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, d) without the point that closes it; RingFault where it is no ring of finite numbers."""
     if not np.isfinite(points).all():
         raise RingFault("a coordinate is not finite")
     if len(points) > 1 and (points[0] == points[-1]).all():
         points = points[:-1]
     if len(points) < 3:
         raise RingFault("a ring has fewer than three corners")
-    heights = points[:, 2:3] if points.shape[1] > 2 else np.zeros((len(points), 1))
-    return np.concatenate([points[:, :2], heights], axis=1)
+    return points
 
 
 def clean_rings(rings_m: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]:

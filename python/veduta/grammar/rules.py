@@ -91,10 +91,19 @@ def check_rules(rules: RuleFiles) -> Verdict:
     return Verdict(*_core.grammar_check(list(rules.files)))
 
 
-def compile_rules(rules: RuleFiles) -> _core.GrammarRules:
-    """The rules ready to derive; InputError with all faults where they cannot."""
+def compile_rules(rules: RuleFiles, style: str | None = None) -> _core.GrammarRules:
+    """The rules ready to derive in a style; InputError with all faults where they cannot."""
+    files = list(rules.files)
     try:
-        return _core.GrammarRules(list(rules.files))
+        compiled = _core.GrammarRules(files)
+        if style is None:
+            return compiled
+        if style not in compiled.styles:
+            near = difflib.get_close_matches(style, compiled.styles, n=1)
+            known = ", ".join(compiled.styles[:12])
+            hint = f"Did you mean `{near[0]}`?" if near else f"It has: {known}."
+            raise InputError(f"--style {style}", f"is no style of {rules.path.name}", hint)
+        return _core.GrammarRules(files, style)
     except _core.GrammarFault as fault:
         raise InputError(
             rules.path,

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.place.instances import Instances
 from veduta.place.material import Material
 from veduta.place.semantics import Provenance, SemanticClass
 
@@ -84,6 +85,7 @@ class Part:
     polygon_feature, polygon_material: (p,) int32.
     attributes: what is known of the whole, under CityJSON's names where it has them.
     notes: what was adjusted or left out, and why.
+    instances: meshes that stand in the part many times, besides its polygons; None without any.
     """
 
     id: str
@@ -97,6 +99,7 @@ class Part:
     materials: tuple[Material, ...]
     attributes: Mapping[str, str | int | float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
+    instances: Instances | None = None
 
     @cached_property
     def triangles(self) -> Triangles:
@@ -112,9 +115,12 @@ class Part:
 
     @property
     def bounds_m(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Lower and upper corner of the axis-parallel box around all vertices."""
-        low = self.positions_m.min(axis=0).tolist()
-        high = self.positions_m.max(axis=0).tolist()
+        """Lower and upper corner of the axis-parallel box around all that is seen."""
+        ends = [self.positions_m.astype(np.float64)]
+        if self.instances is not None:
+            ends.append(np.stack(self.instances.bounds_m()))
+        every = np.concatenate(ends)
+        low, high = every.min(axis=0).tolist(), every.max(axis=0).tolist()
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
 
     @cached_property
@@ -122,6 +128,8 @@ class Part:
         """(f,) the summed area of each feature's polygons, holes taken off."""
         area = np.zeros(len(self.features))
         np.add.at(area, self.polygon_feature, self.triangles.polygon_area_m2)
+        if self.instances is not None:
+            area += self.instances.feature_area_m2(len(self.features))
         return area
 
     def polygons_of_shell(self, shell: int) -> NDArray[np.int64]:

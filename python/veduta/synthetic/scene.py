@@ -11,6 +11,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from veduta.place.flatten import flattened
 from veduta.place.material import Material
 from veduta.place.part import Part
 
@@ -45,7 +46,8 @@ class RayScene:
         self.materials: list[Material] = []
         self.first_feature: list[int] = []
         features = polygons = 0
-        for part, world_from_part in parts:
+        for placed, world_from_part in parts:
+            part = flattened(placed)
             triangles = part.triangles
             turn = world_from_part[:3, :3]
             world = part.positions_m.astype(np.float64) @ turn.T + world_from_part[:3, 3]

@@ -4,6 +4,7 @@ import { CLASS_LOOKS, PROVENANCE_LOOKS } from "../core/classes.ts";
 import type { Feature } from "../core/features.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { setTint, showRows, tintTexture } from "./feature-mesh.ts";
+import { showInstances } from "./instanced-mesh.ts";
 import type { LoadedPart } from "./load.ts";
 import { ACCENT, Outline } from "./outline.ts";
 import { addTint } from "./tinted-material.ts";
@@ -23,7 +24,7 @@ export class Appearance {
     for (const [index, part] of parts.entries()) {
       const tints = this.#tints[index];
       if (tints === undefined) continue;
-      for (const { mesh } of part.meshes) {
+      for (const { mesh } of [...part.meshes, ...part.instanced]) {
         for (const material of [mesh.material].flat()) {
           const mask = part.masks.get(material) ?? null;
           addTint(material, { tints, mask, maskStrength: this.#maskStrength });
@@ -56,13 +57,14 @@ export class Appearance {
         return feature !== undefined && !state.hidden.has(feature.class);
       };
       for (const mesh of part.meshes) showRows(mesh, isVisible);
+      for (const mesh of part.instanced) showInstances(mesh, isVisible);
     }
   }
 
   outlineSelected(selected: FeatureRef | null): void {
     const part = selected === null ? undefined : this.#parts[selected.part];
     if (selected === null || part === undefined) this.outline.clear();
-    else this.outline.show(part.meshes, selected.row);
+    else this.outline.show(part, selected.row);
   }
 }
 

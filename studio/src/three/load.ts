@@ -1,5 +1,5 @@
 /** From the place to parts that can be drawn. */
-import { Group, Mesh, Texture } from "three";
+import { Group, InstancedMesh, Mesh, Texture } from "three";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
@@ -7,6 +7,7 @@ import { Fault } from "../core/fault.ts";
 import { fileAddress, type Part, type Place } from "../core/place.ts";
 import { fetchBytes } from "./fetch.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
+import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
 
 export interface LoadedPart {
@@ -14,6 +15,7 @@ export interface LoadedPart {
   readonly table: FeatureTable;
   readonly group: Group;
   readonly meshes: readonly FeatureMesh[];
+  readonly instanced: readonly InstancedFeatures[];
   readonly masks: Masks;
 }
 
@@ -56,13 +58,16 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   group.matrixAutoUpdate = false;
   group.updateMatrixWorld(true);
   const meshes: FeatureMesh[] = [];
+  const instanced: InstancedFeatures[] = [];
   scene.traverse((node) => {
-    if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
+    if (node instanceof InstancedMesh) instanced.push(instancedFeatures(node as InstancedMesh, table, part.model));
+    else if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
   });
-  if (meshes.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
-  for (const { mesh } of meshes) sharpenTextures(mesh);
-  const masks = await named(part.model, () => loadMasks(gltf, meshes.map(({ mesh }) => mesh)));
-  return { part, table, group, meshes, masks };
+  const drawn = [...meshes, ...instanced].map(({ mesh }) => mesh);
+  if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
+  for (const mesh of drawn) sharpenTextures(mesh);
+  const masks = await named(part.model, () => loadMasks(gltf, drawn));
+  return { part, table, group, meshes, instanced, masks };
 }
 
 /** The loader trusts the lengths in the file; a truncated one must not reach it. */

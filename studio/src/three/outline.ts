@@ -4,6 +4,8 @@ import { LineMaterial } from "three/examples/jsm/lines/LineMaterial.js";
 import { LineSegments2 } from "three/examples/jsm/lines/LineSegments2.js";
 import { LineSegmentsGeometry } from "three/examples/jsm/lines/LineSegmentsGeometry.js";
 import type { FeatureMesh } from "./feature-mesh.ts";
+import { facesOfInstances } from "./instanced-mesh.ts";
+import type { LoadedPart } from "./load.ts";
 
 export const ACCENT = "#ff9e2c";
 /** Edges between faces that turn less than this are inside one surface. */
@@ -34,10 +36,11 @@ export class Outline {
     this.#behind.resolution.copy(size);
   }
 
-  show(meshes: readonly FeatureMesh[], row: number): void {
+  show(part: Pick<LoadedPart, "meshes" | "instanced">, row: number): void {
     this.clear();
-    for (const target of meshes) {
-      const soup = facesOfRow(target, row);
+    const own = part.meshes.map((target) => facesOfRow(target, row));
+    const repeated = part.instanced.flatMap((target) => facesOfInstances(target, row));
+    for (const soup of [...own, ...repeated]) {
       if (soup === null) continue;
       const edges = new EdgesGeometry(soup, CREASE_DEG);
       const segments = new LineSegmentsGeometry().fromEdgesGeometry(edges);

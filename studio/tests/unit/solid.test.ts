@@ -12,6 +12,8 @@ function solidOf(quads: readonly (readonly [Vec3, Vec3, Vec3, Vec3])[]): Solid {
     positions: new Float32Array(positions),
     partOfFace: new Uint32Array(rowOfFace.length),
     rowOfFace,
+    firstBoxFace: rowOfFace.length,
+    instances: [],
   });
 }
 

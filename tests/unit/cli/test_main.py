@@ -161,10 +161,13 @@ def test_the_help_of_grammar_names_every_option() -> None:
     from dataclasses import fields
 
     from veduta.cli.grammar import HELP
-    from veduta.cli.grammar_call import DeriveCall, FormatCall
-    from veduta.grammar.options import DeriveOptions
+    from veduta.cli.grammar_call import DeriveCall, FormatCall, SampleCall, TreeCall
+    from veduta.grammar.options import DeriveOptions, LotOptions, SampleOptions
 
-    names = {field.name for call in (DeriveCall, FormatCall) for field in fields(call)}
-    names |= set(DeriveOptions.model_fields)
-    missing = {name for name in names - {"rules", "derive", "out"} if f"--{name}" not in HELP}
+    calls = (DeriveCall, FormatCall, SampleCall, TreeCall)
+    names = {field.name for call in calls for field in fields(call)}
+    names -= {"rules", "derive", "read", "sheet", "out"}
+    for options in (DeriveOptions, LotOptions, SampleOptions):
+        names |= set(options.model_fields)
+    missing = {name for name in names if f"--{name}" not in HELP}
     assert missing == set()

@@ -43,7 +43,7 @@ def derived(
         [[lot]], [0], attributes=[dict(attributes or {})]
     )
     assert not isinstance(found, str), found
-    return build_part(found, "sample", textures)
+    return build_part(found, "sample", textures=textures or {})
 
 
 def points_of(part: Part, name: str) -> np.ndarray[tuple[int, int], np.dtype[np.float32]]:

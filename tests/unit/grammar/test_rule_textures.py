@@ -76,7 +76,7 @@ def test_a_texture_is_shown_from_its_lower_left(folder: Path, tmp_path: Path) ->
     (found,) = _core.GrammarRules([("a.cga", RULES)]).derive([SQUARE], [0])
     assert not isinstance(found, str)
     textures = read_textures(find_textures(folder / "a.cga", [RULES]))
-    part = build_part(found, "lot", textures)
+    part = build_part(found, "lot", textures=textures)
     (material,) = part.materials
     assert material.texture is textures["brick.png"]
     assert part.notes == ()

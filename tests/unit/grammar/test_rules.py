@@ -48,8 +48,8 @@ def test_imports_stay_in_the_folder(tmp_path: Path) -> None:
         assert "cannot import" in check_rules(rules).told
 
 
-def test_a_fault_while_deriving_names_its_place_where_that_is_known(tmp_path: Path) -> None:
-    """A fault does not know its file: with imports, a line could be that of another one."""
+def test_a_fault_while_deriving_names_its_file_and_place(tmp_path: Path) -> None:
+    """Also where the rule is in a file that is imported."""
     lot = [[(0.0, 0.0, 0.0), (9.0, 0.0, 0.0), (9.0, 9.0, 0.0)]]
     bad = "split(x) { { 0.0000001 : B. }* }"
     alone = compile_rules(read_rules(write(tmp_path, main=f"\nLot --> {bad}")))
@@ -57,7 +57,7 @@ def test_a_fault_while_deriving_names_its_place_where_that_is_known(tmp_path: Pa
     assert str(told).startswith(f"{tmp_path}/main.cga:2:9: ")
     main = write(tmp_path, main='import a : "a.cga"\nLot --> a.A', a=f"A --> {bad}")
     (told,) = compile_rules(read_rules(main)).derive([lot], [0])
-    assert str(told).startswith(f"{main} or what it imports: ")
+    assert str(told).startswith(f"{tmp_path}/a.cga:1:7: ")
 
 
 def test_faults_are_shown_with_their_line(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 //! Solids and sheets made of planar faces with holes: what a grammar's operations work on.
 
+mod boolean;
+mod cleanup;
 mod cut;
 mod dissolve;
 mod envelope;
@@ -14,6 +16,8 @@ mod raised;
 mod roofs;
 mod weld;
 
+pub use boolean::{boolean, relation, Boolean, BooleanError, Combined, Relation};
+pub use cleanup::{cleaned, Cleaning};
 pub use cut::{cut, Piece, Sides};
 pub use dissolve::{dissolve, Corner, Sheet};
 pub use envelope::{envelope, Bound};

@@ -46,20 +46,22 @@ pub fn joined(parts: &[&Mesh], near: f64) -> Mesh {
     whole.compact()
 }
 
-struct Places {
+/// Places that are known, by their numbers.
+pub(super) struct Places {
     near: f64,
     cells: HashMap<[i64; 3], Vec<(DVec3, u32)>>,
 }
 
 impl Places {
-    fn new(near: f64) -> Self {
+    pub fn new(near: f64) -> Self {
         Self {
             near: if near > 0.0 { near } else { f64::MIN_POSITIVE },
             cells: HashMap::new(),
         }
     }
 
-    fn number(&mut self, place: DVec3, new: u32) -> u32 {
+    /// The number of the known place that is near enough, else `new`, which is known from then on.
+    pub fn number(&mut self, place: DVec3, new: u32) -> u32 {
         let size = 4.0 * self.near;
         let cell = place.to_array().map(|c| (c / size).floor() as i64);
         for offset in 0..27 {

@@ -92,12 +92,20 @@ pub enum Block {
     /// `{ operations }` without selectors (`scatter`, `inline`, `union`), or, for the operations
     /// that take a rule, the one operation that follows (`inline(append) Pieces`).
     Body { body: Box<Body>, span: Span },
+    /// `{ operations | operations }`: the two operands of a boolean.
+    Operands {
+        first: Box<Body>,
+        second: Box<Body>,
+        span: Span,
+    },
 }
 
 impl Block {
     pub fn span(&self) -> Span {
         match self {
-            Block::Cells { span, .. } | Block::Body { span, .. } => *span,
+            Block::Cells { span, .. } | Block::Body { span, .. } | Block::Operands { span, .. } => {
+                *span
+            }
         }
     }
 }

@@ -159,7 +159,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("deleteTags", &[0, 1, 2], &[NONE, KINDS]),
     plain("setTagsFromEdgeAttrs", &[0], &[]),
     // Inlining and Boolean operations
-    op("inline", &[1], &[MERGE], BlockKind::Operand),
+    op("inline", &[0, 1], &[MERGE], BlockKind::Operand),
     op("union", &[0, 1], &[SWAP], BlockKind::Operand),
     op("subtract", &[0, 1], &[SWAP], BlockKind::Operand),
     op("intersect", &[0, 1], &[SWAP], BlockKind::Operand),
@@ -174,6 +174,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("rotateUV", &[2], &[]),
     plain("deleteUV", &[1], &[]),
     plain("copyUV", &[2], &[]),
+    plain("bakeUV", &[1], &[]),
     // Transformations
     plain("t", &[3], &[]),
     plain("translate", &[5], &[MODES, SYSTEMS]),

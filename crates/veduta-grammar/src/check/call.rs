@@ -152,6 +152,21 @@ impl Checker<'_> {
             (BlockKind::Operations | BlockKind::Operand, Some(Block::Body { body, .. })) => {
                 self.body(body);
             }
+            (
+                BlockKind::Operand,
+                Some(Block::Operands {
+                    first,
+                    second,
+                    span,
+                }),
+            ) => {
+                self.body(first);
+                self.body(second);
+                if self.text(&call.name) == "inline" || !call.args().is_empty() {
+                    let message = "two operands stand in the block of a boolean without arguments";
+                    self.diagnostics.error(*span, message);
+                }
+            }
             (BlockKind::Sizes, Some(Block::Cells { cells, .. })) => self.size_cells(cells),
             (
                 BlockKind::Selectors { words, rest },
@@ -203,6 +218,10 @@ impl Checker<'_> {
     fn any_block(&mut self, block: &Block) {
         match block {
             Block::Body { body, .. } => self.body(body),
+            Block::Operands { first, second, .. } => {
+                self.body(first);
+                self.body(second);
+            }
             Block::Cells { cells, .. } => self.cell_bodies(cells),
         }
     }

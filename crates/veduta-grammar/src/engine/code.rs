@@ -9,6 +9,7 @@ use crate::{Span, Symbol};
 use super::functions::Function;
 use super::measures::Measure;
 use super::operations::OperationId;
+use super::queries::Query;
 use super::shape_attributes::ShapeAttribute;
 
 /// Rule files that belong together, ready to run.
@@ -20,6 +21,10 @@ pub struct Code {
     pub functions: Vec<UserFunction>,
     /// The rule that a derivation begins with where none is named.
     pub start: Option<usize>,
+    /// Whether a rule asks about other shapes.
+    pub asks: bool,
+    /// Whether a rule trims shapes.
+    pub trims: bool,
     /// The texts of all symbols.
     pub names: Vec<Arc<str>>,
 }
@@ -35,13 +40,24 @@ impl Code {
             .iter()
             .position(|rule| rule.name.as_ref() == name)
     }
+
+    /// The number of the attribute of this name.
+    pub fn attribute_named(&self, name: &str) -> Option<usize> {
+        self.globals
+            .iter()
+            .position(|global| global.is_attribute && global.name.as_ref() == name)
+    }
 }
 
 #[derive(Debug, Clone)]
 pub struct Rule {
     pub name: Arc<str>,
+    /// The number of its file, and its name there.
+    pub unit: usize,
+    pub span: Span,
     pub symbol: Symbol,
-    pub params: usize,
+    /// The names of its parameters, which are in the first slots.
+    pub params: Vec<Arc<str>>,
     /// Values of `with`, in the slots after the parameters.
     pub locals: Vec<Expr>,
     pub body: Body,
@@ -50,6 +66,7 @@ pub struct Rule {
 #[derive(Debug, Clone)]
 pub struct Global {
     pub name: Arc<str>,
+    pub unit: usize,
     /// Whether it may be set from outside.
     pub is_attribute: bool,
     /// Values of `with`, by slot.
@@ -60,6 +77,7 @@ pub struct Global {
 #[derive(Debug, Clone)]
 pub struct UserFunction {
     pub name: Arc<str>,
+    pub unit: usize,
     pub params: usize,
     pub locals: Vec<Expr>,
     pub value: Expr,
@@ -94,6 +112,11 @@ pub enum ExprKind {
     /// A function of the current shape's geometry.
     Measure {
         measure: Measure,
+        args: Vec<Expr>,
+    },
+    /// A question about other shapes.
+    Query {
+        query: Query,
         args: Vec<Expr>,
     },
     /// `comp(f) { selector : value | ... }`: an array of a value for each component.

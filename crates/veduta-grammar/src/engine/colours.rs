@@ -18,8 +18,53 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
         ("colorHexToV", Of(|args| hsv(args, 2)), 1, 1),
         ("colorRGBOToHex", Of(from_channels), 4, 4),
         ("colorRGBToHex", Of(from_channels), 3, 3),
+        ("colorRamp", Of(ramp), 2, 2),
     ]
 };
+
+/// The colours of the ramps (red, green, blue), evenly from 0 to 1. CityEngine shows its ramps in
+/// pictures alone; these have the colours that their names say.
+const RAMPS: &[(&str, &[[f64; 3]])] = &[
+    ("whiteToBlack", &[[1.0, 1.0, 1.0], [0.0, 0.0, 0.0]]),
+    (
+        "greenToRed",
+        &[[0.0, 1.0, 0.0], [1.0, 1.0, 0.0], [1.0, 0.0, 0.0]],
+    ),
+    ("yellowToRed", &[[1.0, 1.0, 0.0], [1.0, 0.0, 0.0]]),
+    ("redToBlue", &[[1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]),
+    ("orangeToBlue", &[[1.0, 0.5, 0.0], [0.0, 0.0, 1.0]]),
+    ("brownToBlue", &[[0.6, 0.3, 0.0], [0.0, 0.0, 1.0]]),
+    (
+        "spectrum",
+        &[
+            [1.0, 0.0, 0.0],
+            [1.0, 1.0, 0.0],
+            [0.0, 1.0, 0.0],
+            [0.0, 1.0, 1.0],
+            [0.0, 0.0, 1.0],
+        ],
+    ),
+];
+
+/// `colorRamp(name, value)`: the colour at a value from 0 to 1.
+fn ramp(args: &[Value]) -> Result<Value, String> {
+    let name = text(args, 0)?;
+    let Some((_, colours)) = RAMPS.iter().find(|(known, _)| *known == name) else {
+        let known: Vec<&str> = RAMPS.iter().map(|(known, _)| *known).collect();
+        return Err(format!(
+            "`{name}` is no ramp of colours: {}",
+            known.join(", ")
+        ));
+    };
+    let place = number(args, 1)?.clamp(0.0, 1.0) * (colours.len() - 1) as f64;
+    let first = (place as usize).min(colours.len() - 2);
+    let share = place - first as f64;
+    let [r, g, b] = [0, 1, 2].map(|channel| {
+        let (from, to) = (colours[first][channel], colours[first + 1][channel]);
+        ((from + (to - from) * share) * 255.0).round() as u8
+    });
+    Ok(Value::text(&format!("#{r:02x}{g:02x}{b:02x}")))
+}
 
 /// The channels of `#rrggbb`, and the opacity where it is given.
 pub fn parsed(text: &str) -> Option<([f32; 3], Option<f32>)> {

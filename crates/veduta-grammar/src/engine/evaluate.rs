@@ -5,6 +5,7 @@ use std::sync::Arc;
 use crate::ast::BinaryOp;
 
 use super::code::{Choice, Expr, ExprKind};
+use super::draws::Draws;
 use super::fault::Fault;
 use super::functions::Function;
 use super::operators::{binary, unary};
@@ -24,7 +25,7 @@ pub struct Scene<'a> {
     pub slots: &'a mut Vec<Value>,
     pub state: &'a State,
     pub stream: &'a mut Stream,
-    pub log_prior: &'a mut f64,
+    pub draws: &'a mut Draws,
 }
 
 impl Scene<'_> {
@@ -34,7 +35,7 @@ impl Scene<'_> {
             slots: self.slots,
             state,
             stream: self.stream,
-            log_prior: self.log_prior,
+            draws: self.draws,
         }
     }
 }
@@ -56,6 +57,10 @@ impl Run<'_> {
                 measure
                     .of(scene.state, object, &values)
                     .map_err(|message| Fault::at(expr.span, message))
+            }
+            ExprKind::Query { query, args } => {
+                let values = self.values(args, scene)?;
+                self.answer(*query, &values, scene.state, expr.span)
             }
             ExprKind::Components { kind, cells } => {
                 let values = self.component_values(*kind, cells, expr.span, scene)?;
@@ -151,20 +156,17 @@ impl Run<'_> {
         if !(sum > 0.0 && sum.is_finite()) {
             return Err(Fault::at(choice.span, "the chances are all zero"));
         }
-        let taken = self.forced_choice(chances.len()).unwrap_or_else(|| {
-            let mut rest = scene.stream.draw() * sum;
-            let last = chances
-                .iter()
-                .rposition(|&chance| chance > 0.0)
-                .unwrap_or(0);
-            let found = chances.iter().position(|&chance| {
-                rest -= chance;
-                rest < 0.0
-            });
-            found.unwrap_or(last)
+        let mut rest = scene.stream.draw() * sum;
+        let last = chances
+            .iter()
+            .rposition(|&chance| chance > 0.0)
+            .unwrap_or(0);
+        let found = chances.iter().position(|&chance| {
+            rest -= chance;
+            rest < 0.0
         });
-        *scene.log_prior += (chances[taken] / sum).ln();
-        Ok(taken)
+        // Drawn even where an edit asks for another: what the rule draws next stays the same.
+        Ok(scene.draws.take(found.unwrap_or(last), &chances, sum))
     }
 
     fn called(
@@ -188,11 +190,11 @@ impl Run<'_> {
             slots: &mut slots,
             state: scene.state,
             stream: scene.stream,
-            log_prior: scene.log_prior,
+            draws: scene.draws,
         };
         let value = self.with_locals(&called.locals, &called.value, &mut inner);
         self.calls -= 1;
-        value
+        value.map_err(|fault| fault.within(called.unit))
     }
 
     /// The value of an expression after those of its `with`, which it may use.

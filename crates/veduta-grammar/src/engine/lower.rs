@@ -3,9 +3,10 @@
 use std::sync::Arc;
 
 use crate::ast::{self, Ident, ItemKind, Override};
-use crate::{Checked, Definition, Diagnostic, Program, Resolution, Role, Span, Target};
+use crate::{Checked, Definition, Diagnostic, Program, Role, Span, Target};
 
-use super::code::{Code, Global, Rule, UserFunction};
+use super::code::{Body, Code, Global, Rule, UserFunction};
+use super::instances::{attribute, instances, Instance, MAX_INSTANCES};
 
 /// The code, and what of the files does not derive yet, by file.
 #[derive(Debug, Clone, Default)]
@@ -20,10 +21,14 @@ impl Lowered {
     }
 }
 
-/// Lowers a program that has been checked without errors. Of a definition with styles, the one
-/// of the style `Default` is taken.
+/// Lowers a program that has been checked without errors, in the style `Default`.
 pub fn lower(program: &Program, checked: &Checked) -> Lowered {
-    let numbers = Numbers::of(checked);
+    lower_in_style(program, checked, 0)
+}
+
+/// Lowers a program that has been checked without errors. `style` is that of the main file: an
+/// index of its styles. What is imported has the first style that its import statement names.
+pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Lowered {
     let mut lowered = Lowered {
         code: Code {
             names: (0..program.names.len())
@@ -31,20 +36,36 @@ pub fn lower(program: &Program, checked: &Checked) -> Lowered {
                 .collect(),
             ..Code::default()
         },
-        diagnostics: Vec::new(),
+        diagnostics: vec![Vec::new(); program.units.len()],
     };
-    for unit in 0..program.units.len() {
+    let Some(instances) = instances(program, checked, style) else {
+        let message = format!("imports of imports come to more than {MAX_INSTANCES} files");
+        let fault = Diagnostic::error(Span::default(), message);
+        lowered.diagnostics[0].push(fault);
+        return lowered;
+    };
+    let numbers = Numbers::of(program, checked, &instances);
+    for instance in 0..instances.len() {
         let mut lowering = Lowering {
             program,
-            resolution: &checked.resolutions[unit],
+            checked,
             numbers: &numbers,
-            unit,
-            diagnostics: Vec::new(),
+            instances: &instances,
+            instance,
+            asks: false,
+            trims: false,
+            diagnostics: vec![Vec::new(); program.units.len()],
         };
-        lowering.imports();
+        let unit = instances[instance].unit;
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
-        lowered.diagnostics.push(lowering.diagnostics);
+        lowered.code.asks |= lowering.asks;
+        lowered.code.trims |= lowering.trims;
+        for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
+            let new = new.into_iter().filter(|one| !all.contains(one));
+            let new: Vec<Diagnostic> = new.collect();
+            all.extend(new);
+        }
     }
     if lowered.code.start.is_none()
         && checked
@@ -65,43 +86,64 @@ pub(super) enum Number {
     Function(usize),
 }
 
-/// The numbers of all definitions in the code, file by file.
+/// The numbers of all definitions in the code, instance by instance.
 pub(super) struct Numbers {
     values: Vec<Vec<Number>>,
     first_rule: Vec<usize>,
+    /// The names of the globals.
+    globals: Vec<Arc<str>>,
 }
 
 impl Numbers {
-    fn of(checked: &Checked) -> Self {
-        let (mut globals, mut functions, mut rules) = (0, 0, 0);
-        let (mut values, mut first_rule) = (Vec::new(), Vec::new());
-        let mut count = |definition: &Definition| {
-            let counter = if is_global(definition) {
-                &mut globals
-            } else {
-                &mut functions
-            };
-            *counter += 1;
-            if is_global(definition) {
-                Number::Global(*counter - 1)
-            } else {
-                Number::Function(*counter - 1)
-            }
+    /// An attribute that takes its value from one of the importing file is this one.
+    fn of(program: &Program, checked: &Checked, instances: &[Instance]) -> Self {
+        let mut all = Self {
+            values: Vec::new(),
+            first_rule: Vec::new(),
+            globals: Vec::new(),
         };
-        for unit in &checked.definitions {
-            values.push(unit.values.iter().map(&mut count).collect());
-            first_rule.push(rules);
-            rules += unit.rules.len();
+        let (mut functions, mut rules) = (0, 0);
+        for instance in instances {
+            let defined = &checked.definitions[instance.unit];
+            let import = instance.import(instances, program);
+            let kept = import.map(|import| instance.protected(import));
+            let mut numbers = Vec::with_capacity(defined.values.len());
+            for definition in &defined.values {
+                let name = definition.name.symbol;
+                let taken = match (&kept, instance.from, definition.role) {
+                    (Some(Some(kept)), Some((parent, _)), Role::Attr) if !kept.contains(&name) => {
+                        let above = &checked.definitions[instances[parent].unit];
+                        attribute(above, name).map(|index| all.values[parent][index])
+                    }
+                    _ => None,
+                };
+                numbers.push(match taken {
+                    Some(number) => number,
+                    None if is_global(definition) => {
+                        let text = program.names.text(name);
+                        all.globals
+                            .push(format!("{}{text}", instance.prefix).into());
+                        Number::Global(all.globals.len() - 1)
+                    }
+                    None => {
+                        functions += 1;
+                        Number::Function(functions - 1)
+                    }
+                });
+            }
+            all.values.push(numbers);
+            all.first_rule.push(rules);
+            rules += defined.rules.len();
         }
-        Self { values, first_rule }
+        all
     }
 
-    pub fn value(&self, unit: usize, index: usize) -> Number {
-        self.values[unit][index]
+    pub fn value(&self, instance: usize, index: usize) -> Number {
+        self.values[instance][index]
     }
 
-    pub fn rule(&self, unit: usize, index: usize) -> usize {
-        self.first_rule[unit] + index
+    pub fn rule(&self, instance: usize, index: usize) -> usize {
+        self.first_rule[instance] + index
     }
 }
 
@@ -114,37 +156,42 @@ fn is_global(definition: &Definition) -> bool {
 pub(super) struct Lowering<'a> {
     pub program: &'a Program,
     pub numbers: &'a Numbers,
-    resolution: &'a Resolution,
+    /// Whether a rule of the file asks about other shapes.
+    pub asks: bool,
+    pub trims: bool,
+    checked: &'a Checked,
+    instances: &'a [Instance],
+    instance: usize,
+    /// By file.
+    diagnostics: Vec<Vec<Diagnostic>>,
+}
+
+/// What an import statement has instead of a rule.
+struct Extension {
     unit: usize,
-    diagnostics: Vec<Diagnostic>,
+    span: Span,
+    params: Vec<Arc<str>>,
+    body: Body,
 }
 
 impl<'a> Lowering<'a> {
-    fn imports(&mut self) {
-        for item in &self.program.units[self.unit].parse.file.items {
-            if let ItemKind::Import(import) = &item.kind {
-                for change in import.overrides.iter().flatten() {
-                    let name = match change {
-                        Override::Protect(name)
-                        | Override::Value { name, .. }
-                        | Override::Rule { name, .. } => name,
-                    };
-                    self.fault(name.span, "changes of what is imported do not derive yet");
-                }
-            }
-        }
+    fn own(&self) -> &'a Instance {
+        &self.instances[self.instance]
+    }
+
+    /// The instance in which what a name means is defined.
+    pub fn place(&self, name: Ident) -> usize {
+        let end = Instance::end_of(self.instances, self.instance, self.text(name), self.program);
+        end.unwrap_or(self.instance)
     }
 
     fn definitions(&mut self, definitions: &[Definition], code: &mut Code) {
-        for definition in definitions {
-            let default = definition
-                .variants
-                .iter()
-                .find(|variant| variant.style == 0);
-            let variant = default.unwrap_or(&definition.variants[0]);
-            match &self.program.units[self.unit].parse.file.items[variant.item].kind {
+        let file = &self.program.units[self.own().unit].parse.file;
+        for (index, definition) in definitions.iter().enumerate() {
+            let variant = self.own().variant(&definition.variants);
+            match &file.items[variant.item].kind {
                 ItemKind::Rule(rule) => self.rule(rule, definition, code),
-                ItemKind::Value(value) => self.value(value, definition, code),
+                ItemKind::Value(value) => self.value(value, index, definition, code),
                 _ => {}
             }
         }
@@ -152,41 +199,116 @@ impl<'a> Lowering<'a> {
 
     fn rule(&mut self, rule: &ast::Rule, definition: &Definition, code: &mut Code) {
         if matches!(definition.role, Role::StartRule { .. })
-            && self.unit == 0
+            && self.instance == 0
             && code.start.is_none()
         {
             code.start = Some(code.rules.len());
         }
-        let locals = self.locals(&rule.locals);
-        let body = self.body(&rule.body);
-        code.rules.push(Rule {
-            name: self.shared(rule.name),
-            symbol: rule.name.symbol,
-            params: definition.arity,
-            locals,
-            body,
+        let (name, symbol) = (self.shared(rule.name), rule.name.symbol);
+        code.rules.push(match self.extended(definition) {
+            Some(extension) => Rule {
+                name,
+                unit: extension.unit,
+                span: extension.span,
+                symbol,
+                params: extension.params,
+                locals: Vec::new(),
+                body: extension.body,
+            },
+            None => Rule {
+                name,
+                unit: self.own().unit,
+                span: rule.name.span,
+                symbol,
+                params: self.shared_all(&rule.params),
+                locals: self.locals(&rule.locals),
+                body: self.body(&rule.body),
+            },
         });
     }
 
-    fn value(&mut self, value: &ast::Value, definition: &Definition, code: &mut Code) {
-        let locals = self.locals(&value.locals);
-        let expr = self.expr(&value.value);
-        let name = self.shared(value.name);
-        if is_global(definition) {
-            code.globals.push(Global {
-                name,
-                is_attribute: definition.role == Role::Attr,
-                locals,
-                value: expr,
-            });
-        } else {
-            code.functions.push(UserFunction {
-                name,
-                params: definition.arity,
-                locals,
-                value: expr,
-            });
+    /// What the import statement has instead of an extension rule: its parameters and its body.
+    fn extended(&mut self, definition: &Definition) -> Option<Extension> {
+        let import = self.own().import(self.instances, self.program)?;
+        let mut overrides = import.overrides.iter().flatten();
+        let found = overrides.find_map(|one| match one {
+            Override::Rule { name, params, body }
+                if name.symbol == definition.name.symbol && params.len() == definition.arity =>
+            {
+                Some((name, params, body))
+            }
+            _ => None,
+        });
+        let (name, params, body) = found?;
+        let params = self.shared_all(params);
+        Some(self.above(|lowering| Extension {
+            unit: lowering.own().unit,
+            span: name.span,
+            params,
+            body: lowering.body(body),
+        }))
+    }
+
+    /// What is lowered by `work` stands in the importing file.
+    fn above<T>(&mut self, work: impl FnOnce(&mut Self) -> T) -> T {
+        let own = self.instance;
+        self.instance = self.own().from.map_or(own, |(parent, _)| parent);
+        let made = work(self);
+        self.instance = own;
+        made
+    }
+
+    fn value(
+        &mut self,
+        value: &ast::Value,
+        index: usize,
+        definition: &Definition,
+        code: &mut Code,
+    ) {
+        let own = self.own().unit;
+        match self.numbers.value(self.instance, index) {
+            Number::Global(number) if number < code.globals.len() => {} // of the importing file
+            Number::Global(number) => {
+                let (unit, locals, value) = match self.imposed(definition) {
+                    Some((unit, value)) => (unit, Vec::new(), value),
+                    None => (own, self.locals(&value.locals), self.expr(&value.value)),
+                };
+                code.globals.push(Global {
+                    name: self.numbers.globals[number].clone(),
+                    unit,
+                    is_attribute: definition.role == Role::Attr,
+                    locals,
+                    value,
+                });
+            }
+            Number::Function(_) => {
+                let locals = self.locals(&value.locals);
+                let expr = self.expr(&value.value);
+                code.functions.push(UserFunction {
+                    name: self.shared(value.name),
+                    unit: own,
+                    params: definition.arity,
+                    locals,
+                    value: expr,
+                });
+            }
         }
+    }
+
+    /// The value that the import statement gives an attribute, evaluated in the importing file.
+    /// With the number of this file.
+    fn imposed(&mut self, definition: &Definition) -> Option<(usize, super::code::Expr)> {
+        let import = self.own().import(self.instances, self.program)?;
+        let mut overrides = import.overrides.iter().flatten();
+        let value = overrides.find_map(|one| match one {
+            Override::Value { name, value }
+                if name.symbol == definition.name.symbol && definition.role == Role::Attr =>
+            {
+                Some(value)
+            }
+            _ => None,
+        })?;
+        Some(self.above(|lowering| (lowering.own().unit, lowering.expr(value))))
     }
 
     fn locals(&mut self, locals: &[ast::Local]) -> Vec<super::code::Expr> {
@@ -194,7 +316,7 @@ impl<'a> Lowering<'a> {
     }
 
     pub fn target(&self, name: Ident) -> Option<Target> {
-        self.resolution.target(&name)
+        self.checked.resolutions[self.own().unit].target(&name)
     }
 
     pub fn text(&self, name: Ident) -> &'a str {
@@ -205,8 +327,24 @@ impl<'a> Lowering<'a> {
         self.program.names.shared(name.symbol.index())
     }
 
+    fn shared_all(&self, names: &[Ident]) -> Vec<Arc<str>> {
+        names.iter().map(|name| self.shared(*name)).collect()
+    }
+
+    /// The name of an attribute in the code, where `name` means one.
+    pub fn attribute_name(&self, name: Ident) -> Option<Arc<str>> {
+        let Some(Target::Value { index, .. }) = self.target(name) else {
+            return None;
+        };
+        match self.numbers.value(self.place(name), index) {
+            Number::Global(number) => Some(self.numbers.globals[number].clone()),
+            Number::Function(_) => None,
+        }
+    }
+
     pub fn fault(&mut self, span: Span, message: impl Into<String>) {
-        self.diagnostics.push(Diagnostic::error(span, message));
+        let unit = self.own().unit;
+        self.diagnostics[unit].push(Diagnostic::error(span, message));
     }
 
     /// The fault of something that the checker knows and the engine does not.

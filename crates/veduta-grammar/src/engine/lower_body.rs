@@ -53,8 +53,8 @@ impl Lowering<'_> {
     /// A rule, an operation, or, where the name is neither, a leaf.
     fn call(&mut self, call: &Call) -> Step {
         match self.target(call.name) {
-            Some(Target::Rule { unit, index }) => Step::Rule {
-                rule: self.numbers.rule(unit, index),
+            Some(Target::Rule { index, .. }) => Step::Rule {
+                rule: self.numbers.rule(self.place(call.name), index),
                 args: self.exprs(call.args()),
                 span: call.span,
             },
@@ -73,6 +73,7 @@ impl Lowering<'_> {
 
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
         let args = call.args();
+        self.trims |= id.trims();
         let (fewest, most) = id.arguments();
         if args.len() < fewest || args.len() > most {
             let name = self.text(call.name);
@@ -81,13 +82,9 @@ impl Lowering<'_> {
         }
         let (cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
-            Some(Block::Body { body, .. }) => {
-                let cell = Cell::Part {
-                    selector: Selector::Word("all".into()),
-                    combined: false,
-                    body: self.body(body),
-                };
-                (vec![cell], false)
+            Some(Block::Body { body, .. }) => (vec![self.whole(body)], false),
+            Some(Block::Operands { first, second, .. }) => {
+                (vec![self.whole(first), self.whole(second)], false)
             }
             None => (Vec::new(), false),
         };
@@ -96,7 +93,10 @@ impl Lowering<'_> {
         let mut lowered = Vec::with_capacity(args.len());
         for (index, arg) in args.iter().enumerate() {
             lowered.push(match (&arg.kind, self.word(arg)) {
-                (ExprKind::Name(name), _) if named && index == 0 => Arg::Word(self.shared(*name)),
+                (ExprKind::Name(name), _) if named && index == 0 => {
+                    let attribute = self.attribute_name(*name);
+                    Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
+                }
                 (_, Some(word)) => Arg::Word(word),
                 (_, None) => {
                     let (sizing, expr) = self.sized(arg);
@@ -110,6 +110,15 @@ impl Lowering<'_> {
             cells,
             repeat,
             span: call.span,
+        }
+    }
+
+    /// A block without selectors as a cell.
+    fn whole(&mut self, body: &ast::Body) -> Cell {
+        Cell::Part {
+            selector: Selector::Word("all".into()),
+            combined: false,
+            body: self.body(body),
         }
     }
 

@@ -7,6 +7,7 @@ use super::code::{Expr, ExprKind};
 use super::functions::Function;
 use super::lower::{Lowering, Number};
 use super::measures::Measure;
+use super::queries::Query;
 use super::selection::kind_named;
 use super::shape_attributes::ShapeAttribute;
 
@@ -56,7 +57,7 @@ impl Lowering<'_> {
     fn name(&mut self, name: Ident) -> ExprKind {
         match self.target(name) {
             Some(Target::Local(slot)) => ExprKind::Slot(slot),
-            Some(Target::Value { unit, index }) => self.defined(unit, index, Vec::new()),
+            Some(Target::Value { index, .. }) => self.defined(name, index, Vec::new()),
             Some(Target::Attribute) => match ShapeAttribute::named(self.text(name)) {
                 Some(attribute) => ExprKind::Attribute(attribute),
                 None => self.not_yet(name),
@@ -98,7 +99,7 @@ impl Lowering<'_> {
     fn function_call(&mut self, name: Ident, args: &[ast::Expr]) -> ExprKind {
         let lowered = self.exprs(args);
         match self.target(name) {
-            Some(Target::Value { unit, index }) => self.defined(unit, index, lowered),
+            Some(Target::Value { index, .. }) => self.defined(name, index, lowered),
             Some(Target::Function(_)) => match Function::named(self.text(name)) {
                 Some((function, fewest, most)) if args.len() >= fewest && args.len() <= most => {
                     ExprKind::Builtin {
@@ -107,20 +108,28 @@ impl Lowering<'_> {
                     }
                 }
                 Some(_) => self.not_yet(name),
-                None => match Measure::named(self.text(name)) {
-                    Some(measure) => ExprKind::Measure {
-                        measure,
-                        args: lowered,
-                    },
-                    None => self.not_yet(name),
-                },
+                None => self.of_shape(name, lowered),
             },
             _ => self.not_yet(name),
         }
     }
 
-    fn defined(&self, unit: usize, index: usize, args: Vec<Expr>) -> ExprKind {
-        match self.numbers.value(unit, index) {
+    /// A function of the current shape, or of those around it.
+    fn of_shape(&mut self, name: Ident, args: Vec<Expr>) -> ExprKind {
+        if let Some(measure) = Measure::named(self.text(name)) {
+            return ExprKind::Measure { measure, args };
+        }
+        match Query::named(self.text(name)) {
+            Some(query) => {
+                self.asks |= query.is_about_others();
+                ExprKind::Query { query, args }
+            }
+            None => self.not_yet(name),
+        }
+    }
+
+    fn defined(&self, name: Ident, index: usize, args: Vec<Expr>) -> ExprKind {
+        match self.numbers.value(self.place(name), index) {
             Number::Global(global) => ExprKind::Global(global),
             Number::Function(function) => ExprKind::Call { function, args },
         }

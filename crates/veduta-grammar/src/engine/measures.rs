@@ -93,7 +93,7 @@ impl Measure {
             Self::HasTags => Value::Bool(has_tags(state, args)),
             Self::Tags => tags(state),
             Self::IsClosed => Value::Bool(form.geometry.is_solid()),
-            Self::IsInstanced => Value::Bool(false),
+            Self::IsInstanced => Value::Bool(matches!(form.geometry, Geometry::Instance(_))),
             Self::Volume => Value::Number(if form.geometry.is_solid() {
                 volume(form)
             } else {
@@ -104,6 +104,7 @@ impl Measure {
                 Geometry::Rectangle(_) => 1.0,
                 Geometry::Box => 6.0,
                 Geometry::Faces { mesh, .. } => mesh.face_count() as f64,
+                Geometry::Instance(instance) => instance.mesh().face_count() as f64,
             }),
             Self::UvExtent(_) | Self::UvLow(_) | Self::UvHigh(_) => self.of_texture(state, args)?,
             _ => self.of_mesh(&form.world_mesh(), args)?,

@@ -4,11 +4,16 @@
 //! be called from many threads. Frame of rule files: metres, right-handed, y up.
 
 mod arrays;
+mod asset_names;
 mod code;
 mod colours;
+mod draws;
 mod evaluate;
 mod fault;
+mod frame;
 mod functions;
+mod globals;
+mod instances;
 mod limits;
 mod lists;
 mod lot;
@@ -16,40 +21,50 @@ mod lower;
 mod lower_body;
 mod lower_expression;
 mod measures;
+mod nested;
+mod occluders;
 mod operations;
 mod operators;
 mod overrides;
 mod pack;
+mod queries;
 mod random;
+mod rederive;
 mod run;
 mod selection;
 mod shape_attributes;
 mod state;
+mod steps;
 mod surfaces;
 mod texture_map;
 mod tree;
 mod value;
 
+pub use asset_names::{asset_names, AssetNames};
 pub use code::{Code, Expr, ExprKind};
+pub use draws::Taken;
 pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
-pub use lower::{lower, Lowered};
+pub use lower::{lower, lower_in_style, Lowered};
+pub use occluders::Occluder;
 pub use operations::names as operation_names;
-pub use overrides::{Edit, Overrides};
+pub use overrides::{Edit, Edited, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};
 pub use random::Stream;
-pub use run::{derive, Options};
+pub use rederive::rederive;
+pub use run::{derive, occluders, Options};
 pub use state::{Extra, Look, Place, State};
 pub use surfaces::{surfaces, Surfaces};
 pub use texture_map::TextureMap;
-pub use tree::{Node, Tree};
+pub use tree::{Known, Node, Told, Tree};
 pub use value::{Array, Value};
 
 /// The names of all functions that derive.
 pub fn function_names() -> impl Iterator<Item = &'static str> {
     functions::Function::names()
         .chain(measures::Measure::names())
+        .chain(queries::Query::names())
         .chain(["comp"])
 }
 

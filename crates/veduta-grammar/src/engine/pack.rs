@@ -5,11 +5,11 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 
 use super::state::Look;
 use super::tree::{Node, Tree};
-use crate::shape::Geometry;
+use crate::shape::{over, Asset, Geometry, Instance, Scope};
 
 /// Polygons of all leaves. A polygon's first ring is its outline; each leaf with geometry is one
 /// feature, in the order of the tree.
@@ -31,6 +31,13 @@ pub struct Packed {
     /// Size of each feature's scope along x and y (m).
     pub feature_size: Vec<[f64; 2]>,
     pub looks: Vec<Arc<Look>>,
+    /// Leaves that are assets stretched to their scopes have no polygons but one row each here.
+    pub instance_feature: Vec<i32>,
+    /// The place of each instance's asset in `assets`.
+    pub instance_asset: Vec<u32>,
+    /// 3 x 4 by rows: from the asset's frame (m; z up, as places have it) to that of places.
+    pub instance_transform: Vec<[f64; 12]>,
+    pub assets: Vec<Arc<Asset>>,
 }
 
 /// A place of rule files in the frame of places.
@@ -83,6 +90,10 @@ impl Packer {
                 self.end_polygon(feature);
             }
             Geometry::Box => self.faces(&form.geometry.mesh(), node, feature),
+            Geometry::Instance(instance) => match placed(&form.scope, instance) {
+                Some(transform) => self.instance(instance, transform, feature),
+                None => self.faces(&instance.mesh(), node, feature),
+            },
         }
         let look = self.look(&node.state.look);
         let size = form.scope.size;
@@ -122,6 +133,20 @@ impl Packer {
         self.packed.polygon_feature.push(feature);
     }
 
+    fn instance(&mut self, instance: &Instance, transform: [f64; 12], feature: i32) {
+        let assets = &mut self.packed.assets;
+        let known = assets
+            .iter()
+            .position(|other| Arc::ptr_eq(other, &instance.asset));
+        let asset = known.unwrap_or_else(|| {
+            assets.push(instance.asset.clone());
+            assets.len() - 1
+        });
+        self.packed.instance_feature.push(feature);
+        self.packed.instance_asset.push(asset as u32);
+        self.packed.instance_transform.push(transform);
+    }
+
     fn look(&mut self, look: &Arc<Look>) -> u32 {
         if let Some(&known) = self.known.get(&Arc::as_ptr(look)) {
             return known;
@@ -141,4 +166,22 @@ impl Packer {
 fn texture(node: &Node, place: DVec3, own: [f64; 2]) -> [f64; 2] {
     let map = node.state.extra.as_ref().and_then(|extra| extra.maps[0]);
     map.map_or(own, |map| map.at(place))
+}
+
+/// From an asset's frame to that of places, by rows; None where its box is flat and the asset is not.
+fn placed(scope: &Scope, instance: &Instance) -> Option<[f64; 12]> {
+    let (low, size) = instance.bounds();
+    let ratio = over(scope.size, size);
+    let flat = size.cmpeq(DVec3::ZERO);
+    let stretch = DVec3::select(flat, DVec3::ONE, ratio);
+    if stretch.min_element() <= 0.0 {
+        return None;
+    }
+    let place = DMat3::from_cols(DVec3::X, DVec3::Z, DVec3::NEG_Y);
+    let world = scope.axes * DMat3::from_diagonal(stretch);
+    let turn = place * world * instance.upright() * place.transpose();
+    let by = place * (scope.origin - world * low);
+    let row = |k: usize| [turn.x_axis[k], turn.y_axis[k], turn.z_axis[k], by[k]];
+    let rows = [row(0), row(1), row(2)].concat();
+    rows.try_into().ok()
 }

@@ -4,20 +4,21 @@ use std::collections::HashMap;
 use std::sync::Arc;
 use std::time::Instant;
 
+use crate::shape::Asset;
 use crate::Span;
 
-use super::code::{Body, Code, Expr, Operation, Step};
-use super::evaluate::{alternative, Scene};
+use super::code::{Code, Expr, Rule};
+use super::draws::{Draws, LogSum};
 use super::fault::Fault;
+use super::frame::{Fate, Frame};
+use super::globals::Global;
 use super::limits::Limits;
-use super::overrides::Overrides;
+use super::occluders::{Occluder, Trail};
+use super::overrides::{Edit, Edited, Overrides};
 use super::random::Stream;
 use super::state::State;
-use super::tree::{Node, Tree};
+use super::tree::{Node, Told, Tree};
 use super::value::Value;
-
-/// How often the clock is looked at: every so many shapes.
-const SHAPES_PER_LOOK: usize = 1024;
 
 /// The most messages and reports of a derivation; what is beyond is dropped.
 pub const MOST_MESSAGES: usize = 100_000;
@@ -30,6 +31,10 @@ pub struct Options {
     /// Values of attributes by name, instead of those in the file.
     pub attributes: HashMap<String, Value>,
     pub overrides: Overrides,
+    /// What `i` may insert, by name.
+    pub assets: Arc<HashMap<Arc<str>, Arc<Asset>>>,
+    /// What stands around the start shape: what [`occluders`] gives for each of its neighbours.
+    pub neighbours: Vec<Arc<Vec<Occluder>>>,
 }
 
 /// A derivation at work.
@@ -39,196 +44,235 @@ pub struct Run<'a> {
     pub(super) tree: Tree,
     /// Functions being called now, one in another.
     pub(super) calls: usize,
-    globals: Vec<Global>,
-    waiting: Vec<Waiting>,
+    pub(super) globals: Vec<Global>,
+    pub(super) waiting: Vec<Waiting>,
+    /// Shapes made so far, those of inlined rules included.
+    pub(super) made: usize,
+    /// Operations that inline others now, one in another.
+    pub(super) nested: usize,
+    /// The node whose rule is at work.
+    pub(super) at: u32,
+    /// Where the current shape stands; None where no rule asks about other shapes.
+    pub(super) trail: Option<Trail>,
+    /// What the first of two passes collects.
+    pub(super) recorded: Option<Vec<Occluder>>,
+    /// What the first pass has collected, in the second.
+    pub(super) around: Vec<Occluder>,
     started: Instant,
-    forced: Vec<u16>,
-}
-
-#[derive(Clone)]
-enum Global {
-    Unknown,
-    /// Being evaluated: a second look at it is a circle.
-    Open,
-    Known(Value),
 }
 
 /// A shape that its rule has still to be applied to.
-struct Waiting {
-    node: u32,
-    args: Vec<Value>,
-    stream: Stream,
-    depth: usize,
-}
-
-/// A rule at work on one shape.
-pub struct Frame {
+pub(super) struct Waiting {
     pub node: u32,
-    pub state: State,
-    pub slots: Vec<Value>,
     pub stream: Stream,
     pub depth: usize,
-    /// Where the children's streams come from: the rule's own draws do not move them.
-    origin: Stream,
-    children: u32,
-    log_prior: f64,
-    choices: Vec<u16>,
-    fate: Fate,
-}
-
-/// What becomes of the current shape at the end of its body.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Fate {
-    /// Nothing has been done with it: it stays as a leaf, unless brackets made shapes in its place.
-    Untouched,
-    /// It has been changed since it was last handed on: it stays as a leaf.
-    Changed,
-    /// It lives on in its children, or is gone.
-    Done,
+    /// Where the shape stands; empty where no rule asks about other shapes.
+    pub trail: Vec<u32>,
 }
 
 /// Derives the tree of `rule` from a start shape.
+///
+/// Rules that ask about other shapes are derived twice: at first every question has the answer
+/// that there is nothing, then it is about the shapes that the first pass made. So no answer
+/// depends on the order of the work.
 pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Result<Tree, Fault> {
-    let mut run = Run {
-        code,
-        options,
-        tree: Tree::default(),
-        calls: 0,
-        globals: vec![Global::Unknown; code.globals.len()],
-        waiting: Vec::new(),
-        started: Instant::now(),
-        forced: Vec::new(),
-    };
-    run.start(rule, start)?;
-    while let Some(next) = run.waiting.pop() {
-        run.apply(next)?;
+    let started = Instant::now();
+    let mut around = Vec::new();
+    if code.asks {
+        let mut first = Run::new(code, options, Tree::default(), started);
+        first.recorded = Some(Vec::new());
+        first.all(rule, start.clone())?;
+        around = first.recorded.unwrap_or_default();
     }
-    run.tree.leaves.sort_unstable_by_key(|&leaf| leaf);
+    let mut run = Run::new(code, options, Tree::default(), started);
+    run.around = around;
+    run.all(rule, start)?;
+    run.know_all();
+    run.tree.settle();
+    options.overrides.report_missed(&mut run.tree, &[]);
     Ok(run.tree)
 }
 
-impl Run<'_> {
+/// What a start shape puts in the way of others: see [`Options::neighbours`].
+pub fn occluders(
+    code: &Code,
+    rule: usize,
+    start: State,
+    options: &Options,
+) -> Result<Vec<Occluder>, Fault> {
+    let mut run = Run::new(code, options, Tree::default(), Instant::now());
+    run.trail = Some(Trail::default());
+    run.recorded = Some(Vec::new());
+    run.all(rule, start)?;
+    Ok(run.recorded.unwrap_or_default())
+}
+
+impl<'a> Run<'a> {
+    pub(super) fn new(code: &'a Code, options: &'a Options, tree: Tree, started: Instant) -> Self {
+        let mut globals = vec![Global::Unknown; code.globals.len()];
+        for known in &tree.globals {
+            globals[known.global as usize] = Global::Known(known.value.clone());
+        }
+        Self {
+            code,
+            options,
+            tree,
+            calls: 0,
+            globals,
+            waiting: Vec::new(),
+            made: 0,
+            nested: 0,
+            at: 0,
+            trail: code.asks.then(Trail::default),
+            recorded: None,
+            around: Vec::new(),
+            started,
+        }
+    }
+
+    fn all(&mut self, rule: usize, start: State) -> Result<(), Fault> {
+        self.start(rule, start)?;
+        self.work()
+    }
+
+    /// What is to be derived next.
+    pub(super) fn wait(&mut self, next: Waiting) {
+        self.waiting.push(next);
+    }
+
+    /// Applies rules until no shape waits.
+    pub(super) fn work(&mut self) -> Result<(), Fault> {
+        while let Some(next) = self.waiting.pop() {
+            self.apply(next)?;
+        }
+        Ok(())
+    }
+
     fn start(&mut self, rule: usize, state: State) -> Result<(), Fault> {
         let called = &self.code.rules[rule];
-        if called.params > 0 {
+        if !called.params.is_empty() {
             let message = format!(
                 "{} needs {} arguments and cannot start",
-                called.name, called.params
+                called.name,
+                called.params.len()
             );
-            return Err(Fault::at(Span::default(), message));
+            return Err(Fault::at(called.span, message).within(called.unit));
         }
         self.tree.nodes.push(Node {
             parent: None,
             place: 0,
             name: called.name.clone(),
             rule: Some(rule as u32),
+            args: Box::default(),
             choices: Vec::new(),
+            inlined: LogSum::default(),
             state,
+            first_child: 0,
+            child_count: 0,
         });
-        self.waiting.push(Waiting {
+        self.wait(Waiting {
             node: 0,
-            args: Vec::new(),
             stream: Stream::new(self.options.seed),
             depth: 0,
+            trail: Vec::new(),
         });
         Ok(())
     }
 
     /// Applies the rule of a waiting shape; its children wait in turn, the first on top.
-    fn apply(&mut self, next: Waiting) -> Result<(), Fault> {
+    pub(super) fn apply(&mut self, next: Waiting) -> Result<(), Fault> {
         let code = self.code;
         let node = &self.tree.nodes[next.node as usize];
         let Some(rule) = node.rule.map(|rule| &code.rules[rule as usize]) else {
             return Ok(());
         };
+        let edit = self.options.overrides.edit(&self.tree, next.node);
         let mut frame = Frame {
             node: next.node,
+            span: rule.span,
             state: node.state.clone(),
-            slots: next.args,
+            slots: node.args.to_vec(),
             stream: next.stream,
             depth: next.depth,
             origin: next.stream,
             children: 0,
-            log_prior: 0.0,
-            choices: Vec::new(),
+            draws: Draws::of(edit.filter(|edit| edit.fits(node))),
             fate: Fate::Untouched,
         };
-        self.forced = self.options.overrides.choices(&self.tree, next.node);
-        let waiting = self.waiting.len();
+        if let Some(trail) = &mut self.trail {
+            *trail = Trail::at(next.trail);
+        }
+        self.at = next.node;
+        let unfit = edit.and_then(|edit| self.set_values(edit, rule, &mut frame));
+        let (waiting, first) = (self.waiting.len(), self.tree.nodes.len());
+        let told = (self.tree.messages.len(), self.tree.reports.len());
+        self.run_rule(rule, &mut frame)
+            .map_err(|fault| fault.within(rule.unit))?;
+        self.waiting[waiting..].reverse();
+        self.tell(next.node, told);
+        if edit.is_some() {
+            let path = self.tree.path(next.node);
+            let fault = unfit.or_else(|| frame.draws.fault());
+            self.tree.edited.push(Edited { path, fault });
+        }
+        let count = self.tree.nodes.len() - first;
+        let node = &mut self.tree.nodes[next.node as usize];
+        node.choices = frame.draws.taken;
+        node.inlined = frame.draws.inlined;
+        (node.first_child, node.child_count) = (first as u32, count as u32);
+        Ok(())
+    }
+
+    /// Sets what an edit gives: parameters of the rule, or attributes. Gives what it cannot set.
+    fn set_values(&self, edit: &Edit, rule: &Rule, frame: &mut Frame) -> Option<String> {
+        let name = &self.tree.nodes[frame.node as usize].name;
+        if let Some(fault) = edit.misnamed(name) {
+            return Some(fault);
+        }
+        if edit.delete {
+            return Some("the start shape cannot be deleted".into());
+        }
+        for (name, value) in &edit.values {
+            let parameter = rule.params.iter().position(|one| one == name);
+            if let Some(slot) = parameter {
+                frame.slots[slot] = value.clone();
+                continue;
+            }
+            let Some(global) = self.code.attribute_named(name) else {
+                let rule = &rule.name;
+                return Some(format!(
+                    "`{name}` is neither a parameter of {rule} nor an attribute"
+                ));
+            };
+            let set = frame.state.set.get_or_insert_default();
+            Arc::make_mut(set).insert(global, value.clone());
+        }
+        None
+    }
+
+    /// Keeps whose the messages and reports are that came after `before`. Those of inlined rules
+    /// belong to the shape that stays.
+    fn tell(&mut self, node: u32, before: (usize, usize)) {
+        let messages = self.tree.messages.len() - before.0;
+        let reports = self.tree.reports.len() - before.1;
+        if self.nested == 0 && messages + reports > 0 {
+            self.tree.told.push(Told {
+                node,
+                messages,
+                reports,
+            });
+        }
+    }
+
+    fn run_rule(&mut self, rule: &Rule, frame: &mut Frame) -> Result<(), Fault> {
         for local in &rule.locals {
-            let value = self.evaluate(local, &mut frame)?;
+            let value = self.evaluate(local, frame)?;
             frame.slots.push(value);
         }
-        self.run_body(&rule.body, &mut frame)?;
+        self.run_body(&rule.body, frame)?;
         if frame.stays(0) {
-            self.leave(&rule.name, &mut frame)?;
+            self.leave(&rule.name, frame)?;
         }
-        self.waiting[waiting..].reverse();
-        self.tree.log_prior += frame.log_prior;
-        self.tree.nodes[next.node as usize].choices = frame.choices;
-        Ok(())
-    }
-
-    /// Runs a body on the frame's shape; `frame.fate` tells what became of it.
-    pub fn run_body(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
-        match body {
-            Body::Steps(steps) => self.run_steps(steps, frame),
-            Body::Choice(choice) => match self.choose(choice, &mut frame.scene())? {
-                Some(taken) => {
-                    frame.choices.push(taken as u16);
-                    self.run_body(alternative(choice, taken), frame)
-                }
-                None => Ok(()),
-            },
-        }
-    }
-
-    fn run_steps(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
-        for step in steps {
-            match step {
-                Step::Rule { rule, args, span } => {
-                    let mut values = Vec::with_capacity(args.len());
-                    for arg in args {
-                        values.push(self.evaluate(arg, frame)?);
-                    }
-                    self.call(*rule, values, *span, frame)?;
-                    frame.consumed();
-                }
-                Step::Leaf { symbol } => {
-                    let name = self.code.symbol_text(*symbol);
-                    self.leave(&name, frame)?;
-                    frame.consumed();
-                }
-                Step::Push(inner) => self.run_pushed(inner, frame)?,
-                Step::Operation(operation) => self.operate(operation, frame)?,
-            }
-        }
-        Ok(())
-    }
-
-    /// `[ ... ]`: what is left of the copy at its end stays as a leaf, if anything was done to it.
-    fn run_pushed(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
-        let kept = (frame.state.clone(), frame.fate);
-        frame.fate = Fate::Done;
-        self.run_steps(steps, frame)?;
-        if frame.fate == Fate::Changed {
-            self.leave_under_rule(frame)?;
-        }
-        (frame.state, frame.fate) = kept;
-        Ok(())
-    }
-
-    /// Runs a cell's body on a shape of its own; what is left of it stays as a leaf.
-    pub fn run_cell(&mut self, body: &Body, state: State, frame: &mut Frame) -> Result<(), Fault> {
-        let kept = std::mem::replace(&mut frame.state, state);
-        let children = frame.children;
-        frame.fate = Fate::Untouched;
-        self.run_body(body, frame)?;
-        if frame.stays(children) {
-            self.leave_under_rule(frame)?;
-        }
-        frame.state = kept;
-        frame.consumed();
         Ok(())
     }
 
@@ -238,124 +282,6 @@ impl Run<'_> {
 
     pub fn evaluate_number(&mut self, expr: &Expr, frame: &mut Frame) -> Result<f64, Fault> {
         self.number(expr, &mut frame.scene())
-    }
-
-    fn call(
-        &mut self,
-        rule: usize,
-        args: Vec<Value>,
-        span: Span,
-        frame: &mut Frame,
-    ) -> Result<(), Fault> {
-        let depth = frame.depth + 1;
-        if depth > self.options.limits.depth {
-            let message = format!("rules apply one within another over {} deep", depth - 1);
-            return Err(Fault::at(span, message));
-        }
-        let name = self.code.rules[rule].name.clone();
-        let stream = frame.origin.child(frame.children);
-        let Some(node) = self.add(name, Some(rule as u32), frame, span)? else {
-            return Ok(());
-        };
-        self.waiting.push(Waiting {
-            node,
-            args,
-            stream,
-            depth,
-        });
-        Ok(())
-    }
-
-    fn leave_under_rule(&mut self, frame: &mut Frame) -> Result<(), Fault> {
-        let name = self.tree.nodes[frame.node as usize].name.clone();
-        self.leave(&name, frame)
-    }
-
-    /// The current shape stays as a leaf.
-    fn leave(&mut self, name: &Arc<str>, frame: &mut Frame) -> Result<(), Fault> {
-        if let Some(leaf) = self.add(name.clone(), None, frame, Span::default())? {
-            self.tree.leaves.push(leaf);
-        }
-        Ok(())
-    }
-
-    /// A child of the frame's node with its current shape; None where an override deletes it.
-    fn add(
-        &mut self,
-        name: Arc<str>,
-        rule: Option<u32>,
-        frame: &mut Frame,
-        span: Span,
-    ) -> Result<Option<u32>, Fault> {
-        let place = frame.children;
-        frame.children += 1;
-        if self
-            .options
-            .overrides
-            .deletes(&self.tree, frame.node, place)
-        {
-            return Ok(None);
-        }
-        let count = self.tree.nodes.len();
-        if count >= self.options.limits.shapes {
-            return Err(Fault::at(span, format!("more than {count} shapes")));
-        }
-        if count % SHAPES_PER_LOOK == 0 {
-            self.check_time(span)?;
-        }
-        self.tree.nodes.push(Node {
-            parent: Some(frame.node),
-            place,
-            name,
-            rule,
-            choices: Vec::new(),
-            state: frame.state.clone(),
-        });
-        Ok(Some(count as u32))
-    }
-
-    /// The value of an attribute or a constant for a shape.
-    pub(super) fn global(&mut self, index: usize, state: &State) -> Result<Value, Fault> {
-        if let Some(value) = state.set.as_ref().and_then(|set| set.get(&index)) {
-            return Ok(value.clone());
-        }
-        let code = self.code;
-        let global = &code.globals[index];
-        match &self.globals[index] {
-            Global::Known(value) => return Ok(value.clone()),
-            Global::Open => {
-                let message = format!("{} depends on itself", global.name);
-                return Err(Fault::at(global.value.span, message));
-            }
-            Global::Unknown => {}
-        }
-        let given = self.options.attributes.get(global.name.as_ref());
-        let value = if let Some(value) = given.filter(|_| global.is_attribute) {
-            value.clone()
-        } else {
-            self.globals[index] = Global::Open;
-            let start = self.tree.nodes[0].state.clone();
-            let mut scene = Scene {
-                slots: &mut Vec::new(),
-                state: &start,
-                stream: &mut Stream::new(self.options.seed).child(u32::MAX - index as u32),
-                log_prior: &mut 0.0,
-            };
-            let found = self.with_locals(&global.locals, &global.value, &mut scene);
-            self.globals[index] = Global::Unknown;
-            found?
-        };
-        self.globals[index] = Global::Known(value.clone());
-        Ok(value)
-    }
-
-    /// The alternative that an override asks for, if there is one.
-    pub(super) fn forced_choice(&mut self, count: usize) -> Option<usize> {
-        if self.forced.is_empty() {
-            return None;
-        }
-        let choice = usize::from(self.forced.remove(0));
-        (choice < count).then_some(choice)
     }
 
     /// What `print` is given; what is beyond the most messages is dropped.
@@ -382,40 +308,5 @@ impl Run<'_> {
     /// The shape as the frame's rule got it.
     pub(super) fn start_of(&self, frame: &Frame) -> &State {
         &self.tree.nodes[frame.node as usize].state
-    }
-
-    fn operate(&mut self, operation: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-        super::operations::run(self, operation, frame)
-    }
-}
-
-impl Frame {
-    /// Where the rule's expressions are evaluated.
-    pub fn scene(&mut self) -> Scene<'_> {
-        Scene {
-            slots: &mut self.slots,
-            state: &self.state,
-            stream: &mut self.stream,
-            log_prior: &mut self.log_prior,
-        }
-    }
-
-    /// The shape has been changed: it stays unless something follows.
-    pub fn changed(&mut self) {
-        self.fate = Fate::Changed;
-    }
-
-    /// The shape is gone: its parts have taken its place, or nothing has.
-    pub fn consumed(&mut self) {
-        self.fate = Fate::Done;
-    }
-
-    /// Whether the shape stays as a leaf; `children` is how many there were before its body.
-    fn stays(&self, children: u32) -> bool {
-        match self.fate {
-            Fate::Untouched => self.children == children,
-            Fate::Changed => true,
-            Fate::Done => false,
-        }
     }
 }

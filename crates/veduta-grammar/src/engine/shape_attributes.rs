@@ -2,20 +2,19 @@
 
 use std::f64::consts::PI;
 
-use glam::EulerRot;
+use glam::{DMat3, DVec3, EulerRot};
 
 use super::state::State;
 use super::tree::Node;
 use super::value::Value;
-use crate::shape::Scope;
 
 /// A shape attribute of the language.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum ShapeAttribute {
     ScopeSize(usize),
-    /// The place of the scope's origin, in the world.
+    /// The place of the scope's origin from the pivot, which is the world until `setPivot`.
     ScopePlace(usize),
-    /// The turn of the scope about the world's axes, in degrees.
+    /// The turn of the scope about the pivot's axes, in degrees.
     ScopeTurn(usize),
     SplitIndex,
     SplitTotal,
@@ -29,15 +28,17 @@ pub enum ShapeAttribute {
     Texture,
     Seed,
     Elevation,
-    /// The pivot is the world: scopes have their places in it.
-    Pivot,
+    PivotPlace(usize),
+    PivotTurn(usize),
+    TrimLevel,
+    TrimSteep,
     StartName,
     StartPlace(usize),
     StartTurn(usize),
 }
 
 /// All shape attributes by their names.
-const TABLE: [(&str, ShapeAttribute); 37] = {
+const TABLE: [(&str, ShapeAttribute); 39] = {
     use ShapeAttribute as A;
     [
         ("scope.sx", A::ScopeSize(0)),
@@ -63,12 +64,14 @@ const TABLE: [(&str, ShapeAttribute); 37] = {
         ("material.name", A::MaterialName),
         ("seedian", A::Seed),
         ("scope.elevation", A::Elevation),
-        ("pivot.px", A::Pivot),
-        ("pivot.py", A::Pivot),
-        ("pivot.pz", A::Pivot),
-        ("pivot.ox", A::Pivot),
-        ("pivot.oy", A::Pivot),
-        ("pivot.oz", A::Pivot),
+        ("pivot.px", A::PivotPlace(0)),
+        ("pivot.py", A::PivotPlace(1)),
+        ("pivot.pz", A::PivotPlace(2)),
+        ("pivot.ox", A::PivotTurn(0)),
+        ("pivot.oy", A::PivotTurn(1)),
+        ("pivot.oz", A::PivotTurn(2)),
+        ("trim.horizontal", A::TrimLevel),
+        ("trim.vertical", A::TrimSteep),
         ("initialShape.name", A::StartName),
         ("initialShape.startRule", A::StartName),
         ("initialShape.origin.px", A::StartPlace(0)),
@@ -96,8 +99,13 @@ impl ShapeAttribute {
         let scope = &state.form.scope;
         match self {
             Self::ScopeSize(axis) => Value::Number(scope.size[axis]),
-            Self::ScopePlace(axis) => Value::Number(scope.origin[axis]),
-            Self::ScopeTurn(axis) => Value::Number(turn(scope, axis)),
+            Self::ScopePlace(axis) => {
+                let (origin, axes) = pivot(state);
+                Value::Number((axes.transpose() * (scope.origin - origin))[axis])
+            }
+            Self::ScopeTurn(axis) => {
+                Value::Number(turn(pivot(state).1.transpose() * scope.axes, axis))
+            }
             Self::SplitIndex => Value::Number(state.split.index as f64),
             Self::SplitTotal => Value::Number(state.split.total as f64),
             Self::CompIndex => Value::Number(state.comp.index as f64),
@@ -116,16 +124,25 @@ impl ShapeAttribute {
             },
             Self::Seed => Value::Number(f64::from(state.seed)),
             Self::Elevation => Value::Number(scope.origin.y),
-            Self::Pivot => Value::Number(0.0),
+            Self::PivotPlace(axis) => Value::Number(pivot(state).0[axis]),
+            Self::PivotTurn(axis) => Value::Number(turn(pivot(state).1, axis)),
+            Self::TrimLevel => Value::Bool(state.extra.as_ref().is_some_and(|e| e.trims_level)),
+            Self::TrimSteep => Value::Bool(!state.extra.as_ref().is_some_and(|e| e.keeps_steep)),
             Self::StartName => Value::Text(first.name.clone()),
             Self::StartPlace(axis) => Value::Number(first.state.form.scope.origin[axis]),
-            Self::StartTurn(axis) => Value::Number(turn(&first.state.form.scope, axis)),
+            Self::StartTurn(axis) => Value::Number(turn(first.state.form.scope.axes, axis)),
         }
     }
 }
 
-/// The turn of a scope about an axis of the world (degrees).
-fn turn(scope: &Scope, axis: usize) -> f64 {
-    let (x, y, z) = scope.axes.to_euler(EulerRot::XYZ);
+/// Origin and axes of a shape's pivot.
+fn pivot(state: &State) -> (DVec3, DMat3) {
+    let own = state.extra.as_ref().and_then(|extra| extra.pivot);
+    own.unwrap_or((DVec3::ZERO, DMat3::IDENTITY))
+}
+
+/// The turn of axes about one of the frame that they are in (degrees).
+fn turn(axes: DMat3, axis: usize) -> f64 {
+    let (x, y, z) = axes.to_euler(EulerRot::XYZ);
     [x, y, z][axis] * 180.0 / PI
 }

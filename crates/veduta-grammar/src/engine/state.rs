@@ -3,8 +3,11 @@
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
 
+use glam::{DMat3, DVec3};
+
 use crate::shape::Form;
 
+use super::operations::TrimPlane;
 use super::texture_map::{TextureMap, LAYERS};
 use super::value::Value;
 
@@ -46,6 +49,14 @@ pub struct Extra {
     pub projections: [Option<TextureMap>; LAYERS],
     /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
     pub maps: [Option<TextureMap>; LAYERS],
+    /// Origin and axes of the pivot; None is the world.
+    pub pivot: Option<(DVec3, DMat3)>,
+    /// The planes of `trim`.
+    pub trims: Vec<TrimPlane>,
+    /// `trim.horizontal`.
+    pub trims_level: bool,
+    /// The opposite of `trim.vertical`.
+    pub keeps_steep: bool,
 }
 
 impl Extra {

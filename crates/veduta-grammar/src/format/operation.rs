@@ -71,6 +71,13 @@ fn block(words: &mut Words, block: &Block) -> Doc {
             Doc::group(vec![open, Doc::Indented(inside), Doc::Line, words.take()])
         }
         Block::Body { body: does, .. } => body(words, does),
+        Block::Operands { first, second, .. } => {
+            let mut parts = vec![words.take()];
+            let mut inside = vec![Doc::Line, body(words, first), Doc::Line];
+            inside.extend([words.take(), Doc::text(" "), body(words, second)]);
+            parts.extend([Doc::Indented(inside), Doc::Line, words.take()]);
+            Doc::group(parts)
+        }
     }
 }
 

@@ -106,4 +106,24 @@ impl Parser<'_> {
             }
         }
     }
+
+    /// Whether the block at `open` parts operations by `|` before anything that cells have.
+    pub fn holds_operands(&self, open: usize) -> bool {
+        let mut index = open + 1;
+        loop {
+            match self.kind_at(index) {
+                TokenKind::Bar => return true,
+                TokenKind::Colon
+                | TokenKind::Assign
+                | TokenKind::CloseBrace
+                | TokenKind::Arrow
+                | TokenKind::EndOfFile => return false,
+                kind if kind.is_open() => match self.after_partner(index) {
+                    Some(after) => index = after,
+                    None => return false,
+                },
+                _ => index += 1,
+            }
+        }
+    }
 }

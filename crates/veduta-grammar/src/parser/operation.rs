@@ -67,15 +67,16 @@ impl Parser<'_> {
             TAKES_DEPTHS => Sizes::Two,
             _ => Sizes::One,
         };
+        let takes_operation = TAKES_OPERATION.contains(&self.slice(start));
         let block = if self.is(TokenKind::OpenBrace) {
-            Some(self.nested(|parser| parser.block(sizes))?)
-        } else if TAKES_OPERATION.contains(&self.slice(start)) {
+            Some(self.nested(|parser| parser.block(sizes, takes_operation))?)
+        } else if takes_operation {
             Some(self.nested(Self::operation_as_block)?)
         } else {
             None
         };
         let rest = if sizes == Sizes::Two && self.is(TokenKind::OpenBrace) {
-            Some(self.nested(|parser| parser.block(Sizes::One))?)
+            Some(self.nested(|parser| parser.block(Sizes::One, false))?)
         } else {
             None
         };
@@ -99,14 +100,27 @@ impl Parser<'_> {
         Ok(Block::Body { body, span })
     }
 
-    fn block(&mut self, sizes: Sizes) -> Parsed<Block> {
+    /// `operands` says whether the block may be `{ operations | operations }`.
+    fn block(&mut self, sizes: Sizes, operands: bool) -> Parsed<Block> {
         let open = self.span();
-        if !self.holds_cells(self.at()) {
+        if !self.holds_cells(self.at()) || (operands && self.holds_operands(self.at())) {
             self.advance();
             let body = Box::new(self.body()?);
+            let second = if operands && self.eat(TokenKind::Bar) {
+                Some(Box::new(self.body()?))
+            } else {
+                None
+            };
             self.expect(TokenKind::CloseBrace, "at the end of a block")?;
             let span = self.since(open);
-            return Ok(Block::Body { body, span });
+            return Ok(match second {
+                None => Block::Body { body, span },
+                Some(second) => Block::Operands {
+                    first: body,
+                    second,
+                    span,
+                },
+            });
         }
         let cells = self.cells(sizes, Self::body)?;
         let repeat = self.eat(TokenKind::Star);

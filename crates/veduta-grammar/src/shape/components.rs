@@ -84,7 +84,7 @@ fn faces(form: &Form) -> Vec<Component> {
         Geometry::Nothing => return Vec::new(),
         Geometry::Box => return box_faces(&form.scope),
         Geometry::Faces { mesh, .. } => std::borrow::Cow::Borrowed(mesh.as_ref()),
-        Geometry::Rectangle(_) => std::borrow::Cow::Owned(form.geometry.mesh()),
+        other => std::borrow::Cow::Owned(other.mesh()),
     };
     mesh.faces()
         .enumerate()

@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use veduta_geometry::solid::{self, Mesh};
 
+use super::asset::Instance;
 use super::scope::{over, Scope};
 
 /// How far points may lie apart and still be one, as a share of the scope's size.
@@ -24,6 +25,8 @@ pub enum Geometry {
     Box,
     /// Faces with holes; `solid` where they are closed.
     Faces { mesh: Arc<Mesh>, solid: bool },
+    /// An asset that fills the scope. Operations that need its faces turn it into `Faces` first.
+    Instance(Instance),
 }
 
 /// A scope with its geometry.
@@ -84,7 +87,23 @@ impl Geometry {
 
     /// Whether the surface is closed.
     pub fn is_solid(&self) -> bool {
-        matches!(self, Self::Box | Self::Faces { solid: true, .. })
+        match self {
+            Self::Nothing | Self::Rectangle(_) => false,
+            Self::Box => true,
+            Self::Faces { solid, .. } => *solid,
+            Self::Instance(instance) => instance.is_solid(),
+        }
+    }
+
+    /// The faces of an instance; anything else as it is.
+    pub fn opened(&self) -> Self {
+        match self {
+            Self::Instance(instance) => Self::Faces {
+                mesh: instance.mesh(),
+                solid: instance.is_solid(),
+            },
+            other => other.clone(),
+        }
     }
 
     /// The faces in shares of the scope.
@@ -94,6 +113,7 @@ impl Geometry {
             Self::Rectangle(axis) => Mesh::polygon(&[rectangle(*axis)]),
             Self::Box => solid::cube(),
             Self::Faces { mesh, .. } => Mesh::clone(mesh),
+            Self::Instance(instance) => Mesh::clone(&instance.mesh()),
         }
     }
 }

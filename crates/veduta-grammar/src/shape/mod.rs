@@ -1,6 +1,8 @@
 //! Shapes: an oriented box, and geometry in shares of that box.
 
+mod asset;
 mod components;
+mod distances;
 mod form;
 mod scope;
 mod selecting;
@@ -8,7 +10,9 @@ mod sizes;
 mod splitting;
 mod surroundings;
 
+pub use asset::{Asset, Instance};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
+pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};
 pub use scope::{over, Scope};
 pub use selecting::{is_meant, Frames};

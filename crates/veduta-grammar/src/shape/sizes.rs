@@ -35,6 +35,18 @@ pub struct TooManyParts {
     pub most: usize,
 }
 
+impl std::fmt::Display for TooManyParts {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        let Self { parts, most } = self;
+        // What cannot be counted is not named: a size of 0.000001 m can ask for any number.
+        if *parts < 1_000_000_000 {
+            write!(f, "a split into {parts} parts; {most} are the most")
+        } else {
+            write!(f, "a split into more than {most} parts, which are the most")
+        }
+    }
+}
+
 /// Parts shorter than this, and what rounding leaves at the end, are nothing (m).
 pub const SHORTEST_M: f64 = 1e-6;
 

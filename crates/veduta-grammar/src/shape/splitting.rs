@@ -12,7 +12,7 @@ use super::sizes::Cell;
 /// Closed shapes give closed parts. With `adjust` the scope of each part is fitted to its
 /// geometry; otherwise it is the cell, so that the scopes fill that of the whole.
 pub fn split(form: &Form, axis: usize, cells: &[Cell], adjust: bool) -> Vec<(Cell, Form)> {
-    match &form.geometry {
+    match &form.geometry.opened() {
         Geometry::Faces { mesh, solid } => split_faces(&form.scope, mesh, *solid, axis, cells)
             .into_iter()
             .map(|(cell, part)| (cell, if adjust { part.fitted() } else { part }))

@@ -2,10 +2,13 @@
 
 #![allow(dead_code)] // not every test needs all of it
 
+use std::collections::HashMap;
+use std::sync::Arc;
+
 use glam::DVec3;
-use veduta_geometry::solid::Mesh;
+use veduta_geometry::solid::{cube, Mesh};
 use veduta_grammar::engine::{derive, lot_form, lower, Code, Fault, Limits, Options, State, Tree};
-use veduta_grammar::shape::{Form, Geometry, Scope};
+use veduta_grammar::shape::{Asset, Form, Geometry, Scope};
 use veduta_grammar::{check, Program, Source};
 
 pub fn code(text: &str) -> Code {
@@ -35,6 +38,14 @@ pub fn lot_of(rings: &[&[(f64, f64)]]) -> State {
     )
 }
 
+/// One asset, `brick.obj`: a box of 2 m by 1 m by 1 m from its origin on.
+fn assets() -> Arc<HashMap<Arc<str>, Arc<Asset>>> {
+    let size = DVec3::new(2.0, 1.0, 1.0);
+    let mesh = cube().mapped(|unit| unit * size);
+    let asset = Asset::new("brick.obj".into(), mesh, (DVec3::ZERO, size)).unwrap();
+    Arc::new(HashMap::from([(asset.name.clone(), Arc::new(asset))]))
+}
+
 pub fn derived(text: &str, start: State) -> Result<Tree, Fault> {
     let code = code(text);
     let options = Options {
@@ -43,6 +54,7 @@ pub fn derived(text: &str, start: State) -> Result<Tree, Fault> {
             shapes: 100_000,
             ..Limits::default()
         },
+        assets: assets(),
         ..Options::default()
     };
     derive(&code, code.start.unwrap(), start, &options)

@@ -12,7 +12,7 @@ use expressions::{branches, cells, expr, sized};
 
 const NAMES: [&str; 8] = ["a", "Beta", "_c", "$d", "e1", "lib.f", "scope.sx", "g.h.I"];
 const PLAIN: usize = 5;
-const FIXED: [&str; 2] = ["inline", "splitAndSetbackPerimeter"];
+const FIXED: [&str; 3] = ["inline", "splitAndSetbackPerimeter", "union"];
 
 /// The names that the trees use.
 pub fn names() -> Names {
@@ -104,6 +104,12 @@ fn operation(body: BoxedStrategy<Body>) -> impl Strategy<Value = Operation> {
         (dotted(), args(), block).prop_map(|(name, args, block)| call(name, args, Some(block)));
     let inline = (args(), body_block(body.clone()))
         .prop_map(|(args, block)| call(ident_of("inline"), args, Some(block)));
+    let operands = (body.clone(), body.clone()).prop_map(|(first, second)| Block::Operands {
+        first: Box::new(first),
+        second: Box::new(second),
+        span: nowhere(),
+    });
+    let boolean = operands.prop_map(|block| call(ident_of("union"), None, Some(block)));
     let both = (
         cell_block(body.clone(), true),
         cell_block(body.clone(), false),
@@ -123,7 +129,7 @@ fn operation(body: BoxedStrategy<Body>) -> impl Strategy<Value = Operation> {
         },
     });
     prop_oneof![
-        prop_oneof![4 => named, 2 => leaf, 2 => with_block, 1 => inline, 1 => perimeter]
+        prop_oneof![4 => named, 2 => leaf, 2 => with_block, 1 => inline, 1 => boolean, 1 => perimeter]
             .prop_map(Operation::Call),
         push,
     ]

@@ -6,7 +6,9 @@ use std::sync::Arc;
 use super::super::code::{Arg, Operation};
 use super::super::colours::parsed;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
+use super::super::state::Look;
 use super::super::value::Value;
 use super::{number, word};
 
@@ -59,6 +61,19 @@ pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     Ok(())
 }
 
+/// `resetMaterial()`, `resetMaterial(shape | geometry | all)`: white and opaque without a texture,
+/// as at first; what the surface is in the model stays.
+pub fn reset_material(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let look = Arc::make_mut(&mut frame.state.look);
+    let class = look.class.clone();
+    *look = Look {
+        class,
+        ..Look::default()
+    };
+    frame.changed();
+    Ok(())
+}
+
 /// `set(name, value)`: a material's property, an attribute of the rule file for this shape and its
 /// children; `material.name` says what the surface is in the model.
 pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -99,6 +114,12 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         ("material.colormap", _) => {
             let path = value.to_string();
             look.texture = (!path.is_empty()).then(|| path.into());
+        }
+        ("trim.horizontal", _) => {
+            frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
+        }
+        ("trim.vertical", _) => {
+            frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
         }
         ("material.name", _) => look.class = value.to_string().into(),
         (other, _) => {

@@ -7,11 +7,13 @@ use veduta_geometry::solid::Mesh;
 
 use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
+use super::trimming::planes;
 use super::word;
-use crate::shape::{Component, Form};
+use crate::shape::{Component, Form, Kind};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
 /// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
@@ -26,8 +28,13 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         let message = format!("`{kind}` is no component: f, e, fe, v or h");
         return Err(Fault::at(op.span, message));
     };
+    run.record(None, &frame.state);
     let whole = frame.state.clone();
     let choosing = Choosing::of(&whole.form, kind, run);
+    let mut planes = match kind {
+        Kind::Faces if run.code.trims => planes(&choosing.found),
+        _ => Vec::new(),
+    };
     let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
     for (cell, picked) in op.cells.iter().zip(chosen) {
         let Cell::Part {
@@ -44,6 +51,22 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
             let form = |&at: &usize| (choosing.found[at].form.clone(), choosing.found[at].index);
             picked.iter().map(form).collect()
         };
+        if !planes.is_empty() && !*combined {
+            for (&at, shape) in picked.iter().zip(shapes) {
+                let mut trimmed = whole.clone();
+                trimmed.extra_mut().trims = std::mem::take(&mut planes[at]);
+                run_shape(
+                    run,
+                    body,
+                    shape,
+                    picked.len(),
+                    &trimmed,
+                    &name_of(selector),
+                    frame,
+                )?;
+            }
+            continue;
+        }
         run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
     }
     frame.state = whole;
@@ -77,13 +100,26 @@ pub fn run_shapes(
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     let total = shapes.len();
-    for (form, index) in shapes {
-        let mut state = whole.with_form(form);
-        state.comp = Place { index, total };
-        state.selector = name.clone();
-        run.run_cell(body, state, frame)?;
+    for shape in shapes {
+        run_shape(run, body, shape, total, whole, name, frame)?;
     }
     Ok(())
+}
+
+/// Runs a cell's body on one of `total` shapes.
+fn run_shape(
+    run: &mut Run<'_>,
+    body: &Body,
+    (form, index): (Form, usize),
+    total: usize,
+    whole: &State,
+    name: &Arc<str>,
+    frame: &mut Frame,
+) -> Result<(), Fault> {
+    let mut state = whole.with_form(form);
+    state.comp = Place { index, total };
+    state.selector = name.clone();
+    run.run_cell(body, state, frame)
 }
 
 /// The picked components as one shape along the axes of the whole; none where nothing is picked.

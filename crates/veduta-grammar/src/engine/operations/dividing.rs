@@ -1,15 +1,22 @@
 //! `split`: a shape to parts along an axis.
 
+use veduta_geometry::solid::Mesh;
+
 use super::super::code::{Body, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::state::{Place, State};
-use super::{axes, word};
+use super::{axes, dividing_textures, word};
 use crate::shape::{self, cells, Geometry, Pattern, Size};
 
 /// `split(x) { 'size : A | ~size : B | { ... }* }`
 pub fn split(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let axis = axes(op, &word(run, op, 0, frame)?)?[0];
+    let along = word(run, op, 0, frame)?;
+    if let Some(axis) = ["u", "v"].iter().position(|name| *name == along.as_ref()) {
+        return dividing_textures::split(run, op, axis, frame);
+    }
+    let axis = axes(op, &along)?[0];
     let adjust = op.args.len() < 2 || word(run, op, 1, frame)?.as_ref() != "noAdjust";
     let mut bodies = Vec::new();
     let length = frame.state.form.scope.size[axis];
@@ -20,12 +27,21 @@ pub fn split(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let whole = frame.state.clone();
     let most = run.options.limits.parts;
     let found = cells(&patterns, whole.form.scope.size[axis], most)
-        .map_err(|many| Fault::at(op.span, format!("a split into {} parts", many.parts)))?;
+        .map_err(|many| Fault::at(op.span, many.to_string()))?;
     run_parts(run, op, (axis, adjust), &found, &bodies, whole, frame)
 }
 
 /// How often the corners of a shape may be looked at for its parts.
 const MOST_CUTS: usize = 50_000_000;
+
+/// A fault where cutting a shape into so many parts is too much work.
+pub(super) fn check_cuts(op: &Operation, mesh: &Mesh, parts: usize) -> Result<(), Fault> {
+    if mesh.corner_count().saturating_mul(parts) > MOST_CUTS {
+        let message = format!("a split of {} faces into {parts} parts", mesh.face_count());
+        return Err(Fault::at(op.span, message));
+    }
+    Ok(())
+}
 
 /// Runs the bodies on the parts along an axis.
 fn run_parts(
@@ -38,14 +54,7 @@ fn run_parts(
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     if let Geometry::Faces { mesh, .. } = &whole.form.geometry {
-        if mesh.corner_count().saturating_mul(found.len()) > MOST_CUTS {
-            let message = format!(
-                "a split of {} faces into {} parts",
-                mesh.face_count(),
-                found.len()
-            );
-            return Err(Fault::at(op.span, message));
-        }
+        check_cuts(op, mesh, found.len())?;
     }
     let parts = shape::split(&whole.form, axis, found, adjust);
     let total = parts.len();
@@ -74,8 +83,8 @@ pub fn split_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         patterns = vec![Pattern::Repeat(patterns)];
     }
     let most = run.options.limits.parts.min(MOST_PARTS_BY_AREA);
-    let mut found = cells(&patterns, area, most)
-        .map_err(|many| Fault::at(op.span, format!("a split into {} parts", many.parts)))?;
+    let mut found =
+        cells(&patterns, area, most).map_err(|many| Fault::at(op.span, many.to_string()))?;
     let places = AreaAlong::of(&whole.form, axis);
     let mut start = 0.0;
     for cell in &mut found {
@@ -92,7 +101,7 @@ const MOST_PARTS_BY_AREA: usize = 10_000;
 
 /// How much of a shape's area lies below each place along an axis.
 struct AreaAlong {
-    unit: veduta_geometry::solid::Mesh,
+    unit: Mesh,
     scope: shape::Scope,
     axis: usize,
     whole: f64,
@@ -129,7 +138,7 @@ impl AreaAlong {
 }
 
 /// The sizes of the cells as they are now; the bodies in the order in which parts are numbered.
-fn patterns<'o>(
+pub(super) fn patterns<'o>(
     run: &mut Run<'_>,
     op: &Operation,
     cells: &'o [Cell],

@@ -5,7 +5,8 @@ use veduta_geometry::solid::{envelope as space, Bound, Face, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::value::Value;
 use super::standing::stand;
 use super::{numbers, positive, value, word};

@@ -8,7 +8,9 @@ use veduta_geometry::{triangulate, PolygonSet};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
+use super::positive;
 use crate::shape::{Form, Geometry, TOLERANCE};
 
 /// `deleteHoles()`: the faces without their holes. The walls of a shaft through a solid stay, so
@@ -29,9 +31,15 @@ pub fn delete_holes(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result
     Ok(())
 }
 
-/// `convexify()`: faces with holes or corners that turn inwards as convex pieces. Pieces share
-/// their points, so that closed shapes stay closed. CityEngine's greatest angle is not taken.
+/// `convexify()`, `convexify(angle)`: faces with holes or corners that turn inwards as convex pieces.
+/// Corners that turn inwards by no more than the angle (degrees) count as convex. Pieces share their
+/// points, so that closed shapes stay closed.
 pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let angle = match op.args.len() {
+        0 => 0.0,
+        _ => positive(run, op, 0, frame)?.min(90.0),
+    };
+    let inwards = angle.to_radians().sin().max(TOLERANCE);
     let form = &frame.state.form;
     let Geometry::Faces { solid, .. } = &form.geometry else {
         frame.changed();
@@ -43,13 +51,13 @@ pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
     for face in mesh.faces() {
         run.check_time(op.span)?;
         let normal = face.normal();
-        if face.ring_count() == 1 && is_convex(&mesh.points, face.outline(), normal) {
+        if face.ring_count() == 1 && is_convex(&mesh.points, face.outline(), normal, inwards) {
             pieces.push_face(&[face.outline()]);
             continue;
         }
         let triangles = triangles(&mesh, face)
             .map_err(|error| Fault::at(op.span, format!("a face cannot be divided: {error}")))?;
-        for piece in convex_pieces(&mesh.points, triangles, normal) {
+        for piece in convex_pieces(&mesh.points, triangles, normal, inwards) {
             pieces.push_face(&[piece]);
         }
     }
@@ -78,7 +86,12 @@ pub fn triangles(mesh: &Mesh, face: Face<'_>) -> Result<Vec<[u32; 3]>, String> {
 }
 
 /// Triangles joined across their sides as long as that stays convex (Hertel and Mehlhorn 1983).
-fn convex_pieces(points: &[DVec3], triangles: Vec<[u32; 3]>, normal: DVec3) -> Vec<Vec<u32>> {
+fn convex_pieces(
+    points: &[DVec3],
+    triangles: Vec<[u32; 3]>,
+    normal: DVec3,
+    inwards: f64,
+) -> Vec<Vec<u32>> {
     let mut pieces: Vec<Vec<u32>> = triangles.iter().map(|t| t.to_vec()).collect();
     let mut owner: HashMap<(u32, u32), usize> = HashMap::new();
     for (index, piece) in pieces.iter().enumerate() {
@@ -100,7 +113,7 @@ fn convex_pieces(points: &[DVec3], triangles: Vec<[u32; 3]>, normal: DVec3) -> V
         let Some(whole) = joined(&pieces[one], &pieces[other], a, b) else {
             continue;
         };
-        if is_convex(points, &whole, normal) {
+        if is_convex(points, &whole, normal, inwards) {
             owner.remove(&(a, b));
             owner.remove(&(b, a));
             for side in sides(&whole) {
@@ -133,11 +146,12 @@ fn sides(ring: &[u32]) -> impl Iterator<Item = (u32, u32)> + '_ {
     ring.iter().copied().zip(next.copied())
 }
 
-fn is_convex(points: &[DVec3], ring: &[u32], normal: DVec3) -> bool {
+/// Whether no corner of a ring turns inwards by more than an angle of this sine.
+fn is_convex(points: &[DVec3], ring: &[u32], normal: DVec3, inwards: f64) -> bool {
     let count = ring.len();
     (0..count).all(|k| {
         let [a, b, c] = [k, k + 1, k + 2].map(|k| points[ring[k % count] as usize]);
         let (before, after) = (b - a, c - b);
-        before.cross(after).dot(normal) >= -TOLERANCE * before.length() * after.length()
+        before.cross(after).dot(normal) >= -inwards * before.length() * after.length()
     })
 }

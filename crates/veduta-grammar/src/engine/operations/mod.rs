@@ -1,13 +1,19 @@
 //! The operations that shapes are made with; each is a function of the run and the frame.
 
 mod appearance;
+mod assets;
 mod components;
 mod dividing;
+mod dividing_textures;
 mod envelopes;
+mod inlining;
 mod inner_rectangles;
 mod meshes;
+mod modifying;
 mod offsets;
+mod pivots;
 mod primitives;
+mod reshaping;
 mod roofs;
 mod scattering;
 mod scopes;
@@ -18,13 +24,17 @@ mod standing;
 mod tags;
 mod textures;
 mod transform;
+mod trimming;
 mod wings;
+
+pub use trimming::TrimPlane;
 
 use std::sync::Arc;
 
 use super::code::{Arg, Operation, Sizing};
 use super::fault::Fault;
-use super::run::{Frame, Run};
+use super::frame::Frame;
+use super::run::Run;
 use super::value::Value;
 use crate::shape::Geometry;
 
@@ -40,19 +50,27 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("alignScopeToAxes", scopes::align_to_axes, 0, 1),
     ("alignScopeToGeometry", scopes::align_to_geometry, 3, 3),
     ("alignScopeToGeometryBBox", scopes::align_to_box, 1, 1),
+    ("bakeUV", textures::bake, 1, 1),
     ("center", transform::center, 1, 1),
+    ("cleanupGeometry", reshaping::clean, 2, 2),
     ("color", appearance::colour, 1, 4),
     ("comp", components::components, 1, 1),
-    ("convexify", meshes::convexify, 0, 0),
+    ("convexify", meshes::convexify, 0, 1),
     ("copyUV", textures::copy, 2, 2),
     ("deleteHoles", meshes::delete_holes, 0, 0),
     ("deleteTags", tags::delete, 0, 1),
     ("deleteUV", textures::delete, 1, 1),
     ("envelope", envelopes::envelope, 4, 10),
     ("extrude", solids::extrude, 1, 2),
+    ("footprint", reshaping::footprint, 0, 0),
+    ("i", assets::insert, 1, 4),
+    ("inline", inlining::inline, 0, 1),
     ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
+    ("intersect", inlining::intersect, 0, 1),
+    ("label", speech::label, 1, 1),
     ("mirror", scopes::mirror, 3, 3),
     ("mirrorScope", scopes::mirror_scope, 3, 3),
+    ("modify", modifying::modify, 1, 1),
     ("normalizeUV", textures::normalize, 3, 3),
     ("offset", offsets::offset, 1, 2),
     ("primitiveCone", primitives::make_cone, 0, 3),
@@ -64,7 +82,10 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("print", speech::print, 1, 1),
     ("projectUV", textures::project, 1, 1),
     ("r", transform::turn_scope, 3, 4),
+    ("rectify", reshaping::rectify, 1, 1),
     ("report", speech::report, 2, 2),
+    ("resetGeometry", reshaping::reset, 0, 0),
+    ("resetMaterial", appearance::reset_material, 0, 1),
     ("reverseNormals", solids::reverse, 0, 0),
     ("roofGable", roofs::gable, 1, 5),
     ("roofHip", roofs::hip, 1, 4),
@@ -78,6 +99,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("scaleUV", textures::scale, 3, 3),
     ("scatter", scattering::scatter, 3, 5),
     ("set", appearance::set, 2, 2),
+    ("setPivot", pivots::set_pivot, 2, 2),
     ("setback", setbacks::setback, 1, 1),
     ("setbackPerEdge", setbacks::per_edge, 1, 1),
     ("setbackToArea", setbacks::to_area, 1, 3),
@@ -85,8 +107,9 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("shapeL", wings::l, 2, 2),
     ("shapeO", wings::o, 4, 4),
     ("shapeU", wings::u, 3, 3),
-    ("split", dividing::split, 1, 2),
+    ("split", dividing::split, 1, 3),
     ("splitArea", dividing::split_area, 1, 2),
+    ("subtract", inlining::subtract, 0, 1),
     ("t", transform::move_scope, 3, 3),
     ("tag", tags::tag, 1, 1),
     ("taper", standing::taper, 1, 1),
@@ -94,12 +117,19 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("tileUV", textures::tile_uv, 3, 3),
     ("translate", transform::translate, 5, 5),
     ("translateUV", textures::translate, 3, 3),
+    ("trim", trimming::trim, 0, 0),
+    ("union", inlining::union, 0, 1),
 ];
 
 impl OperationId {
     /// The operation of this name.
     pub fn named(name: &str) -> Option<Self> {
         TABLE.iter().position(|entry| entry.0 == name).map(Self)
+    }
+
+    /// Whether shapes have to keep the planes that part them from each other.
+    pub fn trims(self) -> bool {
+        TABLE[self.0].0 == "trim"
     }
 
     /// The fewest and most arguments.
@@ -121,6 +151,9 @@ pub(super) fn run(
     operation: &Operation,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
+    if matches!(frame.state.form.geometry, Geometry::Instance(_)) {
+        assets::open_for(TABLE[operation.id.0].0, frame);
+    }
     TABLE[operation.id.0].1(run, operation, frame)?;
     let form = &frame.state.form;
     let extent = form.scope.origin.abs().max(form.scope.size.abs());

@@ -4,7 +4,8 @@ use veduta_geometry::solid::{inset, outset, Face, Mesh, Pieces};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::standing::sheet_of;
 use super::{number, word};
 use crate::shape::{Form, Geometry};
@@ -17,6 +18,7 @@ use crate::shape::{Form, Geometry};
 /// face as it was and the strips around it, and the strips look where the face does. Corners are
 /// always mitred.
 pub fn offset(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    run.record(None, &frame.state);
     let distance = number(run, op, 0, frame)?;
     let kept = match op.args.len() {
         1 => "all".into(),

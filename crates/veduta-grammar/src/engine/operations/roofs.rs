@@ -4,7 +4,8 @@ use veduta_geometry::solid::{roofed_over, Mesh, Overhang, RoofKind};
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::value::Value;
 use super::standing::{sheet_of, stand, upright};
 use super::{number, positive, value};

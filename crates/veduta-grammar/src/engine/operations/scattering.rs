@@ -4,8 +4,9 @@ use glam::{DMat3, DVec3};
 
 use super::super::code::{Arg, Cell, Operation, Sizing};
 use super::super::fault::Fault;
+use super::super::frame::Frame;
 use super::super::random::Stream;
-use super::super::run::{Frame, Run};
+use super::super::run::Run;
 use super::super::state::Place;
 use super::meshes::triangles;
 use super::{number, word};

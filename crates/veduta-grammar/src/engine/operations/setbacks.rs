@@ -4,7 +4,8 @@ use veduta_geometry::solid::{inset, merged, Mesh, Pieces};
 
 use super::super::code::{Arg, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::selection::{Choosing, REMAINDER};
 use super::super::value::Value;
 use super::components::{name_of, run_shapes, selectors};
@@ -126,6 +127,7 @@ pub struct Edges {
 impl Edges {
     pub fn of(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<Self, Fault> {
         run.check_time(op.span)?;
+        run.record(None, &frame.state);
         let form = frame.state.form.clone();
         let choosing = Choosing::of(&form, Kind::FaceEdges, run);
         let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;

@@ -5,7 +5,8 @@ use veduta_geometry::solid;
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::{length, word};
 use crate::shape::{Form, Geometry};
 

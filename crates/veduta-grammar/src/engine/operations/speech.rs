@@ -1,8 +1,9 @@
-//! `print` and `report`.
+//! `print`, `report` and `label`: what a rule says of a shape.
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run, MOST_MESSAGES};
+use super::super::frame::Frame;
+use super::super::run::{Run, MOST_MESSAGES};
 use super::super::value::Value;
 use super::word;
 
@@ -22,6 +23,16 @@ pub fn report(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     let value = run.evaluate(expr, frame)?;
     if run.tree.reports.len() < MOST_MESSAGES {
         run.tree.reports.push((key, value));
+    }
+    Ok(())
+}
+
+/// `label(name)`: the shape as it is now has this name for questions such as `touches(intra, name)`.
+/// An empty name is none.
+pub fn label(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let name = word(run, op, 0, frame)?;
+    if !name.is_empty() {
+        run.record(Some(name), &frame.state);
     }
     Ok(())
 }

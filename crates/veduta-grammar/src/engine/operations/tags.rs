@@ -2,8 +2,9 @@
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
+use super::super::frame::Frame;
 use super::super::measures::is_like;
-use super::super::run::{Frame, Run};
+use super::super::run::Run;
 use super::word;
 
 /// The most tags of a shape.

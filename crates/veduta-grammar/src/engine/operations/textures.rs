@@ -8,7 +8,8 @@ use glam::DVec3;
 
 use super::super::code::{Arg, Operation, Sizing};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::super::texture_map::{layer, map_of, TextureMap};
 use super::{axes, number, word};
 
@@ -146,6 +147,15 @@ pub fn delete(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 pub fn copy(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let map = current(run, op, frame)?;
     let layer = layer_at(run, op, 1, frame)?;
+    set(frame, layer, map);
+    Ok(())
+}
+
+/// `bakeUV(layer)`: the texture stays where it lies now on the shape and on all children, where it
+/// would else cover the scope of each.
+pub fn bake(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let map = current(run, op, frame)?;
+    let layer = layer_at(run, op, 0, frame)?;
     set(frame, layer, map);
     Ok(())
 }

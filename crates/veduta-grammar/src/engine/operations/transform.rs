@@ -4,7 +4,8 @@ use glam::{DMat3, DVec3};
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::{axes, length, number, word};
 use crate::shape::Scope;
 

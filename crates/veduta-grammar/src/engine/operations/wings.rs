@@ -2,7 +2,8 @@
 
 use super::super::code::{Operation, Selector};
 use super::super::fault::Fault;
-use super::super::run::{Frame, Run};
+use super::super::frame::Frame;
+use super::super::run::Run;
 use super::components::selectors;
 use super::positive;
 use super::setbacks::Edges;

@@ -1,0 +1,139 @@
+//! Union, difference and intersection of meshes, and where one lies to another.
+//!
+//! The faces of both are cut along where they meet (`cuts`), each face becomes the regions
+//! between its cuts (`regions`), and each region lies in, out of, or on the other mesh (`sides`): by
+//! its winding number, which is a sum over all faces and knows no unlucky rays (Jacobson, Kavan and
+//! Sorkine-Hornung 2013, eq. 5). Places nearer to each other than [`NEAR`] of the extent are one
+//! before anything is decided, so that both faces at an edge decide alike and closed meshes give
+//! closed ones.
+
+mod cuts;
+mod flat;
+mod regions;
+mod result;
+mod sides;
+
+use super::mesh::Mesh;
+use cuts::Cuts;
+use flat::Polygon;
+
+/// How far places may lie apart and still be one, as a share of the extent of both meshes.
+pub const NEAR: f64 = 1e-9;
+
+/// The most pairs of faces that are looked at, and of cuts within one face.
+const MOST_PAIRS: usize = 100_000_000;
+
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Boolean {
+    Union,
+    /// The first without the second.
+    Subtract,
+    Intersect,
+}
+
+/// Where a region of one mesh lies to the other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
+pub enum Side {
+    In,
+    Out,
+    /// On a face of the other that looks the same way.
+    Same,
+    /// On a face of the other that looks the opposite way.
+    Opposite,
+}
+
+/// Why two meshes cannot be combined.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, thiserror::Error)]
+pub enum BooleanError {
+    #[error("shapes of {a} and {b} faces are too many to be combined")]
+    TooManyFaces { a: usize, b: usize },
+    /// Closed meshes gave an open one: faces lie nearer to each other than can be told apart.
+    #[error("the shapes lie too near to each other to be told apart; move one by a millimetre")]
+    Unclear,
+}
+
+/// A part of a face with its place to the other mesh.
+#[derive(Debug, Clone, PartialEq)]
+pub(super) struct Region {
+    pub rings: Vec<Vec<u32>>,
+    pub face: usize,
+    pub side: Side,
+    /// Its area, in the unit of the meshes.
+    pub area: f64,
+}
+
+/// Two meshes cut along each other: their common points, and the regions of each.
+pub(super) struct Overlay {
+    pub points: Vec<glam::DVec3>,
+    pub regions: [Vec<Region>; 2],
+    /// The normals of the faces of each.
+    pub normals: [Vec<glam::DVec3>; 2],
+}
+
+fn overlay(a: &Mesh, b: &Mesh) -> Result<Overlay, BooleanError> {
+    let too_many = BooleanError::TooManyFaces {
+        a: a.face_count(),
+        b: b.face_count(),
+    };
+    if a.face_count().saturating_mul(b.face_count()) > MOST_PAIRS {
+        return Err(too_many);
+    }
+    let mut cuts = Cuts::new(a, b);
+    cuts.meet();
+    if !cuts.divide() {
+        return Err(too_many);
+    }
+    let regions = [0, 1].map(|which| regions::of(&cuts, which));
+    Ok(Overlay {
+        regions,
+        normals: [0, 1].map(|which| cuts.polygons[which].iter().map(Polygon::normal).collect()),
+        points: cuts.points,
+    })
+}
+
+/// The two meshes as one (`a` is the first). Of closed meshes, the result is closed; of an open
+/// mesh and a closed one, it is what is in or out of the closed one of the open, and all faces of
+/// both for a union; of two that lie in one plane, it is in that plane.
+pub fn boolean(a: &Mesh, b: &Mesh, operation: Boolean) -> Result<Combined, BooleanError> {
+    let closed = [a.is_closed(), b.is_closed()];
+    let combined = result::of(&overlay(a, b)?, operation, closed);
+    if closed == [true; 2] && !combined.mesh.is_empty() && !combined.mesh.is_closed() {
+        return Err(BooleanError::Unclear);
+    }
+    Ok(combined)
+}
+
+/// What [`boolean`] makes.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Combined {
+    pub mesh: Mesh,
+    /// For each face whether it is of the second mesh, and the number of the face there.
+    pub sources: Vec<(bool, usize)>,
+}
+
+/// How much of a mesh lies where to another, and of the other to it.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+pub struct Relation {
+    /// Shares of the area of the first mesh: in, out of, on faces of the second that look the same
+    /// way, on those that look the opposite way.
+    pub first: [f64; 4],
+    /// The same of the second mesh.
+    pub second: [f64; 4],
+}
+
+/// How two meshes lie to each other.
+pub fn relation(a: &Mesh, b: &Mesh) -> Result<Relation, BooleanError> {
+    let overlay = overlay(a, b)?;
+    let shares = |regions: &[Region]| {
+        let mut sums = [0.0; 4];
+        for region in regions {
+            sums[region.side as usize] += region.area;
+        }
+        let whole: f64 = sums.iter().sum();
+        sums.map(|sum| if whole > 0.0 { sum / whole } else { 0.0 })
+    };
+    Ok(Relation {
+        first: shares(&overlay.regions[0]),
+        second: shares(&overlay.regions[1]),
+    })
+}

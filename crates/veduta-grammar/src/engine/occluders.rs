@@ -1,0 +1,120 @@
+//! Shapes that stand in the way of others, and where in a derivation a shape stands.
+
+use std::sync::Arc;
+
+use glam::DVec3;
+use veduta_geometry::solid::Mesh;
+
+use crate::shape::Scope;
+
+use super::run::Run;
+use super::state::State;
+
+/// Where the current shape stands: from the start shape on, which copy, part or child of the one
+/// before it is. A shape keeps its place while operations change it.
+#[derive(Debug, Clone, Default)]
+pub struct Trail {
+    places: Vec<u32>,
+    /// For the rule's shape and each part in part below it, how many have been made of it.
+    made: Vec<u32>,
+}
+
+impl Trail {
+    /// The trail of a shape that a rule begins with.
+    pub fn at(places: Vec<u32>) -> Self {
+        Self {
+            places,
+            made: vec![0],
+        }
+    }
+
+    fn next(&mut self) -> u32 {
+        match self.made.last_mut() {
+            Some(made) => {
+                *made += 1;
+                *made - 1
+            }
+            None => 0,
+        }
+    }
+
+    /// The place of a new child.
+    pub fn child(&mut self) -> Vec<u32> {
+        let next = self.next();
+        let mut places = self.places.clone();
+        places.push(next);
+        places
+    }
+
+    /// On to a part of the shape.
+    fn enter(&mut self) {
+        let next = self.next();
+        self.places.push(next);
+        self.made.push(0);
+    }
+
+    fn back(&mut self) {
+        self.places.pop();
+        self.made.pop();
+    }
+}
+
+/// A shape that questions are about.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Occluder {
+    pub(super) trail: Vec<u32>,
+    /// The text that `label` gave it.
+    pub label: Option<Arc<str>>,
+    /// Whether its surface is closed, so that something can lie in it.
+    pub closed: bool,
+    pub scope: Scope,
+    /// Its faces in the world (m).
+    pub mesh: Mesh,
+    pub low: DVec3,
+    pub high: DVec3,
+}
+
+impl Run<'_> {
+    pub(super) fn enter(&mut self) {
+        if let Some(trail) = &mut self.trail {
+            trail.enter();
+        }
+    }
+
+    pub(super) fn back(&mut self) {
+        if let Some(trail) = &mut self.trail {
+            trail.back();
+        }
+    }
+
+    /// In the first of two passes, keeps the current shape for the second: where it is closed, or
+    /// has a label.
+    pub(super) fn record(&mut self, label: Option<Arc<str>>, state: &State) {
+        let closed = state.form.geometry.is_solid();
+        let (Some(recorded), Some(trail)) = (&mut self.recorded, &self.trail) else {
+            return;
+        };
+        if closed || label.is_some() {
+            let mesh = state.form.world_mesh();
+            let (low, high) = mesh.bounds().unwrap_or_default();
+            recorded.push(Occluder {
+                trail: trail.places.clone(),
+                label,
+                closed,
+                scope: state.form.scope,
+                mesh,
+                low,
+                high,
+            });
+        }
+    }
+
+    /// Whether the current shape came from another, or the other from it.
+    pub(super) fn is_kin(&self, other: &Occluder) -> bool {
+        let Some(trail) = &self.trail else {
+            return false;
+        };
+        let (own, other) = (&trail.places, &other.trail);
+        own.starts_with(other) || other.starts_with(own)
+    }
+}

@@ -1,0 +1,192 @@
+//! Questions about other shapes: what stands in the way, how far a labelled shape is, how many
+//! there are.
+//!
+//! The first pass of a derivation answers that there is nothing, the second asks about the shapes
+//! that the first made: closed leaves, closed shapes that `comp`, `offset` or a setback was applied
+//! to, and those that `label` names.
+
+use glam::DVec3;
+use veduta_geometry::solid::{relation, Relation};
+
+use crate::shape::box_distance;
+use crate::Span;
+
+use super::fault::Fault;
+use super::occluders::Occluder;
+use super::run::Run;
+use super::state::State;
+use super::value::Value;
+
+/// A question about other shapes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Query {
+    /// `inside()`, `inside(intra | inter | all)`, `inside(target, label)`: whether the shape lies in
+    /// or on one closed shape.
+    Inside,
+    /// Whether a part of it does, or a part of the other in it.
+    Overlaps,
+    /// Whether it overlaps, or faces lie on faces.
+    Touches,
+    /// `minimumDistance(target, label)`: from scope to scope (m).
+    Distance,
+    /// `contextCount(target, label)`
+    Count,
+    /// `getTreeKey()`: the way from the start shape to the rule's shape, as a list.
+    TreeKey,
+    /// `contextCompare(target, label, world.highest | area.largest | ...)`: how many come before it.
+    Rank,
+}
+
+const TABLE: &[(&str, Query)] = &[
+    ("contextCompare", Query::Rank),
+    ("contextCount", Query::Count),
+    ("getTreeKey", Query::TreeKey),
+    ("inside", Query::Inside),
+    ("minimumDistance", Query::Distance),
+    ("overlaps", Query::Overlaps),
+    ("touches", Query::Touches),
+];
+
+/// Shares of a surface up to this are rounding.
+const NOTHING: f64 = 1e-9;
+
+impl Query {
+    pub fn named(name: &str) -> Option<Self> {
+        let found = TABLE.iter().find(|entry| entry.0 == name);
+        found.map(|entry| entry.1)
+    }
+
+    /// The names of all questions.
+    pub fn names() -> impl Iterator<Item = &'static str> {
+        TABLE.iter().map(|entry| entry.0)
+    }
+
+    /// Whether the answer has to do with other shapes.
+    pub fn is_about_others(self) -> bool {
+        self != Self::TreeKey
+    }
+
+    /// The answer where there is nothing.
+    fn nothing(self) -> Value {
+        match self {
+            Self::Inside | Self::Overlaps | Self::Touches => Value::Bool(false),
+            Self::Distance => Value::Number(f64::INFINITY),
+            Self::Count | Self::Rank => Value::Number(0.0),
+            Self::TreeKey => Value::text("0;"),
+        }
+    }
+
+    fn holds(self, found: &Relation, closed: bool) -> bool {
+        let [within, beyond, same, opposite] = found.first;
+        let overlaps = within > NOTHING || closed && (found.second[0] > NOTHING || same > NOTHING);
+        match self {
+            Self::Inside => beyond <= NOTHING,
+            Self::Overlaps => overlaps,
+            _ => overlaps || same > NOTHING || opposite > NOTHING,
+        }
+    }
+}
+
+impl Run<'_> {
+    /// The answer to a question about the shapes around the current one.
+    pub(super) fn answer(
+        &self,
+        query: Query,
+        args: &[Value],
+        state: &State,
+        span: Span,
+    ) -> Result<Value, Fault> {
+        if query == Query::TreeKey {
+            let path = self.tree.path(self.at);
+            let all = path.iter().map(|place| format!("{place};"));
+            return Ok(Value::text(&format!("0;{}", all.collect::<String>())));
+        }
+        if self.recorded.is_some() {
+            return Ok(query.nothing());
+        }
+        let text = |index: usize| args.get(index).map(ToString::to_string).unwrap_or_default();
+        let (target, label) = (text(0), text(1));
+        let own = self.around.iter().filter(|_| target != "inter");
+        let others = self.options.neighbours.iter().flat_map(|one| one.iter());
+        let others = others.filter(|_| target != "intra");
+        let is_meant = |one: &&Occluder| label.is_empty() || one.label.as_deref() == Some(&label);
+        match query {
+            Query::Inside | Query::Overlaps | Query::Touches => {
+                let own = own.filter(|one| !self.is_kin(one));
+                let all = own.chain(others).filter(is_meant);
+                self.occluded(query, all, state, span)
+            }
+            _ if label.is_empty() => Ok(query.nothing()),
+            Query::TreeKey => Ok(query.nothing()),
+            Query::Count => Ok(Value::Number(
+                own.chain(others).filter(is_meant).count() as f64
+            )),
+            Query::Distance => {
+                let all = own.chain(others).filter(is_meant);
+                let scope = &state.form.scope;
+                let far = all.map(|one| box_distance(scope, &one.scope));
+                Ok(Value::Number(far.fold(f64::INFINITY, f64::min)))
+            }
+            Query::Rank => {
+                let order = text(2);
+                let mesh = state.form.world_mesh();
+                let (low, high) = mesh.bounds().unwrap_or_default();
+                let here = ordered(&order, low, high, || mesh.area());
+                let here = here.ok_or_else(|| {
+                    Fault::at(
+                        span,
+                        format!("`{order}` is no order: world.highest, area.largest, ..."),
+                    )
+                })?;
+                let all = own.chain(others).filter(is_meant);
+                let before = all.filter(|one| {
+                    let there = ordered(&order, one.low, one.high, || one.mesh.area());
+                    there.is_some_and(|there| there > here + NOTHING * here.abs())
+                });
+                Ok(Value::Number(before.count() as f64))
+            }
+        }
+    }
+
+    fn occluded<'o>(
+        &self,
+        query: Query,
+        occluders: impl Iterator<Item = &'o Occluder>,
+        state: &State,
+        span: Span,
+    ) -> Result<Value, Fault> {
+        let mesh = state.form.world_mesh();
+        let Some((low, high)) = mesh.bounds().filter(|_| !mesh.is_empty()) else {
+            return Ok(query.nothing());
+        };
+        let closed = state.form.geometry.is_solid();
+        let near = NOTHING * low.distance(high);
+        for one in occluders.filter(|one| one.closed) {
+            if low.cmpgt(one.high + near).any() || one.low.cmpgt(high + near).any() {
+                continue;
+            }
+            self.check_time(span)?;
+            let found = relation(&mesh, &one.mesh);
+            let found = found.map_err(|error| Fault::at(span, error.to_string()))?;
+            if query.holds(&found, closed) {
+                return Ok(Value::Bool(true));
+            }
+        }
+        Ok(Value::Bool(false))
+    }
+}
+
+/// What shapes are ordered by, the first having the most of it; None of an unknown word.
+fn ordered(order: &str, low: DVec3, high: DVec3, area: impl FnOnce() -> f64) -> Option<f64> {
+    Some(match order {
+        "world.northernmost" => -low.z,
+        "world.southernmost" => high.z,
+        "world.easternmost" => high.x,
+        "world.westernmost" => -low.x,
+        "world.highest" => high.y,
+        "world.lowest" => -low.y,
+        "area.largest" => area(),
+        "area.smallest" => -area(),
+        _ => return None,
+    })
+}

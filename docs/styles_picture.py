@@ -1,0 +1,110 @@
+"""Makes the pictures of docs/styles.md: a row of lots in each style. Part of `make pictures`."""
+
+from __future__ import annotations
+
+import argparse
+import io
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from veduta import _core
+from veduta.grammar.building import build_part
+from veduta.grammar.derivation import derive, parse
+from veduta.grammar.rules import style_names
+from veduta.place.part import Part
+from veduta.synthetic.camera import look_at
+from veduta.synthetic.light import daylight
+from veduta.synthetic.photo import Lens, develop
+from veduta.synthetic.render import render
+from veduta.synthetic.scene import RayScene
+
+IMAGES = Path(__file__).parent / "images"
+SIZE_PX = (960, 600)
+MAX_BYTES = 150_000
+GROUND = 'Lot --> set(material.name, "ground") color("#8f8d88")'
+REACH_M = 300.0
+LENS = Lens(blur_px=0.3, vignetting=0.05, noise=0.0)
+Point = tuple[float, float, float]
+
+
+@dataclass(frozen=True)
+class Scene:
+    """Lots in a row along x, the street south of them, and a camera (m); `gap_m` between lots."""
+
+    widths_m: tuple[float, ...]
+    depth_m: float
+    eye_m: Point
+    target_m: Point
+    gap_m: float = 0.0
+    focal: float = 0.75
+    first_seed: int = 1
+
+
+SCENES = {
+    "haussmann": Scene((17, 13, 15, 14), 13, (0, -27, 5), (21, 0, 10.5)),
+    "louis-xiii": Scene((16, 13, 16), 13, (1, -26, 4), (18, 0, 8.5)),
+    "louis-xiv": Scene((25, 15, 15), 14, (2, -27, 4), (20, 0, 8.5)),
+    "restauration": Scene((13, 16, 15), 12, (0, -25, 4), (18, 0, 8.5)),
+    "victorian": Scene((12, 18, 12), 10, (-1, -16, 3), (13, 0, 5), first_seed=5),
+    "gothic-revival": Scene((24, 16), 15, (0, -21, 3), (15, 0, 7.2), gap_m=7),
+    "modern-slab": Scene((42, 24), 12, (-8, -40, 8), (23, 0, 12.5), gap_m=10),
+    "suburban-house": Scene((20, 21, 20), 27, (4, -11, 4.5), (20, 8, 2.2)),
+}
+
+
+def main() -> None:
+    """Render the styles that are named, or all."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("styles", nargs="*", help="styles to render; all where none is named")
+    for style in parser.parse_args().styles or style_names():
+        path = IMAGES / f"style-{style}.jpg"
+        path.write_bytes(_jpeg(_picture(style, SCENES[style])))
+        print(f"{path.name}: {path.stat().st_size} bytes")
+
+
+def _picture(style: str, scene: Scene) -> Image.Image:
+    parts = [(part, np.eye(4)) for part in (*_buildings(style, scene), _ground())]
+    camera = look_at(scene.eye_m, scene.target_m, SIZE_PX, scene.focal * SIZE_PX[0])
+    light = daylight(3, sunny=True, azimuth_rad=-2.1, elevation_rad=0.75)
+    return Image.fromarray(develop(render(RayScene(parts), camera, light, samples=2), LENS, 0))
+
+
+def _buildings(style: str, scene: Scene) -> list[Part]:
+    rules, left = parse(style), 0.0
+    parts = []
+    for number, width in enumerate(scene.widths_m):
+        lot = _rectangle(left, 0.0, left + width, scene.depth_m, 0.0)
+        columns = derive(rules, [lot], seed=scene.first_seed + number).columns()
+        parts.append(build_part(columns, f"lot-{number}", rules.library.assets_of(columns)))
+        left += width + scene.gap_m
+    return parts
+
+
+def _ground() -> Part:
+    """The street; a little below the lots, whose lawns lie on it."""
+    lot = [_rectangle(-REACH_M, -REACH_M, REACH_M, REACH_M, -0.02)]
+    (derived,) = _core.GrammarRules([("ground.cga", GROUND)]).derive([lot], [0])
+    if not isinstance(derived, _core.DerivedLot):
+        raise SystemExit(f"the street was not derived: {derived}")
+    return build_part(derived, "ground", {})
+
+
+def _rectangle(left: float, low: float, right: float, high: float, z: float) -> list[Point]:
+    return [(left, low, z), (right, low, z), (right, high, z), (left, high, z)]
+
+
+def _jpeg(image: Image.Image) -> bytes:
+    """At the best quality that keeps the file small."""
+    for quality in (88, 82, 75, 68, 60):
+        buffer = io.BytesIO()
+        image.save(buffer, "JPEG", quality=quality, optimize=True, progressive=True)
+        if buffer.tell() < MAX_BYTES:
+            break
+    return buffer.getvalue()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,72 @@
+"""Reading the triangles and colours of any binary glTF file, whoever wrote it."""
+
+from __future__ import annotations
+
+import io
+import struct
+from pathlib import Path
+
+import numpy as np
+import trimesh
+
+from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, ReadMesh
+from veduta.place.material import Colour
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+_REMEDY = "Export it again as binary glTF 2.0 (.glb), with everything in one file."
+
+
+def read_glb_mesh(path: Path) -> ReadMesh:
+    """All triangles of the file's scene, y up. InputError says what is wrong."""
+    try:
+        require_file(path, LARGEST_BYTES)
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(path, f"cannot be read ({error.strerror})", "Check its name.") from error
+    try:
+        scene = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
+        pieces = [one for one in scene.dump() if isinstance(one, trimesh.Trimesh)]
+        return _joined(pieces)
+    except (
+        ValueError, KeyError, IndexError, TypeError, AttributeError, struct.error, OSError,
+    ) as error:  # fmt: skip
+        raise InputError(path, f"is no mesh that can be read ({error})", _REMEDY) from error
+
+
+def _joined(pieces: list[trimesh.Trimesh]) -> ReadMesh:
+    count = sum(len(piece.faces) for piece in pieces)
+    if count == 0:
+        raise ValueError("it has no triangles")
+    if 3 * count > MOST_CORNERS:
+        raise ValueError(f"it has {count} triangles; {MOST_CORNERS // 3} are the most")
+    points = np.concatenate([np.asarray(piece.vertices, dtype=np.float64) for piece in pieces])
+    if not np.isfinite(points).all():
+        raise ValueError("it has points that are no numbers")
+    starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
+    corners = [
+        np.asarray(piece.faces, dtype=np.int64).reshape(-1) + start
+        for piece, start in zip(pieces, starts[:-1].tolist(), strict=True)
+    ]
+    number_of: dict[tuple[str, Colour | None], int] = {}
+    rows = [number_of.setdefault(_material(piece), len(number_of)) for piece in pieces]
+    return ReadMesh(
+        points=points,
+        corners=np.concatenate(corners).astype(np.uint32),
+        offsets=np.arange(0, 3 * count + 1, 3, dtype=np.int64),
+        face_material=np.repeat(rows, [len(piece.faces) for piece in pieces]).astype(np.int32),
+        materials=tuple(number_of),
+    )
+
+
+def _material(piece: trimesh.Trimesh) -> tuple[str, Colour | None]:
+    """Name and base colour; glTF's colours are linear, and trimesh hands them on as 0 to 255."""
+    material = getattr(piece.visual, "material", None)
+    factor = getattr(material, "baseColorFactor", None)
+    name = str(getattr(material, "name", None) or "")
+    if factor is None:
+        return name, None
+    linear = np.asarray(factor, dtype=np.float64)[:3] / 255.0
+    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
+    red, green, blue = np.clip(srgb, 0.0, 1.0).round(4).tolist()
+    return name, (red, green, blue)

@@ -1,0 +1,1 @@
+"""Ready-made geometry for rule files: windows, railings, cornices, dormers, and files of users."""

@@ -1,0 +1,130 @@
+"""An asset: ready-made geometry that `i` puts into shapes.
+
+Frame of assets: metres, right-handed, x right, y up, z towards the viewer (rule files' own). Where
+a shape is flat, the plane z = 0 of the asset lies in it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.place.instances import SharedMesh
+from veduta.place.material import Colour
+
+CREASE_RAD = np.radians(48.0)
+"""Faces that turn less than this at an edge are shaded as one curved surface."""
+PLANE_TOLERANCE_M = 5e-3
+"""Faces of swept curves are a little warped."""
+
+
+@dataclass(frozen=True)
+class Slot:
+    """A semantic part of an asset (frame, pane, iron) and its look.
+
+    colour: sRGB, 0..1; None for that of the shape that the asset is put into. fallback: the colour
+    where a shape has none of its own (white).
+    """
+
+    name: str
+    colour: Colour | None = None
+    roughness: float = 0.9
+    metalness: float = 0.0
+    fallback: Colour = (1.0, 1.0, 1.0)
+
+
+@dataclass(frozen=True)
+class Asset:
+    """Faces over points.
+
+    points_m: (v, 3) float64. corners: (c,) uint32, point numbers face by face, counter-clockwise
+    seen from outside. offsets: (f + 1,) int64, first corner of each face. face_slot: (f,) int32.
+    given_box_m: the box that fills a scope where it is not that around the points: all levels of
+    detail have the finest one's, so that they stand in the same place.
+    """
+
+    name: str
+    points_m: NDArray[np.float64]
+    corners: NDArray[np.uint32]
+    offsets: NDArray[np.int64]
+    face_slot: NDArray[np.int32]
+    slots: tuple[Slot, ...]
+    given_box_m: NDArray[np.float64] | None = None
+
+    @cached_property
+    def box_m(self) -> NDArray[np.float64]:
+        """(2, 3) the corners of the box that fills a scope."""
+        if self.given_box_m is not None:
+            return self.given_box_m
+        return np.stack([self.points_m.min(axis=0), self.points_m.max(axis=0)])
+
+    @cached_property
+    def triangles(self) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.float64]]:
+        """(m, 3) places in `corners`, (m,) the face of each, (f, 3) unit normals of the faces."""
+        indices, face, normal, _ = _core.triangulate_polygons(
+            self.points_m[self.corners],
+            self.offsets,
+            np.arange(len(self.offsets), dtype=np.int64),
+            PLANE_TOLERANCE_M,
+        )
+        return indices, face.astype(np.int64), normal
+
+    @cached_property
+    def shared_mesh(self) -> SharedMesh:
+        """The asset in the frame of parts (z up), shaded smoothly where it is round."""
+        indices, face, normal = self.triangles
+        used = np.unique(indices)
+        shading = corner_normals(self.corners, self.offsets, normal)
+        key = np.concatenate(
+            [self.corners[used, None], np.round(shading[used] * 1000.0).astype(np.int64)], axis=1
+        )
+        _, first, vertex = np.unique(key, axis=0, return_index=True, return_inverse=True)
+        vertex_of = np.zeros(len(self.corners), dtype=np.uint32)
+        vertex_of[used] = vertex.reshape(-1)
+        chosen = used[first]
+        slot = self.face_slot[face]
+        order = np.argsort(slot, kind="stable")
+        return SharedMesh(
+            name=self.name,
+            positions_m=_z_up(self.points_m[self.corners[chosen]]),
+            normals=_z_up(shading[chosen]),
+            indices=vertex_of[indices[order]],
+            slot=slot[order],
+            slots=tuple(slot.name for slot in self.slots),
+        )
+
+
+def corner_normals(
+    corners: NDArray[np.uint32], offsets: NDArray[np.int64], normal: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(c, 3) the mean normal of the faces that meet smoothly at each corner."""
+    face = np.repeat(np.arange(len(offsets) - 1), np.diff(offsets))
+    own = normal[face]
+    order = np.argsort(corners, kind="stable")
+    counts = np.bincount(corners)
+    counts = counts[counts > 0]
+    starts = np.cumsum(counts) - counts
+    # All pairs of corners at one point: each corner of a group beside each of the group.
+    group = np.repeat(np.arange(len(counts)), counts)
+    left = np.repeat(np.arange(len(corners)), counts[group])
+    within = np.arange(len(left)) - np.repeat(
+        np.cumsum(counts[group]) - counts[group], counts[group]
+    )
+    right = starts[group[left]] + within
+    a, b = order[left], order[right]
+    smooth = np.einsum("ij,ij->i", own[a], own[b]) >= np.cos(CREASE_RAD)
+    summed = np.zeros_like(own)
+    np.add.at(summed, a[smooth], own[b[smooth]])
+    length = np.linalg.norm(summed, axis=1, keepdims=True)
+    result: NDArray[np.float64] = summed / np.maximum(length, 1e-12)
+    return result
+
+
+def _z_up(vectors: NDArray[np.float64]) -> NDArray[np.float32]:
+    """Rule files' (x, y, z) to the part's (x, -z, y)."""
+    turned = np.stack([vectors[:, 0], -vectors[:, 2], vectors[:, 1]], axis=1)
+    return turned.astype(np.float32) + np.float32(0.0)

@@ -1,0 +1,79 @@
+"""The built-in assets by name: `builtin/window-casement@1`.
+
+`@0` is the finest level of detail and what a name without a level means; `@1` is for across the
+street, `@2` for afar.
+"""
+
+from __future__ import annotations
+
+import functools
+import re
+from collections.abc import Callable
+from dataclasses import replace
+
+from veduta.grammar.assets import doors, railings, roofs, stonework, windows
+from veduta.grammar.assets.asset import Asset
+
+PREFIX = "builtin/"
+LEVELS = 3
+Maker = Callable[[str, int], Asset]
+MAKERS: dict[str, Maker] = {
+    "window-casement": windows.casement,
+    "window-french": windows.door,
+    "window-sash": windows.sash,
+    "window-arched": windows.arched,
+    "window-lancet": windows.lancet,
+    "window-fixed": windows.fixed,
+    "window-ribbon": windows.ribbon,
+    "door-double": doors.double,
+    "door-single": doors.single,
+    "door-glazed": doors.glazed,
+    "door-garage": doors.garage,
+    "door-step": doors.step,
+    "shop-front": doors.shop,
+    "railing-iron": railings.iron,
+    "railing-bars": railings.bars,
+    "railing-balustrade": railings.balustrade,
+    "railing-glass": railings.glass,
+    "cornice": stonework.cornice,
+    "cornice-dentils": stonework.dentils,
+    "string-course": stonework.string_course,
+    "plinth": stonework.plinth,
+    "console": stonework.console,
+    "modillion": stonework.modillion,
+    "quoin": stonework.quoin,
+    "keystone": stonework.keystone,
+    "window-hood": stonework.hood,
+    "dormer-pediment": roofs.pediment,
+    "dormer-arched": roofs.arched,
+    "dormer-shed": roofs.shed,
+    "dormer-gabled": roofs.gabled,
+    "skylight": roofs.skylight,
+    "chimney-stack": roofs.stack,
+    "chimney-single": roofs.single,
+    "chimney-pot": roofs.one_pot,
+}
+
+
+def builtin_names() -> list[str]:
+    """All names, without levels."""
+    return [PREFIX + name for name in MAKERS]
+
+
+def described(name: str) -> str:
+    """One line about an asset, without its measures."""
+    text = (MAKERS[name.removeprefix(PREFIX)].__doc__ or "").split("\n", maxsplit=1)[0]
+    return re.sub(r",? \d[^:,]* m( by .*)?\.$", "", text).rstrip(".")
+
+
+@functools.lru_cache(maxsize=512)
+def builtin(name: str) -> Asset | None:
+    """The asset of this name; None where there is none."""
+    plain, _, level = name.removeprefix(PREFIX).partition("@")
+    maker = MAKERS.get(plain)
+    if not name.startswith(PREFIX) or maker is None or level not in ("", "0", "1", "2"):
+        return None
+    finest = maker(name, 0)
+    if level in ("", "0"):
+        return finest
+    return replace(maker(name, int(level)), given_box_m=finest.box_m)

@@ -1,0 +1,105 @@
+"""Meshes of files as assets: cleaned, and bounded."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.formats.glb_mesh import read_glb_mesh
+from veduta.formats.obj_read import ReadMesh, read_obj
+from veduta.grammar.assets.asset import Asset, Slot
+from veduta.run.errors import InputError
+
+SUFFIXES = (".obj", ".glb")
+WELD = 1e-6
+"""Points nearer than this share of the mesh's extent are one."""
+
+
+def read_asset(name: str, folder: Path) -> Asset:
+    """The asset of a file below the folder; InputError says what is wrong with it."""
+    path = folder / name
+    root = os.path.realpath(folder)
+    real = os.path.realpath(path)
+    if os.path.commonpath([root, real]) != root:
+        raise InputError(
+            path, "lies outside of the rule file's folder", "Move it below that folder."
+        )
+    if not os.path.isfile(real):
+        raise InputError(path, "does not exist", "Check the name in the rule file.")
+    mesh = read_obj(path, folder) if path.suffix.lower() == ".obj" else read_glb_mesh(path)
+    asset = _cleaned(name, mesh)
+    if asset is None:
+        raise InputError(path, "has no face with an area", "Check it in the program it comes from.")
+    return asset
+
+
+def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
+    """Points that coincide joined, faces without an area left out, warped ones in triangles."""
+    corners, offsets, material = _welded(mesh)
+    for triangles in (False, True):
+        faces = [corners[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
+        kept = [row for row, face in enumerate(faces) if _has_area(mesh.points[face])]
+        if not kept:
+            return None
+        own = [faces[row] for row in kept]
+        asset = Asset(
+            name=name,
+            points_m=mesh.points,
+            corners=np.concatenate(own).astype(np.uint32),
+            offsets=np.concatenate([[0], np.cumsum([len(face) for face in own])]).astype(np.int64),
+            face_slot=material[kept],
+            slots=tuple(Slot(label or "surface", colour) for label, colour in mesh.materials),
+        )
+        asset = _compact(asset)
+        try:
+            _ = asset.triangles
+        except _core.PolygonFault:
+            if triangles:
+                raise
+            corners, offsets, material = _fans(faces, material)
+            continue
+        return asset
+    return None
+
+
+def _welded(mesh: ReadMesh) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int32]]:
+    extent = float(np.ptp(mesh.points, axis=0).max()) or 1.0
+    steps = np.round(mesh.points / (WELD * extent)).astype(np.int64)
+    _, first, number = np.unique(steps, axis=0, return_index=True, return_inverse=True)
+    joined = first[number.reshape(-1)][mesh.corners].astype(np.int64)
+    return joined, mesh.offsets, mesh.face_material
+
+
+def _has_area(points: NDArray[np.float64]) -> bool:
+    if len(points) < 3:
+        return False
+    crossed = np.cross(points[1:-1] - points[0], points[2:] - points[0]).sum(axis=0)
+    longest = float(np.abs(points - points[0]).max())
+    return float(np.linalg.norm(crossed)) > 1e-9 * longest * longest > 0.0
+
+
+def _fans(
+    faces: list[NDArray[np.int64]], material: NDArray[np.int32]
+) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int32]]:
+    """Each face as triangles about its first corner."""
+    triangles = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
+    counts = [len(face) - 2 for face in faces]
+    corners = np.array(triangles, dtype=np.int64).reshape(-1)
+    return corners, np.arange(0, len(corners) + 1, 3), np.repeat(material, counts)
+
+
+def _compact(asset: Asset) -> Asset:
+    """Without points that no face uses: they would widen the box."""
+    used, corners = np.unique(asset.corners, return_inverse=True)
+    return Asset(
+        name=asset.name,
+        points_m=asset.points_m[used],
+        corners=corners.reshape(-1).astype(np.uint32),
+        offsets=asset.offsets,
+        face_slot=asset.face_slot,
+        slots=asset.slots,
+    )

@@ -1,0 +1,19 @@
+"""What assets are made of."""
+
+from __future__ import annotations
+
+from veduta.grammar.assets.asset import Slot
+
+FRAME = Slot("frame", roughness=0.6, fallback=(0.92, 0.91, 0.87))
+PANE = Slot("pane", (0.33, 0.4, 0.44), roughness=0.12)
+LEAF = Slot("leaf", roughness=0.5, fallback=(0.24, 0.32, 0.29))
+BRASS = Slot("brass", (0.66, 0.53, 0.29), roughness=0.35, metalness=0.6)
+STEEL = Slot("steel", (0.55, 0.57, 0.58), roughness=0.35, metalness=0.6)
+IRON = Slot("iron", roughness=0.55, fallback=(0.13, 0.135, 0.14))
+GLASS = Slot("glass", (0.66, 0.76, 0.76), roughness=0.12)
+STONE = Slot("stone", roughness=0.9, fallback=(0.9, 0.87, 0.79))
+ZINC = Slot("zinc", (0.43, 0.46, 0.49), roughness=0.6)
+TILE = Slot("tile", (0.5, 0.36, 0.31), roughness=0.85)
+CHEEK = Slot("cheek", roughness=0.8, fallback=(0.43, 0.46, 0.49))
+BRICK = Slot("brick", roughness=0.95, fallback=(0.69, 0.52, 0.42))
+POT = Slot("pot", (0.62, 0.42, 0.33), roughness=0.85)

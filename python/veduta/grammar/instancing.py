@@ -1,0 +1,58 @@
+"""The assets that stand in a lot, as columns of its part: each mesh once, in each look."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.grammar.assets.asset import Asset, Slot
+from veduta.place.instances import InstanceGroup, Instances
+from veduta.place.material import Colour, Material
+
+WHITE: Colour = (1.0, 1.0, 1.0)
+"""The colour of a shape that none was given to."""
+
+
+def instances_of(
+    derived: _core.DerivedLot,
+    used: NDArray[np.int32],
+    assets: Mapping[str, Asset],
+    number_of: dict[Material, int],
+) -> Instances | None:
+    """The instances; None without any.
+
+    used: (f,) the surfaces that are rows of the feature table, in order. number_of: the part's
+    materials with their numbers; those of the assets are added.
+    """
+    if len(derived.instance_feature) == 0:
+        return None
+    meshes = [assets[name] for name in derived.asset_names]
+    looks = np.stack([derived.instance_asset, derived.instance_look], axis=1)
+    pairs, pair_of = np.unique(looks, axis=0, return_inverse=True)
+    groups: dict[tuple[int, tuple[int, ...]], list[NDArray[np.intp]]] = {}
+    for number, (mesh, look) in enumerate(pairs.tolist()):
+        colour = derived.looks[look][:3]
+        materials = [_material(slot, colour) for slot in meshes[mesh].slots]
+        rows = tuple(number_of.setdefault(found, len(number_of)) for found in materials)
+        groups.setdefault((mesh, rows), []).append(np.flatnonzero(pair_of.reshape(-1) == number))
+    feature = np.searchsorted(used, derived.instance_feature).astype(np.int32)
+    places = derived.instance_transform.reshape(-1, 3, 4)
+    return Instances(
+        meshes=tuple(asset.shared_mesh for asset in meshes),
+        groups=tuple(
+            InstanceGroup(mesh, rows, places[own], feature[own])
+            for (mesh, rows), own in (
+                (key, np.sort(np.concatenate(g))) for key, g in groups.items()
+            )
+        ),
+    )
+
+
+def _material(slot: Slot, shape: Colour) -> Material:
+    """A slot without a colour of its own takes that of the shape, where it has one."""
+    colour = slot.colour or (slot.fallback if shape == WHITE else shape)
+    red, green, blue = (round(channel, 4) for channel in colour)
+    return Material(slot.name, (red, green, blue), slot.roughness, slot.metalness)

@@ -1,0 +1,71 @@
+"""The one lot that `sample` and `tree` look at: named in a file of lots, or a plain rectangle."""
+
+from __future__ import annotations
+
+import difflib
+from pathlib import Path
+
+import numpy as np
+
+from veduta.grammar.block import attributes_of, seed_of
+from veduta.grammar.demo import DEMO_LOTS, demo_lots
+from veduta.grammar.derivation import Derivation, Rules, derive
+from veduta.grammar.edits import Edit, fault_told
+from veduta.grammar.lots import Lot, read_lots, require_lots
+from veduta.grammar.options import GrammarOptions, LotOptions
+from veduta.run.errors import InputError
+
+WIDTH_M, DEPTH_M = 14.0, 12.0
+PLAIN_ID = "lot"
+
+
+def plain_lot(width_m: float = WIDTH_M, depth_m: float = DEPTH_M) -> Lot:
+    """A rectangle with its first edge, the front, along x."""
+    corners = [[0.0, 0.0], [width_m, 0.0], [width_m, depth_m], [0.0, depth_m]]
+    return Lot(PLAIN_ID, f"{width_m:g} x {depth_m:g} m", (np.array(corners),), (0.0, 0.0, 0.0))
+
+
+def find_lot(
+    path: Path | None, lot_id: str | None, options: LotOptions | None = None, seed: int = 0
+) -> Lot:
+    """The lot of this id, or the first of the file.
+
+    Where there is no file: the lot of this id in the synthetic street of `derive` with this seed,
+    or the plain one.
+    """
+    require_lots(path, options)
+    if path is None and lot_id in (None, PLAIN_ID):
+        return plain_lot()
+    named = "the synthetic street" if path is None else str(path)
+    lots = (demo_lots(DEMO_LOTS, seed) if path is None else read_lots(path, options)).lots
+    if lot_id is None:
+        return lots[0]
+    found = [lot for lot in lots if lot_id in (lot.id, lot.name)]
+    if not found:
+        ids = [lot.id for lot in lots]
+        near = difflib.get_close_matches(lot_id, ids, n=1)
+        hint = f"Did you mean `{near[0]}`?" if near else f"It has: {', '.join(ids[:12])}."
+        raise InputError(f"--lot {lot_id}", f"is no lot of {named}", hint)
+    return found[0]
+
+
+def derive_lot(
+    rules: Rules, lot: Lot, options: GrammarOptions, seed: int, edits: tuple[Edit, ...] = ()
+) -> Derivation:
+    """The building that `veduta grammar derive` makes of this lot with this seed."""
+    given = attributes_of(lot, rules.attributes, options)
+    if isinstance(given, str):
+        raise InputError(lot.name, given, "Correct it, or set it with --attr.")
+    made = derive(
+        rules,
+        lot.rings_m,
+        seed=seed_of(lot, seed),
+        start=options.derive.start,
+        attributes=given,
+        edits=edits,
+        seconds=options.derive.seconds,
+    )
+    fault = fault_told(edits, made.edit_faults)
+    if fault is not None:
+        raise InputError(lot.name, fault, "The others are done.")
+    return made

@@ -1,0 +1,197 @@
+"""Building lots from GeoPackages (OGC 12-128r19): the polygons of one of its layers.
+
+Rows are read in blocks, so that a file may be larger than memory; only plain tables are read, and
+nothing that the file computes.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import difflib
+import sqlite3
+import time
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from veduta.grammar.outline import Attribute, Outline, plain_attributes
+from veduta.grammar.rings import RingFault, closed_ring
+from veduta.grammar.wkb import polygons_of_wkb
+from veduta.run.errors import InputError
+from veduta.run.report import Failure
+
+MAGIC = b"SQLite format 3\0"
+BLOCK_ROWS = 1000
+MAX_CELL_BYTES = 16 * 2**20
+MAX_SECONDS = 300.0
+_STEPS = 100_000
+_ENVELOPES = {0: 0, 1: 32, 2: 48, 3: 48, 4: 64}
+_AREAS = ("POLYGON", "MULTIPOLYGON", "GEOMETRY", "GEOMETRYCOLLECTION", "SURFACE", "MULTISURFACE")
+
+
+@dataclass(frozen=True)
+class _Layer:
+    table: str
+    column: str
+    srs: int
+
+
+def is_package(path: Path) -> bool:
+    """Whether the file is a database as GeoPackages are."""
+    try:
+        with path.open("rb") as file:
+            return file.read(len(MAGIC)) == MAGIC
+    except OSError:
+        return False
+
+
+def package_outlines(
+    path: Path, layer_name: str | None, most: int
+) -> tuple[list[Outline], list[Failure], list[str], int | None]:
+    """Outlines, failures, notes and EPSG code of a layer; the only one where none is named.
+
+    InputError where it has more than `most` rows, or is no GeoPackage.
+    """
+    try:
+        with contextlib.closing(_opened(path)) as base:
+            layer = _layer(path, base, layer_name)
+            epsg = _epsg(path, base, layer.srs)
+            outlines, failures, others = _outlines(path, base, layer, most)
+    except sqlite3.Error as error:
+        raise InputError(
+            path, f"cannot be read ({error})", "Save it anew as GeoPackage."
+        ) from error
+    told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
+    notes = [f"left out, for they are no polygons: {told}"] if others else []
+    return outlines, failures, notes, epsg
+
+
+def _opened(path: Path) -> sqlite3.Connection:
+    """The file, to be read only."""
+    base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
+    base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_CELL_BYTES)
+    base.execute("PRAGMA trusted_schema = OFF")
+    end = time.monotonic() + MAX_SECONDS
+    base.set_progress_handler(lambda: int(time.monotonic() > end), _STEPS)
+    base.text_factory = lambda raw: raw.decode("utf-8", "replace")
+    return base
+
+
+def _layer(path: Path, base: sqlite3.Connection, wanted: str | None) -> _Layer:
+    tables = {row[0] for row in base.execute("SELECT name FROM sqlite_master WHERE type='table'")}
+    if "gpkg_geometry_columns" not in tables:
+        raise InputError(path, "is a database, but no GeoPackage", "Save it as GeoPackage.")
+    rows = base.execute(
+        "SELECT table_name, column_name, geometry_type_name, srs_id FROM gpkg_geometry_columns"
+    )
+    found = [
+        _Layer(str(table), str(column), int(srs))
+        for table, column, kind, srs in rows
+        if table in tables and str(kind).upper() in _AREAS and isinstance(srs, int)
+    ]
+    names = [layer.table for layer in found]
+    if not found:
+        raise InputError(path, "has no layer of polygons", "Give it one, as a plain table.")
+    if wanted is None and len(found) > 1:
+        raise InputError(
+            path, f"has {len(found)} layers of polygons", f"Name one with --layer: {_some(names)}."
+        )
+    if wanted is not None and wanted not in names:
+        near = difflib.get_close_matches(wanted, names, n=1)
+        hint = f"Did you mean `{near[0]}`?" if near else f"It has: {_some(names)}."
+        raise InputError(f"--layer {wanted}", f"is no layer of polygons in {path}", hint)
+    return found[0] if wanted is None else found[names.index(wanted)]
+
+
+def _some(names: list[str]) -> str:
+    return ", ".join(names[:12])
+
+
+def _epsg(path: Path, base: sqlite3.Connection, srs: int) -> int | None:
+    """The EPSG code of a reference system; None where the layer says that it has none."""
+    if srs in (-1, 0):
+        return 4326 if srs == 0 else None
+    row = base.execute(
+        "SELECT organization, organization_coordsys_id FROM gpkg_spatial_ref_sys WHERE srs_id = ?",
+        (srs,),
+    ).fetchone()
+    if row is None or str(row[0]).upper() != "EPSG" or not isinstance(row[1], int):
+        raise InputError(
+            path, f"has a reference system without EPSG code (srs_id {srs})", "Reproject it."
+        )
+    return int(row[1])
+
+
+def _outlines(
+    path: Path, base: sqlite3.Connection, layer: _Layer, most: int
+) -> tuple[list[Outline], list[Failure], Counter[str]]:
+    columns = list(base.execute(f"PRAGMA table_info({_quoted(layer.table)})"))
+    names = [str(column[1]) for column in columns]
+    truths = {str(column[1]) for column in columns if str(column[2]).upper() == "BOOLEAN"}
+    if layer.column not in names:
+        raise InputError(path, f"has no column {layer.column}", "Save it anew as GeoPackage.")
+    found: list[Outline] = []
+    failures: list[Failure] = []
+    others: Counter[str] = Counter()
+    for number, row in enumerate(_rows(base, layer, names), 1):
+        if number > most:
+            raise InputError(path, f"has more than {most} rows", "Cut it into several.")
+        values = dict(zip(names, row, strict=True))
+        geometry = values.pop(layer.column)
+        properties = {k: bool(v) if k in truths and v in (0, 1) else v for k, v in values.items()}
+        attributes = plain_attributes(properties)
+        name = _name(attributes, number)
+        subject = f"{path}: {layer.table} row {number}"
+        try:
+            polygons, kind = _polygons(geometry)
+            if polygons is None:
+                others[kind] += 1
+                continue
+            for index, rings in enumerate(polygons, 1):
+                own = name if len(polygons) == 1 else f"{name}-{index}"
+                found.append(Outline(f"{subject} ({own})", own, rings, attributes))
+        except RingFault as fault:
+            failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
+    return found, failures, others
+
+
+def _rows(base: sqlite3.Connection, layer: _Layer, names: list[str]) -> Iterator[tuple[Any, ...]]:
+    listed = ", ".join(_quoted(name) for name in names)
+    cursor = base.execute(f"SELECT {listed} FROM {_quoted(layer.table)} ORDER BY rowid")
+    while block := cursor.fetchmany(BLOCK_ROWS):
+        yield from block
+
+
+def _polygons(geometry: object) -> tuple[list[Any] | None, str]:
+    """The polygons of a cell: the header of GeoPackage (section 2.1.3), then WKB."""
+    if geometry is None:
+        return None, "row without geometry"
+    if not isinstance(geometry, bytes) or geometry[:2] != b"GP" or len(geometry) < 8:
+        raise RingFault("its geometry is none of a GeoPackage")
+    flags = geometry[3]
+    envelope = _ENVELOPES.get((flags >> 1) & 7)
+    if envelope is None:
+        raise RingFault("its geometry is none of a GeoPackage")
+    if flags & 0b1_0000:
+        return None, "empty geometry"
+    polygons, kind = polygons_of_wkb(geometry[8 + envelope :])
+    if polygons is None:
+        return None, kind
+    return [[closed_ring(ring) for ring in rings] for rings in polygons], kind
+
+
+def _name(attributes: dict[str, Attribute], number: int) -> str:
+    """What the row is called: its id or name, else its number."""
+    for key in ("id", "name", "fid"):
+        value = attributes.get(key)
+        if isinstance(value, float) and value.is_integer():
+            value = str(int(value))
+        if isinstance(value, str) and value.strip():
+            return "".join(c for c in value.strip() if c.isprintable())[:200]
+    return f"lot-{number}"
+
+
+def _quoted(name: str) -> str:
+    return '"' + name.replace('"', '""') + '"'
