@@ -249,8 +249,8 @@ impl Derivation {
 
     /// The columns of all leaves.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let tree = &self.tree;
-        lot_to_python(py, py.detach(|| derived_of(tree)))
+        let (tree, code) = (&self.tree, &self.rules.get().code);
+        lot_to_python(py, py.detach(|| derived_of(tree, code)))
     }
 }
 

@@ -314,7 +314,7 @@ impl GrammarRules {
             why: self.told(&fault),
             missing_asset: fault.missing_asset.map(|name| name.to_string()),
         })?;
-        Ok(derived_of(&tree))
+        Ok(derived_of(&tree, &self.code))
     }
 
     /// A fault with its place in the file.
@@ -342,9 +342,9 @@ impl GrammarRules {
 }
 
 /// The columns of the leaves of a tree.
-pub fn derived_of(tree: &Tree) -> Derived {
+pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
     let packed = pack(tree);
-    let surfaces = surfaces(tree, &packed);
+    let surfaces = surfaces(tree, &packed, code);
     let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
     Derived {
         names: surfaces.node.iter().map(name).collect(),
@@ -378,6 +378,12 @@ struct DerivedLot {
     /// What each surface is, as the rules have it; empty where they do not say it.
     feature_class: Vec<String>,
     feature_size_m: Py<PyArray2<f64>>,
+    /// What the rules say of each surface in the attributes `surface`, `solid` and `provenance`,
+    /// and which `surface` it was made in; empty where they say nothing.
+    feature_surface: Vec<String>,
+    feature_within: Vec<String>,
+    feature_solid: Vec<String>,
+    feature_provenance: Vec<String>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
     /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
@@ -429,7 +435,11 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
         polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
         feature_name: derived.names,
-        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
+        feature_class: texts(&surfaces.class),
+        feature_surface: texts(&surfaces.name),
+        feature_within: texts(&surfaces.within),
+        feature_solid: texts(&surfaces.solid),
+        feature_provenance: texts(&surfaces.provenance),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
         instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
@@ -442,6 +452,10 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         edit_faults: derived.edit_faults,
     };
     Ok(Bound::new(py, lot)?.into_any())
+}
+
+fn texts(column: &[Arc<str>]) -> Vec<String> {
+    column.iter().map(ToString::to_string).collect()
 }
 
 pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,6 +17,8 @@ from veduta.grammar.edits import fault_told
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
+from veduta.grammar.textures import read_textures
+from veduta.place.material import Texture
 from veduta.place.part import Part
 from veduta.run.errors import InputError
 from veduta.run.outputs import writing_to
@@ -42,6 +45,7 @@ class Job:
     """A block to work on; `files` are the rule files, `source` is what failures name.
 
     folder: where the rules lie, and the assets that they name.
+    textures: the files of the pictures that the rules name, by those names.
     """
 
     block: Block
@@ -51,6 +55,7 @@ class Job:
     folder: Path
     out: Path
     work: Path
+    textures: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -86,10 +91,11 @@ def run_block(job: Job) -> BlockResult:
     result = BlockResult()
     with timed_step(result.steps, "derive"):
         derived = _derive_all(rules, library, job)
+    textures = read_textures(job.textures)
     with timed_step(result.steps, "write"):
         for lot, found in zip(job.block.lots, derived, strict=True):
             try:
-                part = _part_of(lot, found, library)
+                part = _part_of(lot, found, library, textures)
             except NothingBuiltError as fault:
                 subject = f"{job.source}: {lot.name}"
                 result.failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
@@ -203,12 +209,17 @@ def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
     return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]
 
 
-def _part_of(lot: Lot, derived: _core.DerivedLot | str, library: Library) -> Part:
+def _part_of(
+    lot: Lot,
+    derived: _core.DerivedLot | str,
+    library: Library,
+    textures: Mapping[str, Texture],
+) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
     if fault := fault_told(lot.edits, derived.edit_faults):
         raise NothingBuiltError(fault)
-    return build_part(derived, lot.id, library.assets_of(derived))
+    return build_part(derived, lot.id, library.assets_of(derived), textures)
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:
