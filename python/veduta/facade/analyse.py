@@ -58,7 +58,8 @@ def analyse(
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
         boxes = find_roof_windows(evidence, skyline, floors, columns)
-        boxes += doubt_railings(find_openings(evidence, floors, columns, scores), cues, floors)
+        openings = find_openings(evidence, floors, columns, scores, cues)
+        boxes += doubt_railings(openings, cues, floors)
         require_facade(lines, floors, wall, boxes)
         boxes += read_ground(evidence, floors, wall)
         boxes = only_seen(boxes, evidence, skyline)
