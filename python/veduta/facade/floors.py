@@ -72,11 +72,11 @@ Scale = tuple[list[int], float, Costs, Costs, Costs]
 
 
 class _Candidate(NamedTuple):
-    """The best chain of `count` floors at a storey height (grid rows), by its energy."""
+    """The best chain of so many floors at a storey height (grid rows), by its energy."""
 
     energy: float
-    index: int
-    count: int
+    scale: int
+    floors: int
     storey: int
 
     def is_slim(self, bay: int | None) -> bool:
@@ -210,13 +210,13 @@ def _not_halved(candidates: list[_Candidate], bay: int | None) -> _Candidate:
     floors are taken as they are: there is too little of them to compare. Bays that are too narrow
     for the taller floors speak against them.
     """
-    several = [c for c in candidates if c.count > 1]
+    several = [c for c in candidates if c.floors > 1]
     best = min(candidates)
     # One floor has nothing to be like; it wins only where several are clearly worse.
-    if best.count == 1 and several and min(several).energy <= _HALVED * best.energy:
+    if best.floors == 1 and several and min(several).energy <= _HALVED * best.energy:
         best = min(several)
-    taller = [c for c in candidates if 0.4 <= c.count / best.count <= 0.6 and not c.is_slim(bay)]
-    if best.count >= _MANY and taller and min(taller).energy <= _HALVED * best.energy:
+    taller = [c for c in candidates if 0.4 <= c.floors / best.floors <= 0.6 and not c.is_slim(bay)]
+    if best.floors >= _MANY and taller and min(taller).energy <= _HALVED * best.energy:
         return min(taller)
     return best
 
@@ -226,14 +226,14 @@ def _not_doubled(best: _Candidate, candidates: list[_Candidate], bay: int | None
 
     Two storeys repeat where one does, and floors that come in pairs are more alike so.
     """
+    if bay is None or not best.is_slim(bay):
+        return best
     lower = [
         c
         for c in candidates
-        if 1.7 <= c.count / best.count <= 2.6 and bay is not None and bay >= _CONFIRMS[0] * c.storey
+        if 1.7 <= c.floors / best.floors <= 2.6 and bay >= _CONFIRMS[0] * c.storey
     ]
-    if best.is_slim(bay) and lower and min(lower).energy <= _DOUBLED * best.energy:
-        return min(lower)
-    return best
+    return min(lower) if lower and min(lower).energy <= _DOUBLED * best.energy else best
 
 
 def _is_mean(storey: int, boundaries: list[int]) -> bool:
