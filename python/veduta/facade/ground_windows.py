@@ -29,7 +29,7 @@ _BELOW = 0.3
 # In storeys: the least height of a shop under windows.
 _SHOP = 0.8
 # The least share of the stripes, and number of them, that show a window.
-_SHARE, _LEAST = 0.6, 3
+_SHARE, _LEAST = 0.6, 4
 # Mean log-odds of a window, and by how much they are above those beside it; and the medians over
 # all stripes of these and of how much they are above those below the sill.
 _SURE, _STANDS_OUT = -0.2, 0.6

@@ -4,8 +4,8 @@ The chain of stripes (`columns`) sees all rows at once, where a narrow pier drow
 beside it, and one wide stripe is as cheap as two. Here each wide stripe is looked at on the rows of
 its windows alone: where its middle looks less like a window than its two halves do, and has upright
 edges at its sides, it is parted there. The middle rail of a French window passes neither bound. On
-100 facades of many styles this parts 17 of the 38 stripes that hold two windows on most floors, and 4
-of 246 others; on 35 facades of Paris 1 of 135.
+100 facades of many styles this parts 17 of the 38 stripes that hold two windows on most floors, and
+4 of 246 others; on 35 facades of Paris 1 of 135.
 """
 
 from __future__ import annotations
