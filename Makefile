@@ -120,6 +120,7 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/grammar_picture.py
 	$(PY) docs/assets_picture.py
 	$(PY) docs/styles_picture.py
+	$(PY) docs/roofs_picture.py
 
 # ---- locks ----------------------------------------------------------------------------------
 

@@ -35,6 +35,21 @@ def dissolve_polygons(
     NDArray[np.uint32],
 ]: ...
 
+# roofs.rs
+class RoofFault(ValueError): ...
+
+def roof_types() -> list[str]: ...
+def roof_solid(
+    kind: str,
+    points_m: NDArray[np.float64],
+    ring_offsets: NDArray[np.int64],
+    slope: float,
+    *,
+    overhang_m: float = 0.0,
+    gable_overhang_m: float = 0.0,
+    numbers: dict[str, float] | None = None,
+) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.uint32]]: ...
+
 # chain.rs
 class ChainFault(ValueError): ...
 class ChainSizeError(ChainFault): ...
@@ -108,6 +123,14 @@ class GrammarRules:
         seconds: float = 60.0,
         shapes: int = 5_000_000,
     ) -> list[DerivedLot | MissingAsset | str]: ...
+    def pace(
+        self,
+        lots: list[list[list[tuple[float, float, float]]]],
+        seeds: list[int],
+        cores: int,
+        *,
+        start: str | None = None,
+    ) -> tuple[int, int, float]: ...
 
 class MissingAsset:
     name: str

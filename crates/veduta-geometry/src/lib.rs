@@ -15,6 +15,7 @@ pub mod solid;
 mod triangulate;
 
 pub use error::PolygonError;
+pub use glam;
 pub use plane::{area_vector, Plane};
 pub use polygon_set::PolygonSet;
 pub use triangulate::{triangulate, Triangulation};

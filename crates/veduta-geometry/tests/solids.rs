@@ -131,15 +131,54 @@ fn rectangle(x: f64, y: f64) -> Mesh {
     ]])
 }
 
+/// Cut along its shoulders, at the tip of a notch from either side, and along a hole.
+#[test]
+fn cuts_through_corners_and_along_sides() {
+    let ring = |corners: &[[f64; 2]]| -> Vec<DVec3> {
+        corners.iter().map(|&[x, y]| v(x, y, 0.0)).collect()
+    };
+    let t = ring(&[
+        [0.0, 0.0],
+        [12.0, 0.0],
+        [12.0, 5.0],
+        [8.0, 5.0],
+        [8.0, 10.0],
+        [4.0, 10.0],
+        [4.0, 5.0],
+        [0.0, 5.0],
+    ]);
+    let notch = ring(&[[0.0, 0.0], [6.0, 0.0], [6.0, 8.0], [3.0, 4.0], [0.0, 8.0]]);
+    let turned = ring(&[[0.0, 0.0], [3.0, 4.0], [6.0, 0.0], [6.0, 8.0], [0.0, 8.0]]);
+    let square = ring(&[[0.0, 0.0], [9.0, 0.0], [9.0, 9.0], [0.0, 9.0]]);
+    let hole = ring(&[[3.0, 3.0], [3.0, 6.0], [6.0, 6.0], [6.0, 3.0]]);
+    for (rings, at, below, above) in [
+        (vec![t], 5.0, vec![(6, 60.0)], vec![(4, 20.0)]),
+        (vec![notch], 4.0, vec![(5, 24.0)], vec![(3, 6.0), (3, 6.0)]),
+        (vec![turned], 4.0, vec![(3, 6.0), (3, 6.0)], vec![(5, 24.0)]),
+        (vec![square, hole], 3.0, vec![(6, 27.0)], vec![(8, 45.0)]),
+    ] {
+        let found = cut(&Mesh::polygon(&rings), 1, at, TOLERANCE, false);
+        let faces = |mesh: &Mesh| -> Vec<(usize, f64)> {
+            let one = |face: veduta_geometry::solid::Face<'_>| {
+                assert_eq!(face.ring_count(), 1);
+                (face.outline().len(), face.area_vector().z)
+            };
+            mesh.faces().map(one).collect()
+        };
+        assert_eq!(faces(&found.below.mesh), below);
+        assert_eq!(faces(&found.above.mesh), above);
+    }
+}
+
 #[test]
 fn roofs_of_a_rectangle() {
     let slope = 0.5;
     // A hip roof is a gable roof without a pyramid at each end.
     let (long, wide, high) = (12.0, 8.0, 4.0 * slope);
-    let hip = roofed(&rectangle(long, wide), RoofKind::Hip, slope).unwrap();
+    let hip = roofed(&rectangle(long, wide), &RoofKind::HIP, slope).unwrap();
     assert!(hip.is_closed());
     assert!((hip.volume() - wide * high * (3.0 * long - wide) / 6.0).abs() < TOLERANCE);
-    let gable = roofed(&rectangle(long, wide), RoofKind::Gable, slope).unwrap();
+    let gable = roofed(&rectangle(long, wide), &RoofKind::GABLE, slope).unwrap();
     assert!(gable.is_closed());
     assert!((gable.volume() - wide * high * long / 2.0).abs() < TOLERANCE);
     let (low, up) = gable.bounds().unwrap();
@@ -148,7 +187,7 @@ fn roofs_of_a_rectangle() {
 
 #[test]
 fn a_square_has_two_gables() {
-    let gable = roofed(&rectangle(6.0, 6.0), RoofKind::Gable, 1.0).unwrap();
+    let gable = roofed(&rectangle(6.0, 6.0), &RoofKind::GABLE, 1.0).unwrap();
     assert!((gable.volume() - 6.0 * 6.0 * 3.0 / 2.0).abs() < TOLERANCE);
     assert_eq!(gable.face_count(), 5);
 }
@@ -169,8 +208,8 @@ fn star() -> impl Strategy<Value = Mesh> {
 proptest! {
     #[test]
     fn roofs_close_over_any_outline(sheet in star(), slope in 0.1..3.0f64) {
-        for kind in [RoofKind::Hip, RoofKind::Gable] {
-            let solid = roofed(&sheet, kind, slope).unwrap();
+        for kind in [RoofKind::HIP, RoofKind::GABLE] {
+            let solid = roofed(&sheet, &kind, slope).unwrap();
             prop_assert!(solid.is_closed());
             prop_assert!(solid.volume() > 0.0);
         }

@@ -75,12 +75,28 @@ const OPERATIONS: &[&str] = &[
     "resetGeometry()",
     "resetMaterial()",
     "reverseNormals()",
+    "roofButterfly(#, #)",
+    "roofCrossGable(byHeight, #, 0, comp.index)",
+    "roofDome(#, 0, #)",
+    "roofDutch(#, 0.5, #)",
+    "roofFlat(#, #, #)",
     "roofGable(#, #, #)",
+    "roofGable(byHeight, #, 0, 0, # > 1, #)",
+    "roofGambrel(#, #, #)",
+    "roofHalfHip(#, 0.3, #)",
     "roofHip(byHeight, #, #)",
     "roofHip(#)",
+    "roofHip(#, 0, true)",
+    "roofMansard(#, #, #, #)",
+    "roofOnion(#)",
+    "roofPerEdge(comp(fe) { front : 90 | all : # })",
     "roofPyramid(byAngle, #)",
     "roofRidge(byHeight, #)",
+    "roofSaltbox(#, #)",
+    "roofSawtooth(#, #)",
     "roofShed(#, #)",
+    "roofSkillion(#, #, #)",
+    "roofVault(#, #)",
     "rotate(rel, world, #, #, #)",
     "rotate(abs, scope, #, #, #)",
     "rotateScope(#, #, #)",
@@ -234,8 +250,14 @@ fn check_one(text: &str, start: State, seed: u64) -> Result<bool, TestCaseError>
     Ok(true)
 }
 
+/// How many programs are made: `FUZZ_CASES` of the environment, or so many.
+fn cases(few: u32) -> u32 {
+    let told = std::env::var("FUZZ_CASES").ok();
+    told.and_then(|count| count.parse().ok()).unwrap_or(few)
+}
+
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(400))]
+    #![proptest_config(ProptestConfig::with_cases(cases(400)))]
 
     #[test]
     fn nothing_breaks(

@@ -43,6 +43,101 @@ fn eaves_that_hang_over() {
 }
 
 #[test]
+fn gables_where_they_are_wanted() {
+    // The front is the first edge: the ridge runs from there to the back, 5 m up.
+    let across = 10.0 * 5.0 / 2.0 * 6.0;
+    assert_eq!(volume("roofGable(45, 0, 0, false, 0)"), across);
+    assert_eq!(volume("roofGable(byAngle, 45, 0, 0, false, 2)"), across);
+    assert_eq!(volume("roofGable(45, 0, 0, false, 1)"), 90.0);
+    assert_eq!(volume("roofGable(45, 0, 0, false, [0, 2])"), across);
+    assert_eq!(volume("roofGable(45, 0, 0, false, [1])"), 90.0 - 9.0);
+    // Wings 6 m and 2 m wide under ridges of one height: the gables are over each other.
+    let l: &[(f64, f64)] = &[(0., 0.), (12., 0.), (12., 2.), (6., 2.), (6., 8.), (0., 8.)];
+    for text in [
+        "roofHip(45, 0, true)",
+        "roofGable(45, 0, 0, true)",
+        "roofHip(byHeight, 3, 0, true)",
+    ] {
+        let found = derived(&format!("Lot --> {text}"), lot_of(&[l])).unwrap();
+        let (mesh, _) = solid(&found);
+        let level = |y: f64| y.abs() < 1e-9 || (y - 3.0).abs() < 1e-9;
+        assert!(mesh.points.iter().all(|p| level(p.y)), "{text}");
+    }
+}
+
+#[test]
+fn roofs_of_our_own() {
+    let down = 0.5f64.sqrt();
+    // A frustum 10 by 6 to 8 by 4 m, 1 m high, and a hip roof 1 m high.
+    let frustum = (60.0 + 4.0 * 45.0 + 32.0) / 6.0;
+    let mansard = frustum + 4.0 * (24.0 - 4.0) / 6.0;
+    let upper = 0.5f64.atan().to_degrees();
+    for (text, truth) in [
+        (format!("roofMansard(45, {upper}, 1)"), mansard),
+        (format!("roofGambrel(45, {upper}, 1)"), 10.0 * (5.0 + 2.0)),
+        (
+            "roofHalfHip(45, 0.5)".into(),
+            90.0 - 2.0 * (3.0 * 1.5 / 2.0) * 1.5 / 3.0,
+        ),
+        ("roofHalfHip(byHeight, 3, 0.5)".into(), 90.0 - 2.25),
+        ("roofDutch(45, 0.5)".into(), 72.0 + 2.25),
+        ("roofSaltbox(45, 45)".into(), 90.0),
+        (format!("roofSaltbox(45, {upper})"), 10.0 * 6.0 * 2.0 / 2.0),
+        (format!("roofSaltbox(45, {upper}, 0, 0, 2)"), 60.0),
+        ("roofPerEdge([45, 90, 45, 90])".into(), 90.0),
+        (
+            format!("roofPerEdge([45, 90, 45, 90], {down}, 0.25)"),
+            7.0 * 3.5 / 2.0 * 10.5,
+        ),
+        ("roofSkillion(byHeight, 3)".into(), 90.0),
+        ("roofSkillion(byHeight, 3, 90)".into(), 90.0),
+        ("roofButterfly(45)".into(), 10.0 * 6.0 * (0.3 + 1.5)),
+        ("roofCrossGable(byHeight, 3)".into(), 60.0 * 2.0),
+        ("roofSawtooth(45, 3)".into(), 60.0 * (0.2 + 1.0)),
+        ("roofSawtooth(45, 5, 0, 1)".into(), 60.0 * (0.2 + 1.0)),
+        ("roofFlat(1, 1, 0.5)".into(), 60.0 * 0.5 + 28.0),
+        ("roofVault(3, 0, 0, 2)".into(), 10.0 * vault_section()),
+    ] {
+        let found = volume(&text);
+        assert!((found - truth).abs() < 1e-5, "{text}: {found}, not {truth}");
+    }
+    for text in [
+        "roofDome(3)",
+        "roofOnion(5)",
+        "roofDome(3, 0.2, 4)",
+        "roofFlat(1, 0.3)",
+    ] {
+        assert!(volume(text) > 0.0, "{text}");
+    }
+}
+
+/// Half a circle of 3 m in four straight pieces (m2).
+fn vault_section() -> f64 {
+    let (x, y) = (3.0 - 3.0 * 0.5f64.sqrt(), 3.0 * 0.5f64.sqrt());
+    x * y + (3.0 - x) * (y + 3.0)
+}
+
+#[test]
+fn faces_of_a_roof_are_told_apart() {
+    let cells = "comp(f) { isTagged(\"roof.side\") : Gable. | isTagged(\"roof.bottom\") : Floor. | all : Slope. }";
+    for roof in ["roofGable(45)", "roofGambrel(80, 20, 1)", "roofVault(3)"] {
+        let found = tree(&format!("Lot --> {roof} {cells}"));
+        assert_eq!(areas(&found, "Floor").len(), 1, "{roof}");
+        assert_eq!(areas(&found, "Gable").len(), 2, "{roof}");
+    }
+    let found = tree(&format!("Lot --> roofGable(45) {cells}"));
+    assert_eq!(areas(&found, "Gable"), [9.0, 9.0]);
+    assert_eq!(areas(&found, "Slope").len(), 2);
+    // What is made of a face is no roof.
+    let again = "Lot --> roofHip(45) comp(f) { isTagged(\"roof.top\") : extrude(1) comp(f) { isTagged(\"roof.side\") : Bad. | isTagged(\"roof.top\") : Good. } | all : NIL }";
+    assert_eq!(areas(&tree(again), "Bad").len(), 0);
+    assert_eq!(areas(&tree(again), "Good").len(), 4 * 6 - 2);
+    // Joined faces carry the tag, too.
+    let joined = "Lot --> roofGable(45) comp(f) { isTagged(\"roof.side\") = case isTagged(\"roof.side\") : Gables. else : Bad. }";
+    assert_eq!(areas(&tree(joined), "Gables"), [18.0]);
+}
+
+#[test]
 fn envelopes() {
     // 10 by 6 to 8 by 4 within a metre.
     let frustum = (60.0 + 4.0 * 45.0 + 32.0) / 6.0;
@@ -87,7 +182,16 @@ fn a_mansard_of_two_slopes() {
 fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> roofShed(0)").contains("a slope"));
     assert!(fault("Lot --> roofHip(45, -1)").contains("from 0 on"));
-    assert!(fault("Lot --> roofHip(45, 0, true)").contains("even"));
+    assert!(fault("Lot --> roofHip(45, 0, 1)").contains("true or false"));
+    assert!(fault("Lot --> roofGable(45, 0, 0, false, 4)").contains("from 0 to 3"));
+    assert!(fault("Lot --> roofGable(45, 0, 0, false, 1, 2)").contains("5 are the most"));
+    assert!(fault("Lot --> roofDutch(45, 1)").contains("between 0 and 1"));
+    assert!(fault("Lot --> roofDutch(byAngle, 45)").contains("a share"));
+    assert!(fault("Lot --> roofSawtooth(45, 0)").contains("a count"));
+    assert!(fault("Lot --> roofPerEdge([45, 45])").contains("there are 2 speeds for 4 edges"));
+    assert!(fault("Lot --> roofPerEdge([90, 90, 90, 90])").contains("not upright"));
+    assert!(fault("Lot --> roofFlat(0, 1)").contains("above 0"));
+    assert!(fault("Lot --> roofMansard(70, 95, 2)").contains("a slope"));
     assert!(fault("Lot --> roofPyramid(\"steep\", 1)").contains("byAngle"));
     assert!(fault("Lot --> envelope(normal, 1, 1, 0)").contains("a slope"));
     assert!(fault("Lot --> envelope(normal, 1, [1], [1])").contains("1 numbers for 4"));
@@ -113,6 +217,19 @@ proptest! {
             format!("roofRidge(byAngle, {angle})"),
             format!("roofGable({angle}, 0.3, 0.2)"),
             format!("roofHip({angle}, 0.3)"),
+            format!("roofMansard({angle}, 20, 1, 0.3)"),
+            format!("roofGambrel({angle}, 20, 1, 0.3, 0.2)"),
+            format!("roofHalfHip({angle}, 0.4, 0.3)"),
+            format!("roofDutch({angle}, 0.6, 0.3)"),
+            format!("roofSaltbox({angle}, 30, 0.3)"),
+            format!("roofSkillion({angle}, {edge}, 0.3)"),
+            format!("roofButterfly({angle}, 0.3)"),
+            format!("roofCrossGable({angle}, 0.3)"),
+            format!("roofSawtooth({angle}, {})", edge + 1),
+            "roofDome(3, 0.3)".to_owned(),
+            "roofOnion(5, 0.3)".to_owned(),
+            "roofVault(3, 0.3, 0.2)".to_owned(),
+            "roofFlat(1, 0.3, 0.2, 0.3)".to_owned(),
             format!("envelope(normal, 3, 1, {angle}, 2, {angle})"),
         ] {
             if let Ok(found) = derived(&format!("Lot --> {text}"), lot_of(&[&ring])) {

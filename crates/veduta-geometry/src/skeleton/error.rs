@@ -51,6 +51,10 @@ pub enum SkeletonError {
     Vanished,
     #[error("mending would change the area by {change_m2} m2; {most_m2} m2 are allowed")]
     AreaChange { change_m2: f64, most_m2: f64 },
+    #[error("there is no edge {edge}: the outline has {edges}")]
+    NoSuchEdge { edge: usize, edges: usize },
+    #[error("no place is in sight of all edges, for a point of the roof to stand over it")]
+    NoApex,
     #[error("the roof found is not sound: {0}")]
     Unsound(#[from] RoofFault),
 }

@@ -1,7 +1,8 @@
 //! A mesh to the two sides of a plane across an axis, exactly along shared points.
 //!
-//! Points within the tolerance of the plane count as above it, as if the plane were a hair lower;
-//! they are used as they are, so nothing is cut twice and no sliver appears. What is cut through
+//! Points within the tolerance of the plane lie in it and are used as they are, so nothing is cut
+//! twice and no sliver appears. A side in the plane belongs to the part of its face that it bounds;
+//! a whole face in the plane counts as above it. What is cut through
 //! gets its points once per edge, so both faces at that edge share them and solids stay closed.
 
 use std::collections::HashMap;
@@ -41,6 +42,45 @@ pub fn cut(mesh: &Mesh, axis: usize, at: f64, tolerance: f64, solid: bool) -> Si
     }
 }
 
+/// The faces of `mesh` cut along the planes where the coordinate `axis` is one of `levels`, as one
+/// mesh over shared points; and for each face that of the original which it is a part of. The
+/// points of the original keep their numbers.
+///
+/// A face of which `whole` says so is not cut, but gets the points where the planes cross its edges.
+pub fn scored(
+    mesh: &Mesh,
+    axis: usize,
+    levels: &[f64],
+    tolerance: f64,
+    whole: impl Fn(u32) -> bool,
+) -> (Mesh, Vec<u32>) {
+    let mut now = mesh.clone();
+    let mut sources: Vec<u32> = (0..mesh.face_count() as u32).collect();
+    for &at in levels {
+        let mut cutter = Cutter::new(&now, axis, at, tolerance);
+        let mut faces = Vec::with_capacity(now.face_count());
+        for face in now.faces() {
+            let source = sources[face.index()];
+            if whole(source) {
+                let rings = face.rings().map(|ring| cutter.with_crossings(ring));
+                faces.push((rings.collect(), source));
+                continue;
+            }
+            let mut sides = [Builder::default(), Builder::default()];
+            cutter.cut_face(face, &mut sides, false);
+            let parts = sides.into_iter().flat_map(|side| side.faces);
+            faces.extend(parts.map(|(rings, _)| (rings, source)));
+        }
+        now = Mesh::with_points(cutter.points);
+        sources.clear();
+        for (rings, source) in &faces {
+            now.push_face(rings);
+            sources.push(*source);
+        }
+    }
+    (now, sources)
+}
+
 const BELOW: usize = 0;
 const ABOVE: usize = 1;
 
@@ -57,6 +97,13 @@ struct Cutter {
 #[derive(Default)]
 struct Builder {
     faces: Vec<(Vec<Vec<u32>>, u32)>,
+}
+
+/// An edge of a ring that does not cross the plane, or a part of one up to where it does.
+struct Edge {
+    from: u32,
+    to: u32,
+    side: usize,
 }
 
 /// A part of a ring on one side: it begins and ends on the plane.
@@ -82,10 +129,6 @@ impl Cutter {
         }
     }
 
-    fn side(&self, point: u32) -> usize {
-        usize::from(self.height[point as usize] >= 0.0)
-    }
-
     fn cut_face(&mut self, face: Face<'_>, sides: &mut [Builder; 2], solid: bool) {
         let source = face.index() as u32;
         let on_plane = face
@@ -97,8 +140,9 @@ impl Cutter {
         }
         let mut whole: [Vec<Vec<u32>>; 2] = Default::default();
         let mut chains: [Vec<Chain>; 2] = Default::default();
+        let normal = face.normal();
         for ring in face.rings() {
-            self.cut_ring(ring, &mut whole, &mut chains);
+            self.cut_ring(ring, normal, &mut whole, &mut chains);
         }
         for side in [BELOW, ABOVE] {
             let parts = std::mem::take(&mut chains[side]);
@@ -114,41 +158,81 @@ impl Cutter {
     fn cut_ring(
         &mut self,
         ring: &[u32],
+        normal: DVec3,
         whole: &mut [Vec<Vec<u32>>; 2],
         chains: &mut [Vec<Chain>; 2],
     ) {
-        let count = ring.len();
-        let crossing = (0..count).find(|&k| self.side(ring[k]) != self.side(ring[(k + 1) % count]));
-        let Some(first) = crossing else {
-            whole[self.side(ring[0])].push(ring.to_vec());
+        let steps = self.steps(ring, normal);
+        let count = steps.len();
+        let breaks = |k: usize| {
+            let (before, here) = (&steps[(k + count - 1) % count], &steps[k]);
+            before.side != here.side || self.wraps_round(before, here, normal)
+        };
+        let Some(first) = (0..count).find(|&k| breaks(k)) else {
+            whole[steps[0].side].push(ring.to_vec());
             return;
         };
-        let mut at = self.crossing(ring[first], ring[(first + 1) % count]);
-        let mut points = vec![at];
-        for step in 1..=count {
-            let (here, next) = (
-                ring[(first + step) % count],
-                ring[(first + step + 1) % count],
-            );
-            push_new(&mut points, here);
-            if self.side(here) != self.side(next) {
-                at = self.crossing(here, next);
-                push_new(&mut points, at);
-                let done = std::mem::replace(&mut points, vec![at]);
-                chains[self.side(here)].push(Chain { points: done });
+        let mut points = vec![steps[first].from];
+        for k in (first..first + count).map(|k| k % count) {
+            let (here, next) = (&steps[k], &steps[(k + 1) % count]);
+            push_new(&mut points, here.to);
+            if breaks((k + 1) % count) {
+                let done = std::mem::replace(&mut points, vec![here.to]);
+                chains[here.side].push(Chain { points: done });
+                if here.side == next.side {
+                    let points = vec![here.to];
+                    chains[1 - here.side].push(Chain { points });
+                }
             }
         }
     }
 
-    /// The point where an edge meets the plane: an end of it that lies there, or a new one.
+    /// The edges of a ring, those that cross the plane in two.
+    fn steps(&mut self, ring: &[u32], normal: DVec3) -> Vec<Edge> {
+        let mut steps = Vec::with_capacity(ring.len() + 2);
+        for (k, &from) in ring.iter().enumerate() {
+            let to = ring[(k + 1) % ring.len()];
+            let (a, b) = (self.height[from as usize], self.height[to as usize]);
+            let side = if a == 0.0 && b == 0.0 {
+                let along = self.points[to as usize] - self.points[from as usize];
+                let inwards = normal.cross(along)[self.axis];
+                usize::from(inwards >= 0.0)
+            } else {
+                usize::from(a > 0.0 || (a == 0.0 && b > 0.0))
+            };
+            if a * b < 0.0 {
+                let at = self.crossing(from, to);
+                let (first, last) = (usize::from(a > 0.0), usize::from(b > 0.0));
+                steps.push(Edge {
+                    from,
+                    to: at,
+                    side: first,
+                });
+                steps.push(Edge {
+                    from: at,
+                    to,
+                    side: last,
+                });
+            } else {
+                steps.push(Edge { from, to, side });
+            }
+        }
+        steps
+    }
+
+    /// Whether a face goes round a point in the plane, from two edges on one side to the other side.
+    fn wraps_round(&self, before: &Edge, after: &Edge, normal: DVec3) -> bool {
+        let [a, b, c] = [before.from, after.from, after.to].map(|p| self.points[p as usize]);
+        let is_touched = self.height[after.from as usize] == 0.0;
+        let is_off = |point: u32| self.height[point as usize] != 0.0;
+        is_touched
+            && is_off(before.from)
+            && is_off(after.to)
+            && (b - a).cross(c - b).dot(normal) < 0.0
+    }
+
+    /// The point where an edge crosses the plane.
     fn crossing(&mut self, from: u32, to: u32) -> u32 {
-        let (a, b) = (self.height[from as usize], self.height[to as usize]);
-        if a == 0.0 {
-            return from;
-        }
-        if b == 0.0 {
-            return to;
-        }
         let key = (from.min(to), from.max(to));
         if let Some(&known) = self.on_edge.get(&key) {
             return known;
@@ -162,6 +246,19 @@ impl Cutter {
         self.height.push(0.0);
         self.on_edge.insert(key, number);
         number
+    }
+
+    /// A ring with the points where the plane crosses it.
+    fn with_crossings(&mut self, ring: &[u32]) -> Vec<u32> {
+        let mut points = Vec::with_capacity(ring.len() + 2);
+        for (k, &here) in ring.iter().enumerate() {
+            let next = ring[(k + 1) % ring.len()];
+            points.push(here);
+            if self.height[here as usize] * self.height[next as usize] < 0.0 {
+                points.push(self.crossing(here, next));
+            }
+        }
+        points
     }
 
     /// Chains to rings: on the plane, an end is followed by the next beginning along the line.
@@ -181,7 +278,7 @@ impl Cutter {
             stops.push((place(chain.points[0]), true, index));
             stops.push((place(chain.points[chain.points.len() - 1]), false, index));
         }
-        stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+        stops.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
         let followers = alternating(stops, chains.len());
         rings_of(chains, &followers)
     }

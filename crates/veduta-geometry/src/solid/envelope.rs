@@ -33,7 +33,7 @@ pub fn envelope(
     heights.sort_by(f64::total_cmp);
     heights.dedup();
     heights.push(most);
-    let mut work = Work::on(level, &flat);
+    let mut work = Storeys::on(level, &flat);
     let mut low = 0.0;
     for high in heights {
         work.storey(bounds, low, high)?;
@@ -44,26 +44,29 @@ pub fn envelope(
 
 /// A level polygon on its way up: node numbers of its rings, and the edge of the face that each of
 /// its edges comes from.
-struct Section {
-    rings: Vec<Vec<u32>>,
-    along: Vec<u32>,
+pub(super) struct Section {
+    pub rings: Vec<Vec<u32>>,
+    pub along: Vec<u32>,
 }
 
-struct Work {
+pub(super) struct Storeys {
     level: Level,
     solid: Mesh,
     /// Each point of the solid in the plane of the face.
-    plan: Vec<[f64; 2]>,
-    sections: Vec<Section>,
+    pub plan: Vec<[f64; 2]>,
+    pub sections: Vec<Section>,
+    /// For each face the edge that it stands over, and whether it moves; None for the floor.
+    pub origins: Vec<Option<(u32, bool)>>,
 }
 
-impl Work {
-    fn on(level: Level, flat: &Rings) -> Self {
+impl Storeys {
+    pub fn on(level: Level, flat: &Rings) -> Self {
         let mut work = Self {
             level,
             solid: Mesh::new(),
             plan: Vec::new(),
             sections: Vec::new(),
+            origins: vec![None],
         };
         let mut rings = Vec::with_capacity(flat.len());
         for ring in flat {
@@ -84,7 +87,8 @@ impl Work {
         self.solid.push_point(self.level.place(plan, height))
     }
 
-    fn storey(&mut self, bounds: &[Bound], low: f64, high: f64) -> Result<(), SkeletonError> {
+    /// Goes on from the height `low` to `high`: an edge whose wall is not higher than `low` moves.
+    pub fn storey(&mut self, bounds: &[Bound], low: f64, high: f64) -> Result<(), SkeletonError> {
         for section in std::mem::take(&mut self.sections) {
             let speed = |&edge: &u32| {
                 let bound = &bounds[edge as usize];
@@ -107,6 +111,7 @@ impl Work {
     /// All edges stand.
     fn walls(&mut self, section: Section, high: f64) {
         let mut rings = Vec::with_capacity(section.rings.len());
+        let mut edge = 0;
         for ring in &section.rings {
             let upper: Vec<u32> = ring
                 .iter()
@@ -116,6 +121,8 @@ impl Work {
                 let next = (k + 1) % ring.len();
                 self.solid
                     .push_face(&[[ring[k], ring[next], upper[next], upper[k]]]);
+                self.origins.push(Some((section.along[edge], false)));
+                edge += 1;
             }
             rings.push(upper);
         }
@@ -149,6 +156,10 @@ impl Work {
                 origin.insert((to, from), section.along[edge as usize]);
             }
             self.solid.push_face(&rings);
+            let along = section.along[edge as usize];
+            let is_step = matches!(face.origin, FaceOrigin::Step { .. });
+            let moves = !is_step && speeds[edge as usize] > 0.0;
+            self.origins.push(Some((along, moves)));
         }
         for rest in &found.rest {
             let rings: Vec<Vec<u32>> = rest.rings.iter().map(named).collect();
@@ -164,7 +175,7 @@ impl Work {
     }
 
     /// What is left on top is closed level.
-    fn closed(mut self) -> Mesh {
+    pub fn closed(mut self) -> Mesh {
         for section in &self.sections {
             self.solid.push_face(&section.rings);
         }

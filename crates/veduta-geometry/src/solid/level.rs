@@ -21,6 +21,24 @@ impl Level {
         }
     }
 
+    /// The same with x along a direction, seen from above; as before where that is upright.
+    pub fn along(self, x: DVec3) -> Self {
+        let normal = self.axes.z_axis;
+        let x = (x - normal * x.dot(normal)).normalize_or(self.axes.x_axis);
+        Self {
+            axes: DMat3::from_cols(x, normal.cross(x), normal),
+            ..self
+        }
+    }
+
+    /// The plane moved by `up` along its normal.
+    pub fn raised(self, up: f64) -> Self {
+        Self {
+            height: self.height + up,
+            ..self
+        }
+    }
+
     /// The rings of a face in the plane, in the unit of the mesh.
     pub fn flat(&self, mesh: &Mesh, face: Face<'_>) -> Vec<Vec<[f64; 2]>> {
         let local = self.axes.transpose();

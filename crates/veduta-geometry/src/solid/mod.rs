@@ -12,7 +12,7 @@ mod level;
 mod loops;
 mod mesh;
 mod primitives;
-mod raised;
+mod pyramids;
 mod roofs;
 mod weld;
 
@@ -26,6 +26,6 @@ pub use inner_rectangle::inner_rectangle;
 pub use inset::{inset, merged, outset, Outset, Pieces};
 pub use mesh::{Face, Mesh};
 pub use primitives::{cone, cube, cylinder, disk, quad, sphere};
-pub use raised::{pyramids, raised};
-pub use roofs::{roofed, roofed_over, Overhang, RoofKind};
+pub use pyramids::pyramids;
+pub use roofs::{roofed, roofed_over, Along, Gables, Overhang, RoofKind};
 pub use weld::{joined, weld};

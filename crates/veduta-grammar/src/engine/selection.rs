@@ -69,7 +69,7 @@ impl Choosing {
 
     /// The shape of a component, with what it has from the whole.
     pub fn state(&self, whole: &State, at: usize) -> State {
-        let mut state = whole.with_form(self.found[at].form.clone());
+        let mut state = whole.component(self.found[at].form.clone());
         state.comp = Place {
             index: self.found[at].index,
             total: self.found.len(),

@@ -116,7 +116,7 @@ fn run_shape(
     name: &Arc<str>,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    let mut state = whole.with_form(form);
+    let mut state = whole.component(form);
     state.comp = Place { index, total };
     state.selector = name.clone();
     run.run_cell(body, state, frame)

@@ -14,6 +14,7 @@ mod offsets;
 mod pivots;
 mod primitives;
 mod reshaping;
+mod roof_types;
 mod roofs;
 mod scattering;
 mod scopes;
@@ -87,11 +88,25 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("resetGeometry", reshaping::reset, 0, 0),
     ("resetMaterial", appearance::reset_material, 0, 1),
     ("reverseNormals", solids::reverse, 0, 0),
-    ("roofGable", roofs::gable, 1, 5),
+    ("roofButterfly", roof_types::butterfly, 1, 4),
+    ("roofCrossGable", roof_types::cross_gable, 1, 4),
+    ("roofDome", roof_types::dome, 1, 3),
+    ("roofDutch", roof_types::dutch, 2, 4),
+    ("roofFlat", roof_types::flat, 2, 4),
+    ("roofGable", roofs::gable, 1, 6),
+    ("roofGambrel", roof_types::gambrel, 3, 5),
+    ("roofHalfHip", roof_types::half_hip, 2, 5),
     ("roofHip", roofs::hip, 1, 4),
-    ("roofPyramid", standing::pyramid, 1, 2),
-    ("roofRidge", standing::ridge, 2, 2),
-    ("roofShed", standing::shed, 1, 3),
+    ("roofMansard", roof_types::mansard, 3, 4),
+    ("roofOnion", roof_types::onion, 1, 3),
+    ("roofPerEdge", roof_types::per_edge, 1, 3),
+    ("roofPyramid", roofs::pyramid, 1, 3),
+    ("roofRidge", roofs::ridge, 2, 3),
+    ("roofSaltbox", roof_types::saltbox, 2, 5),
+    ("roofSawtooth", roof_types::sawtooth, 2, 5),
+    ("roofShed", roofs::shed, 1, 4),
+    ("roofSkillion", roof_types::skillion, 1, 4),
+    ("roofVault", roof_types::vault, 1, 4),
     ("rotate", transform::rotate, 5, 5),
     ("rotateScope", scopes::rotate_scope, 3, 3),
     ("rotateUV", textures::rotate, 2, 2),
