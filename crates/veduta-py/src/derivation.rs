@@ -11,8 +11,9 @@ use veduta_grammar::engine::{
     derive, lot_form, rederive, to_place, Edit, Limits, Node, Options, Overrides, State, Tree,
 };
 
+use crate::derived_lot::{derived_of, lot_to_python, rows};
 use crate::given::{values, Given, GivenBack};
-use crate::grammar::{derived_of, lot_to_python, rows, GrammarFault, GrammarRules, Rings};
+use crate::grammar::{GrammarFault, GrammarRules, Rings};
 
 /// Path, name or None, whether to delete, alternatives or None for those to draw, and values.
 pub type GivenEdit = (

@@ -3,21 +3,21 @@
 use std::collections::HashMap;
 use std::sync::{Arc, RwLock};
 
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault,
-    Limits, Options, Packed, State, Surfaces, Tree, Value,
+    asset_names, derive, lot_form, lower_in_style, pack, Code, Expr, ExprKind, Fault, Limits,
+    Options, State, Value,
 };
 use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
-use crate::derivation::{edit_faults, overrides_of, GivenEdit};
+use crate::derivation::{overrides_of, GivenEdit};
+use crate::derived_lot::{derived_of, lot_to_python, Derived, DerivedLot};
 use crate::given::{values, Given};
 use crate::rules::{program_of, rendered, Files};
 
@@ -248,15 +248,6 @@ pub struct Failed {
     pub missing_asset: Option<String>,
 }
 
-pub struct Derived {
-    packed: Packed,
-    surfaces: Surfaces,
-    names: Vec<String>,
-    log_prior: f64,
-    messages: Vec<String>,
-    edit_faults: Vec<(Vec<u32>, String)>,
-}
-
 fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     let missing = || "no rule file is given".to_string();
     let program = program_of(files).ok_or_else(missing)?;
@@ -341,62 +332,12 @@ impl GrammarRules {
     }
 }
 
-/// The columns of the leaves of a tree.
-pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
-    let packed = pack(tree);
-    let surfaces = surfaces(tree, &packed, code);
-    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
-    Derived {
-        names: surfaces.node.iter().map(name).collect(),
-        packed,
-        surfaces,
-        log_prior: tree.log_prior,
-        messages: tree.messages.clone(),
-        edit_faults: edit_faults(tree),
-    }
-}
-
 /// An asset that a lot's rules want and that is not known yet: add it and derive again.
 #[pyclass(frozen, get_all, module = "veduta._core")]
 struct MissingAsset {
     name: String,
     /// What the lot's failure is where there is no such asset.
     why: String,
-}
-
-/// The columns of one lot.
-#[pyclass(frozen, get_all, module = "veduta._core")]
-struct DerivedLot {
-    positions_m: Py<PyArray2<f64>>,
-    uv: Py<PyArray2<f32>>,
-    ring_offsets: Py<PyArray1<i64>>,
-    polygon_offsets: Py<PyArray1<i64>>,
-    /// The surface that each polygon belongs to.
-    polygon_feature: Py<PyArray1<i32>>,
-    polygon_look: Py<PyArray1<i32>>,
-    feature_name: Vec<String>,
-    /// What each surface is, as the rules have it; empty where they do not say it.
-    feature_class: Vec<String>,
-    feature_size_m: Py<PyArray2<f64>>,
-    /// What the rules say of each surface in the attributes `surface`, `solid` and `provenance`,
-    /// and which `surface` it was made in; empty where they say nothing.
-    feature_surface: Vec<String>,
-    feature_within: Vec<String>,
-    feature_solid: Vec<String>,
-    feature_provenance: Vec<String>,
-    /// Red, green, blue, opacity (0 to 1), texture and class of each look.
-    looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
-    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
-    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
-    instance_feature: Py<PyArray1<i32>>,
-    instance_look: Py<PyArray1<i32>>,
-    instance_asset: Py<PyArray1<i32>>,
-    instance_transform: Py<PyArray2<f64>>,
-    asset_names: Vec<String>,
-    log_prior: f64,
-    messages: Vec<String>,
-    /// Path and fault of each edit that could not be done.
-    edit_faults: Vec<(Vec<u32>, String)>,
 }
 
 fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
@@ -410,56 +351,6 @@ fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<B
             None => Ok(failed.why.into_pyobject(py)?.into_any()),
         },
     }
-}
-
-pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
-    let (packed, surfaces) = (derived.packed, derived.surfaces);
-    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
-        let each = leaves.iter();
-        each.map(|&leaf| column[leaf as usize] as i32).collect()
-    };
-    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
-    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
-    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
-    let name = |asset: &Arc<Asset>| asset.name.to_string();
-    let looks = packed.looks.iter().map(|look| {
-        let [r, g, b] = look.colour;
-        let texture = look.texture.as_ref().map(ToString::to_string);
-        (r, g, b, look.opacity, texture, look.class.to_string())
-    });
-    let lot = DerivedLot {
-        positions_m: rows(&packed.positions).into_pyarray(py).unbind(),
-        uv: rows(&packed.uv).into_pyarray(py).unbind(),
-        ring_offsets: packed.ring_offsets.into_pyarray(py).unbind(),
-        polygon_offsets: packed.polygon_offsets.into_pyarray(py).unbind(),
-        polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
-        polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
-        feature_name: derived.names,
-        feature_class: texts(&surfaces.class),
-        feature_surface: texts(&surfaces.name),
-        feature_within: texts(&surfaces.within),
-        feature_solid: texts(&surfaces.solid),
-        feature_provenance: texts(&surfaces.provenance),
-        feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
-        looks: looks.collect(),
-        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
-        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
-        instance_asset: assets.into_pyarray(py).unbind(),
-        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
-        asset_names: packed.assets.iter().map(name).collect(),
-        log_prior: derived.log_prior,
-        messages: derived.messages,
-        edit_faults: derived.edit_faults,
-    };
-    Ok(Bound::new(py, lot)?.into_any())
-}
-
-fn texts(column: &[Arc<str>]) -> Vec<String> {
-    column.iter().map(ToString::to_string).collect()
-}
-
-pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
-    Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -4,6 +4,7 @@ use pyo3::prelude::*;
 
 mod chain;
 mod derivation;
+mod derived_lot;
 mod given;
 mod grammar;
 mod polygons;
