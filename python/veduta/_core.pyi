@@ -20,6 +20,13 @@ def triangulate_polygons(
     tolerance_m: float,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
 
+def sound_polygons(
+    positions_m: NDArray[np.float64],
+    ring_offsets: NDArray[np.int64],
+    polygon_offsets: NDArray[np.int64],
+    tolerance_m: float,
+) -> NDArray[np.bool_]: ...
+
 # chain.rs
 class ChainFault(ValueError): ...
 class ChainSizeError(ChainFault): ...
@@ -90,3 +97,39 @@ class DerivedLot:
     looks: list[tuple[float, float, float, float, str | None, str]]
     log_prior: float
     messages: list[str]
+
+# tiles.rs
+class DerivedLots:
+    def __len__(self) -> int: ...
+    def fault(self, lot: int) -> str | None: ...
+    def messages(self, lot: int) -> list[str]: ...
+    def tile(
+        self,
+        lots: list[int],
+        places: list[tuple[float, float, float]],
+        classes: list[str],
+    ) -> TileBuffers: ...
+
+class TileBuffers:
+    bounds: tuple[tuple[float, float, float], tuple[float, float, float]] | None
+    grid: tuple[tuple[float, float, float], tuple[float, float, float]]
+    step_m: float
+    triangles: int
+    dropped: int
+    materials: list[tuple[int, tuple[float, float, float]]]
+    counts: list[list[int]]
+    rules: list[str]
+    surfaces: list[bytes]
+    merged: list[tuple[int, bytes, bytes, bytes, list[int], list[int]]]
+    repeated: list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes]]
+
+def derive_lots(
+    rules: GrammarRules,
+    lots: list[list[list[tuple[float, float, float]]]],
+    seeds: list[int],
+    *,
+    start: str | None = None,
+    attributes: list[dict[str, bool | float | str]],
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> DerivedLots: ...

@@ -17,4 +17,4 @@ mod triangulate;
 pub use error::PolygonError;
 pub use plane::{area_vector, Plane};
 pub use polygon_set::PolygonSet;
-pub use triangulate::{triangulate, Triangulation};
+pub use triangulate::{triangulate, triangulate_sound, SoundTriangulation, Triangulation};

@@ -9,8 +9,8 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
-    derive, lot_form, lower, pack, surfaces, Code, Expr, ExprKind, Limits, Options, Packed, State,
-    Surfaces, Value,
+    derive, lot_form, lower, pack, pieces, surfaces, Code, Expr, ExprKind, Limits, Options, Packed,
+    State, Surfaces, Value,
 };
 use veduta_grammar::{check, Source};
 
@@ -18,11 +18,14 @@ use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
 
-type Rings = Vec<Vec<[f64; 3]>>;
+pub(crate) type Rings = Vec<Vec<[f64; 3]>>;
+
+/// Polygons of a piece that may be repeated: a window has some dozens.
+const MOST_IN_PIECE: u32 = 96;
 
 /// Checked rule files, ready to derive.
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
-struct GrammarRules {
+pub(crate) struct GrammarRules {
     code: Code,
     text: Source,
     has_imports: bool,
@@ -82,34 +85,15 @@ impl GrammarRules {
                 "each lot needs a seed and attributes",
             ));
         }
-        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
-        let limits = Limits {
-            seconds,
-            shapes,
-            ..Limits::default()
-        };
-        let found: Vec<Result<Derived, String>> = py.detach(|| {
-            lots.par_iter()
-                .zip(&seeds)
-                .zip(given)
-                .map(|((lot, &seed), attributes)| {
-                    let options = Options {
-                        seed,
-                        limits,
-                        attributes,
-                        ..Options::default()
-                    };
-                    self.one(lot, rule, &options)
-                })
-                .collect()
-        });
+        let limits = limits_of(seconds, shapes);
+        let found = py.detach(|| self.all(&lots, &seeds, given, rule, limits));
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
 }
 
 /// A value given from outside.
 #[derive(FromPyObject)]
-enum Given {
+pub(crate) enum Given {
     Bool(bool),
     Number(f64),
     Text(String),
@@ -141,12 +125,14 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-struct Derived {
-    packed: Packed,
-    surfaces: Surfaces,
-    names: Vec<String>,
+pub(crate) struct Derived {
+    pub packed: Packed,
+    pub surfaces: Surfaces,
+    /// Leaves that rules may have made several times together, by packed feature.
+    pub pieces: Vec<u32>,
+    pub names: Vec<String>,
     log_prior: f64,
-    messages: Vec<String>,
+    pub messages: Vec<String>,
 }
 
 fn read(files: &Files) -> Result<GrammarRules, String> {
@@ -168,8 +154,39 @@ fn read(files: &Files) -> Result<GrammarRules, String> {
     })
 }
 
+pub(crate) fn limits_of(seconds: f64, shapes: usize) -> Limits {
+    Limits {
+        seconds,
+        shapes,
+        ..Limits::default()
+    }
+}
+
 impl GrammarRules {
-    fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
+    /// What the rules make of each lot; `seeds` and `given` are as long as `lots`.
+    pub(crate) fn all(
+        &self,
+        lots: &[Rings],
+        seeds: &[u64],
+        given: Vec<HashMap<String, Given>>,
+        rule: usize,
+        limits: Limits,
+    ) -> Vec<Result<Derived, String>> {
+        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
+        let each = lots.par_iter().zip(seeds).zip(given);
+        each.map(|((lot, &seed), attributes)| {
+            let options = Options {
+                seed,
+                limits,
+                attributes,
+                ..Options::default()
+            };
+            self.one(lot, rule, &options)
+        })
+        .collect()
+    }
+
+    pub(crate) fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
         let found = match name {
             Some(name) => self.code.rule_named(name),
             None => self.code.start,
@@ -198,6 +215,7 @@ impl GrammarRules {
         let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
         Ok(Derived {
             names: surfaces.node.iter().map(name).collect(),
+            pieces: pieces(&tree, &packed, &surfaces, MOST_IN_PIECE),
             packed,
             surfaces,
             log_prior: tree.log_prior,

@@ -6,11 +6,13 @@ mod chain;
 mod grammar;
 mod polygons;
 mod rules;
+mod tiles;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
     rules::register(m)?;
+    tiles::register(m)?;
     polygons::register(m)
 }
