@@ -19,7 +19,6 @@ def triangulate_polygons(
     polygon_offsets: NDArray[np.int64],
     tolerance_m: float,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
-
 def sound_polygons(
     positions_m: NDArray[np.float64],
     ring_offsets: NDArray[np.int64],
@@ -103,6 +102,17 @@ class DerivedLots:
     def __len__(self) -> int: ...
     def fault(self, lot: int) -> str | None: ...
     def messages(self, lot: int) -> list[str]: ...
+    def extent(
+        self, lot: int
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None: ...
+    def colour(self, lot: int, class_: str) -> tuple[float, float, float] | None: ...
+    def city(
+        self,
+        lot: int,
+        place: tuple[float, float, float],
+        classes: list[str],
+        kinds: list[str],
+    ) -> tuple[str, list[tuple[int, str, str]], str]: ...
     def tile(
         self,
         lots: list[int],

@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod chain;
+mod city;
 mod grammar;
 mod polygons;
 mod rules;

@@ -7,6 +7,7 @@ use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use veduta_tiles::{batch, Batch, Building, Repeated};
 
+use crate::city::city;
 use crate::grammar::{limits_of, Derived, Given, GrammarRules, Rings};
 
 /// Lots that were derived and stay on this side: columns are made for what is asked.
@@ -36,9 +37,20 @@ fn derive_lots(
         ));
     }
     let limits = limits_of(seconds, shapes);
-    let found = py.detach(|| rules.all(&lots, &seeds, attributes, rule, limits));
+    let mut found = Vec::with_capacity(lots.len());
+    let mut given = attributes.into_iter();
+    for (some, seeds) in lots.chunks(AT_ONCE).zip(seeds.chunks(AT_ONCE)) {
+        let given: Vec<_> = given.by_ref().take(some.len()).collect();
+        found.extend(py.detach(|| rules.all(some, seeds, given, rule, limits)));
+        py.check_signals()?;
+    }
     Ok(DerivedLots { lots: found })
 }
+
+/// Lots that are derived before Ctrl-C is heard.
+const AT_ONCE: usize = 4;
+/// Red, green and blue, sRGB, 0 to 1.
+type Colour = [f32; 3];
 
 #[pymethods]
 impl DerivedLots {
@@ -57,6 +69,70 @@ impl DerivedLots {
         Ok(found
             .map(|derived| derived.messages.clone())
             .unwrap_or_default())
+    }
+
+    /// Lower and upper corner (m, z up) about the lot's anchor, and how many polygons there are;
+    /// None where nothing is left.
+    fn extent(&self, lot: usize) -> PyResult<Option<([f64; 3], [f64; 3], usize)>> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Ok(None);
+        };
+        let points = &derived.packed.positions;
+        let Some(&first) = points.first() else {
+            return Ok(None);
+        };
+        let (mut low, mut high) = (first, first);
+        for point in points {
+            for axis in 0..3 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        let is_finite = low.iter().chain(&high).all(|c| c.abs() < 1e6);
+        let polygons = derived.packed.polygon_feature.len();
+        Ok(is_finite.then_some((low, high, polygons)))
+    }
+
+    /// The sRGB colour that most leaves of a class have; None where there is no such class.
+    fn colour(&self, lot: usize, class: &str) -> PyResult<Option<Colour>> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Ok(None);
+        };
+        let mut counts = vec![0usize; derived.packed.looks.len()];
+        for &look in &derived.packed.feature_look {
+            counts[look as usize] += 1;
+        }
+        let looks = derived.packed.looks.iter().zip(counts);
+        let own = looks.filter(|(look, _)| look.class.as_ref() == class);
+        Ok(own
+            .max_by_key(|(_, count)| *count)
+            .map(|(look, _)| look.colour))
+    }
+
+    /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
+    /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    fn city(
+        &self,
+        py: Python<'_>,
+        lot: usize,
+        place: [f64; 3],
+        classes: Vec<String>,
+        kinds: Vec<String>,
+    ) -> PyResult<(String, Vec<(u8, String, String)>, String)> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Err(PyValueError::new_err("a lot that failed has no surfaces"));
+        };
+        if classes.is_empty() || classes.len() != kinds.len() {
+            return Err(PyValueError::new_err("each class needs a kind"));
+        }
+        let other = classes.len() - 1;
+        let code = |name: &str| {
+            let found = classes.iter().position(|class| class == name);
+            found.unwrap_or(other) as u8
+        };
+        let made = py.detach(|| city(derived, place, &kinds, code));
+        let text = made.map_err(PyValueError::new_err)?;
+        Ok((text.body, text.installations, text.vertices))
     }
 
     /// The buffers of a tile with these lots, each at its place (m, z up); `classes` are the

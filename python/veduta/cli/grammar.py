@@ -16,7 +16,8 @@ MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--seed INT]
-                             [--start TEXT] [--seconds FLOAT] [--force] [--jobs N] [--quiet]
+                             [--start TEXT] [--seconds FLOAT] [--separate] [--no-city] [--force]
+                             [--jobs N] [--quiet]
 
 {SUMMARY}.
 
@@ -94,7 +95,9 @@ def _derive(arguments: list[str]) -> int:
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
-    options = GrammarOptions(derive=call.derive, attributes=read_attributes(call.attr))
+    options = GrammarOptions(
+        derive=call.derive, output=call.output, attributes=read_attributes(call.attr)
+    )
     progress = Progress(quiet=call.quiet)
     result = run_derive(
         call.rules, call.lots, call.out, options, progress, force=call.force, jobs=call.jobs
@@ -121,7 +124,7 @@ def _tell_failures(result: DeriveResult) -> None:
 def _tell_result(result: DeriveResult) -> None:
     from veduta.grammar.report import measures, summary_line
 
-    print(summary_line(measures(result.lots, result.total)))
+    print(summary_line(measures(result.built, result.total)))
     for note in result.notes:
         print(note)
     for name in result.edited:
@@ -130,6 +133,6 @@ def _tell_result(result: DeriveResult) -> None:
         print(f"{result.out / name}: was not made by veduta and is left as it is")
     if result.up_to_date:
         print(f"{result.out} is up to date; --force makes it anew")
-    if result.lots:
+    if result.built.count:
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
     print(f"What was done, and why: {result.out / 'report.html'}")

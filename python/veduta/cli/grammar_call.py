@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions
+from veduta.grammar.options import DeriveOptions, OutputOptions
 
 Rules = Annotated[
     tyro.conf.Positional[str],
@@ -67,7 +67,7 @@ class FormatCall:
 class DeriveCall:
     """Derive a building for each lot.
 
-    The models are written to OUT/parts, all of them together to OUT/place.json.
+    All of them are in OUT/tileset.json (3D Tiles), OUT/city.city.json and OUT/place.json.
 
     Exit codes: 0 done, 2 bad use or input, 3 some lots failed (named), 1 a bug.
     """
@@ -77,6 +77,7 @@ class DeriveCall:
     lots: LotsFile = None
     attr: Attr = ()
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    output: OutputOptions = field(default_factory=OutputOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False

@@ -1,9 +1,10 @@
 """A tile's content: glTF 2.0 binary with many buildings, and what each surface is.
 
 Positions are whole numbers (KHR_mesh_quantization), pieces that repeat are one mesh with instances
-(EXT_mesh_gpu_instancing), all faces are flat (no normals). Each vertex or instance has the number of
-its surface (EXT_mesh_features, EXT_instance_features): its row in the property table `surfaces`, which
-names the row of its building in the table `buildings` (EXT_structural_metadata). Axes: glTF's y-up.
+(EXT_mesh_gpu_instancing), all faces are flat (no normals). Each vertex or instance has the number
+of its surface (EXT_mesh_features, EXT_instance_features): its row in the property table `surfaces`,
+which names the row of its building in the table `buildings` (EXT_structural_metadata). Axes: glTF's
+y-up.
 """
 
 from __future__ import annotations

@@ -74,9 +74,7 @@ def _has_triangles(part: Part) -> bool:
 def _sound(part: Part) -> NDArray[np.bool_]:
     """(p,) which polygons can be triangulated, one by one."""
     points = part.positions_m.astype(np.float64)
-    return _core.sound_polygons(
-        points, part.ring_offsets, part.polygon_offsets, PLANE_TOLERANCE_M
-    )
+    return _core.sound_polygons(points, part.ring_offsets, part.polygon_offsets, PLANE_TOLERANCE_M)
 
 
 def _select(
