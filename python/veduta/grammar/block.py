@@ -81,7 +81,7 @@ class BlockResult:
     def summary(self, name: str) -> dict[str, Any]:
         """For the run's record: all that the place and the report need."""
         town = self.town
-        south = min(town.built, key=lambda one: one.place_m[1] + one.low[1], default=None)
+        front = _front(town.built)
         return {
             "built": len(town.built),
             "polygons": town.polygons,
@@ -89,7 +89,7 @@ class BlockResult:
             "classes": {kind: count for kind, count in sorted(town.classes.items()) if count},
             "dropped": town.dropped,
             "notes": dict(self.notes.most_common(50)),
-            "south": south and _bounds_row(south),
+            "front": front and _bounds_row(front),
             "box": self.tile and [list(corner) for corner in self.tile.box],
             "leaves": [
                 [f"{name}/tiles/{content}", count, [list(corner) for corner in box]]
@@ -279,6 +279,16 @@ def _models(
             result.rows.append(_summary(one.lot, part, job.block.name))
             made.append(one)
     return made
+
+
+def _front(built: Sequence[Built]) -> Built | None:
+    """The building in the middle of the southern edge."""
+    if not built:
+        return None
+    x = np.array([one.place_m[0] + (one.low[0] + one.high[0]) / 2 for one in built])
+    y = np.array([one.place_m[1] + one.low[1] for one in built])
+    middle = (x.min() + x.max()) / 2
+    return built[int(np.argmin(np.abs(x - middle) + (y - y.min())))]
 
 
 def _bounds_row(one: Built) -> dict[str, Any]:

@@ -14,10 +14,10 @@ from veduta.grammar.outline import Attribute
 
 ATTRIBUTE = "LOD"
 FULL, PLAIN, VOLUME = 2.0, 1.0, 0.0
-ERROR_M = {FULL: 0.0, PLAIN: 0.5, VOLUME: 3.0}
+ERROR_M = {FULL: 0.0, PLAIN: 0.5, VOLUME: 4.0}
 """How far a level is from the truth: the depth of a frame; of a balcony or a cornice with its
 shadow."""
-BOXES_ERROR_M = 12.0
+BOXES_ERROR_M = 25.0
 """Of buildings as boxes: a roof, or a wing that is not there."""
 
 PRISM = """

@@ -28,7 +28,7 @@ def place_of(lots: Lots, whole: Whole, *, tileset: str | None) -> Place:
         origin=lots.origin_m,
         parts=[_part(lot) for lot in whole.rows] if whole.rows else _tiles(whole),
         tileset=tileset,
-        start=_start([summary["south"] for _, summary in whole.blocks if summary["south"]])
+        start=_start([summary["front"] for _, summary in whole.blocks if summary["front"]])
         if lots.look is None
         else Start(eye=lots.look[0], target=lots.look[1]),
     )
