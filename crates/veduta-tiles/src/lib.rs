@@ -9,11 +9,13 @@
 
 mod batch;
 mod building;
+mod compress;
 mod merge;
 mod piece;
 mod repeats;
 
 pub use batch::{batch, Batch};
 pub use building::Building;
+pub use compress::{compress_attributes, compress_indices};
 pub use merge::Merged;
 pub use repeats::Repeated;

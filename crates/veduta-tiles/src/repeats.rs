@@ -145,7 +145,8 @@ fn repeated(
     for (number, motion) in group {
         let (rotation, place) = motion.y_up();
         let steps = place / STEP_M;
-        made.translations.extend(steps.to_array().map(|c| c as f32));
+        made.translations
+            .extend(steps.to_array().map(|c| c.round() as f32));
         let turned = rotation.to_array();
         made.rotations
             .extend(turned.map(|c| (c * 32767.0).round() as i16));

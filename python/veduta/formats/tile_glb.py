@@ -1,6 +1,7 @@
 """A tile's content: glTF 2.0 binary with many buildings, and what each surface is.
 
-Positions are whole numbers (KHR_mesh_quantization), pieces that repeat are one mesh with instances
+Positions are whole numbers (KHR_mesh_quantization), columns are compressed
+(EXT_meshopt_compression), pieces that repeat are one mesh with instances
 (EXT_mesh_gpu_instancing), all faces are flat (no normals). Each vertex or instance has the number
 of its surface (EXT_mesh_features, EXT_instance_features): its row in the property table `surfaces`,
 which names the row of its building in the table `buildings` (EXT_structural_metadata). Axes: glTF's
@@ -24,6 +25,7 @@ _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _ARRAY, _ELEMENTS = 34962, 34963
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _ROUGHNESS = {SemanticClass.WINDOW: 0.25, SemanticClass.SHOP: 0.2}
+COMPRESSION = "EXT_meshopt_compression"
 NO_SIZE_MM = 65535
 SIZE_SCALE_M = 65.535
 """Sizes are stored as shares of this: a step is a millimetre."""
@@ -88,21 +90,51 @@ class Binary:
         """The number in the file of a view that `view` gave, when all columns are there."""
         return len(self._columns) - own - 1
 
-    def chunk(self) -> tuple[bytes, list[dict[str, Any]]]:
-        """The content, and its views."""
+    def chunk(self) -> tuple[bytes, list[dict[str, Any]], list[dict[str, Any]]]:
+        """The content, its views and its buffers.
+
+        Columns are compressed: their views name a buffer that is not there, with what it would
+        hold, and in the extension where the compressed bytes are.
+        """
         content = bytearray()
         views: list[dict[str, Any]] = []
-        columns: list[tuple[bytes | bytearray, dict[str, int]]] = []
+        whole = 0
         for (stride, target), column in self._columns.items():
-            layout = {} if target is None else {"target": target}
-            columns.append((column, layout | ({"byteStride": stride} if stride > 0 else {})))
-        for data, layout in [*columns, *((own, {}) for own in self._own)]:
-            content.extend(b"\0" * (-len(content) % 8))
-            where = {"buffer": 0, "byteOffset": len(content), "byteLength": len(data)}
-            content.extend(data)
-            views.append(where | layout)
+            column.extend(b"\0" * (-len(column) % 4))
+            size = abs(stride)
+            is_small = size < 4 or target == _ELEMENTS
+            encode = _core.compress_indices if is_small else _core.compress_attributes
+            where = _appended(content, encode(bytes(column), size)) | {
+                "byteStride": size,
+                "count": len(column) // size,
+                "mode": "INDICES" if is_small else "ATTRIBUTES",
+            }
+            view: dict[str, Any] = {
+                "buffer": 1,
+                "byteOffset": whole,
+                "byteLength": len(column),
+                "extensions": {COMPRESSION: where},
+            }
+            whole += len(column)
+            if target is not None:
+                view["target"] = target
+            if stride > 0:
+                view["byteStride"] = stride
+            views.append(view)
+        views += [_appended(content, own) for own in self._own]
         content.extend(b"\0" * (-len(content) % 4))
-        return bytes(content), views
+        buffers: list[dict[str, Any]] = [{"byteLength": len(content)}]
+        if self._columns:
+            fallback = {COMPRESSION: {"fallback": True}}
+            buffers.append({"byteLength": whole, "extensions": fallback})
+        return bytes(content), views, buffers
+
+
+def _appended(content: bytearray, data: bytes) -> dict[str, Any]:
+    content.extend(b"\0" * (-len(content) % 8))
+    where = {"buffer": 0, "byteOffset": len(content), "byteLength": len(data)}
+    content.extend(data)
+    return where
 
 
 def tile_glb(
@@ -150,12 +182,14 @@ def tile_glb(
 
 def packed(root: Mapping[str, Any], binary: Binary) -> bytes:
     """The file of a document and its binary chunk."""
-    content, views = binary.chunk()
+    content, views, buffers = binary.chunk()
     whole = dict(root) | {
         "bufferViews": views,
         "accessors": binary.accessors,
-        "buffers": [{"byteLength": len(content)}],
+        "buffers": buffers,
     }
+    for name in ("extensionsUsed", "extensionsRequired"):
+        whole[name] = sorted({*root[name], COMPRESSION})
     text = json.dumps(whole, separators=(",", ":"), allow_nan=False).encode()
     text += b" " * (-len(text) % 4)
     total = 12 + 8 + len(text) + 8 + len(content)

@@ -5,7 +5,7 @@ import {
   type InterleavedBufferAttribute,
   type Intersection,
   Matrix4,
-  Mesh,
+  type Mesh,
   type MeshStandardMaterial,
   type Object3D,
   Vector3,
@@ -52,7 +52,7 @@ export class TileModel {
 
   /** The row of the surface that a ray has hit. */
   rowOf(hit: Intersection): number | null {
-    const mesh = hit.object as Mesh;
+    const mesh = hit.object as unknown as Mesh;
     if (hit.instanceId !== undefined) return rowAt(mesh, hit.instanceId);
     return hit.face ? rowAt(mesh, hit.face.a) : null;
   }
@@ -74,7 +74,7 @@ export class TileModel {
 }
 
 function isMesh(node: Object3D): node is Mesh {
-  return node instanceof Mesh;
+  return (node as Partial<Mesh>).isMesh === true;
 }
 
 function isInstanced(mesh: Mesh): mesh is InstancedMesh {

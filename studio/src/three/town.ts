@@ -17,7 +17,8 @@ import {
   Vector3,
   type WebGLRenderer,
 } from "three";
-import type { GLTF } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { CLASS_LOOKS, PROVENANCE_LOOKS, type SemanticClass } from "../core/classes.ts";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
@@ -77,6 +78,8 @@ export class Town implements Obstacles {
     this.#onChange = onChange;
     this.#tiles = new FlatTiles(address.href);
     this.#tiles.errorTarget = ERROR_PX;
+    const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
+    this.#tiles.manager.addHandler(/\.(gltf|glb)$/i, loader);
     this.#tiles.group.rotation.x = -Math.PI / 2;
     this.group.add(this.#tiles.group);
     this.group.updateMatrixWorld(true);
@@ -229,7 +232,8 @@ export class Town implements Obstacles {
   }
 
   *#shown(): Generator<{ model: TileModel; part: number }> {
-    for (const [scene, known] of this.#models) if (scene.parent !== null) yield known;
+    const { visibleTiles } = this.#tiles;
+    for (const known of this.#models.values()) if (visibleTiles.has(known.tile)) yield known;
   }
 
   #ownerOf(object: Object3D): { model: TileModel; part: number } | null {
