@@ -20,7 +20,8 @@ from veduta.run.progress import Progress
 RULES = """
 attr LOD = 2
 attr height = 6
-Lot --> extrude(world.up, height) comp(f) { front : Front | bottom : NIL | top : Roof | all : Wall. }
+Lot --> extrude(world.up, height) Sides
+Sides --> comp(f) { front : Front | bottom : NIL | top : Roof | all : Wall. }
 Front --> set(material.name, "wall") split(x) { { ~2 : Bay }* }
 Bay -->
     case LOD < 1 : Wall.
