@@ -12,7 +12,8 @@ use veduta_grammar::engine::{
 };
 
 use crate::given::{values, Given, GivenBack};
-use crate::grammar::{derived_of, lot_to_python, rows, GrammarFault, GrammarRules, Rings};
+use crate::grammar::{derived_of, GrammarFault, GrammarRules, Rings};
+use crate::lot_columns::{lot_to_python, rows};
 
 /// Path, name or None, whether to delete, alternatives or None for those to draw, and values.
 pub type GivenEdit = (

@@ -3,22 +3,22 @@
 use std::collections::HashMap;
 use std::sync::{Arc, RwLock};
 
-use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, pack, surfaces, Code, Expr, ExprKind, Fault,
-    Limits, Options, Packed, State, Surfaces, Tree, Value,
+    asset_names, derive, lot_form, lower_in_style, pack, pieces, surfaces, Code, Expr, ExprKind,
+    Fault, Limits, Options, Packed, State, Surfaces, Tree, Value,
 };
-use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
+use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset};
 use crate::derivation::{edit_faults, overrides_of, GivenEdit};
 use crate::given::{values, Given};
+use crate::lot_columns::{to_python, DerivedLot};
+use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
@@ -37,7 +37,8 @@ pub struct GrammarRules {
     styles: Vec<String>,
 }
 
-pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
+/// Polygons of a piece that may be repeated: a window has some dozens.
+const MOST_IN_PIECE: u32 = 96;
 
 #[pymethods]
 impl GrammarRules {
@@ -91,7 +92,11 @@ impl GrammarRules {
 
     /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
     /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
-    /// `box_m`: (2, 3) the corners of the box that fills a scope.
+    /// `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
+    /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
+    /// the shape is white.
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None))]
+    #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
         name: &str,
@@ -99,14 +104,13 @@ impl GrammarRules {
         corners: PyReadonlyArray1<'_, u32>,
         offsets: PyReadonlyArray1<'_, i64>,
         box_m: PyReadonlyArray2<'_, f64>,
+        face_slot: Option<PyReadonlyArray1<'_, i32>>,
+        slots: Option<GivenSlots>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
-        let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
-        let ends = places(&box_m).ok_or_else(fault)?;
-        let [low, high] = ends[..] else {
-            return Err(fault());
-        };
-        let asset = Asset::new(name.into(), mesh, (low.into(), high.into())).ok_or_else(fault)?;
+        let (corners, offsets) = (corners.as_slice()?, offsets.as_slice()?);
+        let looks = face_slot.zip(slots);
+        let asset = asset_of(name, &points, corners, offsets, &box_m, looks).ok_or_else(fault)?;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())
@@ -135,31 +139,8 @@ impl GrammarRules {
                 "each lot needs a seed, attributes and edits",
             ));
         }
-        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
-        let limits = Limits {
-            seconds,
-            shapes,
-            ..Limits::default()
-        };
-        let assets = self.known_assets();
-        let found: Vec<Result<Derived, Failed>> = py.detach(|| {
-            lots.par_iter()
-                .zip(&seeds)
-                .zip(given)
-                .zip(edits)
-                .map(|(((lot, &seed), attributes), edits)| {
-                    let options = Options {
-                        seed,
-                        limits,
-                        attributes,
-                        assets: assets.clone(),
-                        overrides: overrides_of(edits),
-                        neighbours: Vec::new(),
-                    };
-                    self.one(lot, rule, &options)
-                })
-                .collect()
-        });
+        let limits = limits_of(seconds, shapes);
+        let found = py.detach(|| self.all(&lots, &seeds, given, edits, rule, limits));
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
 
@@ -174,35 +155,7 @@ impl GrammarRules {
         cores: usize,
         start: Option<&str>,
     ) -> PyResult<(usize, usize, f64)> {
-        let (rule, assets) = (self.start_rule(start)?, self.known_assets());
-        let one = |(lot, &seed): (&Rings, &u64)| {
-            let form = lot_form(lot).ok_or("the lot encloses nothing")?;
-            let options = Options {
-                seed,
-                assets: assets.clone(),
-                ..Options::default()
-            };
-            let state = State::new(form, (seed & 0xffff_ffff) as u32);
-            let tree = derive(&self.code, rule, state, &options).map_err(|fault| fault.message)?;
-            let packed = pack(&tree);
-            let leaves = packed.feature_node.len();
-            Ok::<_, String>((leaves, packed.polygon_feature.len()))
-        };
-        let measured: Result<_, String> = py.detach(|| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();
-            let pool = pool.map_err(|why| why.to_string())?;
-            let began = std::time::Instant::now();
-            let sum = |a: (usize, usize), b: (usize, usize)| Ok((a.0 + b.0, a.1 + b.1));
-            let work = || {
-                lots.par_iter()
-                    .zip(&seeds)
-                    .map(one)
-                    .try_reduce(|| (0, 0), sum)
-            };
-            let (leaves, polygons) = pool.install(work)?;
-            Ok((leaves, polygons, began.elapsed().as_secs_f64()))
-        });
-        measured.map_err(GrammarFault::new_err)
+        pace(self, py, &lots, &seeds, cores, start)
     }
 }
 
@@ -217,44 +170,30 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-/// The rows of three numbers; None where they have another count.
-fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
-    let rows = points.as_array();
-    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
-    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
-}
-
-/// Faces over points; None where a number leads to none.
-fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
-    let places = places(points)?;
-    if corners
-        .iter()
-        .any(|&corner| corner as usize >= places.len())
-    {
-        return None;
-    }
-    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
-    for ends in offsets.windows(2) {
-        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
-        let face = corners.get(range).filter(|face| face.len() >= 3)?;
-        mesh.push_face(&[face]);
-    }
-    Some(mesh)
-}
-
 /// Why there is nothing, and the asset that is wanted where one is.
+#[derive(Debug, Clone)]
 pub struct Failed {
     pub why: String,
     pub missing_asset: Option<String>,
 }
 
 pub struct Derived {
-    packed: Packed,
-    surfaces: Surfaces,
-    names: Vec<String>,
-    log_prior: f64,
-    messages: Vec<String>,
-    edit_faults: Vec<(Vec<u32>, String)>,
+    pub packed: Packed,
+    pub surfaces: Surfaces,
+    /// Leaves that rules may have made several times together, by packed feature.
+    pub pieces: Vec<u32>,
+    pub names: Vec<String>,
+    pub log_prior: f64,
+    pub messages: Vec<String>,
+    pub edit_faults: Vec<(Vec<u32>, String)>,
+}
+
+pub fn limits_of(seconds: f64, shapes: usize) -> Limits {
+    Limits {
+        seconds,
+        shapes,
+        ..Limits::default()
+    }
 }
 
 fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
@@ -304,6 +243,33 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
+    /// What the rules make of each lot; `seeds`, `given` and `edits` are as long as `lots`.
+    pub fn all(
+        &self,
+        lots: &[Rings],
+        seeds: &[u64],
+        given: Vec<HashMap<String, Given>>,
+        edits: Vec<Vec<GivenEdit>>,
+        rule: usize,
+        limits: Limits,
+    ) -> Vec<Result<Derived, Failed>> {
+        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
+        let assets = self.known_assets();
+        let each = lots.par_iter().zip(seeds).zip(given).zip(edits);
+        each.map(|(((lot, &seed), attributes), edits)| {
+            let options = Options {
+                seed,
+                limits,
+                attributes,
+                assets: assets.clone(),
+                overrides: overrides_of(edits),
+                neighbours: Vec::new(),
+            };
+            self.one(lot, rule, &options)
+        })
+        .collect()
+    }
+
     fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
         let form = lot_form(lot).ok_or_else(|| Failed {
             why: "the lot encloses nothing".to_string(),
@@ -348,104 +314,13 @@ pub fn derived_of(tree: &Tree) -> Derived {
     let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
     Derived {
         names: surfaces.node.iter().map(name).collect(),
+        pieces: pieces(tree, &packed, &surfaces, MOST_IN_PIECE),
         packed,
         surfaces,
         log_prior: tree.log_prior,
         messages: tree.messages.clone(),
         edit_faults: edit_faults(tree),
     }
-}
-
-/// An asset that a lot's rules want and that is not known yet: add it and derive again.
-#[pyclass(frozen, get_all, module = "veduta._core")]
-struct MissingAsset {
-    name: String,
-    /// What the lot's failure is where there is no such asset.
-    why: String,
-}
-
-/// The columns of one lot.
-#[pyclass(frozen, get_all, module = "veduta._core")]
-struct DerivedLot {
-    positions_m: Py<PyArray2<f64>>,
-    uv: Py<PyArray2<f32>>,
-    ring_offsets: Py<PyArray1<i64>>,
-    polygon_offsets: Py<PyArray1<i64>>,
-    /// The surface that each polygon belongs to.
-    polygon_feature: Py<PyArray1<i32>>,
-    polygon_look: Py<PyArray1<i32>>,
-    feature_name: Vec<String>,
-    /// What each surface is, as the rules have it; empty where they do not say it.
-    feature_class: Vec<String>,
-    feature_size_m: Py<PyArray2<f64>>,
-    /// Red, green, blue, opacity (0 to 1), texture and class of each look.
-    looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
-    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
-    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
-    instance_feature: Py<PyArray1<i32>>,
-    instance_look: Py<PyArray1<i32>>,
-    instance_asset: Py<PyArray1<i32>>,
-    instance_transform: Py<PyArray2<f64>>,
-    asset_names: Vec<String>,
-    log_prior: f64,
-    messages: Vec<String>,
-    /// Path and fault of each edit that could not be done.
-    edit_faults: Vec<(Vec<u32>, String)>,
-}
-
-fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
-    match found {
-        Ok(derived) => lot_to_python(py, derived),
-        Err(failed) => match failed.missing_asset {
-            Some(name) => {
-                let why = failed.why;
-                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
-            }
-            None => Ok(failed.why.into_pyobject(py)?.into_any()),
-        },
-    }
-}
-
-pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
-    let (packed, surfaces) = (derived.packed, derived.surfaces);
-    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
-        let each = leaves.iter();
-        each.map(|&leaf| column[leaf as usize] as i32).collect()
-    };
-    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
-    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
-    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
-    let name = |asset: &Arc<Asset>| asset.name.to_string();
-    let looks = packed.looks.iter().map(|look| {
-        let [r, g, b] = look.colour;
-        let texture = look.texture.as_ref().map(ToString::to_string);
-        (r, g, b, look.opacity, texture, look.class.to_string())
-    });
-    let lot = DerivedLot {
-        positions_m: rows(&packed.positions).into_pyarray(py).unbind(),
-        uv: rows(&packed.uv).into_pyarray(py).unbind(),
-        ring_offsets: packed.ring_offsets.into_pyarray(py).unbind(),
-        polygon_offsets: packed.polygon_offsets.into_pyarray(py).unbind(),
-        polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
-        polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
-        feature_name: derived.names,
-        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
-        feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
-        looks: looks.collect(),
-        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
-        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
-        instance_asset: assets.into_pyarray(py).unbind(),
-        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
-        asset_names: packed.assets.iter().map(name).collect(),
-        log_prior: derived.log_prior,
-        messages: derived.messages,
-        edit_faults: derived.edit_faults,
-    };
-    Ok(Bound::new(py, lot)?.into_any())
-}
-
-pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
-    Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -1,0 +1,98 @@
+//! What the rules made of one lot, as columns for Python.
+
+use std::sync::Arc;
+
+use numpy::ndarray::Array2;
+use numpy::{IntoPyArray, PyArray1, PyArray2};
+use pyo3::prelude::*;
+use veduta_grammar::shape::Asset;
+
+use crate::assets::MissingAsset;
+use crate::grammar::{Derived, Failed};
+
+/// The columns of one lot.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+pub struct DerivedLot {
+    positions_m: Py<PyArray2<f64>>,
+    uv: Py<PyArray2<f32>>,
+    ring_offsets: Py<PyArray1<i64>>,
+    polygon_offsets: Py<PyArray1<i64>>,
+    /// The surface that each polygon belongs to.
+    polygon_feature: Py<PyArray1<i32>>,
+    polygon_look: Py<PyArray1<i32>>,
+    feature_name: Vec<String>,
+    /// What each surface is, as the rules have it; empty where they do not say it.
+    feature_class: Vec<String>,
+    feature_size_m: Py<PyArray2<f64>>,
+    /// Red, green, blue, opacity (0 to 1), texture and class of each look.
+    looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
+    /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
+    /// stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
+    instance_feature: Py<PyArray1<i32>>,
+    instance_look: Py<PyArray1<i32>>,
+    instance_asset: Py<PyArray1<i32>>,
+    instance_transform: Py<PyArray2<f64>>,
+    asset_names: Vec<String>,
+    log_prior: f64,
+    messages: Vec<String>,
+    /// Path and fault of each edit that could not be done.
+    edit_faults: Vec<(Vec<u32>, String)>,
+}
+
+pub fn to_python<'py>(
+    py: Python<'py>,
+    found: Result<Derived, Failed>,
+) -> PyResult<Bound<'py, PyAny>> {
+    match found {
+        Ok(derived) => lot_to_python(py, derived),
+        Err(failed) => match failed.missing_asset {
+            Some(name) => {
+                let why = failed.why;
+                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
+            }
+            None => Ok(failed.why.into_pyobject(py)?.into_any()),
+        },
+    }
+}
+
+pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
+    let (packed, surfaces) = (derived.packed, derived.surfaces);
+    let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
+        let each = leaves.iter();
+        each.map(|&leaf| column[leaf as usize] as i32).collect()
+    };
+    let of_polygon = |column: &[u32]| of(&packed.polygon_feature, column);
+    let of_instance = |column: &[u32]| of(&packed.instance_feature, column);
+    let assets: Vec<i32> = packed.instance_asset.iter().map(|&a| a as i32).collect();
+    let name = |asset: &Arc<Asset>| asset.name.to_string();
+    let looks = packed.looks.iter().map(|look| {
+        let [r, g, b] = look.colour;
+        let texture = look.texture.as_ref().map(ToString::to_string);
+        (r, g, b, look.opacity, texture, look.class.to_string())
+    });
+    let lot = DerivedLot {
+        positions_m: rows(&packed.positions).into_pyarray(py).unbind(),
+        uv: rows(&packed.uv).into_pyarray(py).unbind(),
+        ring_offsets: packed.ring_offsets.into_pyarray(py).unbind(),
+        polygon_offsets: packed.polygon_offsets.into_pyarray(py).unbind(),
+        polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
+        polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
+        feature_name: derived.names,
+        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
+        feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
+        looks: looks.collect(),
+        instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
+        instance_look: of_instance(&packed.feature_look).into_pyarray(py).unbind(),
+        instance_asset: assets.into_pyarray(py).unbind(),
+        instance_transform: rows(&packed.instance_transform).into_pyarray(py).unbind(),
+        asset_names: packed.assets.iter().map(name).collect(),
+        log_prior: derived.log_prior,
+        messages: derived.messages,
+        edit_faults: derived.edit_faults,
+    };
+    Ok(Bound::new(py, lot)?.into_any())
+}
+
+pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {
+    Array2::from_shape_fn((tuples.len(), N), |(row, column)| tuples[row][column])
+}
