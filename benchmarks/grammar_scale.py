@@ -3,9 +3,9 @@
     python benchmarks/grammar_scale.py                   # 10 to 10,000 lots, kept in results/
     python benchmarks/grammar_scale.py 100000 -o OUT     # any numbers, only printed
 
-Derives the style `haussmann` with tiles and without CityJSON, one process for each core. Memory is the
-proportional set size of all processes together. With -o the town of the last number stays, and a
-run that was stopped goes on there.
+Derives the style `haussmann` with tiles and without CityJSON, one process for each core. Memory is
+the proportional set size of all processes together. With -o the town of the last number stays, and
+a run that was stopped goes on there.
 """
 
 from __future__ import annotations

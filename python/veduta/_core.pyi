@@ -97,7 +97,7 @@ class DerivedLot:
     log_prior: float
     messages: list[str]
 
-# tiles.rs
+# derived_lots.rs
 class DerivedLots:
     def __len__(self) -> int: ...
     def fault(self, lot: int) -> str | None: ...
@@ -120,6 +120,7 @@ class DerivedLots:
         classes: list[str],
     ) -> TileBuffers: ...
 
+# tiles.rs
 class TileBuffers:
     bounds: tuple[tuple[float, float, float], tuple[float, float, float]] | None
     grid: tuple[tuple[float, float, float], tuple[float, float, float]]

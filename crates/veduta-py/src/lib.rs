@@ -4,6 +4,8 @@ use pyo3::prelude::*;
 
 mod chain;
 mod city;
+mod compress;
+mod derived_lots;
 mod grammar;
 mod polygons;
 mod rules;
@@ -14,6 +16,8 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     grammar::register(m)?;
     rules::register(m)?;
+    compress::register(m)?;
+    derived_lots::register(m)?;
     tiles::register(m)?;
     polygons::register(m)
 }

@@ -49,6 +49,9 @@ pub(crate) fn y_up(point: DVec3) -> DVec3 {
     DVec3::new(point.x, point.z, -point.y)
 }
 
+/// The vertices that a mesh has: surface and place.
+type Known = HashMap<(u32, [u16; 3]), u32>;
+
 /// One mesh for each material, in the order of materials.
 pub(crate) fn merge(
     buildings: &[Building<'_>],
@@ -56,7 +59,7 @@ pub(crate) fn merge(
     pieces: &[Piece],
     grid: &Grid,
 ) -> Vec<Merged> {
-    let mut meshes: BTreeMap<u32, (Merged, HashMap<(u32, [u16; 3]), u32>)> = BTreeMap::new();
+    let mut meshes: BTreeMap<u32, (Merged, Known)> = BTreeMap::new();
     for piece in pieces {
         let building = &buildings[piece.building];
         let offset = DVec3::from_array(building.offset);
