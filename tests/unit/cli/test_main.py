@@ -162,9 +162,10 @@ def test_the_help_of_grammar_names_every_option() -> None:
 
     from veduta.cli.grammar import HELP
     from veduta.cli.grammar_call import DeriveCall, FormatCall
-    from veduta.grammar.options import DeriveOptions
+    from veduta.grammar.options import DeriveOptions, OutputOptions
 
     names = {field.name for call in (DeriveCall, FormatCall) for field in fields(call)}
-    names |= set(DeriveOptions.model_fields)
-    missing = {name for name in names - {"rules", "derive", "out"} if f"--{name}" not in HELP}
+    names |= set(DeriveOptions.model_fields) | set(OutputOptions.model_fields)
+    named = {name for name in names if f"--{name}" in HELP or f"--no-{name}" in HELP}
+    missing = names - named - {"rules", "derive", "output", "out"}
     assert missing == set()
