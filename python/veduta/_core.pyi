@@ -193,7 +193,7 @@ class Derivation:
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
     def columns(self) -> DerivedLot: ...
 
-# tiles.rs
+# derived_lots.rs
 class DerivedLots:
     def __len__(self) -> int: ...
     def fault(self, lot: int) -> str | None: ...
@@ -218,6 +218,7 @@ class DerivedLots:
         classes: list[str],
     ) -> TileBuffers: ...
 
+# tiles.rs
 class TileBuffers:
     bounds: tuple[tuple[float, float, float], tuple[float, float, float]] | None
     grid: tuple[tuple[float, float, float], tuple[float, float, float]]

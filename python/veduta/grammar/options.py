@@ -74,7 +74,8 @@ class OutputOptions(Options):
     )
     city: bool = Field(
         default=True,
-        description="write CityJSON: city.city.json, or city.city.jsonl for more than 1000 lots",
+        description="write CityJSON: city.city.json, or city.city.jsonl for more than 1000 lots;"
+        " --no-city leaves it out",
     )
 
 

@@ -69,6 +69,8 @@ export class TileModel {
       positions: new Float32Array(positions),
       partOfFace: new Uint32Array(rows.length),
       rowOfFace: new Uint32Array(rows),
+      firstBoxFace: rows.length,
+      instances: [],
     };
   }
 }
