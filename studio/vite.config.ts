@@ -2,10 +2,12 @@ import { defineConfig, type Plugin } from "vite";
 
 /**
  * The page may talk to its own origin only. Textures inside a GLB become blob: addresses
- * of this page, and screenshots are data made here, hence blob: and data:.
+ * of this page, and screenshots are data made here, hence blob: and data:. The decoder of compressed
+ * tiles is WebAssembly within the page's own script.
  */
 const POLICY = [
   "default-src 'self'",
+  "script-src 'self' 'wasm-unsafe-eval'",
   "img-src 'self' blob: data:",
   "connect-src 'self' blob:",
   "style-src 'self'",

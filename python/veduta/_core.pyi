@@ -34,6 +34,12 @@ def dissolve_polygons(
     NDArray[np.int64],
     NDArray[np.uint32],
 ]: ...
+def sound_polygons(
+    positions_m: NDArray[np.float64],
+    ring_offsets: NDArray[np.int64],
+    polygon_offsets: NDArray[np.int64],
+    tolerance_m: float,
+) -> NDArray[np.bool_]: ...
 
 # roofs.rs
 class RoofFault(ValueError): ...
@@ -111,6 +117,9 @@ class GrammarRules:
         corners: NDArray[np.uint32],
         offsets: NDArray[np.int64],
         box_m: NDArray[np.float64],
+        face_slot: NDArray[np.int32] | None = None,
+        slots: list[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
+        | None = None,
     ) -> None: ...
     def derive(
         self,
@@ -202,3 +211,56 @@ class Derivation:
         self, shape: int
     ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
     def columns(self) -> DerivedLot: ...
+
+# derived_lots.rs
+class DerivedLots:
+    def __len__(self) -> int: ...
+    def fault(self, lot: int) -> str | None: ...
+    def missing_asset(self, lot: int) -> str | None: ...
+    def edit_faults(self, lot: int) -> list[tuple[list[int], str]]: ...
+    def messages(self, lot: int) -> list[str]: ...
+    def extent(
+        self, lot: int
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None: ...
+    def colour(self, lot: int, kind: str) -> tuple[float, float, float] | None: ...
+    def city(
+        self,
+        lot: int,
+        place: tuple[float, float, float],
+        classes: list[str],
+        kinds: list[str],
+    ) -> tuple[str, list[tuple[int, str, str]], str]: ...
+    def tile(
+        self,
+        lots: list[int],
+        places: list[tuple[float, float, float]],
+        classes: list[str],
+    ) -> TileBuffers: ...
+
+# tiles.rs
+class TileBuffers:
+    bounds: tuple[tuple[float, float, float], tuple[float, float, float]] | None
+    grid: tuple[tuple[float, float, float], tuple[float, float, float]]
+    step_m: float
+    triangles: int
+    dropped: int
+    materials: list[tuple[int, tuple[float, float, float]]]
+    counts: list[list[int]]
+    rules: list[str]
+    surfaces: list[bytes]
+    merged: list[tuple[int, bytes, bytes, bytes, list[int], list[int]]]
+    repeated: list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes]]
+
+def derive_lots(
+    rules: GrammarRules,
+    lots: list[list[list[tuple[float, float, float]]]],
+    seeds: list[int],
+    *,
+    start: str | None = None,
+    attributes: list[dict[str, bool | float | str]],
+    edits: list[list[_Edit]],
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> DerivedLots: ...
+def compress_attributes(data: bytes, stride: int) -> bytes: ...
+def compress_indices(data: bytes, stride: int) -> bytes: ...

@@ -12,7 +12,9 @@ from typing import Any
 
 import pytest
 from command_line import command, items_done, read_json, tree, veduta
-from test_validators import validate_gltf
+from test_validators import validate_city, validate_gltf
+
+from veduta.formats.tiles import contents
 
 RULES = """
 attr height = 6
@@ -22,7 +24,15 @@ Front --> split(x) { { ~2 : Bay }* }
 Bay --> split(x) { ~1 : Wall | 1 : set(material.name, "window") Window. | ~1 : Wall }
 Wall --> set(material.name, "wall")
 """
-ALL_FILES = {"place.json", "report.json", "report.html", "parts", ".veduta"}
+ALL_FILES = {
+    "place.json",
+    "tileset.json",
+    "city.city.json",
+    "report.json",
+    "report.html",
+    "parts",
+    ".veduta",
+}
 
 
 def lots_json(count: int, *, bad: bool = False) -> dict[str, Any]:
@@ -67,12 +77,19 @@ def test_one_command_makes_a_street(tmp_path: Path) -> None:
     report = read_json(out / "report.json")
     assert report["measures"]["built"] == 14
     assert report["measures"]["classes"]["door"] == 14
+    for tile in contents(out):
+        if tile.endswith(".glb"):
+            issues = validate_gltf(out / tile)
+            assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    city = validate_city(out / "city.city.json")
+    assert (city["valid"], city["has_warnings"]) == (True, False), city["checks"]
     assert any("synthetic" in note for note in report["notes"])
 
 
 def test_lots_keep_their_place(tmp_path: Path, rules: Path, lots: Path) -> None:
     out = tmp_path / "out"
-    assert veduta("grammar", "derive", rules, "--lots", lots, "-o", out).returncode == 0
+    call = ["grammar", "derive", rules, "--lots", lots, "--separate"]
+    assert veduta(*call, "-o", out).returncode == 0
     place = read_json(out / "place.json")
     assert (place["crs"], place["origin"]) == ("EPSG:28992", [84_000.0, 446_000.0, 0.0])
     by_name = {part["name"]: part for part in place["parts"]}
@@ -99,7 +116,7 @@ def test_the_same_on_one_core_and_two(tmp_path: Path, rules: Path, lots: Path) -
 
 def test_out_that_exists(tmp_path: Path, rules: Path, lots: Path) -> None:
     out = tmp_path / "out"
-    call = ["grammar", "derive", rules, "--lots", lots, "-o", out]
+    call = ["grammar", "derive", rules, "--lots", lots, "--separate", "-o", out]
     assert veduta(*call).returncode == 0
     before = tree(out)
     again = veduta(*call)
@@ -114,7 +131,7 @@ def test_out_that_exists(tmp_path: Path, rules: Path, lots: Path) -> None:
     assert forced.returncode == 0
     assert f"{edited}: was edited and is left as it is" in forced.stdout
     assert edited.read_bytes() == b"mine"
-    assert tree(out)["parts/01/house-40.glb"] != before["parts/01/house-40.glb"]
+    assert tree(out)["parts/01/house-15.glb"] != before["parts/01/house-15.glb"]
 
 
 def test_lots_that_fail_are_named(tmp_path: Path, rules: Path) -> None:
@@ -204,7 +221,7 @@ def test_format_prints_and_rewrites(tmp_path: Path) -> None:
 def test_killed_in_the_middle(tmp_path: Path, number: signal.Signals, code: int) -> None:
     lots, out = tmp_path / "lots.geojson", tmp_path / "out"
     lots.write_text(json.dumps(lots_json(96)))
-    call = ["grammar", "derive", "haussmann", "--lots", lots, "-o"]
+    call = ["grammar", "derive", "haussmann", "--lots", lots, "--separate", "-o"]
     run = subprocess.Popen(command(*call, out), stderr=subprocess.PIPE, text=True)
     try:
         deadline = time.monotonic() + 120
@@ -219,8 +236,9 @@ def test_killed_in_the_middle(tmp_path: Path, number: signal.Signals, code: int)
     assert run.returncode == code
     assert "Traceback" not in error
     there = {path: path.stat().st_mtime_ns for path in out.glob("parts/*/*.glb")}
-    assert 32 <= len(there) <= 96
-    assert len(there) % 32 == 0  # whole blocks, or nothing of them
+    assert there
+    # Whole blocks, or nothing of them.
+    assert all((path.parent / "tiles" / "tileset.json").is_file() for path in there)
     # A block that was in place but not yet in the record is the work in hand, and made again.
     recorded = {out / name for name in items_done(out)}
     done = {path: stamp for path, stamp in there.items() if path.parent in recorded}

@@ -7,8 +7,8 @@ from pathlib import Path
 import pytest
 
 from veduta.grammar.assets.library import Library
-from veduta.grammar.block import attributes_of
 from veduta.grammar.building import build_part
+from veduta.grammar.deriving import attributes_of
 from veduta.grammar.lots import Lot, read_lots
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.rules import compile_rules, find_rules, read_rules, style_names

@@ -18,4 +18,4 @@ pub use error::PolygonError;
 pub use glam;
 pub use plane::{area_vector, Plane};
 pub use polygon_set::PolygonSet;
-pub use triangulate::{triangulate, Triangulation};
+pub use triangulate::{triangulate, triangulate_sound, SoundTriangulation, Triangulation};

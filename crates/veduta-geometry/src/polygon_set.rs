@@ -20,21 +20,26 @@ impl<'a> PolygonSet<'a> {
         ring_offsets: &'a [i64],
         polygon_offsets: &'a [i64],
     ) -> Result<Self, PolygonError> {
-        check_offsets("ring", ring_offsets, positions_m.len())?;
-        check_offsets("polygon", polygon_offsets, ring_offsets.len() - 1)?;
-        let is_wild = |p: &[f64; 3]| p.iter().any(|c| !c.is_finite() || c.abs() > 1e12);
-        if let Some(vertex) = positions_m.iter().position(is_wild) {
-            return Err(PolygonError::NotFinite { vertex });
-        }
-        let set = Self {
-            positions_m,
-            ring_offsets,
-            polygon_offsets,
-        };
+        let set = Self::of_any_rings(positions_m, ring_offsets, polygon_offsets)?;
         for polygon in 0..set.len() {
             set.check_rings(polygon)?;
         }
         Ok(set)
+    }
+
+    /// The same for polygons that may be none: [`Self::check_rings`] tells of each.
+    pub fn of_any_rings(
+        positions_m: &'a [[f64; 3]],
+        ring_offsets: &'a [i64],
+        polygon_offsets: &'a [i64],
+    ) -> Result<Self, PolygonError> {
+        check_offsets("ring", ring_offsets, positions_m.len())?;
+        check_offsets("polygon", polygon_offsets, ring_offsets.len() - 1)?;
+        Ok(Self {
+            positions_m,
+            ring_offsets,
+            polygon_offsets,
+        })
     }
 
     /// Number of polygons.
@@ -58,7 +63,9 @@ impl<'a> PolygonSet<'a> {
             .map(|ring| self.ring_offsets[ring] as usize..self.ring_offsets[ring + 1] as usize)
     }
 
-    fn check_rings(&self, polygon: usize) -> Result<(), PolygonError> {
+    /// Whether the rings of a polygon have three vertices or more, none repeated, all finite.
+    pub fn check_rings(&self, polygon: usize) -> Result<(), PolygonError> {
+        let is_wild = |p: &[f64; 3]| p.iter().any(|c| !c.is_finite() || c.abs() > 1e12);
         let mut rings = 0;
         for (ring, range) in self.rings(polygon).enumerate() {
             rings += 1;
@@ -71,6 +78,9 @@ impl<'a> PolygonSet<'a> {
                 });
             }
             for vertex in range.clone() {
+                if is_wild(&self.positions_m[vertex]) {
+                    return Err(PolygonError::NotFinite { vertex });
+                }
                 let next = if vertex + 1 == range.end {
                     range.start
                 } else {

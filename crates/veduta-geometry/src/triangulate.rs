@@ -26,6 +26,17 @@ pub struct Triangulation {
     pub areas_m2: Vec<f64>,
 }
 
+/// Which polygons are sound, and the triangles of those that are.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct SoundTriangulation {
+    pub is_sound: Vec<bool>,
+    /// Vertex numbers, and the polygon of each triangle.
+    pub triangles: Vec<[u32; 3]>,
+    pub triangle_polygon: Vec<u32>,
+    /// Unit normal of each polygon; zero of those that are not sound.
+    pub normals: Vec<[f64; 3]>,
+}
+
 struct Piece {
     triangles: Vec<[u32; 3]>,
     normal: [f64; 3],
@@ -51,6 +62,26 @@ pub fn triangulate(set: &PolygonSet<'_>, tolerance_m: f64) -> Result<Triangulati
     Ok(all)
 }
 
+/// Triangulates the polygons that are some, and leaves out the others: those that
+/// [`triangulate`] refuses. On the calling thread alone.
+pub fn triangulate_sound(set: &PolygonSet<'_>, tolerance_m: f64) -> SoundTriangulation {
+    let mut all = SoundTriangulation::default();
+    for polygon in 0..set.len() {
+        let found = set.check_rings(polygon);
+        let piece = found.and_then(|()| one_polygon(set, polygon, tolerance_m));
+        all.is_sound.push(piece.is_ok());
+        let Ok(piece) = piece else {
+            all.normals.push([0.0; 3]);
+            continue;
+        };
+        all.triangle_polygon
+            .extend(std::iter::repeat_n(polygon as u32, piece.triangles.len()));
+        all.triangles.extend(piece.triangles);
+        all.normals.push(piece.normal);
+    }
+    all
+}
+
 fn one_polygon(
     set: &PolygonSet<'_>,
     polygon: usize,
@@ -66,11 +97,59 @@ fn one_polygon(
     if area_m2 <= 0.0 {
         return Err(PolygonError::NoArea { polygon, area_m2 });
     }
-    let triangles = inside_triangles(set, polygon, &plane)?;
+    let triangles = match convex_triangles(set, polygon, &plane) {
+        Some(triangles) => triangles,
+        None => inside_triangles(set, polygon, &plane)?,
+    };
     Ok(Piece {
         triangles,
         normal: plane.normal,
         area_m2,
+    })
+}
+
+/// A corner whose sides enclose less than this is not told from a straight line (m2).
+const STRAIGHT_M2: f64 = 1e-9;
+
+/// Most polygons of buildings are triangles and convex quadrilaterals: no search is needed. A
+/// quadrilateral is cut along its shorter diagonal (of two equals, the one at its first corner).
+fn convex_triangles(set: &PolygonSet<'_>, polygon: usize, plane: &Plane) -> Option<Vec<[u32; 3]>> {
+    let mut rings = set.rings(polygon);
+    let ring = rings.next()?;
+    if rings.next().is_some() || ring.len() > 4 {
+        return None;
+    }
+    let count = ring.len();
+    let points: Vec<[f64; 2]> = ring
+        .clone()
+        .map(|vertex| plane.flatten(set.position_m(vertex)))
+        .collect();
+    let minus = |a: [f64; 2], b: [f64; 2]| [a[0] - b[0], a[1] - b[1]];
+    for k in 0..count {
+        let into = minus(points[k], points[(k + count - 1) % count]);
+        let out = minus(points[(k + 1) % count], points[k]);
+        if into[0] * out[1] - into[1] * out[0] <= STRAIGHT_M2 {
+            return None;
+        }
+    }
+    let vertex = |k: usize| (ring.start + k) as u32;
+    if count == 3 {
+        return Some(vec![[vertex(0), vertex(1), vertex(2)]]);
+    }
+    let square = |a: [f64; 2]| a[0] * a[0] + a[1] * a[1];
+    let first = square(minus(points[2], points[0]));
+    let second = square(minus(points[3], points[1]));
+    // Equal but for rounding is equal: congruent polygons are cut alike.
+    Some(if first <= second * (1.0 + 1e-9) {
+        vec![
+            [vertex(0), vertex(1), vertex(2)],
+            [vertex(0), vertex(2), vertex(3)],
+        ]
+    } else {
+        vec![
+            [vertex(0), vertex(1), vertex(3)],
+            [vertex(1), vertex(2), vertex(3)],
+        ]
     })
 }
 

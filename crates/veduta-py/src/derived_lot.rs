@@ -5,18 +5,25 @@ use std::sync::Arc;
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
-use veduta_grammar::engine::{pack, surfaces, Code, Packed, Surfaces, Tree};
+use veduta_grammar::engine::{pack, pieces, surfaces, Code, Packed, Surfaces, Tree};
 use veduta_grammar::shape::Asset;
 
+use crate::assets::MissingAsset;
 use crate::derivation::edit_faults;
+use crate::grammar::Failed;
+
+/// Polygons of a piece that may be repeated: a window has some dozens.
+const MOST_IN_PIECE: u32 = 96;
 
 pub struct Derived {
-    packed: Packed,
-    surfaces: Surfaces,
-    names: Vec<String>,
-    log_prior: f64,
-    messages: Vec<String>,
-    edit_faults: Vec<(Vec<u32>, String)>,
+    pub packed: Packed,
+    pub surfaces: Surfaces,
+    /// Leaves that rules may have made several times together, by packed feature.
+    pub pieces: Vec<u32>,
+    pub names: Vec<String>,
+    pub log_prior: f64,
+    pub messages: Vec<String>,
+    pub edit_faults: Vec<(Vec<u32>, String)>,
 }
 
 /// The columns of the leaves of a tree.
@@ -26,6 +33,7 @@ pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
     let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
     Derived {
         names: surfaces.node.iter().map(name).collect(),
+        pieces: pieces(tree, &packed, &surfaces, MOST_IN_PIECE),
         packed,
         surfaces,
         log_prior: tree.log_prior,
@@ -67,6 +75,22 @@ pub struct DerivedLot {
     messages: Vec<String>,
     /// Path and fault of each edit that could not be done.
     edit_faults: Vec<(Vec<u32>, String)>,
+}
+
+pub fn to_python<'py>(
+    py: Python<'py>,
+    found: Result<Derived, Failed>,
+) -> PyResult<Bound<'py, PyAny>> {
+    match found {
+        Ok(derived) => lot_to_python(py, derived),
+        Err(failed) => match failed.missing_asset {
+            Some(name) => {
+                let why = failed.why;
+                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
+            }
+            None => Ok(failed.why.into_pyobject(py)?.into_any()),
+        },
+    }
 }
 
 pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {

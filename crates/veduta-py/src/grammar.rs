@@ -8,17 +8,17 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
-use veduta_geometry::solid::Mesh;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, pack, Code, Expr, ExprKind, Fault, Limits,
-    Options, State, Value,
+    asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Limits, Options,
+    State, Value,
 };
-use veduta_grammar::shape::Asset;
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
+use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset};
 use crate::derivation::{overrides_of, GivenEdit};
-use crate::derived_lot::{derived_of, lot_to_python, Derived, DerivedLot};
+use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot};
 use crate::given::{values, Given};
+use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
 
 create_exception!(_core, GrammarFault, PyValueError);
@@ -36,8 +36,6 @@ pub struct GrammarRules {
     assets: RwLock<Arc<Assets>>,
     styles: Vec<String>,
 }
-
-pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 
 #[pymethods]
 impl GrammarRules {
@@ -91,7 +89,11 @@ impl GrammarRules {
 
     /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
     /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
-    /// `box_m`: (2, 3) the corners of the box that fills a scope.
+    /// `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
+    /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
+    /// the shape is white.
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None))]
+    #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
         name: &str,
@@ -99,14 +101,13 @@ impl GrammarRules {
         corners: PyReadonlyArray1<'_, u32>,
         offsets: PyReadonlyArray1<'_, i64>,
         box_m: PyReadonlyArray2<'_, f64>,
+        face_slot: Option<PyReadonlyArray1<'_, i32>>,
+        slots: Option<GivenSlots>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
-        let mesh = mesh_of(&points, corners.as_slice()?, offsets.as_slice()?).ok_or_else(fault)?;
-        let ends = places(&box_m).ok_or_else(fault)?;
-        let [low, high] = ends[..] else {
-            return Err(fault());
-        };
-        let asset = Asset::new(name.into(), mesh, (low.into(), high.into())).ok_or_else(fault)?;
+        let (corners, offsets) = (corners.as_slice()?, offsets.as_slice()?);
+        let looks = face_slot.zip(slots);
+        let asset = asset_of(name, &points, corners, offsets, &box_m, looks).ok_or_else(fault)?;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())
@@ -135,31 +136,8 @@ impl GrammarRules {
                 "each lot needs a seed, attributes and edits",
             ));
         }
-        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
-        let limits = Limits {
-            seconds,
-            shapes,
-            ..Limits::default()
-        };
-        let assets = self.known_assets();
-        let found: Vec<Result<Derived, Failed>> = py.detach(|| {
-            lots.par_iter()
-                .zip(&seeds)
-                .zip(given)
-                .zip(edits)
-                .map(|(((lot, &seed), attributes), edits)| {
-                    let options = Options {
-                        seed,
-                        limits,
-                        attributes,
-                        assets: assets.clone(),
-                        overrides: overrides_of(edits),
-                        neighbours: Vec::new(),
-                    };
-                    self.one(lot, rule, &options)
-                })
-                .collect()
-        });
+        let limits = limits_of(seconds, shapes);
+        let found = py.detach(|| self.all(&lots, &seeds, given, edits, rule, limits));
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
 
@@ -174,35 +152,7 @@ impl GrammarRules {
         cores: usize,
         start: Option<&str>,
     ) -> PyResult<(usize, usize, f64)> {
-        let (rule, assets) = (self.start_rule(start)?, self.known_assets());
-        let one = |(lot, &seed): (&Rings, &u64)| {
-            let form = lot_form(lot).ok_or("the lot encloses nothing")?;
-            let options = Options {
-                seed,
-                assets: assets.clone(),
-                ..Options::default()
-            };
-            let state = State::new(form, (seed & 0xffff_ffff) as u32);
-            let tree = derive(&self.code, rule, state, &options).map_err(|fault| fault.message)?;
-            let packed = pack(&tree);
-            let leaves = packed.feature_node.len();
-            Ok::<_, String>((leaves, packed.polygon_feature.len()))
-        };
-        let measured: Result<_, String> = py.detach(|| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(cores).build();
-            let pool = pool.map_err(|why| why.to_string())?;
-            let began = std::time::Instant::now();
-            let sum = |a: (usize, usize), b: (usize, usize)| Ok((a.0 + b.0, a.1 + b.1));
-            let work = || {
-                lots.par_iter()
-                    .zip(&seeds)
-                    .map(one)
-                    .try_reduce(|| (0, 0), sum)
-            };
-            let (leaves, polygons) = pool.install(work)?;
-            Ok((leaves, polygons, began.elapsed().as_secs_f64()))
-        });
-        measured.map_err(GrammarFault::new_err)
+        pace(self, py, &lots, &seeds, cores, start)
     }
 }
 
@@ -217,35 +167,19 @@ fn kind(expr: &Expr) -> &'static str {
     }
 }
 
-/// The rows of three numbers; None where they have another count.
-fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
-    let rows = points.as_array();
-    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
-    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
-}
-
-/// Faces over points; None where a number leads to none.
-fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
-    let places = places(points)?;
-    if corners
-        .iter()
-        .any(|&corner| corner as usize >= places.len())
-    {
-        return None;
-    }
-    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
-    for ends in offsets.windows(2) {
-        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
-        let face = corners.get(range).filter(|face| face.len() >= 3)?;
-        mesh.push_face(&[face]);
-    }
-    Some(mesh)
-}
-
 /// Why there is nothing, and the asset that is wanted where one is.
+#[derive(Debug, Clone)]
 pub struct Failed {
     pub why: String,
     pub missing_asset: Option<String>,
+}
+
+pub fn limits_of(seconds: f64, shapes: usize) -> Limits {
+    Limits {
+        seconds,
+        shapes,
+        ..Limits::default()
+    }
 }
 
 fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
@@ -295,6 +229,33 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
+    /// What the rules make of each lot; `seeds`, `given` and `edits` are as long as `lots`.
+    pub fn all(
+        &self,
+        lots: &[Rings],
+        seeds: &[u64],
+        given: Vec<HashMap<String, Given>>,
+        edits: Vec<Vec<GivenEdit>>,
+        rule: usize,
+        limits: Limits,
+    ) -> Vec<Result<Derived, Failed>> {
+        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
+        let assets = self.known_assets();
+        let each = lots.par_iter().zip(seeds).zip(given).zip(edits);
+        each.map(|(((lot, &seed), attributes), edits)| {
+            let options = Options {
+                seed,
+                limits,
+                attributes,
+                assets: assets.clone(),
+                overrides: overrides_of(edits),
+                neighbours: Vec::new(),
+            };
+            self.one(lot, rule, &options)
+        })
+        .collect()
+    }
+
     fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
         let form = lot_form(lot).ok_or_else(|| Failed {
             why: "the lot encloses nothing".to_string(),
@@ -329,27 +290,6 @@ impl GrammarRules {
         self.assets
             .read()
             .map_or_else(|_| Arc::default(), |known| known.clone())
-    }
-}
-
-/// An asset that a lot's rules want and that is not known yet: add it and derive again.
-#[pyclass(frozen, get_all, module = "veduta._core")]
-struct MissingAsset {
-    name: String,
-    /// What the lot's failure is where there is no such asset.
-    why: String,
-}
-
-fn to_python<'py>(py: Python<'py>, found: Result<Derived, Failed>) -> PyResult<Bound<'py, PyAny>> {
-    match found {
-        Ok(derived) => lot_to_python(py, derived),
-        Err(failed) => match failed.missing_asset {
-            Some(name) => {
-                let why = failed.why;
-                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
-            }
-            None => Ok(failed.why.into_pyobject(py)?.into_any()),
-        },
     }
 }
 

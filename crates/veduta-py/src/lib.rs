@@ -2,21 +2,33 @@
 
 use pyo3::prelude::*;
 
+mod assets;
 mod chain;
+mod city;
+mod compress;
 mod derivation;
 mod derived_lot;
+mod derived_lots;
+mod flat;
 mod given;
 mod grammar;
+mod pace;
 mod polygons;
 mod roofs;
 mod rules;
+mod standing;
+mod tile_buffers;
+mod tiles;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
+    compress::register(m)?;
     grammar::register(m)?;
     derivation::register(m)?;
     roofs::register(m)?;
     rules::register(m)?;
+    derived_lots::register(m)?;
+    tile_buffers::register(m)?;
     polygons::register(m)
 }

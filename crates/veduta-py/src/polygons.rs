@@ -6,7 +6,7 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use veduta_geometry::solid::{dissolve, Corner, Sheet};
-use veduta_geometry::{triangulate, PolygonError, PolygonSet, Triangulation};
+use veduta_geometry::{triangulate, triangulate_sound, PolygonError, PolygonSet, Triangulation};
 
 create_exception!(_core, PolygonFault, PyValueError);
 create_exception!(_core, BadOffsetsError, PolygonFault);
@@ -46,18 +46,7 @@ fn triangulate_polygons<'py>(
     polygon_offsets: PyReadonlyArray1<'py, i64>,
     tolerance_m: f64,
 ) -> PyResult<Columns<'py>> {
-    let view = positions_m.as_array();
-    if view.ncols() != 3 {
-        return Err(PyValueError::new_err(format!(
-            "positions_m must have 3 columns, not {}",
-            view.ncols()
-        )));
-    }
-    let points: Vec<[f64; 3]> = view
-        .rows()
-        .into_iter()
-        .map(|p| [p[0], p[1], p[2]])
-        .collect();
+    let points = points_of(&positions_m)?;
     let rings: Vec<i64> = ring_offsets.as_array().to_vec();
     let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
     let found: Result<Triangulation, PolygonError> = py.detach(|| {
@@ -147,6 +136,37 @@ fn dissolve_polygons<'py>(
     ))
 }
 
+/// Which of columnar polygons `triangulate_polygons` takes.
+#[pyfunction]
+fn sound_polygons<'py>(
+    py: Python<'py>,
+    positions_m: PyReadonlyArray2<'py, f64>,
+    ring_offsets: PyReadonlyArray1<'py, i64>,
+    polygon_offsets: PyReadonlyArray1<'py, i64>,
+    tolerance_m: f64,
+) -> PyResult<Bound<'py, PyArray1<bool>>> {
+    let points = points_of(&positions_m)?;
+    let rings: Vec<i64> = ring_offsets.as_array().to_vec();
+    let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
+    let found: Result<Vec<bool>, PolygonError> = py.detach(|| {
+        let set = PolygonSet::of_any_rings(&points, &rings, &polygons)?;
+        Ok(triangulate_sound(&set, tolerance_m).is_sound)
+    });
+    Ok(found.map_err(|error| to_python(&error))?.into_pyarray(py))
+}
+
+fn points_of(positions_m: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>> {
+    let view = positions_m.as_array();
+    if view.ncols() != 3 {
+        return Err(PyValueError::new_err(format!(
+            "positions_m must have 3 columns, not {}",
+            view.ncols()
+        )));
+    }
+    let rows = view.rows().into_iter();
+    Ok(rows.map(|p| [p[0], p[1], p[2]]).collect())
+}
+
 fn rows<T: Copy>(triples: &[[T; 3]]) -> Array2<T> {
     Array2::from_shape_fn((triples.len(), 3), |(row, column)| triples[row][column])
 }
@@ -162,5 +182,6 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("NotPlanarError", py.get_type::<NotPlanarError>())?;
     m.add("SelfCrossingError", py.get_type::<SelfCrossingError>())?;
     m.add_function(wrap_pyfunction!(dissolve_polygons, m)?)?;
-    m.add_function(wrap_pyfunction!(triangulate_polygons, m)?)
+    m.add_function(wrap_pyfunction!(triangulate_polygons, m)?)?;
+    m.add_function(wrap_pyfunction!(sound_polygons, m)?)
 }

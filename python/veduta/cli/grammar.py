@@ -18,7 +18,7 @@ HELP = f"""usage: veduta grammar check RULES
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--edits FILE]
                              [--seed INT] [--start TEXT] [--style TEXT] [--seconds FLOAT]
                              [--layer TEXT] [--up y|z] [--terrain PATH] [--ground lowest|mean]
-                             [--force] [--jobs N] [--quiet]
+                             [--separate] [--no-city] [--force] [--jobs N] [--quiet]
        veduta grammar sample RULES -o SHEET [--count N] [--lots LOTS] [--lot ID]
                              [--colours classes|real|both] [--columns INT] [--width INT]
                              [--rays INT] and others of derive
@@ -114,8 +114,12 @@ def _derive(arguments: list[str]) -> int:
 
     call = parse(DeriveCall, "veduta grammar derive", arguments)
     require_jobs(call.jobs)
-    given = read_attributes(call.attr)
-    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
+    options = GrammarOptions(
+        derive=call.derive,
+        lots=call.read,
+        output=call.output,
+        attributes=read_attributes(call.attr),
+    )
     progress = Progress(quiet=call.quiet)
     result = run_derive(
         call.rules,
@@ -147,7 +151,7 @@ def _tell_failures(result: DeriveResult) -> None:
 def _tell_result(result: DeriveResult) -> None:
     from veduta.grammar.report import measures, summary_line
 
-    print(summary_line(measures(result.lots, result.total)))
+    print(summary_line(measures(result.built, result.total)))
     for note in result.notes:
         print(note)
     for name in result.edited:
@@ -156,6 +160,6 @@ def _tell_result(result: DeriveResult) -> None:
         print(f"{result.out / name}: was not made by veduta and is left as it is")
     if result.up_to_date:
         print(f"{result.out} is up to date; --force makes it anew")
-    if result.lots:
+    if result.built.count:
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
     print(f"What was done, and why: {result.out / 'report.html'}")

@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions, LotOptions, SampleOptions
+from veduta.grammar.options import DeriveOptions, LotOptions, OutputOptions, SampleOptions
 
 Rules = Annotated[
     tyro.conf.Positional[str],
@@ -124,7 +124,7 @@ class FormatCall:
 class DeriveCall:
     """Derive a building for each lot.
 
-    The models are written to OUT/parts, all of them together to OUT/place.json.
+    All of them are in OUT/tileset.json (3D Tiles), OUT/city.city.json and OUT/place.json.
 
     Exit codes: 0 done, 2 bad use or input, 3 some lots failed (named), 1 a bug.
     """
@@ -136,6 +136,7 @@ class DeriveCall:
     edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
     read: LotOptions = field(default_factory=LotOptions)
+    output: OutputOptions = field(default_factory=OutputOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False

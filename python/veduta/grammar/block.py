@@ -2,50 +2,58 @@
 
 from __future__ import annotations
 
-import functools
-import hashlib
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from veduta import _core
+from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line
 from veduta.formats.gltf import write_glb
+from veduta.formats.tiles import Tile
 from veduta.grammar.assets.library import Library
 from veduta.grammar.building import NothingBuiltError, build_part
-from veduta.grammar.edits import fault_told
+from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
+from veduta.grammar.levels import FULL, PLAIN, VOLUME
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.outline import Attribute
+from veduta.grammar.quadtree import squares
 from veduta.grammar.textures import read_textures
+from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.material import Texture
 from veduta.place.part import Part
-from veduta.run.errors import InputError
+from veduta.run.atomic import write_bytes
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
 
-AT_ONCE = 4
-"""Lots that are derived in one call of the extension: between two, Ctrl-C is heard."""
-MAX_SHAPES = 500_000
-"""Of one lot's tree; it bounds memory to some hundred megabytes."""
+LEAF_LOTS = 32
+"""Lots of a tile that is seen from near."""
+NODE_LOTS = 256
+"""Lots of a tile of volumes."""
 MEMORY = 400 * 1024**2
 """Bytes that a block is expected to need."""
+NOTHING = "the rules leave nothing on it"
 
 
 @dataclass(frozen=True)
 class Block:
-    """Lots whose models go to one folder; `name` is its path in OUT."""
+    """Lots whose files go to one folder; `name` is its path in OUT. origin_m: of its tiles."""
 
     name: str
     lots: tuple[Lot, ...]
+    origin_m: tuple[float, float, float]
 
 
 @dataclass(frozen=True)
 class Job:
     """A block to work on; `files` are the rule files, `source` is what failures name.
 
-    folder: where the rules lie, and the assets that they name.
-    textures: the files of the pictures that the rules name, by those names.
+    folder: where the rules lie, and the assets that they name. textures: the files of the pictures
+    that the rules name, by those names. separate: whether each building gets a GLB of its own.
+    city: the file for the buildings as lines of CityJSON, None where they are not wanted.
     """
 
     block: Block
@@ -55,158 +63,197 @@ class Job:
     folder: Path
     out: Path
     work: Path
+    separate: bool
+    city: Path | None
     textures: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
 class BlockResult:
-    """What became of the lots: a summary of each that was built, a failure of each other."""
+    """What became of the lots: what was built together, a failure of each other."""
 
-    lots: list[dict[str, Any]] = field(default_factory=list)
+    town: Town
+    tile: Tile | None = None
+    rows: list[dict[str, Any]] = field(default_factory=list)
+    city: list[str] = field(default_factory=list)
     failures: list[Failure] = field(default_factory=list)
+    notes: Counter[str] = field(default_factory=Counter)
     steps: list[StepRecord] = field(default_factory=list)
 
-    def summary(self) -> dict[str, Any]:
+    def summary(self, name: str) -> dict[str, Any]:
         """For the run's record: all that the place and the report need."""
+        town = self.town
+        front = _front(town.built)
         return {
-            "lots": self.lots,
+            "built": len(town.built),
+            "polygons": town.polygons,
+            "triangles": town.triangles,
+            "classes": {kind: count for kind, count in sorted(town.classes.items()) if count},
+            "dropped": town.dropped,
+            "notes": dict(self.notes.most_common(50)),
+            "front": front and _bounds_row(front),
+            "box": self.tile and [list(corner) for corner in self.tile.box],
+            "leaves": [
+                [f"{name}/tiles/{content}", count, [list(corner) for corner in box]]
+                for content, count, box in town.leaves
+            ],
+            "lots": self.rows,
             "failures": [failure.model_dump() for failure in self.failures],
             "steps": [asdict(step) for step in self.steps],
         }
 
 
-@functools.lru_cache(maxsize=1)
-def _rules(
-    files: tuple[tuple[str, str], ...], style: str | None, folder: Path
-) -> tuple[_core.GrammarRules, Library]:
-    """Compiled once in each process, with the assets that are named in the rules."""
-    rules, library = _core.GrammarRules(list(files), style), Library(folder)
-    library.add_written_to(rules)
-    return rules, library
-
-
 def run_block(job: Job) -> BlockResult:
-    """Derive each lot and write its model into the work folder."""
-    rules, library = _rules(job.files, job.options.derive.style, job.folder)
-    result = BlockResult()
-    with timed_step(result.steps, "derive"):
-        derived = _derive_all(rules, library, job)
-    textures = read_textures(job.textures)
-    with timed_step(result.steps, "write"):
-        for lot, found in zip(job.block.lots, derived, strict=True):
-            try:
-                part = _part_of(lot, found, library, textures)
-            except NothingBuiltError as fault:
-                subject = f"{job.source}: {lot.name}"
-                result.failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
-                continue
-            with writing_to(job.out):
-                write_glb(part, job.work / f"{lot.id}.glb")
-            result.lots.append(_summary(lot, part, job.block.name))
+    """Derive each lot and write its tiles, its model and its line of CityJSON."""
+    by = deriver(job.files, job.folder, job.options)
+    folder = job.work / "tiles"
+    with writing_to(job.out):
+        folder.mkdir(parents=True, exist_ok=True)
+    result = BlockResult(Town(folder))
+    middles = np.array([_middle(lot) for lot in job.block.lots])
+    for number, node in enumerate(squares(middles, NODE_LOTS)):
+        _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
+    with timed_step(result.steps, "write"), writing_to(job.out):
+        result.tile = result.town.finish()
+        if job.city is not None:
+            job.city.parent.mkdir(parents=True, exist_ok=True)
+            write_bytes(job.city, "".join(f"{line}\n" for line in result.city).encode())
     return result
 
 
-def _derive_all(
-    rules: _core.GrammarRules, library: Library, job: Job
-) -> list[_core.DerivedLot | str]:
-    kinds = dict(rules.attributes)
-    derived: list[_core.DerivedLot | str] = []
-    for first in range(0, len(job.block.lots), AT_ONCE):
-        lots = job.block.lots[first : first + AT_ONCE]
-        given = [attributes_of(lot, kinds, job.options) for lot in lots]
-        sound = [index for index, found in enumerate(given) if not isinstance(found, str)]
-        made = _with_assets(
-            rules,
-            library,
-            [lots[index] for index in sound],
-            [found for found in given if not isinstance(found, str)],
-            job.options,
-        )
-        by_index: dict[int, _core.DerivedLot | str] = dict(zip(sound, made, strict=True))
-        by_index |= {index: found for index, found in enumerate(given) if isinstance(found, str)}
-        derived += [by_index[index] for index in range(len(lots))]
-    return derived
+def _middle(lot: Lot) -> tuple[float, float]:
+    x, y = lot.rings_m[0].mean(axis=0).tolist()
+    return x + lot.anchor_m[0], y + lot.anchor_m[1]
 
 
-def _with_assets(
-    rules: _core.GrammarRules,
-    library: Library,
-    lots: list[Lot],
-    given: list[dict[str, Attribute]],
-    options: GrammarOptions,
-) -> list[_core.DerivedLot | str]:
-    """Derive lots; again where one wants an asset whose name only the derivation shows."""
-    found: list[_core.DerivedLot | str | None] = [None] * len(lots)
-    while waiting := [index for index, one in enumerate(found) if one is None]:
-        made = rules.derive(
-            [_rings(lots[index]) for index in waiting],
-            [seed_of(lots[index], options.derive.seed) for index in waiting],
-            start=options.derive.start,
-            attributes=[given[index] for index in waiting],
-            edits=[[edit.core for edit in lots[index].edits] for index in waiting],
-            seconds=options.derive.seconds,
-            shapes=MAX_SHAPES,
-        )
-        for index, one in zip(waiting, made, strict=True):
-            if isinstance(one, _core.MissingAsset):
-                found[index] = _fault_of(rules, library, one)
-            else:
-                found[index] = one
-    return [one for one in found if one is not None]
+def _node(
+    job: Job,
+    by: Deriver,
+    name: str,
+    lots: Sequence[Lot],
+    result: BlockResult,
+) -> None:
+    """The tiles of neighbours: near levels of a few at a time, volumes of all."""
+    begin = len(result.town.built)
+    tiles = []
+    middles = np.array([_middle(lot) for lot in lots])
+    for number, leaf in enumerate(squares(middles, LEAF_LOTS)):
+        tile = _leaf(job, by, f"{name}-{number:02d}", [lots[r] for r in leaf], result)
+        tiles += [tile] if tile else []
+    built = result.town.built[begin:]
+    if not built:
+        return
+    with timed_step(result.steps, "derive"):
+        if by.levels.marked:
+            volumes = by.together([one.lot for one in built], VOLUME)
+        else:
+            volumes = prisms(built, [rings_of(one.lot) for one in built])
+    with timed_step(result.steps, "write"), writing_to(job.out):
+        result.town.node(name, built, (volumes, list(range(len(built)))), tiles)
 
 
-def _fault_of(
-    rules: _core.GrammarRules, library: Library, missing: _core.MissingAsset
-) -> str | None:
-    """Makes the asset known; why it cannot be where it cannot."""
-    try:
-        library.add_to(rules, missing.name)
-    except InputError as error:
-        return f"{missing.why} ({error})"
-    return None
-
-
-def attributes_of(
-    lot: Lot, kinds: dict[str, str], options: GrammarOptions
-) -> dict[str, Attribute] | str:
-    """The attributes that the rules have: of the call before those of the lot; or the fault."""
-    found: dict[str, Attribute] = {}
-    for name, value in lot.attributes.items():
-        if name not in kinds or name in options.attributes.values:
+def _leaf(
+    job: Job,
+    by: Deriver,
+    name: str,
+    lots: Sequence[Lot],
+    result: BlockResult,
+) -> Tile | None:
+    """The near levels of some lots, with their models and lines of CityJSON."""
+    sound = _sound(job, by, lots, result)
+    with timed_step(result.steps, "derive"):
+        full = by.together(sound, FULL)
+        plain = by.together(sound, PLAIN) if by.levels.plain else None
+    rows, built = [], []
+    for row, lot in enumerate(sound):
+        fault = by.fault(full, row, lot)
+        one = None if fault else built_of(full, row, lot, job.block.origin_m)
+        if one is None:
+            _fail(job, lot, fault or NOTHING, result)
             continue
-        taken = as_kind(value, kinds[name])
-        if taken is None:
-            return f"its property {name} is {value!r}, but the rules want a {kinds[name]}"
-        found[name] = taken
-    return found | options.attributes.values
+        result.notes.update(dict.fromkeys(full.messages(row)[:20], 1))
+        rows.append(row)
+        built.append(one)
+    with timed_step(result.steps, "write"), writing_to(job.out):
+        if job.city is not None:
+            result.city += _city([plain, full] if plain else [full], rows, built)
+        tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)
+    if job.separate:
+        built = _models(job, by, built, result)
+    result.town.built += built
+    result.town.polygons += sum(one.polygons for one in built)
+    return tile
 
 
-def as_kind(value: Attribute, kind: str) -> Attribute | None:
-    """The value as an attribute of this kind takes it; None where it cannot."""
-    if kind == "number" and isinstance(value, str):
-        try:
-            number = float(value)
-        except ValueError:
-            return None
-        return number if abs(number) < 1e300 else None
-    if kind == "number":
-        return None if isinstance(value, bool) else value
-    if kind == "bool":
-        words: dict[Attribute, bool] = {"true": True, "false": False, True: True, False: False}
-        return words.get(value.lower() if isinstance(value, str) else value)
-    if kind == "text" and not isinstance(value, str):
-        return f"{value:g}" if isinstance(value, float) else str(value).lower()
-    return value
+def _fail(job: Job, lot: Lot, reason: str, result: BlockResult) -> None:
+    subject = f"{job.source}: {lot.name}"
+    result.failures.append(Failure(subject=subject, kind="input", reason=reason))
 
 
-def seed_of(lot: Lot, seed: int) -> int:
-    """What is random in a lot depends on its name and the seed, and on no other lot."""
-    digest = hashlib.sha256(f"{seed}/{lot.id}".encode()).digest()
-    return int.from_bytes(digest[:8], "little")
+def _sound(job: Job, by: Deriver, lots: Sequence[Lot], result: BlockResult) -> list[Lot]:
+    """The lots whose attributes the rules take."""
+    kinds = dict(by.rules.attributes)
+    sound = []
+    for lot in lots:
+        given = attributes_of(lot, kinds, job.options)
+        if isinstance(given, str):
+            _fail(job, lot, given, result)
+        else:
+            sound.append(lot)
+    return sound
 
 
-def _rings(lot: Lot) -> list[list[tuple[float, float, float]]]:
-    return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]
+def _city(
+    levels: Sequence[_core.DerivedLots], rows: Sequence[int], built: Sequence[Built]
+) -> list[str]:
+    """The lines of the buildings, of the first level that has something of each."""
+    lines = []
+    for row, one in zip(rows, built, strict=True):
+        derived = next(level for level in levels if level.extent(row) is not None)
+        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS)
+        about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
+        line = feature_line(one.lot.id, about, geometry)
+        lines += [line] if line else []
+    return lines
+
+
+def _models(
+    job: Job,
+    by: Deriver,
+    built: Sequence[Built],
+    result: BlockResult,
+) -> list[Built]:
+    """A GLB of each building; those that give one."""
+    with timed_step(result.steps, "derive"):
+        derived = by.alone([one.lot for one in built])
+    made = []
+    textures = read_textures(job.textures)
+    with timed_step(result.steps, "write"):
+        for one, found in zip(built, derived, strict=True):
+            try:
+                part = _part_of(one.lot, found, by.library, textures)
+            except NothingBuiltError as fault:
+                _fail(job, one.lot, str(fault), result)
+                continue
+            with writing_to(job.out):
+                write_glb(part, job.work / f"{one.lot.id}.glb")
+            result.rows.append(_summary(one.lot, part, job.block.name))
+            made.append(one)
+    return made
+
+
+def _front(built: Sequence[Built]) -> Built | None:
+    """The building in the middle of the southern edge."""
+    if not built:
+        return None
+    x = np.array([one.place_m[0] + (one.low[0] + one.high[0]) / 2 for one in built])
+    y = np.array([one.place_m[1] + one.low[1] for one in built])
+    middle = (x.min() + x.max()) / 2
+    return built[int(np.argmin(np.abs(x - middle) + (y - y.min())))]
+
+
+def _bounds_row(one: Built) -> dict[str, Any]:
+    return {"anchor_m": list(one.lot.anchor_m), "bounds": [list(one.low), list(one.high)]}
 
 
 def _part_of(
@@ -217,8 +264,6 @@ def _part_of(
 ) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
-    if fault := fault_told(lot.edits, derived.edit_faults):
-        raise NothingBuiltError(fault)
     return build_part(derived, lot.id, library.assets_of(derived), textures)
 
 

@@ -115,20 +115,7 @@ def _has_triangles(part: Part) -> bool:
 def _sound(part: Part) -> NDArray[np.bool_]:
     """(p,) which polygons can be triangulated, one by one."""
     points = part.positions_m.astype(np.float64)
-    offsets = part.polygon_offsets
-    ends = zip(offsets[:-1].tolist(), offsets[1:].tolist(), strict=True)
-    rings = part.ring_offsets
-    return np.array([_is_sound(points, rings[first : last + 1]) for first, last in ends])
-
-
-def _is_sound(points: NDArray[np.float64], rings: NDArray[np.int64]) -> bool:
-    one = np.array([0, len(rings) - 1], dtype=np.int64)
-    own = points[rings[0] : rings[-1]]
-    try:
-        _core.triangulate_polygons(own, rings - rings[0], one, PLANE_TOLERANCE_M)
-    except _core.PolygonFault:
-        return False
-    return True
+    return _core.sound_polygons(points, part.ring_offsets, part.polygon_offsets, PLANE_TOLERANCE_M)
 
 
 def _select(

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from veduta import _core
-from veduta.grammar.block import as_kind
+from veduta.grammar.deriving import as_kind
 from veduta.grammar.options import AttributeOptions, GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError

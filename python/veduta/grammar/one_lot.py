@@ -7,9 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
-from veduta.grammar.block import attributes_of, seed_of
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.derivation import Derivation, Rules, derive
+from veduta.grammar.deriving import attributes_of, seed_of
 from veduta.grammar.edits import Edit, fault_told
 from veduta.grammar.lots import Lot, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions, LotOptions

@@ -65,6 +65,20 @@ class SampleOptions(Options):
     )
 
 
+class OutputOptions(Options):
+    """What is written of the buildings."""
+
+    separate: bool = Field(
+        default=False,
+        description="a GLB for each building in parts/, also for more than 64 lots",
+    )
+    city: bool = Field(
+        default=True,
+        description="write CityJSON: city.city.json, or city.city.jsonl for more than 1000 lots;"
+        " --no-city leaves it out",
+    )
+
+
 class AttributeOptions(Options):
     """Values of the rule file's attributes for all lots, as the command line has them."""
 
@@ -78,4 +92,5 @@ class GrammarOptions(Options):
 
     derive: DeriveOptions = DeriveOptions()
     lots: LotOptions = LotOptions()
+    output: OutputOptions = OutputOptions()
     attributes: AttributeOptions = AttributeOptions()

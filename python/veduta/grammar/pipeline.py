@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import hashlib
 import json
+import shutil
 from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from pydantic import JsonValue
 
+from veduta.formats.cityjson_text import header, write_joined, write_sequence
 from veduta.formats.place_json import write_place
+from veduta.formats.tiles import write_tileset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
@@ -20,35 +24,41 @@ from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.placing import place_of
-from veduta.grammar.report import derive_report
+from veduta.grammar.placing import block_origin, place_of, town_of
+from veduta.grammar.quadtree import squares
+from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import Progress
-from veduta.run.record import CALL
+from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "2"
+VERSION = "3"
 COMMAND = "grammar derive"
-FEW = 32
-"""Lots of the smallest block."""
-MOST_BLOCKS = 64
+FEW = 64
+"""Lots that a block may always have; so many get a file each."""
+MOST_BLOCKS = 48
 """The record of a run is written after each block: their number is bounded, not their size."""
+SEQUENCE = 1000
+"""More lots than these are CityJSONSeq, which is read a line at a time."""
+TILESET = "tileset.json"
+CITY = f"{PRIVATE}/city"
+"""Where lines of CityJSON wait for those of the other blocks."""
 LASTING = {"input"}
 """Failures that the same input would give again; others are tried anew by the next run."""
 
 
 @dataclass
 class DeriveResult:
-    """What the call came to; `lots` are summaries of those that were built."""
+    """What the call came to; `built` is what was built."""
 
     out: Path
     total: int = 0
     up_to_date: bool = False
-    lots: list[dict[str, Any]] = field(default_factory=list)
+    built: Whole = field(default_factory=Whole)
     failures: list[Failure] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     steps: list[StepRecord] = field(default_factory=list)
@@ -62,7 +72,7 @@ class DeriveResult:
         kinds = {failure.kind for failure in self.failures}
         if "bug" in kinds:
             return 1
-        if kinds == {"input"} and not self.lots:
+        if kinds == {"input"} and not self.built.count:
             return 2
         return 3 if kinds else 0
 
@@ -105,9 +115,15 @@ def run_derive(
     with open_out(out, COMMAND, key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
-        waiting = [b for b in blocks if not folder.is_current(b.name, keys[b.name])]
+        waiting = [
+            b
+            for b in blocks
+            if not folder.is_current(b.name, keys[b.name])
+            or (options.output.city and not _city_path(out, b).exists())
+        ]
         if result.up_to_date:
             waiting = []
+            shutil.rmtree(out / CITY, ignore_errors=True)
         jobs_to_do = [
             Job(
                 b,
@@ -117,6 +133,8 @@ def run_derive(
                 rules.path.parent,
                 out,
                 folder.work_path(b.name),
+                is_separate(options, lots),
+                _city_path(out, b) if options.output.city else None,
                 textures,
             )
             for b in waiting
@@ -125,7 +143,7 @@ def run_derive(
             _process(jobs_to_do, folder, keys, result, progress, jobs)
         _collect(folder, blocks, lots, result)
         if not result.up_to_date:
-            _write_call(folder, key, lots, options, rules_name, result)
+            _write_call(folder, key, lots, blocks, options, rules_name, result)
         result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
@@ -139,13 +157,26 @@ def _lots(path: Path | None, options: GrammarOptions) -> Lots:
 
 
 def _blocks(lots: Lots) -> list[Block]:
-    """The lots in the order of the file, some to a folder."""
+    """The lots by squares of a map, some to a folder."""
     size = max(FEW, -(-len(lots.lots) // MOST_BLOCKS))
-    starts = range(0, len(lots.lots), size)
-    return [
-        Block(f"parts/{number:02d}", lots.lots[first : first + size])
-        for number, first in enumerate(starts)
-    ]
+    if not lots.lots:
+        return []
+    points = np.array([lot.anchor_m[:2] for lot in lots.lots])
+    blocks = []
+    for number, rows in enumerate(squares(points, size)):
+        chosen = tuple(lots.lots[row] for row in rows)
+        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen)))
+    return blocks
+
+
+def is_separate(options: GrammarOptions, lots: Lots) -> bool:
+    """Whether each building gets a file of its own."""
+    return options.output.separate or len(lots.lots) <= FEW
+
+
+def _city_path(out: Path, block: Block) -> Path:
+    """A block's lines of CityJSON, until all are there."""
+    return out / CITY / f"{block.name.rpartition('/')[2]}.jsonl"
 
 
 def files_digest(files: Sequence[tuple[str, str]]) -> str:
@@ -198,7 +229,7 @@ def _process(
                 folder.forget(name)
             else:
                 failure = None
-                summary = outcome.value.summary()
+                summary = outcome.value.summary(name)
                 folder.publish(name, keys[name], folder.work_path(name), summary)
             progress.finished(name, failure)
 
@@ -212,12 +243,12 @@ def _collect(folder: OutFolder, blocks: list[Block], lots: Lots, result: DeriveR
         if item is None:
             continue
         summary: dict[str, Any] = dict(item.summary)
-        result.lots += summary["lots"]
+        result.built.add(block.name, summary | {"origin_m": block.origin_m})
         result.failures += [Failure.model_validate(failure) for failure in summary["failures"]]
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
     names = {block.name for block in blocks}
-    folders = {path.rpartition("/")[0] for path in folder.record.files if "/" in path}
+    folders = {"/".join(path.split("/")[:2]) for path in folder.record.files if "/" in path}
     result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
 
 
@@ -234,21 +265,49 @@ def _write_call(
     folder: OutFolder,
     key: str,
     lots: Lots,
+    blocks: list[Block],
     options: GrammarOptions,
     rules_name: str,
     result: DeriveResult,
 ) -> None:
     """The place of all that is done, and the report of the call."""
+    whole = result.built
     work = folder.work_folder(CALL)
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
-        rules_name, options, result.lots, result.failures, result.notes, result.steps
+        rules_name, options, whole, result.failures, result.notes, result.steps
     )
     with writing_to(folder.path):
-        if result.lots:
-            write_place(place_of(lots, result.lots), work / "place.json")
+        if whole.count:
+            with timed_step(result.steps, "join"):
+                _write_town(folder.path, work, lots, blocks, options, Path(rules_name).stem, whole)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)
     if all(failure.kind in LASTING for failure in result.failures):
+        shutil.rmtree(folder.path / CITY, ignore_errors=True)
         folder.finish()
+
+
+def _write_town(
+    out: Path,
+    work: Path,
+    lots: Lots,
+    blocks: list[Block],
+    options: GrammarOptions,
+    title: str,
+    whole: Whole,
+) -> None:
+    """The files that hold all blocks together."""
+    streamed = not is_separate(options, lots) or len(lots.lots) > FEW
+    write_tileset(town_of(lots, blocks, whole), work / TILESET)
+    write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
+    if not options.output.city:
+        return
+    done = {name for name, _ in whole.blocks}
+    pieces = [_city_path(out, block) for block in blocks if block.name in done]
+    first = header(title, lots.crs, lots.origin_m)
+    if len(lots.lots) > SEQUENCE:
+        write_sequence(work / "city.city.jsonl", first, pieces)
+    else:
+        write_joined(work / "city.city.json", first, pieces)

@@ -2,26 +2,105 @@
 
 from __future__ import annotations
 
+import itertools
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
-from veduta.grammar.lots import Lots
+from veduta.formats.tiles import Box, Tile, union
+from veduta.geometry.ecef import ecef_from_grid, zone_of_crs
+from veduta.grammar.block import Block
+from veduta.grammar.levels import BOXES_ERROR_M
+from veduta.grammar.lots import Lot, Lots
+from veduta.grammar.report import Whole
 from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start
 
 EYE_M = 1.7
 MIN_DISTANCE_M, MAX_DISTANCE_M = 15.0, 60.0
 
 
-def place_of(lots: Lots, built: Sequence[Mapping[str, Any]]) -> Place:
-    """The place of what was built, as the summaries of the lots have it."""
+def place_of(lots: Lots, whole: Whole, *, tileset: str | None) -> Place:
+    """The place of what was built: a part for each building, or else for each near tile."""
     return Place(
         crs=lots.crs,
         origin=lots.origin_m,
-        parts=[_part(lot) for lot in built],
-        start=_start(built) if lots.look is None else Start(eye=lots.look[0], target=lots.look[1]),
+        parts=[_part(lot) for lot in whole.rows] if whole.rows else _tiles(whole),
+        tileset=tileset,
+        start=_start([summary["front"] for _, summary in whole.blocks if summary["front"]])
+        if lots.look is None
+        else Start(eye=lots.look[0], target=lots.look[1]),
     )
+
+
+def block_origin(lots: Sequence[Lot]) -> tuple[float, float, float]:
+    """Where the tiles of some lots count from: a whole metre near their middle, on their ground."""
+    anchors = np.array([lot.anchor_m for lot in lots])
+    x, y, _ = np.floor((anchors.min(axis=0) + anchors.max(axis=0)) / 2).tolist()
+    return (x, y, float(np.floor(anchors[:, 2].min())))
+
+
+def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
+    """The tree over the tiles of all blocks, on the Earth where the place has a known CRS."""
+    origin = {block.name: block.origin_m for block in blocks}
+    ground = _on_earth(lots, (0.0, 0.0, 0.0))
+    tiles = []
+    boxes = []
+    for name, summary in whole.blocks:
+        if summary["box"] is None:
+            continue
+        own = origin[name]
+        local: NDArray[np.float64] = np.eye(4)
+        local[:3, 3] = own
+        if ground is not None:
+            local[:] = np.linalg.solve(ground, _known(_on_earth(lots, own)))
+        low, high = (tuple(corner) for corner in summary["box"])
+        content = f"{name}/tiles/tileset.json"
+        tiles.append(Tile((low, high), BOXES_ERROR_M, content, (), local, own))
+        boxes.append(_moved((low, high), local))
+    box = union(boxes)
+    size = float(np.linalg.norm(np.array(box[1]) - np.array(box[0])))
+    return Tile(box, max(4 * BOXES_ERROR_M, size / 4), None, tuple(tiles), ground, (0.0, 0.0, 0.0))
+
+
+def _on_earth(lots: Lots, place_m: tuple[float, float, float]) -> NDArray[np.float64] | None:
+    zone = zone_of_crs(lots.crs)
+    if zone is None:
+        return None
+    x, y, z = (np.array(lots.origin_m) + np.array(place_m)).tolist()
+    return ecef_from_grid(zone, (x, y, z))
+
+
+def _known(matrix: NDArray[np.float64] | None) -> NDArray[np.float64]:
+    return np.eye(4) if matrix is None else matrix
+
+
+def _moved(box: Box, matrix: NDArray[np.float64]) -> Box:
+    """The box around a box that is moved."""
+    corners = np.array(list(itertools.product(*zip(*box, strict=True))))
+    moved = corners @ matrix[:3, :3].T + matrix[:3, 3]
+    low, high = moved.min(axis=0).tolist(), moved.max(axis=0).tolist()
+    return (low[0], low[1], low[2]), (high[0], high[1], high[2])
+
+
+def _tiles(whole: Whole) -> list[PlacePart]:
+    parts = []
+    for name, summary in whole.blocks:
+        for number, (model, count, (low, high)) in enumerate(summary["leaves"]):
+            transform = list(IDENTITY)
+            transform[12:15] = summary["origin_m"]
+            parts.append(
+                PlacePart(
+                    id=f"{name.rpartition('/')[2]}-{number:03d}",
+                    name=f"{count} buildings",
+                    model=model,
+                    transform=tuple(transform),
+                    arrangement="single",
+                    bounds=Bounds(min=tuple(low), max=tuple(high)),
+                )
+            )
+    return parts
 
 
 def _part(lot: Mapping[str, Any]) -> PlacePart:

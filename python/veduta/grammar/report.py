@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 from veduta.grammar.options import GrammarOptions
@@ -13,54 +14,79 @@ from veduta.run.report import Failure, Report, StepRecord
 MAX_ROWS = 200
 FILES = (
     ("place.json", "the buildings as one place: where each stands, in which CRS"),
-    ("parts/NN/NAME.glb", "one building as glTF 2.0"),
+    ("tileset.json", "the buildings as 3D Tiles 1.1"),
 )
+
+
+@dataclass
+class Whole:
+    """What was built in all blocks; `rows` are the buildings that have a file each."""
+
+    count: int = 0
+    polygons: int = 0
+    triangles: int = 0
+    dropped: int = 0
+    classes: Counter[str] = field(default_factory=Counter)
+    notes: Counter[str] = field(default_factory=Counter)
+    rows: list[dict[str, Any]] = field(default_factory=list)
+    blocks: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
+
+    def add(self, name: str, summary: dict[str, Any]) -> None:
+        """Count a block in."""
+        self.count += summary["built"]
+        self.polygons += summary["polygons"]
+        self.triangles += summary["triangles"]
+        self.dropped += summary["dropped"]
+        self.classes.update(summary["classes"])
+        self.notes.update(summary["notes"])
+        self.rows += summary["lots"]
+        self.blocks.append((name, summary))
 
 
 def derive_report(
     rules: str,
     options: GrammarOptions,
-    lots: Sequence[Mapping[str, Any]],
+    whole: Whole,
     failures: Sequence[Failure],
     notes: list[str],
     steps: list[StepRecord],
 ) -> tuple[Report, bytes]:
     """The report of all lots, and its page."""
-    total = len(lots) + len(failures)
-    found = measures(lots, total)
+    total = whole.count + len(failures)
+    found = measures(whole, total)
+    results = {lot["id"]: _result(lot) for lot in whole.rows}
     report = Report(
         verb="grammar",
         subject=rules,
-        state="done" if lots else "failed",
+        state="done" if whole.count else "failed",
         options=options.model_dump(mode="json"),
         steps=steps,
-        measures={**found, "results": {lot["id"]: _result(lot) for lot in lots}},
-        notes=[*notes, *_notes(lots)],
+        measures={**found, "results": results},
+        notes=[*notes, *_notes(whole)],
         failures=list(failures),
     )
     page = Page(
         title=rules,
         summary=summary_line(found),
         facts=[(name, f"{found[name]:,}") for name in ("lots", "built", "surfaces", "triangles")],
-        tables=[_classes(found), _table(lots)] if lots else [],
+        tables=[_classes(found), *([_table(whole.rows)] if whole.rows else [])]
+        if whole.count
+        else [],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in steps])],
-        files=FILES[:1] if lots else (),
+        files=FILES if whole.count else (),
     )
     return report, render(report, page)
 
 
-def measures(lots: Sequence[Mapping[str, Any]], total: int) -> dict[str, Any]:
+def measures(whole: Whole, total: int) -> dict[str, Any]:
     """What was built, in numbers."""
-    classes: Counter[str] = Counter()
-    for lot in lots:
-        classes.update(lot["classes"])
     return {
         "lots": total,
-        "built": len(lots),
-        "surfaces": sum(classes.values()),
-        "polygons": sum(lot["polygons"] for lot in lots),
-        "triangles": sum(lot["triangles"] for lot in lots),
-        "classes": dict(sorted(classes.items())),
+        "built": whole.count,
+        "surfaces": whole.classes.total(),
+        "polygons": whole.polygons,
+        "triangles": whole.triangles,
+        "classes": dict(sorted(whole.classes.items())),
     }
 
 
@@ -74,10 +100,13 @@ def _result(lot: Mapping[str, Any]) -> dict[str, Any]:
     return {name: lot[name] for name in ("name", "model", "polygons", "triangles", "notes")}
 
 
-def _notes(lots: Sequence[Mapping[str, Any]]) -> list[str]:
+def _notes(whole: Whole) -> list[str]:
     """What several buildings say is said once."""
-    said = Counter(note for lot in lots for note in lot["notes"])
-    return [f"{note} ({count} lots)" if count > 1 else note for note, count in said.items()][:50]
+    said = whole.notes + Counter(note for lot in whole.rows for note in set(lot["notes"]))
+    told = [f"{note} ({count} lots)" if count > 1 else note for note, count in said.items()]
+    if whole.dropped:
+        told.append(f"{whole.dropped} surfaces were left out: too thin, or their lines cross")
+    return told[:50]
 
 
 def _classes(found: Mapping[str, Any]) -> Table:

@@ -82,6 +82,10 @@ class Place(_Record):
     crs: str | None = Field(default=None, description="EPSG code; null where none is known")
     origin: Vector = (0.0, 0.0, 0.0)
     parts: list[PlacePart] = Field(max_length=1_000_000)
+    tileset: RelativePath | None = Field(
+        default=None,
+        description="3D Tiles of all parts together: what is shown where they are too many",
+    )
     start: Start
 
     @model_validator(mode="after")
@@ -120,7 +124,8 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
                 f"both places have a part {moved.id!r}, and the two differ",
                 "Rename one of them, or remove the one that is out of date.",
             )
-    return first.model_copy(update={"parts": list(parts.values())})
+    # The tiles of one do not show the other.
+    return first.model_copy(update={"parts": list(parts.values()), "tileset": None})
 
 
 def _moved(part: PlacePart, shift_m: list[float], folder: str) -> PlacePart:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path, PurePosixPath
 
 from veduta.formats.place_json import read_place
+from veduta.formats.tiles import contents
 from veduta.run.errors import InputError
 from veduta.studio.content import MANIFEST
 
@@ -16,7 +17,10 @@ def part_files(folder: Path) -> dict[str, Path]:
     from a place that was made by hand. `folder` is resolved.
     """
     files: dict[str, Path] = {}
-    for part in read_place(folder / MANIFEST).parts:
+    place = read_place(folder / MANIFEST)
+    if place.tileset is not None:
+        files = {name: _inside(folder, name) for name in _tiles(folder, place.tileset)}
+    for part in place.parts:
         for name in (part.model, part.photo, part.city_model, part.document):
             if name is None:
                 continue
@@ -28,6 +32,18 @@ def part_files(folder: Path) -> dict[str, Path]:
                     path, "the file is not there", "Write the place again, then export it."
                 )
     return files
+
+
+def _tiles(folder: Path, tileset: str) -> list[str]:
+    """The files of the tileset; InputError where it is not whole."""
+    try:
+        return contents(folder, tileset)
+    except (OSError, ValueError, KeyError, TypeError) as error:
+        raise InputError(
+            folder / tileset,
+            f"is no tileset that can be read ({error})",
+            "Write the place again, then export it.",
+        ) from error
 
 
 def _inside(folder: Path, name: str) -> Path:

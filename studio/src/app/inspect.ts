@@ -34,7 +34,8 @@ declare global {
 
 export function inspect(session: Session, store: Store<StudioState>): Inspection {
   const { viewer, place, tables } = session;
-  const name = (part: number): string => place.parts[part]?.id ?? "";
+  const name = (part: number, row = 0): string =>
+    session.town === null ? (place.parts[part]?.id ?? "") : session.nameOf({ part, row });
   return {
     state: () => ({
       mode: store.value.mode,
@@ -52,10 +53,12 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
       const feature = selected === null ? undefined : tables[selected.part]?.rows[selected.row];
       return selected === null || feature === undefined
         ? null
-        : { ...feature, part: name(selected.part) };
+        : { ...feature, part: name(selected.part, selected.row) };
     },
     features: () =>
-      tables.flatMap((table, part) => table.rows.map((row) => ({ ...row, part: name(part) }))),
+      tables.flatMap((table, part) =>
+        table.rows.map((feature, row) => ({ ...feature, part: name(part, row) })),
+      ),
     under: (x, y) => {
       const hit = viewer.hitAt(x, y);
       const feature = hit === null ? undefined : tables[hit.feature.part]?.rows[hit.feature.row];

@@ -21,10 +21,13 @@ const COLOURINGS: readonly { readonly value: Colouring; readonly label: string }
 export class LayersPanel extends LitElement {
   static override properties = {
     tables: { attribute: false },
+    counted: { attribute: false },
     hidden_: { attribute: false },
     colouring: { type: String },
   };
   declare tables: readonly FeatureTable[];
+  /** Surfaces of each class where they are counted elsewhere: in the tiles that are drawn. */
+  declare counted: ReadonlyMap<SemanticClass, number> | null;
   declare hidden_: ReadonlySet<SemanticClass>;
   declare colouring: Colouring;
 
@@ -123,12 +126,13 @@ export class LayersPanel extends LitElement {
   constructor() {
     super();
     this.tables = [];
+    this.counted = null;
     this.hidden_ = new Set();
     this.colouring = "photo";
   }
 
   override render(): TemplateResult {
-    const counts = countClasses(this.tables);
+    const counts = this.counted ?? countClasses(this.tables);
     return html`
       <h2 class="eyebrow" id="colours">Colours</h2>
       <div class="segments" role="radiogroup" aria-labelledby="colours">
@@ -161,7 +165,10 @@ export class LayersPanel extends LitElement {
   }
 
   #legend(): TemplateResult {
-    const counts = countProvenances(this.tables);
+    const counts =
+      this.counted === null
+        ? countProvenances(this.tables)
+        : new Map([["invented", [...this.counted.values()].reduce((sum, count) => sum + count, 0)]]);
     return html`<ul class="legend">
       ${PROVENANCES.map((kind) => {
         const { label, meaning, colour } = PROVENANCE_LOOKS[kind];

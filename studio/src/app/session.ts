@@ -2,8 +2,9 @@
 import type { FeatureTable } from "../core/features.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
-import type { StudioState } from "../core/state.ts";
+import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
+import type { Town } from "../three/town.ts";
 import type { Viewer } from "../three/viewer.ts";
 
 export interface Session {
@@ -11,6 +12,10 @@ export interface Session {
   readonly tables: readonly FeatureTable[];
   readonly viewer: Viewer;
   readonly loadSeconds: number;
+  /** A place that is streamed; its tables grow as tiles arrive. */
+  readonly town: Town | null;
+  /** Of the part, or of the building in a streamed place. */
+  nameOf(ref: FeatureRef): string;
   photoAddress(part: number): string | null;
 }
 
@@ -27,22 +32,32 @@ export async function openPlace(
   const drawing = Promise.all([
     import("../three/fetch.ts"),
     import("../three/load.ts"),
+    import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ fetchText }, { loadParts }, { Viewer }] = await drawing;
+  const [{ fetchText }, { loadParts }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
-  const parts = await loadParts(place, address, (share, file) => onProgress(0.97 * share, file));
-  const viewer = new Viewer(canvas, place, parts, store);
+  const { tileset } = place;
+  let viewer: Viewer | null = null;
+  const town = tileset === null ? null : new Town(fileAddress(tileset, address), () => viewer?.invalidate());
+  const parts =
+    tileset === null
+      ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))
+      : [];
+  await town?.open((share) => onProgress(share, "tileset.json"));
+  viewer = new Viewer(canvas, place, { parts, town }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {
     place,
-    tables: parts.map(({ table }) => table),
+    tables: town?.tables ?? parts.map(({ table }) => table),
+    town,
+    nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,
     loadSeconds: (performance.now() - begin) / 1000,
     photoAddress: (index) => {
-      const photo = place.parts[index]?.photo ?? null;
+      const photo = town === null ? (place.parts[index]?.photo ?? null) : null;
       return photo === null ? null : fileAddress(photo, address).href;
     },
   };

@@ -152,7 +152,7 @@ export class Studio extends LitElement {
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
-      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables}
+      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables} .counted=${session.town?.counts() ?? null}
         .hidden_=${state.hidden} .colouring=${state.colouring}
         @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
         @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}>
@@ -179,15 +179,15 @@ export class Studio extends LitElement {
     if (selected === null) return null;
     const table = session.tables[selected.part];
     const feature = table?.rows[selected.row];
+    if (table === undefined || feature === undefined) return null;
     const part = session.place.parts[selected.part];
-    if (table === undefined || feature === undefined || part === undefined) return null;
     return {
       feature,
       row: selected.row,
       table,
-      partName: part.name,
-      severalParts: session.place.parts.length > 1,
-      arrangementInvented: part.arrangement === "invented",
+      partName: session.nameOf(selected),
+      severalParts: session.town !== null || session.place.parts.length > 1,
+      arrangementInvented: session.town === null && part?.arrangement === "invented",
       photoAddress: session.photoAddress(selected.part),
     };
   }
@@ -295,6 +295,7 @@ export class Studio extends LitElement {
 }
 
 function titleOf(session: Session): string {
+  if (session.town !== null) return "A town of many buildings";
   const { parts } = session.place;
   const first = parts[0]?.name ?? "";
   return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;

@@ -15,6 +15,8 @@ export interface Part {
 
 export interface Place {
   readonly parts: readonly Part[];
+  /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
+  readonly tileset: string | null;
   readonly start: { readonly eye: Vec3; readonly target: Vec3 };
 }
 
@@ -39,12 +41,19 @@ export function readPlace(text: string, file: string): Place {
   if (parts.length > MOST_PARTS) throw broken(`it names more than ${MOST_PARTS} parts`);
   const start = record(manifest.start, () => broken("it does not say where to start"));
   return {
+    tileset: readTileset(manifest.tileset, broken),
     parts: parts.map((part, index) => readPart(part, `part ${index + 1}`, broken)),
     start: {
       eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),
       target: readVec3(start.target, () => broken('"start.target" is not a point')),
     },
   };
+}
+
+function readTileset(value: unknown, broken: (fault: string) => Fault): string | null {
+  if (value === null || value === undefined) return null;
+  if (!isInside(value)) throw broken('"tileset" is not a file of its folder');
+  return value;
 }
 
 type Fields<T> = { readonly [Key in keyof T]?: unknown };

@@ -37,6 +37,10 @@ export interface Place {
    * @maxItems 1000000
    */
   parts: PlacePart[];
+  /**
+   * 3D Tiles of all parts together: what is shown where they are too many
+   */
+  tileset?: string | null;
   start: Start;
 }
 /**

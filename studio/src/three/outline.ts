@@ -42,17 +42,29 @@ export class Outline {
     const repeated = part.instanced.flatMap((target) => facesOfInstances(target, row));
     for (const soup of [...own, ...repeated]) {
       if (soup === null) continue;
-      const edges = new EdgesGeometry(soup, CREASE_DEG);
-      const segments = new LineSegmentsGeometry().fromEdgesGeometry(edges);
-      for (const material of [this.#behind, this.#near]) {
-        const lines = new LineSegments2(segments, material);
-        lines.renderOrder = 2;
-        lines.frustumCulled = false;
-        this.group.add(lines);
-      }
-      soup.dispose();
-      edges.dispose();
+      this.#add(soup);
     }
+  }
+
+  #add(soup: BufferGeometry): void {
+    const edges = new EdgesGeometry(soup, CREASE_DEG);
+    const segments = new LineSegmentsGeometry().fromEdgesGeometry(edges);
+    for (const material of [this.#behind, this.#near]) {
+      const lines = new LineSegments2(segments, material);
+      lines.renderOrder = 2;
+      lines.frustumCulled = false;
+      this.group.add(lines);
+    }
+    soup.dispose();
+    edges.dispose();
+  }
+
+  /** The outline of loose faces: nine coordinates each, drawn frame. */
+  showFaces(positions: Float32Array): void {
+    this.clear();
+    const soup = new BufferGeometry();
+    soup.setAttribute("position", new BufferAttribute(positions, 3));
+    this.#add(soup);
   }
 
   clear(): void {

@@ -40,6 +40,8 @@ export interface Scenery {
   readonly sun: DirectionalLight;
   /** Keeps the sky around the camera. */
   follow(camera: { readonly position: Vector3 }): void;
+  /** Lets the sun's shadows fall around a place of the drawn frame. */
+  shadeAround(centre: Vector3, radius_m: number): void;
 }
 
 /** `footprints` are the boxes of the buildings in the drawn frame. */
@@ -50,11 +52,16 @@ export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
   // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
   // most of the loading time without a graphics card.
   const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
-  group.add(sky, makeGround(footprints), makeGroundShadow(bounds), skyLight, sun, sun.target);
+  const shade = makeGroundShadow(bounds);
+  group.add(sky, makeGround(footprints), shade, skyLight, sun, sun.target);
   return {
     group,
     sun,
     follow: (camera) => sky.position.copy(camera.position),
+    shadeAround: (centre, radius_m) => {
+      aimSun(sun, centre, radius_m);
+      shade.position.set(centre.x, shade.position.y, centre.z);
+    },
   };
 }
 
@@ -102,10 +109,18 @@ function makeSky(): Mesh {
 function makeSun(bounds: Box): DirectionalLight {
   const sun = new DirectionalLight("#fff6ea", SUN_STRENGTH);
   const { centre, radius } = sphereOf(bounds);
+  sun.castShadow = true;
+  aimSun(sun, centre, radius);
+  // Nothing moves in a place: shadows are drawn again only when layers change.
+  sun.shadow.autoUpdate = false;
+  return sun;
+}
+
+/** Frames a sphere, with room for the shadows that fall in front of it. */
+function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.position.copy(centre).addScaledVector(toSun(), 2 * radius);
   sun.target.position.copy(centre);
-  sun.castShadow = true;
-  // Frame the place, with room for the shadows that fall in front of it.
+  sun.target.updateMatrixWorld();
   const camera = sun.shadow.camera;
   camera.left = -radius;
   camera.right = radius;
@@ -118,10 +133,8 @@ function makeSun(bounds: Box): DirectionalLight {
   sun.shadow.bias = -0.0004;
   sun.shadow.normalBias = Math.min(0.06, (2 * radius) / size);
   sun.shadow.radius = 3;
-  // Nothing moves in a place: shadows are drawn again only when layers change.
-  sun.shadow.autoUpdate = false;
+  camera.updateProjectionMatrix();
   sun.shadow.needsUpdate = true;
-  return sun;
 }
 
 function makeGround(footprints: readonly Box3[]): Mesh {

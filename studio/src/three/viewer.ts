@@ -12,7 +12,7 @@ import {
 } from "three";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import { type Box, type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
+import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
@@ -27,25 +27,32 @@ import { OrbitRig } from "./orbit-rig.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
 import { type Hit, Solid, soupOf } from "./solid.ts";
+import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
 
 /** Radians per CSS pixel: a drag takes the picture along, the captured mouse turns the head. */
 const DRAG_RAD_PX = 0.0032;
 const MOUSE_RAD_PX = 0.0022;
 const MOST_PIXELS_PER_CSS_PX = 2;
+/** Of a town only what is around the person throws shadows; they move when the person has gone far. */
+const SHADE_RADIUS_M = 110;
+const SHADE_STEP_M = 25;
 
 export interface ViewerStats {
   readonly frames: number;
   /** Mean over the frames that were drawn one after the other; 0 before there were two. */
   readonly framesPerSecond: number;
   readonly triangles: number;
+  /** Tiles that are drawn; 0 where the place is loaded whole. */
+  readonly tiles: number;
 }
 
 export class Viewer {
-  readonly solid: Solid;
+  readonly solid: Solid | Town;
   readonly #canvas: HTMLCanvasElement;
   readonly #store: Store<StudioState>;
   readonly #parts: readonly LoadedPart[];
+  readonly #town: Town | null;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera(38, 1, 0.08, 6000);
@@ -66,25 +73,31 @@ export class Viewer {
   #pace = FULL_PACE;
   #sharpness = 1;
   #streak = { frames: 0, seconds: 0 };
+  #shaded = { centre: new Vector3(Infinity, 0, 0), tiles: -1 };
 
   constructor(
     canvas: HTMLCanvasElement,
     place: Place,
-    parts: readonly LoadedPart[],
+    content: { readonly parts: readonly LoadedPart[]; readonly town: Town | null },
     store: Store<StudioState>,
   ) {
+    const { parts, town } = content;
     this.#canvas = canvas;
     this.#store = store;
     this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
-    this.solid = new Solid(soupOf(parts));
+    this.#town = town;
+    this.solid = town ?? new Solid(soupOf(parts));
     const footprints = parts.map(({ group }) => new Box3().setFromObject(group));
     this.#scenery = makeScenery(this.solid.bounds, footprints);
     this.#appearance = new Appearance(parts);
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
-    this.#scene.add(...parts.map(({ group }) => group));
+    for (const { group } of parts) this.#scene.add(group);
+    if (town !== null) this.#scene.add(town.group);
+    const { min, max } = this.solid.bounds;
+    this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, this.solid.bounds, () => this.invalidate());
-    this.#walk = new WalkRig(place.start, this.solid, middleOf(this.solid.bounds));
+    this.#walk = new WalkRig(place.start, this.solid, this.solid.bounds);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
@@ -95,11 +108,13 @@ export class Viewer {
     store.subscribe((now, before) => this.#follow(now, before));
     this.#resize();
     this.#appearance.tint(store.value);
+    town?.show(store.value);
     this.goHome();
   }
 
   /** Compiles and draws once, so that the first picture the person sees is whole. */
   async prepare(): Promise<void> {
+    await this.#town?.settle(this.#camera);
     await this.#renderer.compileAsync(this.#scene, this.#camera);
     this.#draw();
   }
@@ -118,6 +133,7 @@ export class Viewer {
       frames: this.#frames,
       framesPerSecond: seconds > 0 ? frames / seconds : 0,
       triangles: this.solid.faceCount,
+      tiles: this.#town?.tileCount ?? 0,
     };
   }
 
@@ -209,6 +225,7 @@ export class Viewer {
   }
 
   dispose(): void {
+    this.#town?.dispose();
     cancelAnimationFrame(this.#request);
     this.#resizes.disconnect();
     this.#pointer.dispose();
@@ -262,8 +279,21 @@ export class Viewer {
 
   #draw(): void {
     this.#scenery.follow(this.#camera);
+    if (this.#town !== null) this.#stream(this.#town);
     this.#renderer.render(this.#scene, this.#camera);
     this.#frames += 1;
+  }
+
+  /** Fetches what is seen from here, and keeps the shadows around the person. */
+  #stream(town: Town): void {
+    town.update(this.#camera, this.#renderer);
+    if (town.tileCount !== this.#shaded.tiles || this.#shaded.centre.distanceTo(this.#camera.position) > SHADE_STEP_M) {
+      const ahead = this.#camera.getWorldDirection(new Vector3()).setY(0).multiplyScalar(0.4 * SHADE_RADIUS_M);
+      const centre = this.#camera.position.clone().add(ahead).setY(0);
+      this.#scenery.shadeAround(centre, SHADE_RADIUS_M);
+      this.#shaded = { centre: this.#camera.position.clone(), tiles: town.tileCount };
+    }
+    if (town.isLoading) this.invalidate();
   }
 
   #follow(now: StudioState, before: StudioState): void {
@@ -272,11 +302,23 @@ export class Viewer {
       this.#appearance.showLayers(now);
       this.#scenery.sun.shadow.needsUpdate = true;
     }
-    if (now.selected !== before.selected) this.#appearance.outlineSelected(now.selected);
+    if (this.#town !== null) this.#town.show(now);
+    if (now.selected !== before.selected) this.#outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {
       this.#appearance.tint(now);
     }
     this.invalidate();
+  }
+
+  #outline(selected: FeatureRef | null): void {
+    const { outline } = this.#appearance;
+    if (this.#town === null) {
+      this.#appearance.outlineSelected(selected);
+      return;
+    }
+    const faces = selected === null ? null : this.#town.facesOf(selected);
+    if (faces === null) outline.clear();
+    else outline.showFaces(drawnFaces(faces));
   }
 
   #changeMode(mode: StudioState["mode"]): void {
@@ -323,8 +365,11 @@ export class Viewer {
   }
 
   #isVisible(ref: FeatureRef): boolean {
-    const feature = this.#parts[ref.part]?.table.rows[ref.row];
-    return feature !== undefined && !this.#store.value.hidden.has(feature.class);
+    const kind =
+      this.#town === null
+        ? (this.#parts[ref.part]?.table.rows[ref.row]?.class ?? null)
+        : this.#town.classOf(ref);
+    return kind !== null && !this.#store.value.hidden.has(kind);
   }
 
   #resize(): void {
@@ -349,10 +394,11 @@ function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
   return renderer;
 }
 
-function middleOf(box: Box): Vec3 {
-  return [
-    (box.min[0] + box.max[0]) / 2,
-    (box.min[1] + box.max[1]) / 2,
-    (box.min[2] + box.max[2]) / 2,
-  ];
+/** Nine coordinates per face, from the world frame to the drawn one. */
+function drawnFaces(positions: Float32Array): Float32Array {
+  const drawn = new Float32Array(positions.length);
+  for (let i = 0; i + 2 < positions.length; i += 3) {
+    drawn.set(drawnFromWorld([positions[i] ?? 0, positions[i + 1] ?? 0, positions[i + 2] ?? 0]), i);
+  }
+  return drawn;
 }

@@ -2,6 +2,7 @@
 import { MathUtils, type PerspectiveCamera, Vector3 } from "three";
 import { drawnFromWorld } from "../core/frames.ts";
 import { directionOf, headingOf, turned } from "../core/heading.ts";
+import type { Box } from "../core/framing.ts";
 import { add, subtract, type Vec3 } from "../core/vector.ts";
 import {
   DEFAULT_WALK,
@@ -30,8 +31,13 @@ export class WalkRig {
   readonly #obstacles: Obstacles;
   #walker: Walker;
 
-  constructor(start: { readonly eye: Vec3; readonly target: Vec3 }, obstacles: Obstacles, centre: Vec3) {
-    this.options = { ...DEFAULT_WALK, reachCentre: [centre[0], centre[1]] };
+  constructor(start: { readonly eye: Vec3; readonly target: Vec3 }, obstacles: Obstacles, bounds: Box) {
+    const across = subtract(bounds.max, bounds.min);
+    this.options = {
+      ...DEFAULT_WALK,
+      reachCentre: [(bounds.min[0] + bounds.max[0]) / 2, (bounds.min[1] + bounds.max[1]) / 2],
+      reach_m: Math.max(DEFAULT_WALK.reach_m, 0.5 * Math.hypot(across[0], across[1]) + 100),
+    };
     this.#start = start;
     this.#obstacles = obstacles;
     this.#walker = this.#standingAtStart();

@@ -162,12 +162,13 @@ def test_the_help_of_grammar_names_every_option() -> None:
 
     from veduta.cli.grammar import HELP
     from veduta.cli.grammar_call import DeriveCall, FormatCall, SampleCall, TreeCall
-    from veduta.grammar.options import DeriveOptions, LotOptions, SampleOptions
+    from veduta.grammar.options import DeriveOptions, LotOptions, OutputOptions, SampleOptions
 
     calls = (DeriveCall, FormatCall, SampleCall, TreeCall)
     names = {field.name for call in calls for field in fields(call)}
-    names -= {"rules", "derive", "read", "sheet", "out"}
-    for options in (DeriveOptions, LotOptions, SampleOptions):
+    names -= {"rules", "derive", "read", "output", "sheet", "out"}
+    for options in (DeriveOptions, LotOptions, OutputOptions, SampleOptions):
         names |= set(options.model_fields)
-    missing = {name for name in names if f"--{name}" not in HELP}
+    named = {name for name in names if f"--{name}" in HELP or f"--no-{name}" in HELP}
+    missing = names - named
     assert missing == set()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from veduta import _core
-from veduta.grammar.block import attributes_of, seed_of
+from veduta.grammar.deriving import attributes_of, seed_of
 from veduta.grammar.given import check_options, read_attributes
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import AttributeOptions, DeriveOptions, GrammarOptions

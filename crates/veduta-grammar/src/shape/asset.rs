@@ -16,6 +16,39 @@ pub struct Asset {
     size: DVec3,
     unit: Arc<Mesh>,
     solid: bool,
+    face_slot: Vec<u32>,
+    slots: Vec<Slot>,
+}
+
+/// A part of an asset that looks alike: a frame, a pane.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Slot {
+    /// sRGB, 0 to 1; None for that of the shape that the asset is put into.
+    pub colour: Option<[f32; 3]>,
+    /// The colour where a shape has none of its own.
+    pub fallback: [f32; 3],
+}
+
+/// The colour of a shape that none was given to.
+const WHITE: [f32; 3] = [1.0; 3];
+
+impl Slot {
+    /// Its colour in a shape of this colour.
+    pub fn colour_in(&self, shape: [f32; 3]) -> [f32; 3] {
+        let own = if shape == WHITE { self.fallback } else { shape };
+        self.colour.unwrap_or(own)
+    }
+}
+
+/// The faces of an asset in metres, in the frame of places (z up), as columns.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct AssetFaces {
+    /// Each belongs to one ring.
+    pub positions: Vec<[f64; 3]>,
+    pub ring_offsets: Vec<i64>,
+    pub polygon_offsets: Vec<i64>,
+    /// The slot of each face.
+    pub slot: Vec<u32>,
 }
 
 impl Asset {
@@ -31,6 +64,7 @@ impl Asset {
             return None;
         }
         let solid = mesh.is_closed();
+        let face_slot = vec![0; mesh.face_count()];
         let unit = Arc::new(mesh.mapped(|point| over(point - low, size)));
         Some(Self {
             name,
@@ -38,7 +72,64 @@ impl Asset {
             size,
             unit,
             solid,
+            face_slot,
+            slots: vec![Slot {
+                colour: None,
+                fallback: WHITE,
+            }],
         })
+    }
+
+    /// The slot of each face; None where the numbers do not fit.
+    pub fn with_slots(self, face_slot: Vec<u32>, slots: Vec<Slot>) -> Option<Self> {
+        let is_known = |&slot: &u32| (slot as usize) < slots.len();
+        let fits = face_slot.len() == self.unit.face_count() && face_slot.iter().all(is_known);
+        fits.then_some(Self {
+            face_slot,
+            slots,
+            ..self
+        })
+    }
+
+    pub fn slots(&self) -> &[Slot] {
+        &self.slots
+    }
+
+    /// The box around all points (m), in the frame of places.
+    pub fn reach(&self) -> ([f64; 3], [f64; 3]) {
+        let (mut low, mut high) = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+        for &unit in &self.unit.points {
+            let point = self.place(unit);
+            (low, high) = (low.min(point), high.max(point));
+        }
+        (low.to_array(), high.to_array())
+    }
+
+    /// A point of the unit box in metres, in the frame of places.
+    fn place(&self, unit: DVec3) -> DVec3 {
+        let point = self.low + unit * self.size;
+        DVec3::new(point.x, -point.z, point.y)
+    }
+
+    /// The faces as a place has them where the asset is not stretched.
+    pub fn faces(&self) -> AssetFaces {
+        let mut found = AssetFaces {
+            ring_offsets: vec![0],
+            polygon_offsets: vec![0],
+            slot: self.face_slot.clone(),
+            ..AssetFaces::default()
+        };
+        for face in self.unit.faces() {
+            for ring in face.rings() {
+                let points = ring.iter().map(|&point| self.unit.points[point as usize]);
+                let placed = points.map(|unit| self.place(unit).to_array());
+                found.positions.extend(placed);
+                found.ring_offsets.push(found.positions.len() as i64);
+            }
+            let end = found.ring_offsets.len() as i64 - 1;
+            found.polygon_offsets.push(end);
+        }
+        found
     }
 }
 

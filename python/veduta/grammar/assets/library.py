@@ -35,7 +35,9 @@ class Library:
     def add_to(self, rules: _core.GrammarRules, name: str) -> None:
         """Hand an asset to the engine; InputError where there is none."""
         asset = self[name]
-        rules.add_asset(name, asset.points_m, asset.corners, asset.offsets, asset.box_m)
+        slots = [(slot.colour, slot.fallback) for slot in asset.slots]
+        faces = (asset.points_m, asset.corners, asset.offsets)
+        rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
         """Hand over the assets whose names stand in the rules; InputError where one is none."""

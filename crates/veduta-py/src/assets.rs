@@ -1,0 +1,73 @@
+//! Assets as Python gives them, and those that it has still to give.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use numpy::{PyReadonlyArray1, PyReadonlyArray2};
+use pyo3::prelude::*;
+use veduta_geometry::solid::Mesh;
+use veduta_grammar::shape::{Asset, Slot};
+
+pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
+/// The colour (sRGB) of each slot or None for that of the shape, and the colour where the shape has
+/// none.
+pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3])>;
+
+/// An asset of these columns; None where they do not fit together.
+pub fn asset_of(
+    name: &str,
+    points: &PyReadonlyArray2<'_, f64>,
+    corners: &[u32],
+    offsets: &[i64],
+    box_m: &PyReadonlyArray2<'_, f64>,
+    looks: Option<(PyReadonlyArray1<'_, i32>, GivenSlots)>,
+) -> Option<Asset> {
+    let mesh = mesh_of(points, corners, offsets)?;
+    let ends = places(box_m)?;
+    let [low, high] = ends[..] else {
+        return None;
+    };
+    let asset = Asset::new(name.into(), mesh, (low.into(), high.into()))?;
+    let Some((of_face, slots)) = looks else {
+        return Some(asset);
+    };
+    let of_face = of_face.as_slice().ok()?.iter();
+    let of_face: Option<Vec<u32>> = of_face.map(|&slot| u32::try_from(slot).ok()).collect();
+    let slots = slots
+        .into_iter()
+        .map(|(colour, fallback)| Slot { colour, fallback });
+    asset.with_slots(of_face?, slots.collect())
+}
+
+/// The rows of three numbers; None where they have another count.
+fn places(points: &PyReadonlyArray2<'_, f64>) -> Option<Vec<[f64; 3]>> {
+    let rows = points.as_array();
+    let place = |row: usize| [rows[[row, 0]], rows[[row, 1]], rows[[row, 2]]];
+    (rows.ncols() == 3).then(|| (0..rows.nrows()).map(place).collect())
+}
+
+/// Faces over points; None where a number leads to none.
+fn mesh_of(points: &PyReadonlyArray2<'_, f64>, corners: &[u32], offsets: &[i64]) -> Option<Mesh> {
+    let places = places(points)?;
+    if corners
+        .iter()
+        .any(|&corner| corner as usize >= places.len())
+    {
+        return None;
+    }
+    let mut mesh = Mesh::with_points(places.into_iter().map(Into::into).collect());
+    for ends in offsets.windows(2) {
+        let range = usize::try_from(ends[0]).ok()?..usize::try_from(ends[1]).ok()?;
+        let face = corners.get(range).filter(|face| face.len() >= 3)?;
+        mesh.push_face(&[face]);
+    }
+    Some(mesh)
+}
+
+/// An asset that a lot's rules want and that is not known yet: add it and derive again.
+#[pyclass(frozen, get_all, module = "veduta._core")]
+pub struct MissingAsset {
+    pub name: String,
+    /// What the lot's failure is where there is no such asset.
+    pub why: String,
+}

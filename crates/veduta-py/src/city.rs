@@ -1,0 +1,266 @@
+//! The geometry of a derived building as CityJSON has it: texts, since its numbers are texts.
+//!
+//! <https://www.cityjson.org/specs/2.0.1/> section 3. Vertices are whole millimetres.
+
+use std::collections::{HashMap, HashSet};
+use std::fmt::Write as _;
+
+use veduta_geometry::{triangulate_sound, PolygonSet};
+
+use crate::derived_lot::Derived;
+use crate::flat::Flat;
+
+const STEPS_PER_M: f64 = 1000.0;
+const PLANE_TOLERANCE_M: f64 = 1e-3;
+/// A face whose normal leans at least this much up or down is a floor or a ceiling.
+const LEVEL: f64 = 0.7;
+
+/// A building's own geometry, its installations, and the vertices of all.
+pub(crate) struct CityText {
+    /// A MultiSurface or a Solid; empty where all surfaces are installations.
+    pub body: String,
+    /// Class, rule and geometry of each.
+    pub installations: Vec<(u8, String, String)>,
+    /// Three whole numbers each, as a JSON array.
+    pub vertices: String,
+}
+
+type Vertex = [i64; 3];
+
+struct Face {
+    feature: usize,
+    rings: Vec<Vec<u32>>,
+    normal_z: f64,
+}
+
+/// The texts of a building at its place (m, z up). `kinds` has the semantic surface of each class,
+/// "" for what is an installation; `code` the class of a name.
+pub(crate) fn city(
+    lot: &Derived,
+    place: [f64; 3],
+    kinds: &[String],
+    code: impl Fn(&str) -> u8,
+) -> Result<CityText, String> {
+    let mut vertices: Vec<Vertex> = Vec::new();
+    let faces = faces(lot, place, &mut vertices)?;
+    let classes: Vec<u8> = lot.surfaces.class.iter().map(|name| code(name)).collect();
+    let kind = |feature: usize| kinds[usize::from(classes[feature])].as_str();
+    let mut body = Vec::new();
+    let mut of_feature: Vec<Vec<&Face>> = vec![Vec::new(); classes.len()];
+    for face in &faces {
+        if kind(face.feature).is_empty() {
+            of_feature[face.feature].push(face);
+        } else {
+            body.push(face);
+        }
+    }
+    let mut rows: HashMap<usize, usize> = HashMap::new();
+    let mut surfaces = Vec::new();
+    let values: Vec<usize> = body
+        .iter()
+        .map(|face| {
+            *rows.entry(face.feature).or_insert_with(|| {
+                surfaces.push(surface(lot, face.feature, kind(face.feature)));
+                surfaces.len() - 1
+            })
+        })
+        .collect();
+    let installations = of_feature
+        .iter()
+        .enumerate()
+        .filter(|(_, all)| !all.is_empty());
+    let installations = installations.map(|(feature, all)| {
+        let (surfaces, values) = by_direction(all);
+        let text = geometry(all, &surfaces, &values);
+        (classes[feature], lot.names[feature].clone(), text)
+    });
+    let installations = installations.collect();
+    let body = if body.is_empty() {
+        String::new()
+    } else {
+        geometry(&body, &surfaces, &values)
+    };
+    Ok(CityText {
+        body,
+        installations,
+        vertices: vertices_text(&vertices),
+    })
+}
+
+/// The sound polygons, on whole millimetres; what collapses there is left out.
+fn faces(lot: &Derived, place: [f64; 3], vertices: &mut Vec<Vertex>) -> Result<Vec<Face>, String> {
+    let flat = Flat::of(&lot.packed)?;
+    let set = PolygonSet::of_any_rings(&flat.positions, &flat.rings, &flat.polygons);
+    let set = set.map_err(|error| error.to_string())?;
+    let sound = triangulate_sound(&set, PLANE_TOLERANCE_M);
+    let mut known: HashMap<Vertex, u32> = HashMap::new();
+    let mut found = Vec::new();
+    for polygon in (0..set.len()).filter(|&polygon| sound.is_sound[polygon]) {
+        let on_grid: Vec<Vec<Vertex>> = set
+            .rings(polygon)
+            .map(|range| {
+                let point = |vertex| {
+                    let own: [f64; 3] = set.position_m(vertex);
+                    [0, 1, 2].map(|k| ((own[k] + place[k]) * STEPS_PER_M).round() as i64)
+                };
+                let mut ring: Vec<Vertex> = range.map(point).collect();
+                ring.dedup();
+                while ring.len() > 1 && ring.first() == ring.last() {
+                    ring.pop();
+                }
+                ring
+            })
+            .filter(|ring| ring.len() > 2)
+            .collect();
+        let is_whole = on_grid.iter().all(|ring| {
+            let distinct: HashSet<&Vertex> = ring.iter().collect();
+            distinct.len() == ring.len()
+        });
+        if on_grid.is_empty() || !is_whole {
+            continue;
+        }
+        let number = |vertex: Vertex| {
+            *known.entry(vertex).or_insert_with(|| {
+                vertices.push(vertex);
+                vertices.len() as u32 - 1
+            })
+        };
+        let mut number = number;
+        let rings = on_grid.into_iter();
+        let leaf = flat.feature[polygon] as usize;
+        found.push(Face {
+            feature: lot.surfaces.of_feature[leaf] as usize,
+            rings: rings
+                .map(|ring| ring.into_iter().map(&mut number).collect())
+                .collect(),
+            normal_z: sound.normals[polygon][2],
+        });
+    }
+    Ok(found)
+}
+
+fn surface(lot: &Derived, feature: usize, kind: &str) -> String {
+    let [width, height] = lot.surfaces.size[feature];
+    let class = &lot.surfaces.class[feature];
+    let class = if class.is_empty() { "other" } else { class };
+    let mut text = format!(
+        r#"{{"type":"{kind}","rule":{},"class":{}"#,
+        quoted(&lot.names[feature]),
+        quoted(class)
+    );
+    for (name, size) in [("width_m", width), ("height_m", height)] {
+        if size.is_finite() && size > 0.0 {
+            let _ = write!(text, r#","{name}":{:.3}"#, size);
+        }
+    }
+    text.push('}');
+    text
+}
+
+/// Rule names are words; what else a rule file may say is escaped.
+fn quoted(text: &str) -> String {
+    let mut made = String::from("\"");
+    for letter in text.chars() {
+        match letter {
+            '"' | '\\' => made.extend(['\\', letter]),
+            control if control.is_control() => {
+                let _ = write!(made, "\\u{:04x}", control as u32);
+            }
+            plain => made.push(plain),
+        }
+    }
+    made.push('"');
+    made
+}
+
+fn by_direction(faces: &[&Face]) -> (Vec<String>, Vec<usize>) {
+    let mut kinds: Vec<&str> = Vec::new();
+    let values = faces.iter().map(|face| {
+        let kind = if face.normal_z > LEVEL {
+            "OuterFloorSurface"
+        } else if face.normal_z < -LEVEL {
+            "OuterCeilingSurface"
+        } else {
+            "WallSurface"
+        };
+        let place = kinds.iter().position(|known| *known == kind);
+        place.unwrap_or_else(|| {
+            kinds.push(kind);
+            kinds.len() - 1
+        })
+    });
+    let values = values.collect();
+    let texts = kinds.iter().map(|kind| format!(r#"{{"type":"{kind}"}}"#));
+    (texts.collect(), values)
+}
+
+fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize]) -> String {
+    let boundaries: Vec<String> = faces.iter().map(|face| rings_text(&face.rings)).collect();
+    let values: Vec<String> = values.iter().map(ToString::to_string).collect();
+    let (kind, open, close) = if is_closed(faces) {
+        ("Solid", "[", "]")
+    } else {
+        ("MultiSurface", "", "")
+    };
+    format!(
+        r#"{{"type":"{kind}","lod":"3","boundaries":{open}[{}]{close},"semantics":{{"surfaces":[{}],"values":{open}[{}]{close}}}}}"#,
+        boundaries.join(","),
+        surfaces.join(","),
+        values.join(",")
+    )
+}
+
+/// Whether the faces close one body: each edge is there once in each direction, and they hang
+/// together.
+fn is_closed(faces: &[&Face]) -> bool {
+    let mut edges: HashMap<(u32, u32), usize> = HashMap::new();
+    for (number, face) in faces.iter().enumerate() {
+        for ring in &face.rings {
+            for k in 0..ring.len() {
+                let edge = (ring[k], ring[(k + 1) % ring.len()]);
+                if edges.insert(edge, number).is_some() {
+                    return false;
+                }
+            }
+        }
+    }
+    let mut beside: Vec<Vec<usize>> = vec![Vec::new(); faces.len()];
+    for (&(from, to), &face) in &edges {
+        match edges.get(&(to, from)) {
+            Some(&other) => beside[face].push(other),
+            None => return false,
+        }
+    }
+    let mut is_reached = vec![false; faces.len()];
+    let mut open = vec![0];
+    while let Some(face) = open.pop() {
+        if !std::mem::replace(&mut is_reached[face], true) {
+            open.extend(&beside[face]);
+        }
+    }
+    is_reached.into_iter().all(|is| is)
+}
+
+fn rings_text(rings: &[Vec<u32>]) -> String {
+    let mut text = String::from("[");
+    for (k, ring) in rings.iter().enumerate() {
+        text.push_str(if k == 0 { "[" } else { ",[" });
+        for (k, vertex) in ring.iter().enumerate() {
+            let comma = if k == 0 { "" } else { "," };
+            let _ = write!(text, "{comma}{vertex}");
+        }
+        text.push(']');
+    }
+    text.push(']');
+    text
+}
+
+fn vertices_text(vertices: &[Vertex]) -> String {
+    let mut text = String::from("[");
+    for (k, [x, y, z]) in vertices.iter().enumerate() {
+        let comma = if k == 0 { "" } else { "," };
+        let _ = write!(text, "{comma}[{x},{y},{z}]");
+    }
+    text.push(']');
+    text
+}

@@ -1,0 +1,187 @@
+//! Lots that were derived and stay on this side, for tiles and for CityJSON.
+
+use std::collections::HashMap;
+
+use pyo3::exceptions::PyValueError;
+use pyo3::prelude::*;
+
+use crate::city::city;
+use crate::derivation::GivenEdit;
+use crate::derived_lot::Derived;
+use crate::given::Given;
+use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
+use crate::standing::box_of;
+use crate::tiles::{tile, TileBuffers};
+
+/// Lots that were derived and stay on this side: columns are made for what is asked.
+#[pyclass(frozen, module = "veduta._core")]
+pub struct DerivedLots {
+    lots: Vec<Result<Derived, Failed>>,
+}
+
+/// Derives lots as `GrammarRules.derive` does.
+#[pyfunction]
+#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, seconds=60.0, shapes=5_000_000))]
+#[allow(clippy::too_many_arguments)] // as Python calls it: with names
+fn derive_lots(
+    py: Python<'_>,
+    rules: &GrammarRules,
+    lots: Vec<Rings>,
+    seeds: Vec<u64>,
+    start: Option<&str>,
+    attributes: Vec<HashMap<String, Given>>,
+    edits: Vec<Vec<GivenEdit>>,
+    seconds: f64,
+    shapes: usize,
+) -> PyResult<DerivedLots> {
+    let rule = rules.start_rule(start)?;
+    if [seeds.len(), attributes.len(), edits.len()] != [lots.len(); 3] {
+        return Err(PyValueError::new_err(
+            "each lot needs a seed, attributes and edits",
+        ));
+    }
+    let limits = limits_of(seconds, shapes);
+    let mut found = Vec::with_capacity(lots.len());
+    let (mut given, mut edits) = (attributes.into_iter(), edits.into_iter());
+    for (some, seeds) in lots.chunks(AT_ONCE).zip(seeds.chunks(AT_ONCE)) {
+        let given = given.by_ref().take(some.len()).collect();
+        let edits = edits.by_ref().take(some.len()).collect();
+        found.extend(py.detach(|| rules.all(some, seeds, given, edits, rule, limits)));
+        py.check_signals()?;
+    }
+    Ok(DerivedLots { lots: found })
+}
+
+/// Lots that are derived before Ctrl-C is heard.
+const AT_ONCE: usize = 4;
+/// Red, green and blue, sRGB, 0 to 1.
+type Colour = [f32; 3];
+/// Lower and upper corner, and how much there is.
+type Extent = ([f64; 3], [f64; 3], usize);
+/// Geometry, installations, vertices.
+type CityTexts = (String, Vec<(u8, String, String)>, String);
+
+#[pymethods]
+impl DerivedLots {
+    fn __len__(&self) -> usize {
+        self.lots.len()
+    }
+
+    /// Why a lot has no shapes; None where it has.
+    fn fault(&self, lot: usize) -> PyResult<Option<String>> {
+        let failed = self.lot(lot)?.as_ref().err();
+        Ok(failed.map(|failed| failed.why.clone()))
+    }
+
+    /// The asset that a lot's rules want and that is not known; None where nothing is wanted.
+    fn missing_asset(&self, lot: usize) -> PyResult<Option<String>> {
+        let failed = self.lot(lot)?.as_ref().err();
+        Ok(failed.and_then(|failed| failed.missing_asset.clone()))
+    }
+
+    /// Path and fault of each edit of a lot that could not be done.
+    fn edit_faults(&self, lot: usize) -> PyResult<Vec<(Vec<u32>, String)>> {
+        let found = self.lot(lot)?.as_ref();
+        Ok(found
+            .map(|derived| derived.edit_faults.clone())
+            .unwrap_or_default())
+    }
+
+    /// What the rules said of a lot.
+    fn messages(&self, lot: usize) -> PyResult<Vec<String>> {
+        let found = self.lot(lot)?.as_ref();
+        Ok(found
+            .map(|derived| derived.messages.clone())
+            .unwrap_or_default())
+    }
+
+    /// Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets there are;
+    /// None where nothing is left.
+    fn extent(&self, lot: usize) -> PyResult<Option<Extent>> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Ok(None);
+        };
+        let (low, high) = box_of(&derived.packed);
+        let is_finite = low.iter().chain(&high).all(|c| c.abs() < 1e6);
+        let own = derived.packed.polygon_feature.len();
+        let polygons = own + derived.packed.instance_feature.len();
+        Ok(is_finite.then_some((low, high, polygons)))
+    }
+
+    /// The sRGB colour that most leaves of a class have; None where there is no such class.
+    fn colour(&self, lot: usize, kind: &str) -> PyResult<Option<Colour>> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Ok(None);
+        };
+        let mut counts = vec![0usize; derived.packed.looks.len()];
+        for &look in &derived.packed.feature_look {
+            counts[look as usize] += 1;
+        }
+        let looks = derived.packed.looks.iter().zip(counts);
+        let own = looks.filter(|(look, _)| look.class.as_ref() == kind);
+        Ok(own
+            .max_by_key(|(_, count)| *count)
+            .map(|(look, _)| look.colour))
+    }
+
+    /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
+    /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    fn city(
+        &self,
+        py: Python<'_>,
+        lot: usize,
+        place: [f64; 3],
+        classes: Vec<String>,
+        kinds: Vec<String>,
+    ) -> PyResult<CityTexts> {
+        let Ok(derived) = self.lot(lot)?.as_ref() else {
+            return Err(PyValueError::new_err("a lot that failed has no surfaces"));
+        };
+        if classes.is_empty() || classes.len() != kinds.len() {
+            return Err(PyValueError::new_err("each class needs a kind"));
+        }
+        let other = classes.len() - 1;
+        let code = |name: &str| {
+            let found = classes.iter().position(|class| class == name);
+            found.unwrap_or(other) as u8
+        };
+        let made = py.detach(|| city(derived, place, &kinds, code));
+        let text = made.map_err(PyValueError::new_err)?;
+        Ok((text.body, text.installations, text.vertices))
+    }
+
+    /// The buffers of a tile with these lots, each at its place (m, z up); `classes` are the
+    /// classes that are known, the last of them for all others.
+    fn tile(
+        &self,
+        py: Python<'_>,
+        lots: Vec<usize>,
+        places: Vec<[f64; 3]>,
+        classes: Vec<String>,
+    ) -> PyResult<TileBuffers> {
+        let mut chosen = Vec::new();
+        for &lot in &lots {
+            let Ok(derived) = self.lot(lot)?.as_ref() else {
+                return Err(PyValueError::new_err("a lot that failed has no tile"));
+            };
+            chosen.push(derived);
+        }
+        if places.len() != lots.len() || classes.is_empty() {
+            return Err(PyValueError::new_err("each lot needs a place"));
+        }
+        py.detach(|| tile(&chosen, &places, &classes))
+            .map_err(PyValueError::new_err)
+    }
+}
+
+impl DerivedLots {
+    fn lot(&self, lot: usize) -> PyResult<&Result<Derived, Failed>> {
+        let missing = || PyValueError::new_err(format!("there is no lot {lot}"));
+        self.lots.get(lot).ok_or_else(missing)
+    }
+}
+
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<DerivedLots>()?;
+    m.add_function(wrap_pyfunction!(derive_lots, m)?)
+}

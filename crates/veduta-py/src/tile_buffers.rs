@@ -1,0 +1,175 @@
+//! The buffers of a tile for Python, as bytes.
+
+use pyo3::prelude::*;
+use pyo3::types::PyBytes;
+use veduta_tiles::Repeated;
+
+use crate::tiles::TileBuffers;
+
+type Box3 = ([f64; 3], [f64; 3]);
+/// Material, positions, features, indices, lowest and highest position.
+type MergedMesh<'py> = (
+    u32,
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+    [u16; 3],
+    [u16; 3],
+);
+/// Material, positions, indices, lowest and highest position; translations, rotations, features,
+/// scales.
+type RepeatedMesh<'py> = (
+    u32,
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+    [i16; 3],
+    [i16; 3],
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+    Bound<'py, PyBytes>,
+);
+
+#[pymethods]
+impl TileBuffers {
+    /// Lower and upper corner (m, z up); None where there is nothing to draw.
+    #[getter]
+    fn bounds(&self) -> Option<Box3> {
+        let is_some = self.batch.triangles > 0;
+        is_some.then_some((self.batch.low, self.batch.high))
+    }
+
+    /// Where merged positions count from, and their steps (m, y-up).
+    #[getter]
+    fn grid(&self) -> Box3 {
+        (self.batch.grid_low, self.batch.grid_step)
+    }
+
+    /// Metres of a step of repeated positions.
+    #[getter]
+    fn step_m(&self) -> f64 {
+        Repeated::step_m()
+    }
+
+    #[getter]
+    fn triangles(&self) -> usize {
+        self.batch.triangles
+    }
+
+    #[getter]
+    fn dropped(&self) -> usize {
+        self.batch.dropped
+    }
+
+    /// Class and sRGB colour of each material.
+    #[getter]
+    fn materials(&self) -> Vec<(u8, [f32; 3])> {
+        self.materials.clone()
+    }
+
+    /// Surfaces of each class, by lot.
+    #[getter]
+    fn counts(&self) -> Vec<Vec<u32>> {
+        self.counts.clone()
+    }
+
+    /// The names of the rules that surfaces come from.
+    #[getter]
+    fn rules(&self) -> Vec<String> {
+        self.surfaces.rules.clone()
+    }
+
+    /// Columns of the surfaces: class (u8), building, rule, width and height in mm (u16).
+    #[getter]
+    fn surfaces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyBytes>; 5] {
+        let all = &self.surfaces;
+        let sixteen = |column: &[u16]| bytes(py, column.iter().map(|v| v.to_le_bytes()));
+        [
+            PyBytes::new(py, &all.class),
+            sixteen(&all.building),
+            sixteen(&all.rule),
+            sixteen(&all.width_mm),
+            sixteen(&all.height_mm),
+        ]
+    }
+
+    /// Positions are four u16 (the last is zero), features f32, indices u16 or else u32.
+    #[getter]
+    fn merged<'py>(&self, py: Python<'py>) -> Vec<MergedMesh<'py>> {
+        let each = self.batch.merged.iter();
+        each.map(|mesh| {
+            let (low, high) = extremes(&mesh.positions);
+            (
+                mesh.material,
+                bytes(py, mesh.positions.iter().map(|v| v.to_le_bytes())),
+                bytes(py, mesh.features.iter().map(|v| (*v as f32).to_le_bytes())),
+                indices(py, &mesh.indices, mesh.features.len()),
+                low,
+                high,
+            )
+        })
+        .collect()
+    }
+
+    /// Positions are four i16, indices u16, translations three f32, rotations four i16, features
+    /// u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty.
+    #[getter]
+    fn repeated<'py>(&self, py: Python<'py>) -> Vec<RepeatedMesh<'py>> {
+        let is_small = self.surfaces.class.len() <= usize::from(u16::MAX);
+        let each = self.batch.repeated.iter();
+        each.map(|mesh| {
+            let (low, high) = extremes(&mesh.positions);
+            let features = if is_small {
+                bytes(py, mesh.features.iter().map(|v| (*v as u16).to_le_bytes()))
+            } else {
+                bytes(py, mesh.features.iter().map(|v| (*v as f32).to_le_bytes()))
+            };
+            (
+                mesh.material,
+                bytes(py, mesh.positions.iter().map(|v| v.to_le_bytes())),
+                bytes(py, mesh.indices.iter().map(|v| v.to_le_bytes())),
+                low,
+                high,
+                bytes(py, mesh.translations.iter().map(|v| v.to_le_bytes())),
+                bytes(py, mesh.rotations.iter().map(|v| v.to_le_bytes())),
+                features,
+                bytes(py, mesh.scales.iter().map(|v| v.to_le_bytes())),
+            )
+        })
+        .collect()
+    }
+}
+
+fn indices<'py>(py: Python<'py>, all: &[u32], vertices: usize) -> Bound<'py, PyBytes> {
+    if vertices <= usize::from(u16::MAX) {
+        bytes(py, all.iter().map(|v| (*v as u16).to_le_bytes()))
+    } else {
+        bytes(py, all.iter().map(|v| v.to_le_bytes()))
+    }
+}
+
+fn bytes<const N: usize>(
+    py: Python<'_>,
+    words: impl Iterator<Item = [u8; N]>,
+) -> Bound<'_, PyBytes> {
+    let content: Vec<u8> = words.flatten().collect();
+    PyBytes::new(py, &content)
+}
+
+fn extremes<T: Copy + Ord + Default>(positions: &[T]) -> ([T; 3], [T; 3]) {
+    let mut corners = positions.chunks_exact(4);
+    let start = corners
+        .next()
+        .map_or([T::default(); 3], |p| [p[0], p[1], p[2]]);
+    corners.fold((start, start), |(mut low, mut high), p| {
+        for axis in 0..3 {
+            low[axis] = low[axis].min(p[axis]);
+            high[axis] = high[axis].max(p[axis]);
+        }
+        (low, high)
+    })
+}
+
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add_class::<TileBuffers>()
+}

@@ -1,0 +1,36 @@
+//! What goes in: the polygons of a building as columns.
+
+use glam::DVec3;
+
+/// Columns of one building; the columns by polygon are equally long.
+#[derive(Debug, Clone, Copy)]
+pub struct Building<'a> {
+    /// Vertices (m), z up, about `offset`; each belongs to one ring.
+    pub positions: &'a [[f64; 3]],
+    pub ring_offsets: &'a [i64],
+    pub polygon_offsets: &'a [i64],
+    /// The surface of each polygon, by its number in the tile.
+    pub feature: &'a [u32],
+    /// The material of each polygon, by its number in the tile.
+    pub material: &'a [u32],
+    /// Polygons that are perhaps repeated together; of one surface and one material.
+    pub piece: &'a [u32],
+    /// The same, finer: tried where a piece is not repeated.
+    pub part: &'a [u32],
+    /// Where the building stands in the tile (m), z up.
+    pub offset: [f64; 3],
+}
+
+impl Building<'_> {
+    /// The rings of a polygon in the tile, z up.
+    pub(crate) fn rings(&self, polygon: usize) -> impl Iterator<Item = Vec<DVec3>> + '_ {
+        let first = self.polygon_offsets[polygon] as usize;
+        let last = self.polygon_offsets[polygon + 1] as usize;
+        let offset = DVec3::from_array(self.offset);
+        (first..last).map(move |ring| {
+            let range = self.ring_offsets[ring] as usize..self.ring_offsets[ring + 1] as usize;
+            let points = self.positions[range].iter();
+            points.map(|&p| DVec3::from_array(p) + offset).collect()
+        })
+    }
+}

@@ -1,0 +1,173 @@
+"""Lots handed to the engine: with their attributes, seeds and edits, and the assets they want."""
+
+from __future__ import annotations
+
+import functools
+import hashlib
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from veduta import _core
+from veduta.grammar.assets.library import Library
+from veduta.grammar.edits import fault_told
+from veduta.grammar.levels import FULL, Levels, levels_of
+from veduta.grammar.lots import Lot
+from veduta.grammar.options import GrammarOptions
+from veduta.grammar.outline import Attribute
+from veduta.run.errors import InputError
+
+MAX_SHAPES = 500_000
+"""Of one lot's tree; it bounds memory to some hundred megabytes."""
+
+
+@dataclass(frozen=True)
+class Deriver:
+    """Compiled rules with their assets, and how they are to be derived.
+
+    refused: why an asset could not be made known, by its name.
+    """
+
+    rules: _core.GrammarRules
+    library: Library
+    levels: Levels
+    options: GrammarOptions
+    refused: dict[str, str] = field(default_factory=dict)
+
+    def together(self, lots: Sequence[Lot], level: float) -> _core.DerivedLots:
+        """The lots at a level of detail, on the engine's side.
+
+        They are derived again where one wants an asset whose name only the derivation shows.
+        """
+        while True:
+            made = _core.derive_lots(
+                self.rules,
+                [rings_of(lot) for lot in lots],
+                self._seeds(lots),
+                start=self.options.derive.start,
+                attributes=self._given(lots, level),
+                edits=[[edit.core for edit in lot.edits] for lot in lots],
+                seconds=self.options.derive.seconds,
+                shapes=MAX_SHAPES,
+            )
+            missing = {made.missing_asset(row) for row in range(len(lots))} - {None}
+            if not self._add({name for name in missing if name is not None}):
+                return made
+
+    def alone(self, lots: Sequence[Lot]) -> list[_core.DerivedLot | str]:
+        """The columns of each lot with all that there is, or why there are none."""
+        found: list[_core.DerivedLot | str | None] = [None] * len(lots)
+        while waiting := [index for index, one in enumerate(found) if one is None]:
+            chosen = [lots[index] for index in waiting]
+            made = self.rules.derive(
+                [rings_of(lot) for lot in chosen],
+                self._seeds(chosen),
+                start=self.options.derive.start,
+                attributes=self._given(chosen, FULL),
+                edits=[[edit.core for edit in lot.edits] for lot in chosen],
+                seconds=self.options.derive.seconds,
+                shapes=MAX_SHAPES,
+            )
+            missing = {one.name for one in made if isinstance(one, _core.MissingAsset)}
+            self._add(missing)
+            for index, one in zip(waiting, made, strict=True):
+                if not isinstance(one, _core.MissingAsset):
+                    found[index] = one
+                elif one.name in self.refused:
+                    found[index] = f"{one.why} ({self.refused[one.name]})"
+        return [one for one in found if one is not None]
+
+    def fault(self, derived: _core.DerivedLots, row: int, lot: Lot) -> str | None:
+        """Why a lot gives no building; None where it may."""
+        told = derived.fault(row)
+        if told is None:
+            return fault_told(lot.edits, derived.edit_faults(row))
+        why = self.refused.get(derived.missing_asset(row) or "")
+        return f"{told} ({why})" if why else told
+
+    def _add(self, names: set[str]) -> bool:
+        """Make assets known; whether there is a new one."""
+        added = False
+        for name in sorted(names - set(self.refused)):
+            try:
+                self.library.add_to(self.rules, name)
+                added = True
+            except InputError as error:
+                self.refused[name] = str(error)
+        return added
+
+    def _seeds(self, lots: Sequence[Lot]) -> list[int]:
+        return [seed_of(lot, self.options.derive.seed) for lot in lots]
+
+    def _given(self, lots: Sequence[Lot], level: float) -> list[dict[str, Attribute]]:
+        """The attributes of lots that have sound ones.
+
+        Edits name shapes of the tree with all that there is: lots with edits have that level only.
+        """
+        kinds = dict(self.rules.attributes)
+        found = []
+        for lot in lots:
+            given = attributes_of(lot, kinds, self.options)
+            if not isinstance(given, str):
+                found.append(self.levels.given(given, FULL if lot.edits else level))
+        return found
+
+
+@functools.lru_cache(maxsize=1)
+def _compiled(
+    files: tuple[tuple[str, str], ...], style: str | None, folder: Path
+) -> tuple[_core.GrammarRules, Library]:
+    """Compiled once in each process, with the assets that are named in the rules."""
+    rules, library = _core.GrammarRules(list(files), style), Library(folder)
+    library.add_written_to(rules)
+    return rules, library
+
+
+def deriver(files: tuple[tuple[str, str], ...], folder: Path, options: GrammarOptions) -> Deriver:
+    """What derives by these files; `folder` is where they lie, and the assets that they name."""
+    rules, library = _compiled(files, options.derive.style, folder)
+    return Deriver(rules, library, levels_of(rules, options.attributes.values), options)
+
+
+def attributes_of(
+    lot: Lot, kinds: dict[str, str], options: GrammarOptions
+) -> dict[str, Attribute] | str:
+    """The attributes that the rules have: of the call before those of the lot; or the fault."""
+    found: dict[str, Attribute] = {}
+    for name, value in lot.attributes.items():
+        if name not in kinds or name in options.attributes.values:
+            continue
+        taken = as_kind(value, kinds[name])
+        if taken is None:
+            return f"its property {name} is {value!r}, but the rules want a {kinds[name]}"
+        found[name] = taken
+    return found | options.attributes.values
+
+
+def as_kind(value: Attribute, kind: str) -> Attribute | None:
+    """The value as an attribute of this kind takes it; None where it cannot."""
+    if kind == "number" and isinstance(value, str):
+        try:
+            number = float(value)
+        except ValueError:
+            return None
+        return number if abs(number) < 1e300 else None
+    if kind == "number":
+        return None if isinstance(value, bool) else value
+    if kind == "bool":
+        words: dict[Attribute, bool] = {"true": True, "false": False, True: True, False: False}
+        return words.get(value.lower() if isinstance(value, str) else value)
+    if kind == "text" and not isinstance(value, str):
+        return f"{value:g}" if isinstance(value, float) else str(value).lower()
+    return value
+
+
+def seed_of(lot: Lot, seed: int) -> int:
+    """What is random in a lot depends on its name and the seed, and on no other lot."""
+    digest = hashlib.sha256(f"{seed}/{lot.id}".encode()).digest()
+    return int.from_bytes(digest[:8], "little")
+
+
+def rings_of(lot: Lot) -> list[list[tuple[float, float, float]]]:
+    """The rings as the engine takes them (m)."""
+    return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]

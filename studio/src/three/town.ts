@@ -1,0 +1,323 @@
+/**
+ * A place that is too large to be loaded whole: 3D Tiles, fetched where the camera looks and as fine
+ * as it sees. It answers what a click hits and what a walker bumps into, as `Solid` does, from the
+ * tiles that are there.
+ */
+import type { Tile } from "3d-tiles-renderer/core";
+import { TilesRenderer } from "3d-tiles-renderer/three";
+import {
+  Box3,
+  Color,
+  Group,
+  type MeshStandardMaterial,
+  type Object3D,
+  type PerspectiveCamera,
+  Raycaster,
+  SRGBColorSpace,
+  Vector3,
+  type WebGLRenderer,
+} from "three";
+import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
+import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
+import { CLASS_LOOKS, PROVENANCE_LOOKS, type SemanticClass } from "../core/classes.ts";
+import { Fault } from "../core/fault.ts";
+import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import type { FeatureTable } from "../core/features.ts";
+import type { Box } from "../core/framing.ts";
+import type { FeatureRef, StudioState } from "../core/state.ts";
+import { TileTable } from "../core/tile-table.ts";
+import type { Vec3 } from "../core/vector.ts";
+import type { Body, Obstacles } from "../core/walking.ts";
+import { type Hit, Solid } from "./solid.ts";
+import { TileModel } from "./tile-model.ts";
+
+/** A tile is refined where its error is larger on the screen (pixels). */
+const ERROR_PX = 14;
+const COLOURING_STRENGTH = 0.78;
+/** Levels that differ from the truth by more are nothing to walk against. */
+const WALKABLE_ERROR_M = 1;
+/** Obstacles of so many tiles are kept. */
+const MOST_SOLIDS = 6;
+const LOAD_PATIENCE_MS = 60_000;
+
+interface VedutaTile extends Tile {
+  extras?: { veduta?: { world_m?: readonly number[] } };
+  transform?: number[];
+}
+
+/** The world frame is flat: tiles stand where the place's own frame has them, not on the globe. */
+class FlatTiles extends TilesRenderer {
+  preprocessNode(tile: VedutaTile, folder: string, parent: Tile | null = null): void {
+    const at = tile.extras?.veduta?.world_m;
+    if (at?.length === 3) {
+      const [x = 0, y = 0, z = 0] = at;
+      tile.transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1];
+    }
+    // The types leave it out; plugins and this class rely on it.
+    (TilesRenderer.prototype as unknown as Preprocessing).preprocessNode.call(this, tile, folder, parent);
+  }
+}
+
+interface Preprocessing {
+  preprocessNode(this: FlatTiles, tile: Tile, folder: string, parent: Tile | null): void;
+}
+
+export class Town implements Obstacles {
+  readonly group = new Group();
+  bounds: Box = { min: [-1, -1, 0], max: [1, 1, 1] };
+  readonly tables: FeatureTable[] = [];
+  readonly #tiles: FlatTiles;
+  readonly #models = new Map<Object3D, { model: TileModel; part: number; tile: Tile }>();
+  readonly #byPart: (TileModel | undefined)[] = [];
+  readonly #solids = new Map<Object3D, Solid>();
+  readonly #onChange: () => void;
+  #fault: Fault | null = null;
+  #state: StudioState | null = null;
+
+  constructor(address: URL, onChange: () => void) {
+    this.#onChange = onChange;
+    this.#tiles = new FlatTiles(address.href);
+    this.#tiles.errorTarget = ERROR_PX;
+    const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
+    this.#tiles.manager.addHandler(/\.(gltf|glb)$/i, loader);
+    this.#tiles.group.rotation.x = -Math.PI / 2;
+    this.group.add(this.#tiles.group);
+    this.group.updateMatrixWorld(true);
+    this.#tiles.addEventListener("load-model", ({ scene, tile, url }) => {
+      this.#take(scene, tile, url);
+    });
+    this.#tiles.addEventListener("dispose-model", ({ scene }) => this.#drop(scene));
+    this.#tiles.addEventListener("load-error", ({ error, url }) => {
+      this.#fault ??= new Fault(String(url), error.message, "Write the place again, or copy it whole.");
+    });
+    for (const kind of ["tile-visibility-change", "needs-update", "load-tileset"] as const) {
+      this.#tiles.addEventListener(kind, onChange);
+    }
+  }
+
+  /** Fetches the tree, which says how large the place is. */
+  async open(onProgress: (share: number) => void): Promise<void> {
+    const box = new Box3();
+    const end = performance.now() + LOAD_PATIENCE_MS;
+    while (!this.#tiles.getBoundingBox(box)) {
+      this.#stopAtFault(end);
+      this.#tiles.update();
+      await pause();
+    }
+    this.bounds = { min: box.min.toArray(), max: box.max.toArray() };
+    onProgress(0.3);
+  }
+
+  /** Waits until what is seen now is there. */
+  async settle(camera: PerspectiveCamera): Promise<void> {
+    this.#tiles.setCamera(camera);
+    this.#tiles.setResolution(camera, 1280, 800);
+    const end = performance.now() + LOAD_PATIENCE_MS;
+    camera.updateMatrixWorld();
+    for (let calm = 0; calm < 3; ) {
+      this.#stopAtFault(end);
+      this.#tiles.update();
+      await pause();
+      calm = this.isLoading || this.#models.size === 0 ? 0 : calm + 1;
+    }
+  }
+
+  get isLoading(): boolean {
+    // The types leave it out.
+    const { stats } = this.#tiles as unknown as { stats: Partial<Record<string, number>> };
+    const { downloading, parsing, queued } = stats;
+    return (downloading ?? 0) + (parsing ?? 0) + (queued ?? 0) > 0;
+  }
+
+  /** Tiles that are drawn now. */
+  get tileCount(): number {
+    return this.#tiles.visibleTiles.size;
+  }
+
+  get faceCount(): number {
+    let faces = 0;
+    for (const { model } of this.#shown()) {
+      for (const { mesh } of model.meshes) {
+        const count = (mesh as { count?: number }).count ?? 1;
+        faces += ((mesh.geometry.getIndex()?.count ?? 0) / 3) * count;
+      }
+    }
+    return faces;
+  }
+
+  update(camera: PerspectiveCamera, renderer: WebGLRenderer): void {
+    camera.updateMatrixWorld();
+    this.#tiles.setResolutionFromRenderer(camera, renderer);
+    this.#tiles.update();
+  }
+
+  classOf(ref: FeatureRef): SemanticClass | null {
+    return this.#byPart[ref.part]?.table.classOf(ref.row) ?? null;
+  }
+
+  nameOf(ref: FeatureRef): string {
+    return this.#byPart[ref.part]?.table.buildingOf(ref.row) ?? "";
+  }
+
+  /** How many surfaces of each class are drawn. */
+  counts(): Map<SemanticClass, number> {
+    const all = new Map<SemanticClass, number>();
+    for (const { model } of this.#shown()) {
+      for (const [kind, count] of model.table.counts()) all.set(kind, (all.get(kind) ?? 0) + count);
+    }
+    return all;
+  }
+
+  /** The first visible surface on the ray; `direction` is a unit vector. */
+  firstHit(origin: Vec3, direction: Vec3, isVisible: (feature: FeatureRef) => boolean): Hit | null {
+    const from = new Vector3(...drawnFromWorld(origin));
+    const caster = new Raycaster(from, new Vector3(...drawnFromWorld(direction)));
+    for (const hit of caster.intersectObject(this.#tiles.group, true)) {
+      const known = this.#ownerOf(hit.object);
+      const row = known?.model.rowOf(hit) ?? null;
+      if (known === null || row === null) continue;
+      const feature = { part: known.part, row };
+      if (isVisible(feature)) {
+        return { feature, point: worldFromDrawn(hit.point.toArray()), distance_m: hit.distance };
+      }
+    }
+    return null;
+  }
+
+  pushOut(feet: Vec3, body: Body): Vec3 | null {
+    let push: Vec3 | null = null;
+    for (const solid of this.#near(feet, body)) {
+      const more = solid.pushOut(push === null ? feet : added(feet, push), body);
+      if (more !== null) push = push === null ? more : added(push, more);
+    }
+    return push;
+  }
+
+  /** Hides layers and colours surfaces as the state says. */
+  show(state: StudioState): void {
+    this.#state = state;
+    for (const { model } of this.#models.values()) dress(model, state);
+  }
+
+  /** The faces of a surface, world frame; null where its tile is gone. */
+  facesOf(ref: FeatureRef): Float32Array | null {
+    return this.#byPart[ref.part]?.soup(ref.row).positions ?? null;
+  }
+
+  dispose(): void {
+    this.#tiles.dispose();
+  }
+
+  #take(scene: Object3D, tile: Tile, url: string): void {
+    try {
+      const { metadata } = (tile as unknown as { engineData: { metadata: GLTF } }).engineData;
+      const model = new TileModel(scene, tableOf(metadata, url));
+      const part = this.#byPart.length;
+      this.#byPart.push(model);
+      this.tables.push(model.table);
+      this.#models.set(scene, { model, part, tile });
+      if (this.#state !== null) dress(model, this.#state);
+    } catch (error) {
+      if (!(error instanceof Fault)) throw error;
+      this.#fault ??= error;
+    }
+    this.#onChange();
+  }
+
+  #drop(scene: Object3D): void {
+    const known = this.#models.get(scene);
+    if (known !== undefined) this.#byPart[known.part] = undefined;
+    this.#models.delete(scene);
+    this.#solids.delete(scene);
+  }
+
+  *#shown(): Generator<{ model: TileModel; part: number }> {
+    const { visibleTiles } = this.#tiles;
+    for (const known of this.#models.values()) if (visibleTiles.has(known.tile)) yield known;
+  }
+
+  #ownerOf(object: Object3D): { model: TileModel; part: number } | null {
+    let at: Object3D | null = object;
+    while (at !== null) {
+      const known = this.#models.get(at);
+      if (known !== undefined) return known;
+      at = at.parent;
+    }
+    return null;
+  }
+
+  /** What stands around a body: of each tile there the plainest level that can be walked against. */
+  *#near(feet: Vec3, body: Body): Generator<Solid> {
+    const reach = new Box3(
+      new Vector3(feet[0] - body.radius_m, feet[1] - body.radius_m, feet[2]),
+      new Vector3(feet[0] + body.radius_m, feet[1] + body.radius_m, feet[2] + body.height_m),
+    );
+    for (const [scene, { model, tile }] of this.#models) {
+      if (tile.geometricError > WALKABLE_ERROR_M || this.#isCovered(tile)) continue;
+      const box = new Box3().setFromObject(scene);
+      const low = worldFromDrawn(box.min.toArray());
+      const high = worldFromDrawn(box.max.toArray());
+      const own = new Box3().setFromPoints([new Vector3(...low), new Vector3(...high)]);
+      if (!own.intersectsBox(reach)) continue;
+      yield this.#solidOf(scene, model);
+    }
+  }
+
+  /** Whether the tile above is loaded and can be walked against: it has fewer faces. */
+  #isCovered(tile: Tile): boolean {
+    const above = tile.parent;
+    if (above === null || above.geometricError > WALKABLE_ERROR_M) return false;
+    const { scene } = (above as unknown as { engineData: { scene: Object3D | null } }).engineData;
+    return scene !== null && this.#models.has(scene);
+  }
+
+  #solidOf(scene: Object3D, model: TileModel): Solid {
+    const known = this.#solids.get(scene);
+    if (known !== undefined) return known;
+    scene.updateMatrixWorld(true);
+    const solid = new Solid(model.soup(null));
+    this.#solids.set(scene, solid);
+    const [oldest] = this.#solids.keys();
+    if (this.#solids.size > MOST_SOLIDS && oldest !== undefined) this.#solids.delete(oldest);
+    return solid;
+  }
+
+  #stopAtFault(end_ms: number): void {
+    if (this.#fault !== null) throw this.#fault;
+    if (performance.now() > end_ms) {
+      throw new Fault("tileset.json", "its tiles do not arrive", "Check the connection, then try again.");
+    }
+  }
+}
+
+function tableOf(gltf: GLTF, url: string): TileTable {
+  const parser = gltf.parser as unknown as {
+    json: { bufferViews: { byteOffset?: number; byteLength: number }[]; extensions?: Record<string, unknown> };
+    extensions: Record<string, { body?: ArrayBuffer } | undefined>;
+  };
+  const body = parser.extensions.KHR_binary_glTF?.body ?? new ArrayBuffer(0);
+  const views = (view: number): Uint8Array => {
+    const { byteOffset = 0, byteLength } = parser.json.bufferViews[view] ?? { byteLength: 0 };
+    return new Uint8Array(body, byteOffset, byteLength);
+  };
+  return new TileTable(parser.json.extensions?.EXT_structural_metadata, views, url);
+}
+
+function dress(model: TileModel, state: StudioState): void {
+  for (const { mesh, kind, own } of model.meshes) {
+    mesh.visible = !state.hidden.has(kind);
+    const material = mesh.material as MeshStandardMaterial;
+    material.color.setHex(own);
+    if (state.colouring === "photo") continue;
+    const look = state.colouring === "class" ? CLASS_LOOKS[kind] : PROVENANCE_LOOKS.invented;
+    material.color.lerp(new Color().setStyle(look.colour, SRGBColorSpace), COLOURING_STRENGTH);
+  }
+}
+
+function added(a: Vec3, b: Vec3): Vec3 {
+  return [a[0] + b[0], a[1] + b[1], a[2] + b[2]];
+}
+
+async function pause(): Promise<void> {
+  await new Promise((resolve) => setTimeout(resolve, 30));
+}

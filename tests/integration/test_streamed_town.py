@@ -1,0 +1,72 @@
+"""A town that is streamed: derived, served by `veduta view`, exported, and walked in Chromium."""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from command_line import veduta
+from test_studio import CHROMIUM, viewed
+
+from veduta.formats.tiles import contents
+
+RULES = """
+attr LOD = 2
+attr height = 9
+Lot --> extrude(world.up, height) comp(f) { bottom : NIL | top : Roof | all : Front }
+Front --> set(material.name, "wall") split(y) { { ~3 : split(x) { { ~3 : Bay }* } }* }
+Bay -->
+    case LOD < 1 : Wall.
+    else : split(x) { ~1 : Wall. | 1 : Column | ~1 : Wall. }
+Column --> split(y) { ~1 : Wall. | 1.5 : Window | ~1 : Wall. }
+Window --> set(material.name, "window") color("#405060") Pane.
+Roof --> set(material.name, "roof") color("#803020") Tiles.
+"""
+
+
+@pytest.fixture(scope="module")
+def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("streamed")
+    rules, lots, out = folder / "a.cga", folder / "lots.geojson", folder / "out"
+    rules.write_text(RULES)
+    features = []
+    for number in range(80):
+        x, y = 100_000.0 + 12.0 * (number % 20), 200_000.0 + 25.0 * (number // 20)
+        ring = [[x, y], [x + 12, y], [x + 12, y + 10], [x, y + 10], [x, y]]
+        shape = {"type": "Polygon", "coordinates": [ring]}
+        features.append({"type": "Feature", "id": f"house {number}", "geometry": shape})
+    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    done = veduta("grammar", "derive", rules, "--lots", lots, "-o", out)
+    assert done.returncode == 0, done.stderr
+    return out
+
+
+def test_an_export_has_all_tiles(town: Path, tmp_path: Path) -> None:
+    web = tmp_path / "web"
+    assert veduta("export", town, "--web", web).returncode == 0
+    names = contents(web)
+    assert len([name for name in names if name.endswith(".glb")]) > 4
+    assert all((web / name).read_bytes() == (town / name).read_bytes() for name in names)
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not CHROMIUM.is_file(), reason=f"no Chromium at {CHROMIUM}")
+def test_it_is_walked_in_chromium(town: Path, repository: Path) -> None:
+    npm = shutil.which("npm")
+    assert npm is not None, "npm is missing"
+    with viewed(town) as (_, url):
+        done = subprocess.run(
+            [npm, "run", "--silent", "test:browser", "--", "town"],
+            cwd=repository / "studio",
+            env={**os.environ, "VEDUTA_TOWN_URL": url, "CHROMIUM": str(CHROMIUM)},
+            capture_output=True,
+            text=True,
+            timeout=400,
+            check=False,
+        )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 passed" in done.stdout, done.stdout

@@ -1,0 +1,88 @@
+"""CityJSON from the texts of geometry: what closes is a Solid, and vertices are shared."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from veduta import _core
+from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, header, write_joined
+
+BOX = """
+Lot --> extrude(world.up, 3) comp(f) { top : Roof | bottom : Floor | all : Wall }
+Wall --> set(material.name, "wall") W.
+Roof --> set(material.name, "roof") R.
+Floor --> set(material.name, "ground") F.
+"""
+OPEN = BOX.replace("bottom : Floor", "bottom : NIL")
+SHELF = """
+Lot --> extrude(world.up, 3) comp(f) { front : Front | all : NIL }
+Front --> [ set(material.name, "wall") W. ] t(0, 1, 0.001) s('1, 0.2, 0) Shelf
+Shelf --> set(material.name, "cornice") extrude(0.3)
+"""
+SQUARE = [[(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 5.0, 0.0), (0.0, 5.0, 0.0)]]
+
+
+def line(rules: str, name: str = "a", x: float = 0.0) -> dict[str, Any]:
+    derived = _core.derive_lots(
+        _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}]
+    )
+    assert derived.fault(0) is None
+    text = feature_line(name, {"street": 'Rue "A"'}, derived.city(0, (x, 0.0, 0.0), CLASSES, KINDS))
+    assert text is not None
+    feature: dict[str, Any] = json.loads(text)
+    return feature
+
+
+def test_a_closed_box_is_a_solid() -> None:
+    feature = line(BOX)
+    (geometry,) = feature["CityObjects"]["a"]["geometry"]
+    assert geometry["type"] == "Solid"
+    (shell,) = geometry["boundaries"]
+    assert len(shell) == 6
+    assert sorted(feature["vertices"]) == [
+        [x, y, z] for x in (0, 4000) for y in (0, 5000) for z in (0, 3000)
+    ]
+    (values,) = geometry["semantics"]["values"]
+    kinds = [geometry["semantics"]["surfaces"][value]["type"] for value in values]
+    assert sorted(kinds) == ["GroundSurface", "RoofSurface", *["WallSurface"] * 4]
+    points = np.array(feature["vertices"]) / 1000
+    volume = sum(
+        float(np.dot(points[face[0][0]], np.cross(points[face[0][k]], points[face[0][k + 1]]))) / 6
+        for face in shell
+        for k in range(1, len(face[0]) - 1)
+    )
+    assert volume == 60.0  # seen from outside
+
+
+def test_an_open_one_is_a_surface() -> None:
+    (geometry,) = line(OPEN)["CityObjects"]["a"]["geometry"]
+    assert (geometry["type"], len(geometry["boundaries"])) == ("MultiSurface", 5)
+
+
+def test_a_cornice_is_an_installation() -> None:
+    objects = line(SHELF)["CityObjects"]
+    assert objects["a"]["children"] == ["a/0"]
+    part = objects["a/0"]
+    assert (part["type"], part["parents"]) == ("BuildingInstallation", ["a"])
+    assert part["geometry"][0]["type"] == "Solid"
+    assert part["attributes"]["class"] == "cornice"
+
+
+def test_neighbours_share_vertices(tmp_path: Path) -> None:
+    piece = tmp_path / "piece.jsonl"
+    both = [line(BOX, "a"), line(BOX, "b", x=4.0)]
+    piece.write_text("".join(json.dumps(one) + "\n" for one in both))
+    write_joined(tmp_path / "city.json", header("t", "EPSG:28992", (1.0, 2.0, 3.0)), [piece])
+    city = json.loads((tmp_path / "city.json").read_text())
+    assert len(city["vertices"]) == 12  # of sixteen, four are shared
+    assert city["metadata"]["referenceSystem"].endswith("/EPSG/0/28992")
+    for name, feature in zip("ab", both, strict=True):
+        shell = feature["CityObjects"][name]["geometry"][0]["boundaries"][0]
+        joined = city["CityObjects"][name]["geometry"][0]["boundaries"][0]
+        for face, same in zip(shell, joined, strict=True):
+            told = [feature["vertices"][vertex] for vertex in face[0]]
+            assert told == [city["vertices"][vertex] for vertex in same[0]]
