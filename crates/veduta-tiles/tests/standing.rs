@@ -22,7 +22,7 @@ fn mesh() -> ([[f64; 3]; 4], [[u32; 3]; 4], [u32; 4]) {
 fn place(turn: DQuat, stretch: DVec3, by: DVec3) -> [f64; 12] {
     let axes = DMat3::from_quat(turn) * DMat3::from_diagonal(stretch);
     let row = |k: usize| [axes.x_axis[k], axes.y_axis[k], axes.z_axis[k], by[k]];
-    [row(0), row(1), row(2)].concat().try_into().unwrap()
+    std::array::from_fn(|k| row(k / 4)[k % 4])
 }
 
 fn standing(places: Vec<[f64; 12]>) -> Standing {
