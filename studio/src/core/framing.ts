@@ -1,5 +1,5 @@
 /** Where to stand to see a box whole. */
-import { add, dot, scale, subtract, type Vec3 } from "./vector.ts";
+import { add, dot, length, scale, subtract, type Vec3 } from "./vector.ts";
 
 export interface Box {
   readonly min: Vec3;
@@ -57,6 +57,18 @@ export function frameBox(
     distance = Math.max(distance, nearer + Math.max(x, y));
   }
   return { eye: subtract(target, scale(direction, distance)), target };
+}
+
+/**
+ * Where the camera looks to at first: into the facade, a little from the left and above; from higher
+ * above where the place goes far back for its height, as towns do, so that no row hides the next.
+ */
+export function homeDirection(box: Box): Vec3 {
+  const [x, y, height] = subtract(box.max, box.min);
+  const depths = Math.min(x, y) / Math.max(height, 1e-6);
+  const down = Math.min(0.75, 0.12 + 0.06 * Math.max(0, depths - 2));
+  const direction: Vec3 = [0.5, 0.86, -down];
+  return scale(direction, 1 / length(direction));
 }
 
 export function cornersOf(box: Box): Vec3[] {

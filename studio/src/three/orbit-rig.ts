@@ -2,13 +2,11 @@
 import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawnFromWorld } from "../core/frames.ts";
-import { type Box, frameBox, type Insets, shiftOf } from "../core/framing.ts";
-import { length, scale, subtract, type Vec3 } from "../core/vector.ts";
+import { type Box, frameBox, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
+import { length, subtract } from "../core/vector.ts";
 import type { Pose } from "./flight.ts";
 
 export const ORBIT_FOV_DEG = 28;
-/** Where the camera looks to at first: into the facade, a little from the left and above. */
-const HOME_DIRECTION: Vec3 = [0.5, 0.86, -0.12];
 const KEY_TURN_RAD_S = 1.1;
 
 export class OrbitRig {
@@ -39,7 +37,7 @@ export class OrbitRig {
 
   /** The pose that shows the whole place in the free part of the picture. */
   home(aspect: number, insets: Insets): { pose: Pose; target: Vector3 } {
-    const direction = scale(HOME_DIRECTION, 1 / length(HOME_DIRECTION));
+    const direction = homeDirection(this.#bounds);
     const fov_rad = MathUtils.degToRad(ORBIT_FOV_DEG);
     const view = frameBox(this.#bounds, direction, fov_rad, aspect, insets);
     const target = new Vector3(...drawnFromWorld(view.target));

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cornersOf, frameBox, NO_INSETS, shiftOf } from "../../src/core/framing.ts";
+import { cornersOf, frameBox, homeDirection, NO_INSETS, shiftOf } from "../../src/core/framing.ts";
 import { drawnFromModel, drawnFromWorld, worldFromDrawn, worldPoint } from "../../src/core/frames.ts";
 import { directionOf, headingOf, turned } from "../../src/core/heading.ts";
 import { photoWindow } from "../../src/core/photo-window.ts";
@@ -37,6 +37,18 @@ describe("framing", () => {
   const box = { min: [0, 0, 0] as Vec3, max: [12, 8, 15] as Vec3 };
   const direction = scale([0.5, 0.86, -0.12], 1 / length([0.5, 0.86, -0.12]));
   const insets = { left: 0.25, right: 0, top: 0.05, bottom: 0.15 };
+
+  it("looks at a house from near the level, and down on a town", () => {
+    const down = (size: Vec3): number => {
+      const direction = homeDirection({ min: [0, 0, 0], max: size });
+      expect(length(direction)).toBeCloseTo(1);
+      return Math.asin(-direction[2]) * (180 / Math.PI);
+    };
+    expect(down([14, 10, 20])).toBeCloseTo(6.88, 1); // atan(0.12 / hypot(0.5, 0.86))
+    expect(down([200, 12, 20])).toBeCloseTo(6.88, 1); // a row of houses
+    expect(down([400, 300, 20])).toBeCloseTo(37.0, 1); // atan(0.75 / hypot(0.5, 0.86))
+    expect(down([400, 300, 40])).toBeLessThan(down([400, 300, 30]));
+  });
 
   it.each([16 / 9, 1, 9 / 19])("has all corners in the free part and one near its edge, aspect %f", (aspect) => {
     for (const free of [NO_INSETS, insets]) {
