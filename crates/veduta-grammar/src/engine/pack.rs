@@ -6,6 +6,7 @@ use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DMat3, DVec3};
+use veduta_geometry::solid::{cube, Mesh};
 
 use super::state::Look;
 use super::tree::{Node, Tree};
@@ -53,11 +54,8 @@ pub fn from_place(point: [f64; 3]) -> DVec3 {
 /// Packs the leaves of a tree that have geometry.
 pub fn pack(tree: &Tree) -> Packed {
     let mut packer = Packer {
-        packed: Packed {
-            ring_offsets: vec![0],
-            polygon_offsets: vec![0],
-            ..Packed::default()
-        },
+        packed: room(tree),
+        cube: cube(),
         known: HashMap::new(),
     };
     for &leaf in &tree.leaves {
@@ -66,8 +64,46 @@ pub fn pack(tree: &Tree) -> Packed {
     packer.packed
 }
 
+/// Empty columns with room for all leaves but instances.
+fn room(tree: &Tree) -> Packed {
+    let (mut vertices, mut rings, mut polygons) = (0, 0, 0);
+    for leaf in tree.leaves() {
+        let counts = match &leaf.state.form.geometry {
+            Geometry::Rectangle(_) => (4, 1, 1),
+            Geometry::Box => (24, 6, 6),
+            Geometry::Faces { mesh, .. } => {
+                let of_faces = mesh.faces().map(|face| face.ring_count()).sum();
+                (mesh.corner_count(), of_faces, mesh.face_count())
+            }
+            Geometry::Nothing | Geometry::Instance(_) => (0, 0, 0),
+        };
+        vertices += counts.0;
+        rings += counts.1;
+        polygons += counts.2;
+    }
+    let offsets = |count: usize| {
+        let mut offsets = Vec::with_capacity(count + 1);
+        offsets.push(0);
+        offsets
+    };
+    let features = tree.leaves.len();
+    Packed {
+        positions: Vec::with_capacity(vertices),
+        uv: Vec::with_capacity(vertices),
+        ring_offsets: offsets(rings),
+        polygon_offsets: offsets(polygons),
+        polygon_feature: Vec::with_capacity(polygons),
+        feature_node: Vec::with_capacity(features),
+        feature_look: Vec::with_capacity(features),
+        feature_size: Vec::with_capacity(features),
+        ..Packed::default()
+    }
+}
+
 struct Packer {
     packed: Packed,
+    /// What a box in shares of its scope is: most leaves are one.
+    cube: Mesh,
     /// Looks by their address: children share that of their parent.
     known: HashMap<*const Look, u32>,
 }
@@ -89,7 +125,11 @@ impl Packer {
                 self.end_ring();
                 self.end_polygon(feature);
             }
-            Geometry::Box => self.faces(&form.geometry.mesh(), node, feature),
+            Geometry::Box => {
+                let cube = std::mem::take(&mut self.cube);
+                self.faces(&cube, node, feature);
+                self.cube = cube;
+            }
             Geometry::Instance(instance) => match placed(&form.scope, instance) {
                 Some(transform) => self.instance(instance, transform, feature),
                 None => self.faces(&instance.mesh(), node, feature),
@@ -102,7 +142,7 @@ impl Packer {
         self.packed.feature_size.push([size.x, size.y]);
     }
 
-    fn faces(&mut self, mesh: &veduta_geometry::solid::Mesh, node: &Node, feature: i32) {
+    fn faces(&mut self, mesh: &Mesh, node: &Node, feature: i32) {
         let scope = &node.state.form.scope;
         for face in mesh.faces() {
             for ring in face.rings() {

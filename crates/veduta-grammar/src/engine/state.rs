@@ -143,7 +143,13 @@ impl State {
     pub fn with_form(&self, form: Form) -> Self {
         Self {
             form,
-            ..self.clone()
+            look: self.look.clone(),
+            set: self.set.clone(),
+            extra: self.extra.clone(),
+            split: self.split,
+            comp: self.comp,
+            selector: self.selector.clone(),
+            seed: self.seed,
         }
     }
 }

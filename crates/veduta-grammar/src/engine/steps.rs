@@ -43,8 +43,8 @@ impl Run<'_> {
                     frame.consumed();
                 }
                 Step::Leaf { symbol } => {
-                    let name = self.code.symbol_text(*symbol);
-                    self.leave(&name, frame)?;
+                    let code = self.code;
+                    self.leave(&code.names[symbol.index()], frame)?;
                     frame.consumed();
                 }
                 Step::Push(inner) => self.run_pushed(inner, frame)?,
