@@ -107,7 +107,7 @@ def test_every_lot_derives_at_every_level(style: str) -> None:
 
 @pytest.mark.parametrize("style", style_names())
 def test_every_level_has_assets_as_fine_as_it_says(style: str) -> None:
-    """`LOD` reaches all parts: blocks alone below 2, nothing from near by below 3, and that at 3."""
+    """`LOD` reaches all parts: blocks alone below 2, what is seen from near by at 3 only."""
     used = {}
     for level in LEVELS:
         found = rules_of(style).derive(
