@@ -1,7 +1,7 @@
 //! `split` along texture coordinates.
 
 use glam::{DMat3, DVec3};
-use veduta_geometry::solid::cut;
+use veduta_geometry::solid::{cut, Mesh};
 
 use super::super::code::{Body, Operation};
 use super::super::fault::Fault;
@@ -52,7 +52,10 @@ pub fn split(
     dividing::check_cuts(op, &flat, found.len())?;
     let solid = whole.form.geometry.is_solid();
     let near = 1e-9 * (high - low).max_element();
-    let mut rest = flat;
+    // A hollow is cut as the solid that fills it, so that the cuts close.
+    let hollow = solid && flat.volume() < 0.0;
+    let turned = |mesh: Mesh| if hollow { mesh.reversed() } else { mesh };
+    let mut rest = turned(flat);
     let mut parts = Vec::with_capacity(found.len());
     for cell in found {
         let end = low.x + (cell.start + cell.length) / stretch;
@@ -64,7 +67,8 @@ pub fn split(
             std::mem::take(&mut rest)
         };
         if !piece.is_empty() {
-            parts.push((cell.part, piece.mapped(|flat| level.world(flat))));
+            let piece = turned(piece).mapped(|flat| level.world(flat));
+            parts.push((cell.part, piece));
         }
     }
     let total = parts.len();
