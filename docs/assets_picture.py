@@ -21,7 +21,7 @@ from veduta.place.material import Material
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 
-COLUMNS, CELL_M, FILL = 9, 2.0, 1.6
+COLUMNS, CELL_M, FILL = 10, 2.0, 1.6
 BOARD = (0.13, 0.105, 0.88, 0.615)
 """Where the board is in the picture: left, top, right, bottom, as shares of its sides."""
 

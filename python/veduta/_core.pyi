@@ -19,6 +19,21 @@ def triangulate_polygons(
     polygon_offsets: NDArray[np.int64],
     tolerance_m: float,
 ) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
+def dissolve_polygons(
+    positions_m: NDArray[np.float64],
+    uv: NDArray[np.float64],
+    ring_offsets: NDArray[np.int64],
+    polygon_offsets: NDArray[np.int64],
+    group: NDArray[np.uint32],
+    solid: NDArray[np.uint32],
+    near_m: float,
+) -> tuple[
+    NDArray[np.float64],
+    NDArray[np.float64],
+    NDArray[np.int64],
+    NDArray[np.int64],
+    NDArray[np.uint32],
+]: ...
 def sound_polygons(
     positions_m: NDArray[np.float64],
     ring_offsets: NDArray[np.int64],
@@ -140,6 +155,10 @@ class DerivedLot:
     feature_name: list[str]
     feature_class: list[str]
     feature_size_m: NDArray[np.float64]
+    feature_surface: list[str]
+    feature_within: list[str]
+    feature_solid: list[str]
+    feature_provenance: list[str]
     looks: list[tuple[float, float, float, float, str | None, str]]
     instance_feature: NDArray[np.int32]
     instance_look: NDArray[np.int32]

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from veduta.grammar.assets.library import Library
 from veduta.grammar.building import build_part
 from veduta.grammar.deriving import attributes_of
 from veduta.grammar.lots import Lot, read_lots
@@ -19,7 +20,9 @@ def rings_of(lot: Lot) -> list[list[tuple[float, float, float]]]:
 
 def faults(style: str, lots: tuple[Lot, ...], level: float) -> dict[str, str]:
     """What failed or lost surfaces, by the name of the lot."""
-    rules = compile_rules(read_rules(find_rules(style)))
+    path = find_rules(style)
+    rules, library = compile_rules(read_rules(path)), Library(path.parent)
+    library.add_written_to(rules)
     kinds = dict(rules.attributes)
     told = {}
     for lot in lots:
@@ -28,7 +31,7 @@ def faults(style: str, lots: tuple[Lot, ...], level: float) -> dict[str, str]:
         (derived,) = rules.derive([rings_of(lot)], [1], attributes=[given | {"LOD": level}])
         if isinstance(derived, str):
             told[lot.name] = derived
-        elif notes := build_part(derived, "lot").notes:
+        elif notes := build_part(derived, "lot", library.assets_of(derived)).notes:
             told[lot.name] = notes[0]
     return told
 

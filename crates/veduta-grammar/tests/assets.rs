@@ -11,7 +11,7 @@ use glam::DVec3;
 use support::{code, lot};
 use veduta_geometry::solid::{cube, Mesh};
 use veduta_grammar::engine::{
-    asset_names, derive, pack, surfaces, to_place, Fault, Options, Packed, State, Tree,
+    asset_names, derive, pack, surfaces, to_place, Code, Fault, Options, Packed, State, Tree,
 };
 use veduta_grammar::shape::{Asset, Form, Geometry, Scope};
 
@@ -112,7 +112,7 @@ fn an_asset_is_one_instance_until_its_faces_are_needed() {
 fn the_classes_of_instances_are_kept() {
     let tree = tree("Lot --> set(material.name, \"window\") s(2, 1, 0) i(\"box\")");
     let found = packed(&tree);
-    let surfaces = surfaces(&tree, &found);
+    let surfaces = surfaces(&tree, &found, &Code::default());
     assert_eq!(surfaces.class[0].as_ref(), "window");
     let feature = found.instance_feature[0] as usize;
     assert_eq!(surfaces.of_feature[feature], 0);

@@ -15,6 +15,7 @@ const PAGES: &[&str] = &[
     include_str!("../../../docs/operations/flow.md"),
     include_str!("../../../docs/operations/inlining.md"),
     include_str!("../../../docs/operations/manipulation.md"),
+    include_str!("../../../docs/operations/roofs.md"),
     include_str!("../../../docs/operations/subdivision.md"),
     include_str!("../../../docs/operations/textures.md"),
     include_str!("../../../docs/operations/transformations.md"),

@@ -106,7 +106,7 @@ fn what_one_rule_makes_of_one_class_is_one_surface() {
     let code = lower(&program, &check(&program)).code;
     let start = State::new(lot_form(&[square(0.0, 4.0, 0.0)]).unwrap(), 0);
     let tree = derive(&code, 0, start, &Options::default()).unwrap();
-    let found = surfaces(&tree, &pack(&tree));
+    let found = surfaces(&tree, &pack(&tree), &code);
     let names: Vec<&str> = found
         .node
         .iter()
@@ -117,4 +117,40 @@ fn what_one_rule_makes_of_one_class_is_one_surface() {
     assert_eq!(classes, ["window", "window", ""]);
     assert_eq!(found.of_feature, [0, 0, 1, 1, 2]);
     assert_eq!(found.size[0][0], 1.0);
+}
+
+#[test]
+fn surfaces_are_what_the_rules_name() {
+    let text = "attr surface = \"\"
+        attr solid = \"\"
+        attr provenance = \"invented\"
+        Lot --> set(surface, \"wall\") set(material.name, \"wall\") [ Balcony ] Cells
+        Cells --> split(x) { 1 : Wall. | 1 : Window | ~1 : Wall. }
+        Window --> set(surface, \"window\") set(provenance, \"measured\") Pane.
+        Balcony --> set(surface, \"balcony\") set(solid, \"balcony\") extrude(1)";
+    let program = Program::single(Source::new("test.cga", text));
+    let code = lower(&program, &check(&program)).code;
+    let start = State::new(lot_form(&[square(0.0, 4.0, 0.0)]).unwrap(), 0);
+    let tree = derive(&code, 0, start, &Options::default()).unwrap();
+    let found = surfaces(&tree, &pack(&tree), &code);
+    let texts =
+        |column: &[std::sync::Arc<str>]| column.iter().map(|t| t.to_string()).collect::<Vec<_>>();
+    assert_eq!(texts(&found.name), ["balcony", "wall", "window"]);
+    assert_eq!(texts(&found.within), ["wall", "", "wall"]);
+    assert_eq!(texts(&found.solid), ["balcony", "", ""]);
+    assert_eq!(texts(&found.provenance), ["", "", "measured"]);
+    // Both ends of the wall are one surface, of the size of what was cut.
+    assert_eq!(found.of_feature, [0, 1, 1, 2]);
+    assert_eq!(found.size[1], [4.0, 0.0]);
+    assert_eq!(found.size[2][0], 1.0);
+}
+
+#[test]
+fn names_of_surfaces_that_are_no_texts_say_nothing() {
+    let text = "attr surface = 0  Lot --> set(surface, 3) Wall.";
+    let program = Program::single(Source::new("test.cga", text));
+    let code = lower(&program, &check(&program)).code;
+    let start = State::new(lot_form(&[square(0.0, 4.0, 0.0)]).unwrap(), 0);
+    let tree = derive(&code, 0, start, &Options::default()).unwrap();
+    assert_eq!(&*surfaces(&tree, &pack(&tree), &code).name[0], "");
 }

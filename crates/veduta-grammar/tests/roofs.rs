@@ -199,6 +199,24 @@ fn faults_say_what_is_wrong() {
     assert!(fault(wall).contains("not level"));
 }
 
+#[test]
+fn half_hips_over_two_walls_in_one_line() {
+    // A slit parts the wall, so that its gables end at two heights; between the slopes above them
+    // there is an upright step.
+    let ring: &[(f64, f64)] = &[
+        (0.1, 0.1),
+        (0.1, -5.987746351021138),
+        (9.0, 0.0),
+        (-1.0, 1.7320508075688767),
+        (-5.0, -9.418926844302916),
+        (-0.1, -6.122302448796913),
+        (-0.1, 0.1),
+    ];
+    let found = derived("Lot --> roofHalfHip(1, 0.3, 1)", lot_of(&[ring])).unwrap();
+    let (mesh, _) = solid(&found);
+    assert!(mesh.is_closed());
+}
+
 proptest! {
     #![proptest_config(ProptestConfig::with_cases(64))]
 

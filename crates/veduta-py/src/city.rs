@@ -7,8 +7,8 @@ use std::fmt::Write as _;
 
 use veduta_geometry::{triangulate_sound, PolygonSet};
 
+use crate::derived_lot::Derived;
 use crate::flat::Flat;
-use crate::grammar::Derived;
 
 const STEPS_PER_M: f64 = 1000.0;
 const PLANE_TOLERANCE_M: f64 = 1e-3;

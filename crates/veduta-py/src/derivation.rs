@@ -11,9 +11,9 @@ use veduta_grammar::engine::{
     derive, lot_form, rederive, to_place, Edit, Limits, Node, Options, Overrides, State, Tree,
 };
 
+use crate::derived_lot::{derived_of, lot_to_python, rows};
 use crate::given::{values, Given, GivenBack};
-use crate::grammar::{derived_of, GrammarFault, GrammarRules, Rings};
-use crate::lot_columns::{lot_to_python, rows};
+use crate::grammar::{GrammarFault, GrammarRules, Rings};
 
 /// Path, name or None, whether to delete, alternatives or None for those to draw, and values.
 pub type GivenEdit = (
@@ -250,8 +250,8 @@ impl Derivation {
 
     /// The columns of all leaves.
     fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
-        let tree = &self.tree;
-        lot_to_python(py, py.detach(|| derived_of(tree)))
+        let (tree, code) = (&self.tree, &self.rules.get().code);
+        lot_to_python(py, py.detach(|| derived_of(tree, code)))
     }
 }
 

@@ -7,8 +7,9 @@ use pyo3::prelude::*;
 
 use crate::city::city;
 use crate::derivation::GivenEdit;
+use crate::derived_lot::Derived;
 use crate::given::Given;
-use crate::grammar::{limits_of, Derived, Failed, GrammarRules, Rings};
+use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
 use crate::standing::box_of;
 use crate::tiles::{tile, TileBuffers};
 

@@ -9,15 +9,15 @@ use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, pack, pieces, surfaces, Code, Expr, ExprKind,
-    Fault, Limits, Options, Packed, State, Surfaces, Tree, Value,
+    asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Limits, Options,
+    State, Value,
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
 use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset};
-use crate::derivation::{edit_faults, overrides_of, GivenEdit};
+use crate::derivation::{overrides_of, GivenEdit};
+use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot};
 use crate::given::{values, Given};
-use crate::lot_columns::{to_python, DerivedLot};
 use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
 
@@ -36,9 +36,6 @@ pub struct GrammarRules {
     assets: RwLock<Arc<Assets>>,
     styles: Vec<String>,
 }
-
-/// Polygons of a piece that may be repeated: a window has some dozens.
-const MOST_IN_PIECE: u32 = 96;
 
 #[pymethods]
 impl GrammarRules {
@@ -177,17 +174,6 @@ pub struct Failed {
     pub missing_asset: Option<String>,
 }
 
-pub struct Derived {
-    pub packed: Packed,
-    pub surfaces: Surfaces,
-    /// Leaves that rules may have made several times together, by packed feature.
-    pub pieces: Vec<u32>,
-    pub names: Vec<String>,
-    pub log_prior: f64,
-    pub messages: Vec<String>,
-    pub edit_faults: Vec<(Vec<u32>, String)>,
-}
-
 pub fn limits_of(seconds: f64, shapes: usize) -> Limits {
     Limits {
         seconds,
@@ -280,7 +266,7 @@ impl GrammarRules {
             why: self.told(&fault),
             missing_asset: fault.missing_asset.map(|name| name.to_string()),
         })?;
-        Ok(derived_of(&tree))
+        Ok(derived_of(&tree, &self.code))
     }
 
     /// A fault with its place in the file.
@@ -304,22 +290,6 @@ impl GrammarRules {
         self.assets
             .read()
             .map_or_else(|_| Arc::default(), |known| known.clone())
-    }
-}
-
-/// The columns of the leaves of a tree.
-pub fn derived_of(tree: &Tree) -> Derived {
-    let packed = pack(tree);
-    let surfaces = surfaces(tree, &packed);
-    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
-    Derived {
-        names: surfaces.node.iter().map(name).collect(),
-        pieces: pieces(tree, &packed, &surfaces, MOST_IN_PIECE),
-        packed,
-        surfaces,
-        log_prior: tree.log_prior,
-        messages: tree.messages.clone(),
-        edit_faults: edit_faults(tree),
     }
 }
 

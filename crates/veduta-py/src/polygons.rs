@@ -5,6 +5,7 @@ use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2}
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
+use veduta_geometry::solid::{dissolve, Corner, Sheet};
 use veduta_geometry::{triangulate, triangulate_sound, PolygonError, PolygonSet, Triangulation};
 
 create_exception!(_core, PolygonFault, PyValueError);
@@ -61,6 +62,80 @@ fn triangulate_polygons<'py>(
     ))
 }
 
+type Dissolved<'py> = (
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray2<f64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<i64>>,
+    Bound<'py, PyArray1<u32>>,
+);
+
+/// Polygons of one group that touch in one plane as one: positions, texture coordinates, offsets of
+/// rings and polygons, and the group of each. Polygons of one solid share their corners.
+#[pyfunction]
+#[allow(clippy::too_many_arguments)] // columns
+fn dissolve_polygons<'py>(
+    py: Python<'py>,
+    positions_m: PyReadonlyArray2<'py, f64>,
+    uv: PyReadonlyArray2<'py, f64>,
+    ring_offsets: PyReadonlyArray1<'py, i64>,
+    polygon_offsets: PyReadonlyArray1<'py, i64>,
+    group: PyReadonlyArray1<'py, u32>,
+    solid: PyReadonlyArray1<'py, u32>,
+    near_m: f64,
+) -> PyResult<Dissolved<'py>> {
+    let (view, uv) = (positions_m.as_array(), uv.as_array());
+    let (group, solid) = (group.as_array(), solid.as_array());
+    let wide = view.ncols() == 3 && uv.ncols() == 2 && uv.nrows() == view.nrows();
+    let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
+    if !wide || group.len() + 1 != polygons.len() || solid.len() != group.len() {
+        return Err(PyValueError::new_err("the columns do not fit each other"));
+    }
+    let points: Vec<[f64; 3]> = view
+        .rows()
+        .into_iter()
+        .map(|p| [p[0], p[1], p[2]])
+        .collect();
+    let rings: Vec<i64> = ring_offsets.as_array().to_vec();
+    let set = PolygonSet::new(&points, &rings, &polygons).map_err(|error| to_python(&error))?;
+    let corner = |vertex: usize| Corner {
+        place: points[vertex].into(),
+        uv: [uv[[vertex, 0]], uv[[vertex, 1]]],
+    };
+    let sheets: Vec<Sheet> = (0..set.len())
+        .map(|polygon| Sheet {
+            rings: set
+                .rings(polygon)
+                .map(|ring| ring.map(corner).collect())
+                .collect(),
+            group: group[polygon],
+            solid: solid[polygon],
+        })
+        .collect();
+    let found = py.detach(|| dissolve(&sheets, near_m));
+    let (mut places, mut coordinates) = (Vec::new(), Vec::new());
+    let (mut ring_ends, mut polygon_ends) = (vec![0], vec![0]);
+    for ring in found.iter().flat_map(|sheet| &sheet.rings) {
+        places.extend(ring.iter().map(|corner| corner.place.to_array()));
+        coordinates.extend(ring.iter().map(|corner| corner.uv));
+        ring_ends.push(places.len() as i64);
+    }
+    let mut count = 0;
+    for sheet in &found {
+        count += sheet.rings.len() as i64;
+        polygon_ends.push(count);
+    }
+    let uv = Array2::from_shape_fn((coordinates.len(), 2), |(row, c)| coordinates[row][c]);
+    let groups: Vec<u32> = found.iter().map(|sheet| sheet.group).collect();
+    Ok((
+        rows(&places).into_pyarray(py),
+        uv.into_pyarray(py),
+        ring_ends.into_pyarray(py),
+        polygon_ends.into_pyarray(py),
+        groups.into_pyarray(py),
+    ))
+}
+
 /// Which of columnar polygons `triangulate_polygons` takes.
 #[pyfunction]
 fn sound_polygons<'py>(
@@ -106,6 +181,7 @@ pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("NoAreaError", py.get_type::<NoAreaError>())?;
     m.add("NotPlanarError", py.get_type::<NotPlanarError>())?;
     m.add("SelfCrossingError", py.get_type::<SelfCrossingError>())?;
+    m.add_function(wrap_pyfunction!(dissolve_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(triangulate_polygons, m)?)?;
     m.add_function(wrap_pyfunction!(sound_polygons, m)?)
 }

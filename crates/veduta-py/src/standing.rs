@@ -8,7 +8,7 @@ use veduta_grammar::engine::{Look, Packed};
 use veduta_grammar::shape::Asset;
 use veduta_tiles::Standing;
 
-use crate::grammar::Derived;
+use crate::derived_lot::Derived;
 
 /// Faces of swept curves are a little warped (m).
 pub const WARP_M: f64 = 5e-3;

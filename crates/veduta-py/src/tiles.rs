@@ -5,7 +5,7 @@ use std::collections::HashMap;
 use pyo3::prelude::*;
 use veduta_tiles::{batch, Batch, Building};
 
-use crate::grammar::Derived;
+use crate::derived_lot::Derived;
 use crate::standing::Stands;
 
 /// A surface without a size that 16 bits hold in millimetres.

@@ -38,14 +38,11 @@ def _run(call: FacadeCall) -> int:
 
 
 def _tell_failures(result: CallResult) -> None:
-    from veduta.cli.main import save_traceback
+    from veduta.cli.main import tell_bugs
 
     for failure in result.failed.values():
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
-    if result.tracebacks:
-        told = [f"{name}:\n{text}" for name, text in result.tracebacks.items()]
-        path = save_traceback("\n".join(told))
-        print(f"Please report it with {path}", file=sys.stderr)
+    tell_bugs(result.tracebacks)
 
 
 def _tell_results(result: CallResult) -> None:

@@ -138,16 +138,14 @@ def _derive(arguments: list[str]) -> int:
 
 
 def _tell_failures(result: DeriveResult) -> None:
-    from veduta.cli.main import save_traceback
+    from veduta.cli.main import tell_bugs
 
     for failure in result.failures[:MAX_FAILURES]:
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
     more = len(result.failures) - MAX_FAILURES
     if more > 0:
         print(f"error: {more} more: {result.out / 'report.html'}", file=sys.stderr)
-    if result.tracebacks:
-        told = [f"{name}:\n{text}" for name, text in result.tracebacks.items()]
-        print(f"Please report it with {save_traceback(chr(10).join(told))}", file=sys.stderr)
+    tell_bugs(result.tracebacks)
 
 
 def _tell_result(result: DeriveResult) -> None:

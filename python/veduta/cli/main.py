@@ -12,7 +12,7 @@ import signal
 import sys
 import tempfile
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from types import FrameType
 from typing import NoReturn
 
@@ -74,6 +74,13 @@ def save_traceback(text: str) -> str:
     ) as file:
         file.write(f"veduta {veduta.__version__}, Python {sys.version}\n\n{text}")
     return file.name
+
+
+def tell_bugs(tracebacks: Mapping[str, str]) -> None:
+    """Save the tracebacks of what failed, by name, in one file, and ask for a report with it."""
+    if tracebacks:
+        told = "\n".join(f"{name}:\n{text}" for name, text in tracebacks.items())
+        _say(f"Please report it with {save_traceback(told)}")
 
 
 def _help() -> str:

@@ -10,6 +10,7 @@ from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
 from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
+from veduta.facade.ground_windows import find_ground_windows, with_windows
 from veduta.facade.openings import find_openings, only_seen, read_columns
 from veduta.facade.options import FacadeOptions
 from veduta.facade.plausible import require_facade
@@ -58,9 +59,11 @@ def analyse(
     with timed_step(steps, "openings") as step:
         progress("openings", 0.8)
         boxes = find_roof_windows(evidence, skyline, floors, columns)
-        boxes += doubt_railings(find_openings(evidence, floors, columns, scores), cues, floors)
+        openings = find_openings(evidence, floors, columns, scores, cues)
+        boxes += doubt_railings(openings, cues, floors)
         require_facade(lines, floors, wall, boxes)
-        boxes += read_ground(evidence, floors, wall)
+        under = find_ground_windows(evidence, floors, columns)
+        boxes += with_windows(read_ground(evidence, floors, wall), under, floors.mean_storey)
         boxes = only_seen(boxes, evidence, skyline)
         for kind in ("window", "balcony", "door", "shop"):
             step.counts[kind] = sum(b.kind == kind for b in boxes)

@@ -21,6 +21,8 @@ from veduta.facade.evidence import Evidence, Float, blur
 # upright edges around; then the level at which a pixel is as likely wall.
 _WINDOW = ((0.33, -0.33, 1.5, 0.3, 0.4), 0.95)
 _RAILING = ((1.0, 0.5, 0.25, 0.0, 0.0), 0.35)
+# Weight of level edges where stripes are looked for.
+_LEVEL = 0.3
 LIMIT = 1.5
 _SPREAD_X = 0.02
 _SPREAD_Y = 0.028
@@ -43,11 +45,15 @@ class Wall:
 
 @dataclass(frozen=True)
 class Scores:
-    """Log-odds against wall, clipped, (n, w) each; rows from the eaves to the ground floor."""
+    """Log-odds against wall, clipped, (n, w) each; rows from the eaves to the ground floor.
+
+    `level` is what level edges around a pixel add to `window` where stripes are looked for: heads,
+    sills and lintels are in the stripes of windows, but ledges run through all of them.
+    """
 
     window: Float
     railing: Float
-    texture_x: Float
+    level: Float
 
 
 def wall_colour(evidence: Evidence, top: int, bottom: int, storey: float) -> Wall:
@@ -86,6 +92,8 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
         textures.append(_relative(blur(detail, *spread), seen))
     upright = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
     upright = _relative(blur(upright, storey * _AROUND_X, storey * _AROUND_Y), seen)
+    level = np.minimum(np.abs(evidence.gy[top:bottom]), 20)
+    level = _LEVEL * _relative(blur(level, storey * _AROUND_X, storey * _AROUND_Y), seen)
     unlike = _relative(blur(wall.unlike, *spread), seen)
     bluer = blur(wall.colour[:, :, 2] - evidence.lab[top:bottom, :, 2], *spread) / _BLUER
     cues = np.dstack([*textures, unlike, np.clip(bluer, -LIMIT, LIMIT), upright])
@@ -94,7 +102,7 @@ def class_scores(evidence: Evidence, wall: Wall, top: int, bottom: int, storey: 
         cues, np.array([[*weights, -level] for weights, level in (_WINDOW, _RAILING)])
     )
     window, railing = np.moveaxis(np.clip(weighed, -LIMIT, LIMIT).astype(np.float32), -1, 0)
-    return where_seen(Scores(window, railing, cues[:, :, 0]), evidence, top)
+    return where_seen(Scores(window, railing, level), evidence, top)
 
 
 def where_seen(scores: Scores, evidence: Evidence, top: int) -> Scores:
@@ -102,7 +110,7 @@ def where_seen(scores: Scores, evidence: Evidence, top: int) -> Scores:
     seen = evidence.valid[top : top + len(scores.window)]
     if seen.all():
         return scores
-    return Scores(scores.window * seen, scores.railing * seen, scores.texture_x)
+    return Scores(scores.window * seen, scores.railing * seen, scores.level * seen)
 
 
 def _relative(values: Float, seen: NDArray[np.bool_]) -> Float:

@@ -76,7 +76,7 @@ def without_railings(scores: Scores, floors: Floors, bare: frozenset[int]) -> Sc
         first = len(floors.boundaries) - 1 - number
         top, bottom = (row - floors.eaves for row in floors.boundaries[first : first + 2])
         railing[top:bottom] = -LIMIT
-    return Scores(scores.window, railing, scores.texture_x)
+    return Scores(scores.window, railing, scores.level)
 
 
 def _stands_out(gain: float, lines: float) -> bool:

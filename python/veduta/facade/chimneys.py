@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 
 from veduta.facade.adjusted import left_out
+from veduta.facade.cells import snapped
+from veduta.facade.document import Element
 from veduta.facade.layout import SMALLEST_M, Opening
-from veduta.facade.paint import Finish, Paint, photo_rect
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.roof import Mansard
-from veduta.facade.solids import Box, add_box
-from veduta.place.builder import PartBuilder
-from veduta.place.semantics import Provenance, SemanticClass
 
 # Depth of a chimney, and how far behind the front's break or wall it stands (m).
 DEPTH_M, BEHIND_M = 0.8, 0.6
@@ -19,14 +18,23 @@ DEPTH_M, BEHIND_M = 0.8, 0.6
 FOOT_M = 0.3
 
 
-def add_chimneys(
-    builder: PartBuilder,
+@dataclass(frozen=True)
+class Chimney:
+    """Its front over the roof, and from where to where it stands behind the facade's plane (m)."""
+
+    front: Rectangle
+    near_m: float
+    far_m: float
+    element: Element
+
+
+def plan_chimneys(
     chimneys: Sequence[Opening],
     footprint_m: tuple[float, float, float],
     mansard: Mansard | None,
-    paint: Paint,
-) -> None:
-    """Add each as a closed solid.
+    notes: list[str],
+) -> tuple[Chimney, ...]:
+    """Where each stands; the notes name those that do not rise over the roof.
 
     footprint_m: width, depth and height of the building up to the eaves.
     """
@@ -35,28 +43,13 @@ def add_chimneys(
     foot = eaves if mansard is None else mansard.break_m
     near = min(inset + BEHIND_M, 0.4 * depth)
     far = min(near + DEPTH_M, 0.6 * depth)
-    for number, chimney in enumerate(chimneys):
+    found = []
+    for chimney in chimneys:
         allowed = Rectangle(inset, foot, width - inset, 2.0 * chimney.rectangle.z1 + foot)
         place = chimney.rectangle.common(allowed)
         if place.width < SMALLEST_M or place.height < SMALLEST_M:
             reason = "it does not rise over the roof"
-            builder.notes.append(left_out(chimney.element, chimney.number, reason))
+            notes.append(left_out(chimney.element, chimney.number, reason))
             continue
-        shell = builder.new_shell()
-        front = builder.feature(
-            SemanticClass.CHIMNEY,
-            Provenance.INFERRED,
-            f"chimney {number + 1}",
-            shell=shell,
-            size_m=(place.width, place.height),
-            photo_px=photo_rect(chimney.element),
-        )
-        rest = builder.feature(
-            SemanticClass.CHIMNEY,
-            Provenance.INVENTED,
-            f"sides and back of chimney {number + 1}",
-            parent=front,
-            shell=shell,
-        )
-        box = Box(place.x0, place.x1, near, far, foot - FOOT_M, place.z1)
-        add_box(builder, box, paint.seen(front), Finish(rest, paint.chimney))
+        found.append(Chimney(snapped(place), near, far, chimney.element))
+    return tuple(found)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.facade.appearance import Scores
 from veduta.facade.dissimilarity import of_pairs
-from veduta.facade.evidence import Evidence, blur_line, two_class_threshold
+from veduta.facade.evidence import Evidence, Float, blur_line, two_class_threshold
 
 # In storeys (3 m): stripes of 0.55 to 2.4 m, gaps of 0.25 to 7.5 m.
 _WIDTH = (0.18, 0.8)
@@ -38,11 +38,12 @@ def split_columns(
     evidence: Evidence, top: int, bottom: int, storey: float, scores: Scores
 ) -> Columns:
     """Solve the chain of stripes on the evidence of all rows from `top` to `bottom`."""
-    profile, jambs = _profiles(evidence, top, bottom, scores)
+    window = scores.window + scores.level
+    profile, jambs = _profiles(evidence, top, bottom, window)
     step = max(1, round(storey / _STEPS))
     narrow, wide = (max(1, round(w * storey / step)) for w in _WIDTH)
     widths = [step * i for i in range(narrow, wide + 1)]
-    distance = _distance(scores)
+    distance = _distance(window)
     energy, stripes = _core.column_chain(
         distance,
         profile,
@@ -91,20 +92,20 @@ def _terms(
     return {name: total / len(profile) for name, total in sums.items()}
 
 
-def _distance(scores: Scores) -> NDArray[np.float32]:
+def _distance(window: Float) -> NDArray[np.float32]:
     """Mean squared difference of any two pixel columns (w, w), 1 for two at random."""
-    distance = of_pairs(scores.window.T)
+    distance = of_pairs(window.T)
     return np.asarray(distance / max(float(distance.mean()), 1e-6), np.float32)
 
 
 def _profiles(
-    evidence: Evidence, top: int, bottom: int, scores: Scores
+    evidence: Evidence, top: int, bottom: int, scores: Float
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """Window evidence per pixel column (w,) and jamb evidence per column boundary (w + 1,)."""
     edges = np.minimum(np.abs(evidence.gx[top:bottom]), 20)
-    rows = np.maximum(scores.window.std(1), 1e-3)
+    rows = np.maximum(scores.std(1), 1e-3)
     rows /= rows.sum()
-    window = rows @ scores.window
+    window = rows @ scores
     window = window - two_class_threshold(window)
     window /= float(window.std()) + 1e-6
     edge = blur_line(rows @ edges, 0.8)

@@ -10,15 +10,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from veduta.facade.adjusted import clipped, left_out
-from veduta.facade.front import opening_panel
+from veduta.facade.cells import snapped
 from veduta.facade.layout import SMALLEST_M, Opening
-from veduta.facade.paint import Finish, Paint
-from veduta.facade.recess import add_panel
 from veduta.facade.rectangles import Rectangle, carve
 from veduta.facade.roof import Mansard
-from veduta.facade.solids import Box, Point, add_box
-from veduta.place.builder import PartBuilder
-from veduta.place.semantics import Provenance, SemanticClass
 
 # The frame of a dormer around its window (m): left and right, below, above.
 CHEEK_M, SILL_M, LINTEL_M = 0.14, 0.10, 0.16
@@ -56,7 +51,7 @@ def plan_dormers(
             want.x0 - CHEEK_M, want.z0 - SILL_M, want.x1 + CHEEK_M, want.z1 + LINTEL_M
         )
         inside = around.common(_allowed(mansard, around.z1))
-        front = carve(inside, [other.front for other in found], GAP_M)
+        front = snapped(carve(inside, [other.front for other in found], GAP_M))
         inner = Rectangle(
             front.x0 + CHEEK_M, front.z0 + SILL_M, front.x1 - CHEEK_M, front.z1 - LINTEL_M
         )
@@ -73,74 +68,3 @@ def _allowed(mansard: Mansard, top_m: float) -> Rectangle:
     """Where a dormer of this height may stand: the slope narrows towards its upper edge."""
     aside = mansard.front_y_m(min(max(top_m, mansard.eaves_m), mansard.break_m))
     return Rectangle(aside, mansard.eaves_m, mansard.width_m - aside, mansard.break_m).grown(-GAP_M)
-
-
-def slope_hole(dormer: Dormer, mansard: Mansard) -> list[Point]:
-    """The hole that a dormer needs in the front slope, clockwise seen from outside."""
-    return [(x, mansard.front_y_m(z), z) for x, z in reversed(dormer.front.corners())]
-
-
-def add_dormers(
-    builder: PartBuilder,
-    dormers: Sequence[Dormer],
-    mansard: Mansard,
-    setback_m: float,
-    paint: Paint,
-    roof: int,
-) -> None:
-    """Add fronts, cheeks, lids and windows; `roof` is the feature of the slope."""
-    for number, dormer in enumerate(dormers, start=1):
-        size = (dormer.front.width, dormer.front.height)
-        wall = builder.feature(
-            SemanticClass.WALL,
-            Provenance.INFERRED,
-            f"dormer {number}",
-            parent=roof,
-            size_m=size,
-        )
-        window = opening_panel(builder, dormer.window, setback_m, paint, wall)
-        low_y = mansard.front_y_m(dormer.front.z0)
-        add_panel(builder, dormer.front.corners(), low_y, paint.surface(wall), [window])
-        _add_cheeks(builder, dormer.front, mansard, Finish(wall, paint.roof))
-        lid = builder.feature(
-            SemanticClass.CORNICE,
-            Provenance.INVENTED,
-            f"lid of dormer {number}",
-            parent=roof,
-            shell=builder.new_shell(),
-            size_m=(dormer.front.width + 2 * LID_SIDE_M, LID_M),
-        )
-        _add_lid(builder, dormer.front, mansard, Finish(lid, paint.roof))
-
-
-def _add_cheeks(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish) -> None:
-    """Two triangles and the flat top between them."""
-    low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1)
-    right: list[Point] = [
-        (front.x1, low_y, front.z0),
-        (front.x1, high_y, front.z1),
-        (front.x1, low_y, front.z1),
-    ]
-    left: list[Point] = [(front.x0, y, z) for _, y, z in reversed(right)]
-    top: list[Point] = [
-        (front.x0, low_y, front.z1),
-        (front.x1, low_y, front.z1),
-        (front.x1, high_y, front.z1),
-        (front.x0, high_y, front.z1),
-    ]
-    for ring in (right, left, top):
-        builder.polygon([ring], finish.feature, finish.material)
-
-
-def _add_lid(builder: PartBuilder, front: Rectangle, mansard: Mansard, finish: Finish) -> None:
-    """A thin slab that juts out over the window; a solid of its own."""
-    low_y, high_y = mansard.front_y_m(front.z0), mansard.front_y_m(front.z1 + LID_M)
-    box = Box(
-        front.x0 - LID_SIDE_M,
-        front.x1 + LID_SIDE_M,
-        low_y - LID_OUT_M,
-        high_y,
-        front.z1,
-        front.z1 + LID_M,
-    )
-    add_box(builder, box, finish, finish)

@@ -17,6 +17,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,14 +31,19 @@ from veduta.run.errors import NotFoundError
 # Heights in tenths of a metre for a mean storey of 3.0 m (section 3.2).
 _HEIGHTS_DM = range(24, 43)
 _MEAN_STOREY_DM = 30
-MAX_FLOORS = 12
+MAX_FLOORS = 18
+# Floors, and the part of the picture of one storey, up to which bays need not confirm them; bays in
+# storeys that do, and the energy per row that so many floors have at most.
+_USUAL_FLOORS, _USUAL_STOREY = 12, 1 / 14
+_CONFIRMS = (0.65, 1.3)
+_ALIKE = -0.3
 # Grid rows below which a storey shows nothing to compare.
 _LEAST_STOREY = 4
 # Shares of the picture that one storey may take: at most, and where the bays say that it is so.
-_MOST, _MOST_BY_BAYS = 1 / 3.2, 1 / 1.9
-# Storeys up to which bays are wide (in 135 facades from straight in front: 0.4 to 1.4), and how
-# much of the energy counts at twice that, and at the least.
-_WIDE_BAY = 1.5
+_LEAST, _MOST, _MOST_BY_BAYS = 1 / 22, 1 / 3.2, 1 / 1.9
+# Storeys up to which bays are wide (in 82 facades from straight in front, 96 % are 0.27 to 1.2
+# wide), and how much of the energy counts at twice that, and at the least.
+_WIDE_BAY = 1.2
 _NARROW_BAY = 0.3
 _AT_TWICE, _AT_LEAST = 0.3, 0.1
 # Weights of equation 5 (alpha, beta), equation 7, and of the histograms' parting (equation 9).
@@ -46,9 +52,12 @@ _NEUTRAL = 0.85
 _HEIGHT_CHANGE = 1.2
 _BOUNDARY = 0.15
 _MEAN_OFF = 0.1
-# Share of the best energy at which floors of twice the height win, and the least count for that.
+# Share of the best energy at which floors of twice the height win, and the least count for that;
+# and that at which floors of half the height win, where bays are narrower than this many storeys.
 _HALVED = 0.9
 _MANY = 6
+_DOUBLED = 0.85
+_SLIM_BAY = 0.56
 _REACH = 0.8
 _EAVES = 0.07
 _GROUND_TOP = 0.02
@@ -60,6 +69,19 @@ _GROUND = (0.85, 1.9)
 Costs = NDArray[np.float64]
 # Heights, neutral dissimilarity, and the costs of eaves, boundaries and the ground floor's top.
 Scale = tuple[list[int], float, Costs, Costs, Costs]
+
+
+class _Candidate(NamedTuple):
+    """The best chain of so many floors at a storey height (grid rows), by its energy."""
+
+    energy: float
+    scale: int
+    floors: int
+    storey: int
+
+    def is_slim(self, bay: int | None) -> bool:
+        """Whether bays are narrower than storeys of this height have them."""
+        return bay is not None and bay < _SLIM_BAY * self.storey
 
 
 @dataclass(frozen=True)
@@ -100,11 +122,12 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
     scales = [_scale(s, rows, unlike) for s in storeys]
     solved = _core.floor_chain(rows.distance, scales, _SIMILARITY, _HEIGHT_CHANGE, MAX_FLOORS)
     candidates = [
-        (found[0] * _trust(storeys[index], rows.bay), index, count)
+        _Candidate(found[0] * _trust(storeys[index], rows.bay), index, count, storeys[index])
         for index, counts in enumerate(solved)
         for count, found in enumerate(counts, start=1)
         if found is not None
         and _is_mean(storeys[index], found[1])
+        and _is_usual(storeys[index], count, found[0], rows)
         and (height_m is None or _fits_height(found[1], rows.count, height_m))
     ]
     if not candidates:
@@ -115,7 +138,7 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
             "Give a photo in which the whole facade is seen, or its --corners, "
             "and check --height-m where it is given.",
         )
-    _, index, count = _not_halved(candidates)
+    _, index, count, _ = _not_doubled(_not_halved(candidates, rows.bay), candidates, rows.bay)
     energy, boundaries = solved[index][count - 1] or (0.0, [])
     return Floors(
         [b * rows.step for b in boundaries],
@@ -128,7 +151,8 @@ def split_floors(rows: Rows, height_m: float | None = None) -> Floors:
 
 def _storeys(rows: Rows) -> list[int]:
     """The storey heights to try, in grid rows."""
-    least, most = max(_LEAST_STOREY, rows.count // 14), round(rows.count * _MOST)
+    least, most = (round(rows.count * part) for part in (_LEAST, _MOST))
+    least = max(_LEAST_STOREY, least)
     tall = range(max(least, most), round(rows.count * _MOST_BY_BAYS))
     by_bays = [s for s in tall if rows.bay is not None and rows.bay >= _NARROW_BAY * s]
     return [*range(least, most), *by_bays]
@@ -170,21 +194,46 @@ def _terms(boundaries: list[int], rows: Rows, scale: Scale) -> dict[str, float]:
     return {name: total / rows.count for name, total in sums.items()}
 
 
-def _not_halved(candidates: list[tuple[float, int, int]]) -> tuple[float, int, int]:
+def _is_usual(storey: int, count: int, energy: float, rows: Rows) -> bool:
+    """Whether floors are as many as most facades have, or as bays and their likeness confirm."""
+    if count <= _USUAL_FLOORS and storey >= int(rows.count * _USUAL_STOREY):
+        return True
+    least, most = _CONFIRMS
+    confirmed = rows.bay is not None and least * storey <= rows.bay <= most * storey
+    return confirmed and energy <= _ALIKE * rows.count
+
+
+def _not_halved(candidates: list[_Candidate], bay: int | None) -> _Candidate:
     """The least energy; but where floors of about twice the height do nearly as well, those.
 
     Windows and spandrels that look alike repeat at half a storey as well as at a whole one. Few
-    floors are taken as they are: there is too little of them to compare.
+    floors are taken as they are: there is too little of them to compare. Bays that are too narrow
+    for the taller floors speak against them.
     """
-    several = [c for c in candidates if c[2] > 1]
+    several = [c for c in candidates if c.floors > 1]
     best = min(candidates)
     # One floor has nothing to be like; it wins only where several are clearly worse.
-    if best[2] == 1 and several and min(several)[0] <= _HALVED * best[0]:
+    if best.floors == 1 and several and min(several).energy <= _HALVED * best.energy:
         best = min(several)
-    taller = [c for c in candidates if 0.4 * best[2] <= c[2] <= 0.6 * best[2]]
-    if best[2] >= _MANY and taller and min(taller)[0] <= _HALVED * best[0]:
+    taller = [c for c in candidates if 0.4 <= c.floors / best.floors <= 0.6 and not c.is_slim(bay)]
+    if best.floors >= _MANY and taller and min(taller).energy <= _HALVED * best.energy:
         return min(taller)
     return best
+
+
+def _not_doubled(best: _Candidate, candidates: list[_Candidate], bay: int | None) -> _Candidate:
+    """The best; but where bays are too narrow for it and confirm half its height, that.
+
+    Two storeys repeat where one does, and floors that come in pairs are more alike so.
+    """
+    if bay is None or not best.is_slim(bay):
+        return best
+    lower = [
+        c
+        for c in candidates
+        if 1.7 <= c.floors / best.floors <= 2.6 and bay >= _CONFIRMS[0] * c.storey
+    ]
+    return min(lower) if lower and min(lower).energy <= _DOUBLED * best.energy else best
 
 
 def _is_mean(storey: int, boundaries: list[int]) -> bool:

@@ -1,36 +1,50 @@
-"""The building of one facade document: walls with openings, a mansard, plain sides and back."""
+"""The building of one facade document: planned, written as rules, and derived from these.
+
+The rules are what `veduta grammar derive` takes, too; here what the photo shows of each surface is
+added to what they derive to.
+"""
 
 from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.balconies import add_balconies
-from veduta.facade.body import add_flat_roof, add_mansard, add_plain_walls
-from veduta.facade.chimneys import add_chimneys
-from veduta.facade.document import FacadeDocument
-from veduta.facade.dormers import plan_dormers, reach_m
-from veduta.facade.front import add_front
-from veduta.facade.layout import Layout, lay_out
-from veduta.facade.paint import make_paint
-from veduta.facade.roof import Mansard, plan_mansard
+from veduta import _core
+from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.plan import Plan, plan_building
+from veduta.facade.rule_file import Known, write_rules
+from veduta.facade.rule_head import PHOTO_TEXTURE, RULES, WALL_TEXTURE
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
-from veduta.facade.textures import make_atlas
-from veduta.place.builder import PartBuilder
-from veduta.place.part import Part
+from veduta.facade.textures import make_textures
+from veduta.grammar.building import build_part as part_of
+from veduta.place.material import Texture
+from veduta.place.part import Features, Part
 from veduta.place.semantics import Provenance
 from veduta.run.errors import InputError
 
-# Recesses may take this share of the building's depth.
-DEEPEST_SHARE = 0.4
+Rect = tuple[float, float, float, float]
+FRONT = "front wall"
+_NO_RECT: Rect = (np.nan, np.nan, np.nan, np.nan)
 
 
-def build_part(
-    document: FacadeDocument,
-    rectified: NDArray[np.uint8],
-    part_id: str,
-) -> Part:
-    """Build the part of one document.
+@dataclass(frozen=True)
+class Model:
+    """A building as rules, the textures that these name, and the part that they derive to.
+
+    size_m: width and depth of the lot that the rules are made for.
+    """
+
+    rules: str
+    textures: Mapping[str, Texture]
+    size_m: tuple[float, float]
+    part: Part
+
+
+def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: str) -> Model:
+    """Write the rules of one document, and derive them.
 
     rectified: (h, w, 3) uint8 sRGB, the rectified photo that the document describes.
     The part's frame: x right along the wall, z up, facade plane y = 0, body at y >= 0.
@@ -38,33 +52,41 @@ def build_part(
     """
     _check(document, rectified)
     _check_sizes(document)
-    builder = PartBuilder(part_id)
-    footprint = (document.facade.width_m, document.model.depth_m, document.facade.height_m)
-    setback = min(document.model.setback_m, DEEPEST_SHARE * document.model.depth_m)
-
-    layout = lay_out(document)
-    builder.notes.extend(layout.notes)
-    mansard = plan_mansard(
-        *footprint, document.rules.roof_height_m, reach_m(layout.dormers, footprint[2])
+    plan = plan_building(document)
+    textures = make_textures(document, rectified, plan.top_m)
+    rules = write_rules(plan, textures, _roof_provenance(document), document.source.image)
+    images = {PHOTO_TEXTURE: textures.front, WALL_TEXTURE: textures.wall}
+    part = _derived(rules.text, plan, images, part_id)
+    facade = document.facade
+    wall_px = (facade.x_px, facade.y_px, facade.width_px, facade.height_px)
+    part = replace(
+        part,
+        features=_with_photo(part, rules.known, wall_px),
+        attributes={
+            "storeysAboveGround": document.storeys,
+            "eavesHeight_m": plan.eaves_m,
+            "scale_basis": document.scale.basis,
+        },
+        notes=(*plan.notes, *part.notes),
     )
-    dormers = plan_dormers(layout.dormers, mansard, builder.notes)
+    return Model(rules.text, images, (plan.width_m, plan.depth_m), part)
 
-    atlas = make_atlas(document, rectified, _top_m(layout, mansard, footprint[2]))
-    paint = make_paint(builder, atlas)
-    wall = add_front(builder, document, layout, setback, paint)
-    add_plain_walls(builder, footprint, paint)
-    if mansard is None:
-        add_flat_roof(builder, footprint, paint)
-    else:
-        add_mansard(builder, mansard, dormers, setback, paint, _roof_provenance(document))
-    add_balconies(builder, layout.balconies, mansard, paint, wall)
-    add_chimneys(builder, layout.chimneys, footprint, mansard, paint)
-    builder.attributes.update(
-        storeysAboveGround=document.storeys,
-        eavesHeight_m=round(footprint[2], 3),
-        scale_basis=document.scale.basis,
-    )
-    return builder.build()
+
+def build_part(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: str) -> Part:
+    """The part of `build_model` alone."""
+    return build_model(document, rectified, part_id).part
+
+
+def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str) -> Part:
+    """The part on a lot of the plan's size."""
+    x, y = plan.width_m, plan.depth_m
+    lot = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (x, y, 0.0), (0.0, y, 0.0)]
+    (derived,) = _core.GrammarRules([(RULES, text)]).derive([[lot]], [0])
+    if not isinstance(derived, _core.DerivedLot):
+        raise ValueError(f"the rules of {part_id} do not derive: {derived}")
+    part = part_of(derived, part_id, textures=images)
+    # What lies a little beside the photo takes its border: the sides of a narrow balcony.
+    return replace(part, uv=np.clip(part.uv, 0.0, 1.0))
 
 
 def _roof_provenance(document: FacadeDocument) -> Provenance:
@@ -73,10 +95,28 @@ def _roof_provenance(document: FacadeDocument) -> Provenance:
     return Provenance(roofs[0]) if roofs else Provenance.INFERRED
 
 
-def _top_m(layout: Layout, mansard: Mansard | None, eaves_m: float) -> float:
-    """The highest point that the photo has to show."""
-    tops = [piece.rectangle.z1 for piece in (*layout.chimneys, *layout.balconies)]
-    return max(eaves_m if mansard is None else mansard.top_m, *tops, eaves_m)
+def _with_photo(part: Part, known: Mapping[str, Known], wall_px: Rect) -> Features:
+    """The features, with where the photo shows them, and the sizes that the plan has for them."""
+    features = part.features
+    rows = [known.get(name) for name in features.name]
+    derived = zip(features.width_m.tolist(), features.height_m.tolist(), strict=True)
+    sizes = [own if row is None else row.size_m for row, own in zip(rows, derived, strict=True)]
+    elements = [None if row is None else row.element for row in rows]
+    rects = [_NO_RECT if element is None else photo_rect(element) for element in elements]
+    rects[features.name.index(FRONT)] = wall_px
+    seen = [np.nan if row is None else row.seen_height_m for row in rows]
+    return replace(
+        features,
+        width_m=np.array([width for width, _ in sizes]),
+        height_m=np.array([height for _, height in sizes]),
+        photo_px=np.array(rects, dtype=np.float64).reshape(-1, 4),
+        seen_height_m=np.array(seen, dtype=np.float64),
+    )
+
+
+def photo_rect(element: Element) -> Rect:
+    """Where the element lies in the rectified photo: x, y, width, height (px)."""
+    return (element.x_px, element.y_px, element.width_px, element.height_px)
 
 
 def _check(document: FacadeDocument, rectified: NDArray[np.uint8]) -> None:

@@ -20,6 +20,7 @@ from veduta.facade.floors import Floors
 from veduta.facade.opening_rows import FloorRows, Stripes, read_floors
 from veduta.facade.own_look import find_kinds, look_again
 from veduta.facade.railings import find_railings
+from veduta.facade.twin_windows import part_twins
 from veduta.facade.window_sides import refine_sides
 
 # Mean log-odds under which a cell of the grid is blank.
@@ -63,13 +64,19 @@ def _read_twice(
 
 
 def find_openings(
-    evidence: Evidence, floors: Floors, columns: Columns, scores: Scores
+    evidence: Evidence, floors: Floors, columns: Columns, scores: Scores, cues: Scores
 ) -> list[Box]:
-    """Windows and balconies of every floor above the ground floor, eaves first."""
+    """Windows and balconies of every floor above the ground floor, eaves first.
+
+    `scores` are those by the image's own look, `cues` the general ones.
+    """
     read = read_floors(evidence, floors, columns.stripes, scores)
-    gx = evidence.gx[floors.eaves : floors.ground_top]
+    gx, storey = evidence.gx[floors.eaves : floors.ground_top], floors.mean_storey
     masks = [_window_rows(read, c, floors) for c in range(len(columns.stripes))]
-    stripes = refine_sides(columns.stripes, scores.window, gx, masks, floors.mean_storey)
+    parts = part_twins(columns.stripes, cues.window, gx, masks, storey)
+    stripes = [stripe for several in parts for stripe in several]
+    masks = [mask for mask, several in zip(masks, parts, strict=True) for _ in several]
+    stripes = refine_sides(stripes, scores.window, gx, masks, storey)
     read = read_floors(evidence, floors, stripes, scores)
     return _boxes(read, stripes, floors)
 

@@ -49,7 +49,7 @@ def look_again(
         _mix(odds[c][kinds], old, storey) if counts[c].sum() >= _SEEN else old
         for c, old in ((1, scores.window), (2, scores.railing))
     )
-    return Scores(window, railing, scores.texture_x)
+    return Scores(window, railing, scores.level)
 
 
 def _mix(own: Float, general: Float, storey: float) -> Float:

@@ -16,11 +16,12 @@ from PIL import Image
 from veduta.facade.analyse import analyse
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
-from veduta.facade.model import build_part
+from veduta.facade.model import Model, build_model
 from veduta.facade.options import FacadeOptions, ModelOptions
 from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
 from veduta.facade.rectify import rectify
+from veduta.facade.rule_outputs import write_rule_files
 from veduta.formats.cityjson import write_cityjson
 from veduta.formats.gltf import write_glb
 from veduta.imaging.read import Photo, read_image
@@ -28,7 +29,7 @@ from veduta.place.part import Part
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -40,7 +41,12 @@ class Building:
     document: FacadeDocument
     photo_jpeg: bytes
     pixels: NDArray[np.uint8]
-    part: Part
+    model: Model
+
+    @property
+    def part(self) -> Part:
+        """What the rules derive to."""
+        return self.model.part
 
 
 def reconstruct(
@@ -64,8 +70,8 @@ def reconstruct(
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
-    part = _model(document, pixels, part_id, steps, progress)
-    return Building(document, jpeg, pixels, part)
+    model = _model(document, pixels, part_id, steps, progress)
+    return Building(document, jpeg, pixels, model)
 
 
 def rebuild(
@@ -81,8 +87,8 @@ def rebuild(
         document = _sized(load_document(document_path), options)
         pixels = load_photo(document_path, document)
         step.counts["elements"] = len(document.elements)
-    part = _model(document, pixels, part_id, steps, progress)
-    return Building(document, document_path.with_name(PHOTO).read_bytes(), pixels, part)
+    model = _model(document, pixels, part_id, steps, progress)
+    return Building(document, document_path.with_name(PHOTO).read_bytes(), pixels, model)
 
 
 def write_building(
@@ -100,9 +106,10 @@ def write_building(
         (folder / PHOTO).write_bytes(building.photo_jpeg)
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
+        write_rule_files(building.model, folder)
         write_glb(building.part, folder / "model.glb")
         write_cityjson(building.part, folder / "model.city.json")
-        step.counts["bytes"] = sum(file.stat().st_size for file in folder.iterdir())
+        step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
 
 
 def _source(photo: Photo) -> Source:
@@ -139,10 +146,11 @@ def _model(
     part_id: str,
     steps: list[StepRecord],
     progress: StepProgress,
-) -> Part:
+) -> Model:
     progress("model", 0.0)
     with timed_step(steps, "model") as step:
-        part = build_part(document, pixels, part_id)
+        model = build_model(document, pixels, part_id)
+        part = model.part
         step.counts |= {"features": len(part.features), "materials": len(part.materials)}
         step.rejected.extend(part.notes)
-    return part
+    return model

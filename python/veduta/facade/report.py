@@ -34,6 +34,12 @@ FILES = (
     ("rectified.jpg", "the fronto-parallel photo"),
     ("labels.png", "a class per pixel, drawn from facade.json"),
     ("overlay.png", "what was found, over the photo, with the numbers of the elements"),
+    (
+        "rules.cga",
+        "the building as rules, from which the models are derived; edit it and derive it",
+    ),
+    ("lot.geojson", "the lot that the rules stand on"),
+    ("textures/", "the pictures that the rules name"),
     ("model.glb", "the building as glTF 2.0"),
     ("model.city.json", "the building as CityJSON 2.0, LoD3"),
 )

@@ -2,40 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
-import numpy as np
-
-from veduta.facade.appearance import Scores, class_scores, wall_colour
+from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.boxes import Box, score
 from veduta.facade.columns import Columns, split_columns
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
-from veduta.facade.opening_rows import Stripes, window_rows
-from veduta.facade.window_sides import refine_sides
+from veduta.facade.window_band import Candidate, band_of_windows
 
 # In storeys: the least roof that can hold a window, and the heights of a window in it.
 _ROOF = 0.4
 _WINDOW = (0.3, 0.75)
 # Mean log-odds under which there is no window, and by how much they must be above those of the
-# roof that is beside it, `_BESIDE` storeys wide.
+# roof that is beside it.
 _BLANK = -0.2
 _STANDS_OUT = 0.6
-_BESIDE = 0.15
 # What each pixel column of a candidate counts beside its log-odds where two overlap.
 _WIDE = 0.5
-
-
-@dataclass(frozen=True)
-class _Candidate:
-    """A window that may be there: columns x to x + w, rows t to b from the ridge down."""
-
-    x: int
-    w: int
-    t: int
-    b: int
-    sure: float
 
 
 def find_roof_windows(
@@ -57,8 +40,10 @@ def find_roof_windows(
     found = [
         c
         for stripes in (own, columns.stripes)
-        for c in _candidates(evidence, stripes, scores, (top, bottom), storey)
-        if (skyline.rows[c.x : c.x + c.w] < top + c.t).all()
+        for c in band_of_windows(evidence, stripes, scores, (top, bottom), storey, _WINDOW)
+        if c.sure > _BLANK
+        and c.stands_out > _STANDS_OUT
+        and (skyline.rows[c.x : c.x + c.w] < top + c.t).all()
     ]
     return [
         Box("window", c.x, top + c.t, c.w, c.b - c.t, None, k, score(c.sure))
@@ -66,37 +51,9 @@ def find_roof_windows(
     ]
 
 
-def _candidates(
-    evidence: Evidence, stripes: Stripes, scores: Scores, rows: tuple[int, int], storey: float
-) -> list[_Candidate]:
-    """What stands out in the stripes, all in the same rows."""
-    if not stripes:
-        return []
-    inside = np.zeros(evidence.width, bool)
-    for x, w in stripes:
-        inside[x : x + w] = True
-    part = np.s_[rows[0] : rows[1]]
-    edges = np.minimum(np.abs(evidence.gy[part]), 25)
-    t, b = window_rows(scores.window, edges, inside, storey, _WINDOW)
-    if b <= t:
-        return []
-    mask = np.zeros(rows[1] - rows[0], bool)
-    mask[t:b] = True
-    refined = refine_sides(stripes, scores.window, evidence.gx[part], [mask] * len(stripes), storey)
-    band = scores.window[t:b].mean(0)
-    reach = max(1, int(_BESIDE * storey))
-    found = []
-    for x, w in refined:
-        sure = float(band[x : x + w].mean())
-        beside = [v.mean() for v in (band[max(0, x - reach) : x], band[x + w :][:reach]) if v.size]
-        if sure > _BLANK and sure - float(np.mean(beside or [sure])) > _STANDS_OUT:
-            found.append(_Candidate(x, w, t, b, sure))
-    return found
-
-
-def _apart(candidates: list[_Candidate]) -> list[_Candidate]:
+def _apart(candidates: list[Candidate]) -> list[Candidate]:
     """The candidates that no better one overlaps, from left to right."""
-    kept: list[_Candidate] = []
+    kept: list[Candidate] = []
     for c in sorted(candidates, key=lambda c: -(c.sure + _WIDE) * c.w):
         if all(c.x + c.w <= k.x or c.x >= k.x + k.w for k in kept):
             kept.append(c)

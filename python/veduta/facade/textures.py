@@ -1,6 +1,6 @@
-"""The texture of a facade: one atlas with two layers of the rectified photo.
+"""The textures of a facade: the rectified photo twice, from the ground to the top of the building.
 
-The first layer is the photo as it is. In the second, what stands before the wall and the roof
+The first is the photo as it is. In the second, what stands before the wall and the roof
 (balconies, chimneys, sky beside the roof) is replaced by synthesised pixels and marked as
 invented: a railing is shown once, on the railing, and not again on the wall behind it.
 """
@@ -23,10 +23,9 @@ from veduta.facade.photo_masks import (
     pixels_of,
     seen_mask,
 )
-from veduta.place.builder import UvMap
 from veduta.place.material import Colour, Texture
 
-# Longest edge of the atlas (px).
+# Longest edge of a texture (px).
 LONGEST_PX = 4096
 # A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
 BALCONY_SPREAD = 0.08
@@ -51,69 +50,58 @@ class Colours:
 
 
 @dataclass(frozen=True)
-class Atlas:
-    """The texture, and where metres of the facade lie in it."""
+class FacadeTextures:
+    """Both textures, and where they lie on the facade.
 
-    texture: Texture
-    photo_uv: UvMap
-    surface_uv: UvMap
+    Both cover the metres from `left_m` and `foot_m` (at most a pixel below 0) by `width_m` and
+    `height_m`. What the photo does not reach is filled from its border, and marked as invented.
+    """
+
+    front: Texture
+    wall: Texture
+    left_m: float
+    foot_m: float
+    width_m: float
+    height_m: float
     colours: Colours
 
 
-def make_atlas(document: FacadeDocument, photo: Pixels, top_m: float) -> Atlas:
-    """Cut the facade up to `top_m` above the ground out of the photo and lay out both layers.
+def make_textures(document: FacadeDocument, photo: Pixels, top_m: float) -> FacadeTextures:
+    """Cut the facade up to `top_m` above the ground out of the photo, and make both textures.
 
     photo: (h, w, 3) uint8 sRGB, the rectified photo of the document.
     """
-    box = _crop_box(document, photo, top_m)
+    facade, scale = document.facade, document.scale.metres_per_px
+    bottom = facade.y_px + facade.height_px
+    whole = PixelBox(
+        floor(facade.x_px),
+        floor(bottom - top_m / scale),
+        ceil(facade.x_px + facade.width_px),
+        ceil(bottom),
+    )
+    box = _in_photo(whole, photo)
     crop = photo[box.y0 : box.y1, box.x0 : box.x1].copy()
     unseen = ~seen_mask(document, box)
     colours = _colours(document, crop, box, ~unseen)
     _fill_unseen(document, crop, box, unseen, colours)
     surface, invented = _surface_layer(document, crop, box, colours.roof)
-    side_by_side = box.size[1] > box.size[0]
-    axis = 1 if side_by_side else 0
-    pixels = np.concatenate([crop, surface], axis=axis)
-    mask = np.concatenate([unseen, invented | unseen], axis=axis)
-    step = (0.5, 0.0) if side_by_side else (0.0, 0.5)
-    return Atlas(
-        texture=_shrunk(pixels, mask),
-        photo_uv=_uv_map(document, box, (0.0, 0.0), side_by_side),
-        surface_uv=_uv_map(document, box, step, side_by_side),
+    return FacadeTextures(
+        front=_fitted(crop, unseen, box, whole),
+        wall=_fitted(surface, invented | unseen, box, whole),
+        left_m=(whole.x0 - facade.x_px) * scale,
+        foot_m=(bottom - whole.y1) * scale,
+        width_m=(whole.x1 - whole.x0) * scale,
+        height_m=(whole.y1 - whole.y0) * scale,
         colours=colours,
     )
 
 
-def _crop_box(document: FacadeDocument, photo: Pixels, top_m: float) -> PixelBox:
-    facade = document.facade
-    scale = document.scale.metres_per_px
+def _in_photo(whole: PixelBox, photo: Pixels) -> PixelBox:
+    """What of the box the photo has; at least one pixel of its border."""
     height, width = photo.shape[:2]
-    bottom = facade.y_px + facade.height_px
-    x0 = min(max(floor(facade.x_px), 0), width - 1)
-    y0 = min(max(floor(bottom - top_m / scale), 0), height - 1)
-    x1 = min(max(ceil(facade.x_px + facade.width_px), x0 + 1), width)
-    y1 = min(max(ceil(bottom), y0 + 1), height)
-    return PixelBox(x0, y0, x1, y1)
-
-
-def _uv_map(
-    document: FacadeDocument, box: PixelBox, start: tuple[float, float], side_by_side: bool
-) -> UvMap:
-    """Metres (x, any y, z) to UV of one layer; what lies outside of it takes its border."""
-    scale = document.scale.metres_per_px
-    facade = document.facade
-    width, height = box.size
-    share = np.array([0.5, 1.0] if side_by_side else [1.0, 0.5])
-
-    def to_uv(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
-        x_px = facade.x_px + points_m[:, 0] / scale - box.x0
-        y_px = facade.y_px + facade.height_px - points_m[:, 2] / scale - box.y0
-        u = np.clip(x_px, 0.5, width - 0.5) / width
-        v = np.clip(y_px, 0.5, height - 0.5) / height
-        uv: NDArray[np.float64] = np.stack([u, v], axis=1) * share + np.array(start)
-        return uv
-
-    return to_uv
+    x0 = min(max(whole.x0, 0), width - 1)
+    y0 = min(max(whole.y0, 0), height - 1)
+    return PixelBox(x0, y0, min(max(whole.x1, x0 + 1), width), min(max(whole.y1, y0 + 1), height))
 
 
 def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) -> Colours:
@@ -171,13 +159,20 @@ def _mirror_into(surface: Pixels, rows: slice, columns: slice) -> None:
     surface[rows, columns] = surface[source, columns]
 
 
-def _shrunk(pixels: Pixels, mask: Mask) -> Texture:
-    """At most `LONGEST_PX` on the long edge."""
+def _fitted(pixels: Pixels, mask: Mask, box: PixelBox, whole: PixelBox) -> Texture:
+    """At most `LONGEST_PX` on the long edge, and filled up to the whole from its border."""
+    factor = min(1.0, LONGEST_PX / max(whole.size))
+    if factor < 1.0:
+        size = (max(1, round(box.size[0] * factor)), max(1, round(box.size[1] * factor)))
+        pixels = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+        part = cv2.resize(mask.astype(np.uint8) * 255, size, interpolation=cv2.INTER_AREA)
+        mask = part > 0
     height, width = mask.shape
-    factor = min(1.0, LONGEST_PX / max(height, width))
-    if factor == 1.0:
-        return Texture(pixels=pixels, invented=mask)
-    size = (max(1, round(width * factor)), max(1, round(height * factor)))
-    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
-    part = cv2.resize(mask.astype(np.uint8) * 255, size, interpolation=cv2.INTER_AREA)
-    return Texture(pixels=np.asarray(small, dtype=np.uint8), invented=part > 0)
+    above, left = round((box.y0 - whole.y0) * factor), round((box.x0 - whole.x0) * factor)
+    below = max(0, round(whole.size[1] * factor) - height - max(above, 0))
+    right = max(0, round(whole.size[0] * factor) - width - max(left, 0))
+    rows, columns = (max(above, 0), below), (max(left, 0), right)
+    return Texture(
+        pixels=np.pad(pixels, (rows, columns, (0, 0)), mode="edge"),
+        invented=np.pad(mask, (rows, columns), constant_values=True),
+    )

@@ -45,7 +45,7 @@ def _best_sides(
     width = window.shape[1]
     reach = max(1, round(_REACH * storey))
     summed = np.concatenate([[0.0], np.cumsum(window.mean(0), dtype=np.float64)]) / storey
-    edge = _edges(gx, (max(0, x - 2 * reach), min(width, x + w + 2 * reach)))
+    edge = side_gains(gx, x, x + w, storey)
     left = np.arange(max(0, x - reach), min(x + reach, x + w // 2) + 1)
     right = np.arange(max(x + w - reach, x + w // 2 + 1), min(width, x + w + reach) + 1)
     gain = (edge - summed)[left][:, None] + (edge + summed)[right][None, :]
@@ -56,10 +56,11 @@ def _best_sides(
     return int(left[a]), int(right[b] - left[a])
 
 
-def _edges(gx: Float, around: tuple[int, int]) -> NDArray[np.float64]:
-    """Gain (w + 1,) of a side at each pixel boundary, relative to the edges `around`."""
+def side_gains(gx: Float, x: int, end: int, storey: float) -> NDArray[np.float64]:
+    """Gain (w + 1,) of a side at each pixel boundary, relative to the edges about `x` to `end`."""
     strength = np.minimum(np.abs(gx), 25).mean(0)
     edge = np.zeros(len(strength) + 1)
     edge[1:-1] = np.maximum(strength[:-1], strength[1:])
-    near = edge[around[0] : around[1] + 1]
+    reach = 2 * max(1, round(_REACH * storey))
+    near = edge[max(0, x - reach) : min(len(strength), end + reach) + 1]
     return np.asarray(_EDGE * np.clip((edge - near.mean()) / (float(near.std()) + 1e-6), -1, 3))

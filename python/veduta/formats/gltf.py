@@ -30,7 +30,8 @@ from veduta.run.atomic import write_bytes
 __all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 
 JPEG_QUALITY = 90
-_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP = 9729, 9987, 33071
+_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
+_BESIDE_UV = 1e-3
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 
 
@@ -121,7 +122,8 @@ class _Materials:
     def number(self, row: int) -> int:
         """The number in the file of a material of the part."""
         if row not in self._number_of:
-            entry = _material(self._root, self._part.materials[row], self._binary)
+            material, wrap = self._part.materials[row], _wrap(self._part, row)
+            entry = _material(self._root, material, self._binary, wrap)
             self._number_of[row] = len(self._number_of)
             self._root["materials"].append(entry)
         return self._number_of[row]
@@ -170,7 +172,17 @@ def _vertex_features(part: Part) -> NDArray[np.float32]:
     return part.polygon_feature[_polygon_of_vertex(part)].astype(np.float32)
 
 
-def _material(root: dict[str, Any], material: Material, binary: GltfBin) -> dict[str, Any]:
+def _wrap(part: Part, row: int) -> int:
+    """A texture is repeated where surfaces of its material ask for more than it has."""
+    corners = np.repeat(part.polygon_material, np.diff(part.ring_offsets[part.polygon_offsets]))
+    uv = part.uv[corners == row]
+    beside = (uv < -_BESIDE_UV) | (uv > 1.0 + _BESIDE_UV)
+    return _REPEAT if beside.any() else _CLAMP
+
+
+def _material(
+    root: dict[str, Any], material: Material, binary: GltfBin, wrap: int
+) -> dict[str, Any]:
     shading: dict[str, Any] = {
         "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
         "metallicFactor": material.metalness,
@@ -185,8 +197,8 @@ def _material(root: dict[str, Any], material: Material, binary: GltfBin) -> dict
             {
                 "magFilter": _LINEAR,
                 "minFilter": _LINEAR_MIPMAP_LINEAR,
-                "wrapS": _CLAMP,
-                "wrapT": _CLAMP,
+                "wrapS": wrap,
+                "wrapT": wrap,
             }
         )
         textures = root.setdefault("textures", [])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -21,7 +21,9 @@ from veduta.grammar.levels import FULL, PLAIN, VOLUME
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
+from veduta.grammar.textures import read_textures
 from veduta.grammar.town import Built, Town, built_of, prisms
+from veduta.place.material import Texture
 from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
 from veduta.run.outputs import writing_to
@@ -49,9 +51,9 @@ class Block:
 class Job:
     """A block to work on; `files` are the rule files, `source` is what failures name.
 
-    folder: where the rules lie, and the assets that they name. separate: whether each building gets
-    a GLB of its own. city: the file for the buildings as lines of CityJSON, None where they are not
-    wanted.
+    folder: where the rules lie, and the assets that they name. textures: the files of the pictures
+    that the rules name, by those names. separate: whether each building gets a GLB of its own.
+    city: the file for the buildings as lines of CityJSON, None where they are not wanted.
     """
 
     block: Block
@@ -63,6 +65,7 @@ class Job:
     work: Path
     separate: bool
     city: Path | None
+    textures: Mapping[str, str] = field(default_factory=dict)
 
 
 @dataclass
@@ -224,10 +227,11 @@ def _models(
     with timed_step(result.steps, "derive"):
         derived = by.alone([one.lot for one in built])
     made = []
+    textures = read_textures(job.textures)
     with timed_step(result.steps, "write"):
         for one, found in zip(built, derived, strict=True):
             try:
-                part = _part_of(one.lot, found, by.library)
+                part = _part_of(one.lot, found, by.library, textures)
             except NothingBuiltError as fault:
                 _fail(job, one.lot, str(fault), result)
                 continue
@@ -252,10 +256,15 @@ def _bounds_row(one: Built) -> dict[str, Any]:
     return {"anchor_m": list(one.lot.anchor_m), "bounds": [list(one.low), list(one.high)]}
 
 
-def _part_of(lot: Lot, derived: _core.DerivedLot | str, library: Library) -> Part:
+def _part_of(
+    lot: Lot,
+    derived: _core.DerivedLot | str,
+    library: Library,
+    textures: Mapping[str, Texture],
+) -> Part:
     if isinstance(derived, str):
         raise NothingBuiltError(derived)
-    return build_part(derived, lot.id, library.assets_of(derived))
+    return build_part(derived, lot.id, library.assets_of(derived), textures)
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:

@@ -1,13 +1,16 @@
 """What the rules made of a lot, as a part of a place.
 
-Everything is invented: a rule file is no record of what stands there. Leaves that got their class
-from one application of a rule are one feature (a window with its frames and panes).
+A rule file is no record of what stands there, so that all is invented but for what the rules
+themselves say: `set(provenance, "measured")`. They also name surfaces and closed solids (`surface`,
+`solid`). Leaves that have no such name and got their class from one application of a rule are one
+feature (a window with its frames and panes).
 """
 
 from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from pathlib import PurePath
 from types import MappingProxyType
 
 import numpy as np
@@ -15,12 +18,19 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.grammar.assets.asset import Asset
+from veduta.grammar.dissolving import dissolved
 from veduta.grammar.instancing import instances_of
-from veduta.place.material import Material
+from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
 
-_ROUGHNESS = {SemanticClass.WINDOW: 0.25, SemanticClass.SHOP: 0.2}
+_ROUGHNESS = {
+    SemanticClass.WINDOW: 0.25,
+    SemanticClass.SHOP: 0.2,
+    SemanticClass.ROOF: 0.7,
+    SemanticClass.BALCONY: 0.6,
+}
+_SAID = {said.value: said for said in Provenance}
 _KNOWN = {semantic.value: semantic for semantic in SemanticClass}
 Look = tuple[float, float, float, float, str | None, str]
 
@@ -33,23 +43,25 @@ def build_part(
     derived: _core.DerivedLot,
     part_id: str,
     assets: Mapping[str, Asset] = MappingProxyType({}),
+    textures: Mapping[str, Texture] = MappingProxyType({}),
 ) -> Part:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
-    `assets` are those that stand in the lot, by name. Surfaces that are none in single precision
-    (slivers, lines that cross) are left out and noted.
+    `assets` are those that stand in the lot, by name; `textures` by the names that the rules have
+    for them, of which those that are missing are left out and noted. Surfaces that are none in
+    single precision (slivers, lines that cross) are left out and noted, too.
     """
     every = np.ones(len(derived.polygon_feature), dtype=np.bool_)
     has_assets = len(derived.instance_feature) > 0
     if not every.any() and not has_assets:
         raise NothingBuiltError("the rules leave nothing on it")
-    part = _part(derived, part_id, every, assets)
+    part = _joined(_part(derived, part_id, every, assets, textures), derived)
     if _has_triangles(part):
         return part
     kept = _sound(part)
     if not kept.any() and not has_assets:
         raise NothingBuiltError("the rules leave no surface on it")
-    return _part(derived, part_id, kept, assets)
+    return _part(derived, part_id, kept, assets, textures)
 
 
 def _part(
@@ -57,19 +69,20 @@ def _part(
     part_id: str,
     kept: NDArray[np.bool_],
     assets: Mapping[str, Asset],
+    textures: Mapping[str, Texture],
 ) -> Part:
     """The part of the (p,) polygons that are kept, and of all instances."""
     vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
     of_polygon = derived.polygon_feature[kept]
     used = np.unique(np.concatenate([of_polygon, derived.instance_feature]))
-    number_of, material_of_look = _materials(derived.looks)
+    number_of, material_of_look = _materials(derived.looks, textures)
     instances = instances_of(derived, used, assets, number_of)
     with np.errstate(over="ignore"):  # what is too far away is found not to be finite
         positions = derived.positions_m[vertices].astype(np.float32)
     return Part(
         id=part_id,
         positions_m=positions,
-        uv=derived.uv[vertices],
+        uv=_from_the_top(derived.uv[vertices]),
         ring_offsets=rings,
         polygon_offsets=polygons,
         polygon_feature=np.searchsorted(used, of_polygon).astype(np.int32),
@@ -77,8 +90,18 @@ def _part(
         features=_features(derived, used, part_id),
         materials=tuple(number_of),
         instances=instances,
-        notes=_notes(derived, int((~kept).sum())),
+        notes=_notes(derived, int((~kept).sum()), textures),
     )
+
+
+def _joined(part: Part, derived: _core.DerivedLot) -> Part:
+    """With the cells of surfaces that the rules name as the faces that they were cut from."""
+    if not any(derived.feature_surface) or len(part.polygon_feature) == 0:
+        return part
+    try:
+        return dissolved(part, derived.positions_m)
+    except _core.PolygonFault:  # a sliver: the polygons are looked at one by one
+        return part
 
 
 def _has_triangles(part: Part) -> bool:
@@ -107,24 +130,36 @@ def _select(
     return vertices, ring_offsets.astype(np.int64), polygon_offsets.astype(np.int64)
 
 
+def _from_the_top(uv: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Texture coordinates of rule files begin at the lower left, those of parts at the upper."""
+    return np.stack([uv[:, 0], np.float32(1.0) - uv[:, 1]], axis=1)
+
+
 def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) -> Features:
-    """The table; a name is that of the rule and a number that counts within it."""
+    """The table; what the rules do not name is called by their rule, and counted within it."""
     counts: Counter[str] = Counter()
+    taken = {derived.feature_surface[row] for row in used.tolist()} - {""}
     names, codes = [], []
-    rules, classes = derived.feature_name, derived.feature_class
     for row in used.tolist():
-        rule = rules[row]
-        counts[rule] += 1
-        names.append(f"{rule} {counts[rule]}")
-        codes.append(_KNOWN.get(classes[row], SemanticClass.OTHER).code)
+        name, rule = derived.feature_surface[row], derived.feature_name[row]
+        while not name or (name in taken and not derived.feature_surface[row]):
+            counts[rule] += 1
+            name = f"{rule} {counts[rule]}"
+        names.append(name)
+        codes.append(_KNOWN.get(derived.feature_class[row], SemanticClass.OTHER).code)
     total = len(names)
+    row_of = {name: row for row, name in enumerate(names)}
+    said = [_SAID.get(derived.feature_provenance[row], Provenance.INVENTED) for row in used]
+    within = [row_of.get(derived.feature_within[row], NO_PARENT) for row in used]
+    solids = {"": 0}
+    shells = [solids.setdefault(derived.feature_solid[row], len(solids)) for row in used]
     return Features(
         id=tuple(f"{part_id}/{name.replace(' ', '-')}" for name in names),
         name=tuple(names),
         class_code=np.array(codes, dtype=np.uint8),
-        provenance_code=np.full(total, Provenance.INVENTED.code, dtype=np.uint8),
-        parent=np.full(total, NO_PARENT, dtype=np.int32),
-        shell=np.zeros(total, dtype=np.int32),
+        provenance_code=np.array([one.code for one in said], dtype=np.uint8),
+        parent=np.array(within, dtype=np.int32),
+        shell=np.array(shells, dtype=np.int32),
         width_m=derived.feature_size_m[used, 0],
         height_m=derived.feature_size_m[used, 1],
         photo_px=np.full((total, 4), np.nan),
@@ -132,19 +167,27 @@ def _features(derived: _core.DerivedLot, used: NDArray[np.int32], part_id: str) 
     )
 
 
-def _materials(looks: list[Look]) -> tuple[dict[Material, int], NDArray[np.int32]]:
+def _materials(
+    looks: list[Look], textures: Mapping[str, Texture]
+) -> tuple[dict[Material, int], NDArray[np.int32]]:
     """The materials with their numbers, and (looks,) the material of each look."""
     number_of: dict[Material, int] = {}
     rows = []
-    for red, green, blue, _, _, name in looks:
+    for red, green, blue, _, image, name in looks:
         semantic = _KNOWN.get(name, SemanticClass.OTHER)
         colour = (round(red, 4), round(green, 4), round(blue, 4))
-        material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
+        texture = None if image is None else textures.get(image)
+        if texture is None:
+            material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
+        else:
+            material = Material(PurePath(str(image)).stem, colour, texture=texture)
         rows.append(number_of.setdefault(material, len(number_of)))
     return number_of, np.array(rows, dtype=np.int32)
 
 
-def _notes(derived: _core.DerivedLot, dropped: int) -> tuple[str, ...]:
+def _notes(
+    derived: _core.DerivedLot, dropped: int, textures: Mapping[str, Texture]
+) -> tuple[str, ...]:
     """What the building does not show, and what the rules said."""
     notes = list(dict.fromkeys(derived.messages))[:20]
     if dropped:
@@ -152,8 +195,9 @@ def _notes(derived: _core.DerivedLot, dropped: int) -> tuple[str, ...]:
     unknown = sorted({name for name in derived.feature_class if name and name not in _KNOWN})
     if unknown:
         notes.append(f"material.name is no class that is known, so `other`: {', '.join(unknown)}")
-    if any(look[4] for look in derived.looks):
-        notes.append("textures of rule files are not shown yet")
+    missing = sorted({look[4] for look in derived.looks if look[4] and look[4] not in textures})
+    if missing:
+        notes.append(f"textures that are not there, or that no text names: {', '.join(missing)}")
     if any(look[3] < 1.0 for look in derived.looks):
         notes.append("opacity of rule files is not shown yet")
     return tuple(notes)

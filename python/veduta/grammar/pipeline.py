@@ -28,6 +28,7 @@ from veduta.grammar.placing import block_origin, place_of, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
@@ -95,13 +96,16 @@ def run_derive(
         options = check_options(compiled, rules.path, options)
         assets = Library(rules.path.parent).digest(compiled)
         files = tuple(rules.texts)
+        textures = find_textures(rules.path, [text for _, text in files])
+        read_textures(textures)
         lots = _lots(lots_path, options)
         if edits_path is not None:
             lots = edited_lots(lots, edits_path, read_edits(edits_path))
     blocks = _blocks(lots)
+    pictures: JsonValue = textures_digests(textures)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
-        block.name: _key("block", options, [files_digest(files), assets, _told(block)])
+        block.name: _key("block", options, [files_digest(files), assets, pictures, _told(block)])
         for block in blocks
     }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
@@ -131,6 +135,7 @@ def run_derive(
                 folder.work_path(b.name),
                 is_separate(options, lots),
                 _city_path(out, b) if options.output.city else None,
+                textures,
             )
             for b in waiting
         ]

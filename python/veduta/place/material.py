@@ -10,9 +10,9 @@ from numpy.typing import NDArray
 Colour = tuple[float, float, float]
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Texture:
-    """An image that several surfaces share through UV.
+    """An image that several surfaces share through UV; two of the same pixels are two.
 
     pixels: (h, w, 3) uint8 sRGB.
     invented: (h, w) bool, True where a pixel was synthesised and not photographed.

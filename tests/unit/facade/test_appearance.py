@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray
@@ -41,6 +43,17 @@ def test_upright_edges_around_speak_for_a_window() -> None:
     framed.gx[20:60, 70:110:4] = 15.0
     part = np.s_[25:55, 75:105]
     assert _window(framed)[part].mean() > _window(plain)[part].mean() + 0.3
+
+
+def test_level_edges_around_speak_for_a_stripe_and_not_for_its_rows() -> None:
+    plain = _evidence()
+    level = np.zeros_like(plain.gy)
+    level[20:60:4, 70:110] = 15.0
+    framed, part = replace(plain, gy=level), np.s_[25:55, 75:105]
+    wall = wall_colour(plain, 0, plain.height, STOREY)
+    without, with_edges = (class_scores(e, wall, 0, 180, STOREY) for e in (plain, framed))
+    assert with_edges.level[part].mean() > without.level[part].mean() + 0.3
+    np.testing.assert_array_equal(with_edges.window, without.window)
 
 
 @pytest.mark.parametrize("fill", [(0.0, 128.0, 128.0), (255.0, 128.0, 128.0), (90.0, 160.0, 90.0)])

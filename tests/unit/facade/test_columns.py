@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -13,6 +14,9 @@ from hypothesis.extra.numpy import arrays
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.facade.appearance import Scores
+from veduta.facade.columns import split_columns
+from veduta.facade.evidence import Evidence
 
 WIDTH, WIDTHS, GAPS = 14, [2, 3, 4], (1, 5)
 WEIGHTS = {
@@ -112,3 +116,21 @@ def test_wrong_sizes_are_refused() -> None:
         _core.column_chain(distance, evidence, np.zeros(7), [], **given_)
     with pytest.raises(_core.ChainLabelsError, match="step"):
         _core.column_chain(distance, evidence, np.zeros(7), [2], **{**given_, "step": 0})
+
+
+@pytest.mark.parametrize("cue", ["window", "level"])
+def test_stripes_are_where_windows_or_level_edges_are(cue: str) -> None:
+    rows, width, storey = 120, 200, 60.0
+    drawn = [(20, 24), (80, 24), (140, 24)]
+    flat = np.zeros((rows, width), np.float32)
+    shown = np.random.default_rng(0).normal(-0.5, 0.2, flat.shape).astype(np.float32)
+    jambs = flat.copy()
+    for x, w in drawn:
+        shown[10:50, x : x + w] += 1.2
+        shown[70:110, x : x + w] += 1.2
+        jambs[:, [x - 1, x, x + w - 1, x + w]] = 15.0
+    evidence = Evidence(1.0, np.zeros((rows, width, 3), np.float32), jambs, flat, flat == 0)
+    scores = Scores(flat, flat, flat)
+    found = split_columns(evidence, 0, rows, storey, replace(scores, **{cue: shown})).stripes
+    assert len(found) == len(drawn)
+    np.testing.assert_allclose(found, drawn, atol=2)

@@ -134,20 +134,35 @@ def test_next_to_no_rows_below_the_ridge_end_in_an_answer() -> None:
             assert math.isfinite(split_floors(rows).energy)
 
 
+def _rows_of(lines: NDArray[np.float64], bay: int | None) -> Rows:
+    """Rows by what they look like (n, d), without edges and colours."""
+    squares = (lines * lines).sum(1)
+    distance = squares[:, None] + squares[None] - 2 * lines @ lines.T
+    distance = (distance / distance.mean()).astype(np.float32)
+    histograms = RowHistograms(np.zeros((2, len(lines) + 1, 4)))
+    return Rows(1, 0, distance, np.ones(len(lines), np.float32), histograms, bay)
+
+
+@pytest.mark.parametrize(("bay", "floors"), [(None, 7), (7, 7), (14, 14), (15, 14), (20, 7)])
+def test_many_low_floors_need_bays_that_go_with_them(bay: int | None, floors: int) -> None:
+    """Fourteen floors whose two kinds take turns: a pair of them repeats as well."""
+    rng = np.random.default_rng(3)
+    kinds = rng.normal(size=(14, 40)) + 0.45 * rng.normal(size=(2, 14, 40))
+    front = np.concatenate([kinds[n % 2] for n in range(14)])
+    lines = np.concatenate([rng.normal(size=(14, 40)), front, rng.normal(size=(20, 40))])
+    split = split_floors(_rows_of(lines + 0.1 * rng.normal(size=lines.shape), bay))
+    assert split.mean_storey == pytest.approx(196 / floors, rel=0.12)
+
+
 def test_wide_bays_speak_against_low_storeys() -> None:
     """Rows that repeat at 20 and, in another part of their width, at 60: the bays decide."""
     rng = np.random.default_rng(5)
     third, storey = np.tile(rng.normal(size=(20, 30)), (3, 1)), rng.normal(size=(60, 12))
     floors = np.tile(np.hstack([third, storey]), (2, 1))
     lines = np.concatenate([rng.normal(size=(20, 42)), floors, rng.normal(size=(64, 42))])
-    squares = (lines * lines).sum(1)
-    distance = squares[:, None] + squares[None] - 2 * lines @ lines.T
-    distance = (distance / distance.mean()).astype(np.float32)
 
     def storeys(bay: int | None) -> float:
-        histograms = RowHistograms(np.zeros((2, len(lines) + 1, 4)))
-        edges = np.ones(len(lines), np.float32)
-        return split_floors(Rows(1, 0, distance, edges, histograms, bay)).mean_storey
+        return split_floors(_rows_of(lines, bay)).mean_storey
 
     assert storeys(None) == pytest.approx(20, rel=0.1)
     assert storeys(20) == pytest.approx(20, rel=0.1)

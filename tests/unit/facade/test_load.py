@@ -56,6 +56,14 @@ def test_how_often_elements_cover_the_picture(make_document: Make, tmp_path: Pat
     assert fault_of(more, tmp_path).startswith(fault)
 
 
+def test_classes_in_another_order(make_document: Make, tmp_path: Path) -> None:
+    """labels.png would have other numbers than the docs say."""
+    document = make_document()
+    document.classes.reverse()
+    fault = "classes: must be window, wall, balcony, door, roof, chimney, sky, shop, other, in this"
+    assert fault_of(document, tmp_path) == f"{fault} order"
+
+
 @pytest.mark.parametrize(
     ("place", "value", "fault"),
     [

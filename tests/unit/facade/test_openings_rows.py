@@ -127,7 +127,8 @@ def test_railings_at_different_rows_part_in_the_gap() -> None:
 
 def test_blank_cells_hold_no_window() -> None:
     columns = Columns(STRIPES, 0.0, {}, 0)
-    boxes = find_openings(evidence_of(STOREY * FLOORS), floors_of(), columns, grid(blank=(1, 2)))
+    scores = grid(blank=(1, 2))
+    boxes = find_openings(evidence_of(STOREY * FLOORS), floors_of(), columns, scores, scores)
     windows = {(b.floor, b.column) for b in boxes if b.kind == "window"}
     every = {(f, c) for f in (1, 2, 3) for c in range(3)}
     assert windows == every - {(2, 2)}
@@ -136,7 +137,8 @@ def test_blank_cells_hold_no_window() -> None:
 
 def test_no_stripes_no_openings() -> None:
     columns = Columns([], 0.0, {}, 0)
-    assert find_openings(evidence_of(STOREY * FLOORS), floors_of(), columns, grid()) == []
+    evidence = evidence_of(STOREY * FLOORS)
+    assert find_openings(evidence, floors_of(), columns, grid(), grid()) == []
 
 
 def test_score_is_even_where_the_evidence_is() -> None:

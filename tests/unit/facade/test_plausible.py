@@ -78,7 +78,7 @@ def test_a_tower_of_too_many_floors_is_named_as_one(seed: int) -> None:
     for y in range(20, 880, 28):
         for x in range(20, 580, 70):
             pixels[y : y + 14, x : x + 50] = 90 + rng.integers(0, 20)
-    with pytest.raises(NotFoundError, match="more than 12 floors"):
+    with pytest.raises(NotFoundError, match="more than 18 floors"):
         analysed(pixels)
 
 

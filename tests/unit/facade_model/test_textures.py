@@ -1,4 +1,4 @@
-"""The atlas: what each layer shows, what is marked as invented, and where metres lie in it."""
+"""The textures: what each shows, what is marked as invented, and where metres lie in them."""
 
 from __future__ import annotations
 
@@ -9,59 +9,76 @@ from sample_document import FACADE_M, PHOTO_PX, element, sample_document, sample
 
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import BORDER_PX, PixelBox, seen_mask
-from veduta.facade.textures import LONGEST_PX, Atlas, make_atlas
-from veduta.place.builder import UvMap
+from veduta.facade.textures import LONGEST_PX, FacadeTextures, make_textures
+from veduta.place.material import Texture
 
 BALCONY = element("balcony", 3.0, 6.0, 3.0, 1.0)
 
 
-def atlas_of(document: FacadeDocument) -> Atlas:
-    return make_atlas(document, sample_photo(document), FACADE_M[1])
+def textures_of(document: FacadeDocument, top_m: float = FACADE_M[1]) -> FacadeTextures:
+    return make_textures(document, sample_photo(document), top_m)
 
 
-def look_up(atlas: Atlas, uv: UvMap, x_m: float, z_m: float) -> tuple[NDArray[np.uint8], bool]:
+def look_up(
+    textures: FacadeTextures, texture: Texture, x_m: float, z_m: float
+) -> tuple[NDArray[np.uint8], bool]:
     """The nearest texel at a place on the facade, and whether it is invented."""
-    u, v = uv(np.array([[x_m, 0.0, z_m]]))[0]
-    height, width = atlas.texture.invented.shape
-    row, column = int(v * height), int(u * width)
-    return atlas.texture.pixels[row, column], bool(atlas.texture.invented[row, column])
+    height, width = texture.invented.shape
+    column = int((x_m - textures.left_m) / textures.width_m * width)
+    row = int((1.0 - (z_m - textures.foot_m) / textures.height_m) * height)
+    return texture.pixels[row, column], bool(texture.invented[row, column])
 
 
-def test_photo_layer_shows_the_pixel_of_the_photo() -> None:
+@pytest.mark.parametrize("shift_px", [0.0, 0.3, -0.7])
+def test_the_front_shows_the_pixel_of_the_photo(shift_px: float) -> None:
     document = sample_document()
-    photo, atlas = sample_photo(document), atlas_of(document)
+    moved = {"x_px": document.facade.x_px + shift_px, "y_px": document.facade.y_px + shift_px}
+    document = document.model_copy(update={"facade": document.facade.model_copy(update=moved)})
+    photo, textures = sample_photo(document), textures_of(document)
     rng = np.random.default_rng(3)
     for x_m, z_m in rng.uniform((0.1, 0.1), (11.9, 14.9), (200, 2)):
         column = int(document.facade.x_px + x_m / document.scale.metres_per_px)
         bottom = document.facade.y_px + document.facade.height_px
         row = int(bottom - z_m / document.scale.metres_per_px)
-        texel, invented = look_up(atlas, atlas.photo_uv, x_m, z_m)
+        texel, invented = look_up(textures, textures.front, x_m, z_m)
         assert np.array_equal(texel, photo[row, column])
         assert not invented
 
 
 def test_railing_is_on_the_railing_and_not_on_the_wall() -> None:
-    atlas = atlas_of(sample_document(elements=[BALCONY]))
-    seen, seen_invented = look_up(atlas, atlas.photo_uv, 4.5, 6.5)
-    behind, behind_invented = look_up(atlas, atlas.surface_uv, 4.5, 6.5)
+    textures = textures_of(sample_document(elements=[BALCONY]))
+    seen, seen_invented = look_up(textures, textures.front, 4.5, 6.5)
+    behind, behind_invented = look_up(textures, textures.wall, 4.5, 6.5)
     assert seen.mean() < 70
     assert behind.mean() > 170
     assert (seen_invented, behind_invented) == (False, True)
 
 
 def test_wall_away_from_balconies_is_not_invented() -> None:
-    atlas = atlas_of(sample_document(elements=[BALCONY]))
+    textures = textures_of(sample_document(elements=[BALCONY]))
     for x_m, z_m in ((1.0, 6.5), (4.5, 9.0), (4.5, 4.0)):
-        assert not look_up(atlas, atlas.surface_uv, x_m, z_m)[1]
+        assert not look_up(textures, textures.wall, x_m, z_m)[1]
 
 
 def test_colours_are_those_of_the_classes() -> None:
-    colours = atlas_of(sample_document()).colours
+    colours = textures_of(sample_document()).colours
     np.testing.assert_allclose(colours.wall, np.array([214, 199, 172]) / 255, atol=0.02)
     np.testing.assert_allclose(colours.balcony, np.array([40, 40, 44]) / 255, atol=0.04)
 
 
-def test_long_photos_shrink_to_the_limit() -> None:
+def test_what_rises_over_the_photo_takes_its_border_and_is_invented() -> None:
+    document = sample_document()
+    over_m = 10.0  # the photo has 4.5 m above the eaves
+    textures = textures_of(document, FACADE_M[1] + over_m)
+    border, invented = look_up(textures, textures.front, 6.0, FACADE_M[1] + over_m - 0.1)
+    assert invented
+    assert np.array_equal(border, sample_photo(document)[0, int(20.0 + 6.0 / 0.025)])
+    assert not look_up(textures, textures.front, 6.0, FACADE_M[1] + 4.0)[1]
+    assert textures.height_m == pytest.approx(FACADE_M[1] + over_m, abs=0.03)
+
+
+@pytest.mark.parametrize("top_m", [15.0, 1000.0])
+def test_long_photos_shrink_to_the_limit(top_m: float) -> None:
     document = sample_document(facade_m=(12.0, 15.0))
     tall = 6000
     scale = document.scale.model_copy(update={"metres_per_px": 15.0 / tall})
@@ -70,7 +87,7 @@ def test_long_photos_shrink_to_the_limit() -> None:
     )
     large = document.model_copy(update={"facade": facade, "scale": scale})
     photo = np.full((tall, 400, 3), 128, dtype=np.uint8)
-    texture = make_atlas(large, photo, 15.0).texture
+    texture = make_textures(large, photo, top_m).front
     assert max(texture.invented.shape) == LONGEST_PX
     assert texture.pixels.shape[:2] == texture.invented.shape
 
@@ -103,7 +120,8 @@ def test_what_the_source_does_not_show_is_painted_and_marked() -> None:
     document = tilted(sample_document(elements=[]))
     photo = sample_photo(document)
     photo[~seen_mask(document, PixelBox(0, 0, *PHOTO_PX))] = 0
-    atlas = make_atlas(document, photo, FACADE_M[1])
-    assert atlas.texture.pixels.max(axis=2).min() > 60
-    assert atlas.texture.invented.any()
-    assert atlas.colours.wall[0] == pytest.approx(214 / 255, abs=0.02)
+    textures = make_textures(document, photo, FACADE_M[1])
+    for texture in (textures.front, textures.wall):
+        assert texture.pixels.max(axis=2).min() > 60
+        assert texture.invented.any()
+    assert textures.colours.wall[0] == pytest.approx(214 / 255, abs=0.02)

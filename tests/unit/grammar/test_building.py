@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from closed_shells import assert_closed, shells
 
 from veduta import _core
 from veduta.grammar.building import NothingBuiltError, build_part
@@ -76,3 +77,57 @@ def test_slivers_are_left_out_and_told() -> None:
     part = build_part(derived(text), "lot")
     assert areas(part) == pytest.approx({"ground": 60.0})
     assert any("1 surfaces were left out" in note for note in part.notes)
+
+
+NAMED = """
+attr surface = ""
+attr solid = ""
+attr provenance = "invented"
+Lot --> extrude(world.up, 5) comp(f) { front : Front | all : Wall(comp.sel + comp.index) }
+Wall(name) --> set(surface, name)
+Front --> set(surface, "front wall") set(provenance, "measured") [ Box ] Cells
+Box --> t(4, 1, 0) s(2, 1, 0) set(surface, "box") set(solid, "box") extrude(0.5)
+Cells --> split(x) { 4 : Wall. | 2 : Middle | ~1 : Wall. }
+Middle --> split(y) { 1 : Wall. | 2 : Hole | ~1 : Wall. }
+Hole --> [ Reveal ] t(0, 0, -0.3) Pane
+Reveal -->
+    set(surface, "reveal") extrude(-0.3) reverseNormals()
+    comp(f) { front : NIL | back : NIL | all : Wall. }
+Pane --> set(surface, "pane") set(provenance, "guessed") split(x) { 1 : Pane. | ~1 : Pane. }
+"""
+
+
+@pytest.fixture
+def named() -> Part:
+    return build_part(derived(NAMED), "house")
+
+
+def test_surfaces_are_called_and_known_as_the_rules_say(named: Part) -> None:
+    row_of = {name: row for row, name in enumerate(named.features.name)}
+    assert len(row_of) == 9  # the front and its box, reveal and pane, and five more sides
+    wall, pane = row_of["front wall"], row_of["pane"]
+    assert named.features.id[wall] == "house/front-wall"
+    assert named.features.provenance(wall) is Provenance.MEASURED
+    assert named.features.provenance(pane) is Provenance.INVENTED  # "guessed" is no provenance
+    for inner in ("box", "reveal", "pane"):
+        assert named.features.parent[row_of[inner]] == wall
+    assert named.features.shell[row_of["box"]] == 1
+    assert named.features.width_m[pane] == 2.0
+
+
+def test_cells_of_a_surface_are_the_face_that_they_were_cut_from(named: Part) -> None:
+    wall = named.features.name.index("front wall")
+    (polygon,) = np.flatnonzero(named.polygon_feature == wall)
+    first, last = named.polygon_offsets[polygon : polygon + 2]
+    assert last - first == 2  # an outline and a hole, of four corners each
+    assert np.diff(named.ring_offsets[first : last + 1]).tolist() == [4, 4]
+    assert named.feature_area_m2[wall] == pytest.approx(10 * 5 - 2 * 2)
+    pane = named.features.name.index("pane")
+    assert (named.polygon_feature == pane).sum() == 1
+
+
+def test_what_the_rules_close_is_closed_in_the_part(named: Part) -> None:
+    assert_closed(named)
+    body, box = shells(named)
+    assert body.volume == pytest.approx(10 * 6 * 5 - 2 * 2 * 0.3, rel=1e-6)
+    assert box.volume == pytest.approx(2 * 1 * 0.5, rel=1e-6)

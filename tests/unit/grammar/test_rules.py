@@ -119,7 +119,9 @@ def test_what_is_no_text_is_refused(tmp_path: Path) -> None:
 
 def test_the_first_rule_file_of_the_docs_makes_a_house(repository: Path, tmp_path: Path) -> None:
     page = (repository / "docs" / "grammar.md").read_text("utf-8")
-    (text,) = re.findall(r"^```cga\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    text, *others = re.findall(r"^```cga\n(.*?)^```", page, re.MULTILINE | re.DOTALL)
+    for number, other in enumerate(others):
+        assert check_rules(read_rules(write(tmp_path / str(number), main=other))).told == ""
     rules = read_rules(write(tmp_path, main=text))
     assert check_rules(rules).told == ""
     lot = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 8.0, 0.0), (0.0, 8.0, 0.0)]]

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from veduta import _core
+from veduta.grammar.assets.library import Library
 from veduta.grammar.building import build_part
 from veduta.grammar.rules import (
     STYLES,
@@ -42,14 +43,21 @@ LOTS = {
     ],
     "garden": [ring((0, 0), (21, 0), (21, 28), (0, 28))],
 }
-LEVELS = (0, 1, 2)
+LEVELS = (0, 1, 2, 3)
+LIBRARY = Library(STYLES)
 FIGURE_6_7 = ("21221", "22223", "12223", "22221", "21212", "11222", "21223", "11212", "22222")
 """What the nine facades of the thesis chose for the floors 1 to 5."""
 
 
 @functools.cache
 def rules_of(style: str) -> _core.GrammarRules:
-    return compile_rules(read_rules(find_rules(style)))
+    rules = compile_rules(read_rules(find_rules(style)))
+    LIBRARY.add_written_to(rules)
+    return rules
+
+
+def part_of(derived: _core.DerivedLot) -> Part:
+    return build_part(derived, "lot", LIBRARY.assets_of(derived))
 
 
 def derive(style: str, lots: list[list[Ring]], **attributes: bool | float | str) -> list[Part]:
@@ -59,12 +67,18 @@ def derive(style: str, lots: list[list[Ring]], **attributes: bool | float | str)
         assert not isinstance(derived, str), derived
         assert np.isfinite(derived.positions_m).all()
         assert "" not in derived.feature_class
-        parts.append(build_part(derived, "lot"))
+        parts.append(part_of(derived))
     return parts
 
 
 def classes(part: Part) -> set[str]:
     return {part.features.semantic(row).value for row in range(len(part.features))}
+
+
+def triangles(part: Part) -> int:
+    """All that are seen, those of repeated assets too."""
+    repeated = part.instances.triangle_count if part.instances else 0
+    return len(part.triangles.indices) + repeated
 
 
 def top_of(part: Part, semantic: str) -> float:
@@ -85,10 +99,29 @@ def test_every_lot_derives_at_every_level(style: str) -> None:
             assert wanted <= classes(part), (name, level)
             assert part.notes == (), (name, level)
             assert float(part.feature_area_m2.min()) > 0.0
-        counts.append([len(part.triangles.indices) for part in parts])
-    boxes, panels, detail = counts
-    assert all(a < b < c for a, b, c in zip(boxes, panels, detail, strict=True))
+        counts.append([triangles(part) for part in parts])
+    boxes, panels, detail, near = counts
+    assert all(a < b < c < d for a, b, c, d in zip(boxes, panels, detail, near, strict=True))
     assert max(boxes) < 300
+
+
+@pytest.mark.parametrize("style", style_names())
+def test_every_level_has_assets_as_fine_as_it_says(style: str) -> None:
+    """`LOD` reaches all parts: blocks alone below 2, what is for near by at 3 alone."""
+    used = {}
+    for level in LEVELS:
+        found = rules_of(style).derive(
+            list(LOTS.values()), [5] * len(LOTS), attributes=[{"LOD": float(level)}] * len(LOTS)
+        )
+        used[level] = {
+            name for one in found if not isinstance(one, str) for name in one.asset_names
+        }
+    assert used[0] == set()
+    assert used[1] <= {"builtin/block"}
+    assert {name.partition("@")[2] for name in used[2]} <= {"", "1", "2"}
+    assert any(name.startswith("builtin/window") and name.endswith("@0") for name in used[3])
+    coarse = {name for name in used[3] if name.endswith(("@1", "@2"))}
+    assert coarse <= {"builtin/quoin@1", "builtin/keystone@1", "builtin/window-hood@1"}
 
 
 @pytest.mark.parametrize("style", style_names())
@@ -156,7 +189,7 @@ def test_the_ends_of_all_ranges_derive(style: str) -> None:
             strict=True,
         ):
             assert not isinstance(derived, str), (each, derived)
-            assert build_part(derived, "lot").notes == (), each
+            assert part_of(derived).notes == (), each
 
 
 @pytest.mark.parametrize(
@@ -211,15 +244,17 @@ def areas_of(rules: str, library: str) -> dict[tuple[str, float], float]:
 
     The place is how far the surface lies behind the face (m); surfaces across it do not count.
     """
-    head = f'import {library} : "parts/{library}.cga"\n'
+    head = f'import {library} : "parts/{library}.cga"\nattr LOD = 1\n'
     start = "Lot --> extrude(3) comp(f) { front : Face | all : NIL }\n"
     files = [("main.cga", f"{head}{start}Face --> {rules}")]
     for path in (STYLES / "parts").iterdir():
         files.append((f"parts/{path.name}", path.read_text("utf-8")))
     lot = [ring((0, 0), (2, 0), (2, 2), (0, 2))]
-    (derived,) = _core.GrammarRules(files).derive([lot], [0])
+    compiled = _core.GrammarRules(files)
+    LIBRARY.add_written_to(compiled)
+    (derived,) = compiled.derive([lot], [0])
     assert not isinstance(derived, str), derived
-    part = build_part(derived, "part")
+    part = part_of(derived)
     found: dict[tuple[str, float], float] = {}
     for triangle, polygon in zip(part.triangles.indices, part.triangles.polygon, strict=True):
         a, b, c = part.positions_m[triangle].astype(np.float64)
@@ -240,13 +275,13 @@ def test_a_round_arch_has_the_area_of_its_tangents() -> None:
     top of the face are tangents, too.
     """
     arch = 6 * np.tan(np.pi / 16) + 4 * np.tan(np.pi / 32)
-    found = areas_of(WALL + 'arches.OpeningRound("casement", 1, 0.2, "#ffffff")', "arches")
+    found = areas_of(WALL + 'arches.OpeningRound("casement", 0.2, "#ffffff")', "arches")
     assert found == pytest.approx({("window", 0.2): 4 + arch, ("wall", 0.0): 2 - arch}, abs=1e-5)
 
 
 def test_a_pointed_arch_and_the_wall_around_it_make_up_the_face() -> None:
     """Two arcs of 60 degrees on a triangle, over jambs, with tangents a little outside."""
-    found = areas_of(WALL + 'arches.OpeningPointed("planks", 1, 0.2, "#ffffff")', "arches")
+    found = areas_of(WALL + 'arches.OpeningPointed("planks", 0.2, "#ffffff")', "arches")
     door = found["door", 0.2]
     exact = 2 * (3 - np.sqrt(3)) + 4 * np.pi / 3 - np.sqrt(3)
     assert exact < door < exact + 0.025

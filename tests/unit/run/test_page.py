@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
+import pytest
+
 from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord
 
@@ -68,6 +70,25 @@ def test_what_is_for_experts_is_folded_after_the_rest() -> None:
         assert all(word in after for word in ("costs", "why", "walk"))
         assert after.startswith(" open>" if failures else ">")
         assert fold
+
+
+@pytest.mark.parametrize(
+    ("state", "failed", "told"),
+    [
+        ("done", 0, ("state done", "done")),
+        ("done", 2, ("state partly", "done, 2 failed")),
+        ("failed", 2, ("state failed", "failed")),
+    ],
+)
+def test_a_call_with_failures_is_not_simply_done(
+    state: str, failed: int, told: tuple[str, str]
+) -> None:
+    failures = [Failure(subject="a", kind="input", reason="b")] * failed
+    text = page_text(Page("a", "b"), state=state, failures=failures)
+    style, words = told
+    assert f'<span class="{style}">{words}</span>' in text
+    if style == "state partly":
+        assert ".state.partly { background: var(--warn)" in text
 
 
 def test_pictures_are_inside() -> None:

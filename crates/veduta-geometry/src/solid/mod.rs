@@ -3,6 +3,7 @@
 mod boolean;
 mod cleanup;
 mod cut;
+mod dissolve;
 mod envelope;
 mod extrude;
 mod inner_rectangle;
@@ -18,6 +19,7 @@ mod weld;
 pub use boolean::{boolean, relation, Boolean, BooleanError, Combined, Relation};
 pub use cleanup::{cleaned, Cleaning};
 pub use cut::{cut, Piece, Sides};
+pub use dissolve::{dissolve, Corner, Sheet};
 pub use envelope::{envelope, Bound};
 pub use extrude::extrude;
 pub use inner_rectangle::inner_rectangle;

@@ -34,7 +34,7 @@ def iron(name: str, level: int) -> Asset:
         return model.asset(name)
     for x in (0.075, 0.525):
         post(model, x, 0.0 if x < 0.1 else 0.085, 0.915, 0.009)
-    turns, steps, sides = ((1.6, 18, 5), (0.8, 6, 3))[level]
+    turns, steps, sides = ((1.6, 18, 5), (0.8, 4, 3))[level]
     for side in (-1.0, 1.0):
         scroll(model, 0.3, side, (0.085, 0.74), turns, steps, sides)
     frieze(model, (0.76, 0.915), level)

@@ -195,9 +195,8 @@ def single(name: str, level: int) -> Asset:
 
 def _body(model: Model, half: float, height: float, level: int) -> None:
     """A stack with corbelled courses and a cap; its foot may lie under the roof."""
-    model.box(
-        (-half + 0.06, 0.0, -0.22), (half - 0.06, height, 0.22), "brick", without="bottom top"
-    )
+    top = height if level < 2 else height + 0.15
+    model.box((-half + 0.06, 0.0, -0.22), (half - 0.06, top, 0.22), "brick", without="bottom top")
     courses = [(0.03, 0.0, 0.07), (0.0, 0.07, 0.15)] if level < 2 else []
     for inset, low, high in courses:
         model.box(

@@ -214,3 +214,10 @@ def hood(name: str, level: int) -> Asset:
         foot = [(0.0, 0.0), (0.06, 0.0), (0.09, 0.08), (0.18, 0.16), (0.2, 0.25), (0.0, 0.25)]
         model.prism(foot, (x, x + 0.18), "stone", axis="x")
     return model.asset(name)
+
+
+def block(name: str, level: int) -> Asset:
+    """A plain block, for ledges, jambs and boards of any measure, 1 m long."""
+    model = Model(STONE)
+    model.box((0.0, 0.0, 0.0), (1.0, 1.0, 1.0), "stone")
+    return model.asset(name)

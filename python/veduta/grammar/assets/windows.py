@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from veduta.grammar.assets.asset import Asset
-from veduta.grammar.assets.looks import BRASS, FRAME, PANE, STEEL, STONE
+from veduta.grammar.assets.looks import BRASS, FRAME, LEAF, PANE, STEEL, STONE
 from veduta.grammar.assets.modelling import Model, Points, arc, rectangle
 
 Span = tuple[float, float]
@@ -93,7 +93,22 @@ def door(name: str, level: int) -> Asset:
     return model.asset(name)
 
 
-def french_leaf(model: Model, x: Span, y: Span, panel: float, up: int, level: int) -> None:
+def small_panes(name: str, level: int) -> Asset:
+    """A window of two leaves with twelve small panes each, 1.2 m by 2.4 m."""
+    model = Model(FRAME, PANE, BRASS)
+    if level == 2:
+        flat_window(model, 1.2, 2.4, 0.07, 4, 6)
+        return model.asset(name)
+    framed(model, (0.0, 1.2), (0.0, 2.4), 0.055, (-0.07, 0.0), level)
+    for x in ((0.05, 0.6), (0.6, 1.15)):
+        french_leaf(model, x, (0.05, 2.35), 0.0, 6, level, across=2)
+    meeting_stile(model, 0.6, (0.06, 2.34), 1.1, level)
+    return model.asset(name)
+
+
+def french_leaf(
+    model: Model, x: Span, y: Span, panel: float, up: int, level: int, *, across: int = 1
+) -> None:
     """A leaf with glazing bars; `panel` is how high its solid foot is (m)."""
     stile, z = 0.06, (-0.06, -0.012)
     framed(model, x, y, stile, z, level)
@@ -117,7 +132,7 @@ def french_leaf(model: Model, x: Span, y: Span, panel: float, up: int, level: in
         )
         foot = top + stile
     inner_y = (foot, y[1] - stile)
-    bars(model, inner_x, inner_y, 1, up, (-0.045, -0.018), 0.028)
+    bars(model, inner_x, inner_y, across, up, (-0.045, -0.018), 0.028)
     model.pane(inner_x, inner_y, -0.042, "pane")
 
 
@@ -312,3 +327,31 @@ def ribbon(name: str, level: int) -> Asset:
     if level == 0:
         model.box((1.645, 0.66, -0.01), (1.665, 0.8, 0.015), "steel", without="back")
     return model.asset(name)
+
+
+def shutter(name: str, level: int) -> Asset:
+    """A louvred shutter that lies open on the wall, 0.55 m by 2.0 m."""
+    model = Model(LEAF)
+    width, height, stile, front = 0.55, 2.0, 0.06, 0.045
+    if level == 2:
+        model.box((0.0, 0.0, 0.0), (width, height, front), "leaf", without="back")
+        return model.asset(name)
+    framed_leaf = rectangle((0.0, 0.0), (width, height))
+    model.sweep(moulding(stile, 0.0, front, level), framed_leaf, "leaf", closed=True)
+    middle = height / 2
+    low, high = (stile, middle - 0.045, 0.0), (width - stile, middle + 0.045, front)
+    model.box(low, high, "leaf", without="back left right")
+    for foot, top in ((stile, middle - 0.045), (middle + 0.045, height - stile)):
+        louvres(model, (stile, width - stile), (foot, top), (20, 11)[level])
+    return model.asset(name)
+
+
+def louvres(model: Model, x: Span, y: Span, count: int) -> None:
+    """Slats that shed the rain: each leans out at its lower edge."""
+    back, front = 0.008, 0.034
+    edges = np.linspace(y[0], y[1], count + 1)
+    for low, high in zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True):
+        slope = [(x[0], low, front), (x[1], low, front), (x[1], high, back), (x[0], high, back)]
+        under = [(x[0], high, back), (x[1], high, back), (x[1], high, front), (x[0], high, front)]
+        model.facet(slope, "leaf")
+        model.facet(under, "leaf")

@@ -8,10 +8,12 @@ use crate::solid::envelope::{Bound, Storeys};
 use crate::solid::inset::Rings;
 use crate::solid::level::Level;
 use crate::solid::loops::close_in_plane;
-use crate::solid::Mesh;
+use crate::solid::{Face, Mesh};
 
 /// How often a height is moved a little where what is left at it touches itself.
 const ATTEMPTS: u32 = 8;
+/// Sine of the angle up to which faces over an edge are one.
+const SAME_PLANE: f64 = 1e-6;
 
 /// Gables of which the share `clipped` of the height is a slope again. `walls` is how far the floor
 /// lies below the height from which shares count.
@@ -125,18 +127,25 @@ impl Work {
         }
         let origins = self.storeys.origins.clone();
         let mesh = self.storeys.closed();
-        let mut planes: BTreeMap<(u32, bool), Vec<usize>> = BTreeMap::new();
+        let mut planes: BTreeMap<(u32, bool), Vec<Vec<usize>>> = BTreeMap::new();
         let mut rings: Vec<Vec<Vec<u32>>> = Vec::with_capacity(mesh.face_count());
         for face in mesh.faces() {
             match origins.get(face.index()).copied().flatten() {
                 Some((edge, moves)) => {
                     let key = (self.edges[edge as usize], moves);
-                    planes.entry(key).or_default().push(face.index());
+                    let known = planes.entry(key).or_default();
+                    match known
+                        .iter_mut()
+                        .find(|pieces| are_level(&mesh, pieces[0], face))
+                    {
+                        Some(pieces) => pieces.push(face.index()),
+                        None => known.push(vec![face.index()]),
+                    }
                 }
                 None => rings.push(face.rings().map(<[u32]>::to_vec).collect()),
             }
         }
-        for faces in planes.values() {
+        for faces in planes.values().flatten() {
             let normal = mesh.face(faces[0]).normal();
             let turned: Vec<Vec<u32>> = faces
                 .iter()
@@ -152,6 +161,20 @@ impl Work {
         }
         Ok(straightened(&mesh, rings))
     }
+}
+
+/// Whether a face lies in the plane of another. Upright steps between edges, and what stands on
+/// them, have the number of an edge and lie elsewhere.
+fn are_level(mesh: &Mesh, one: usize, face: Face<'_>) -> bool {
+    let (normal, origin) = (mesh.face(one).normal(), mesh.face(one).points().next());
+    let same = normal.cross(face.normal()).length() <= SAME_PLANE;
+    same && normal.dot(face.normal()) > 0.0
+        && origin.is_some_and(|origin| {
+            face.points().all(|point| {
+                let to = point - origin;
+                to.dot(normal).abs() <= SAME_PLANE * to.length()
+            })
+        })
 }
 
 /// The faces without points that lie on the straight side between two faces and no more.

@@ -1,14 +1,46 @@
-//! What the rules made of one lot, as columns for Python.
+//! What was derived of one lot, for Python: columns.
 
 use std::sync::Arc;
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
+use veduta_grammar::engine::{pack, pieces, surfaces, Code, Packed, Surfaces, Tree};
 use veduta_grammar::shape::Asset;
 
 use crate::assets::MissingAsset;
-use crate::grammar::{Derived, Failed};
+use crate::derivation::edit_faults;
+use crate::grammar::Failed;
+
+/// Polygons of a piece that may be repeated: a window has some dozens.
+const MOST_IN_PIECE: u32 = 96;
+
+pub struct Derived {
+    pub packed: Packed,
+    pub surfaces: Surfaces,
+    /// Leaves that rules may have made several times together, by packed feature.
+    pub pieces: Vec<u32>,
+    pub names: Vec<String>,
+    pub log_prior: f64,
+    pub messages: Vec<String>,
+    pub edit_faults: Vec<(Vec<u32>, String)>,
+}
+
+/// The columns of the leaves of a tree.
+pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
+    let packed = pack(tree);
+    let surfaces = surfaces(tree, &packed, code);
+    let name = |&node: &u32| tree.nodes[node as usize].name.to_string();
+    Derived {
+        names: surfaces.node.iter().map(name).collect(),
+        pieces: pieces(tree, &packed, &surfaces, MOST_IN_PIECE),
+        packed,
+        surfaces,
+        log_prior: tree.log_prior,
+        messages: tree.messages.clone(),
+        edit_faults: edit_faults(tree),
+    }
+}
 
 /// The columns of one lot.
 #[pyclass(frozen, get_all, module = "veduta._core")]
@@ -24,6 +56,12 @@ pub struct DerivedLot {
     /// What each surface is, as the rules have it; empty where they do not say it.
     feature_class: Vec<String>,
     feature_size_m: Py<PyArray2<f64>>,
+    /// What the rules say of each surface in the attributes `surface`, `solid` and `provenance`,
+    /// and which `surface` it was made in; empty where they say nothing.
+    feature_surface: Vec<String>,
+    feature_within: Vec<String>,
+    feature_solid: Vec<String>,
+    feature_provenance: Vec<String>,
     /// Red, green, blue, opacity (0 to 1), texture and class of each look.
     looks: Vec<(f32, f32, f32, f32, Option<String>, String)>,
     /// The surface that each asset belongs to, its look, its place in `asset_names`, and where it
@@ -78,7 +116,11 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         polygon_feature: of_polygon(&surfaces.of_feature).into_pyarray(py).unbind(),
         polygon_look: of_polygon(&packed.feature_look).into_pyarray(py).unbind(),
         feature_name: derived.names,
-        feature_class: surfaces.class.iter().map(ToString::to_string).collect(),
+        feature_class: texts(&surfaces.class),
+        feature_surface: texts(&surfaces.name),
+        feature_within: texts(&surfaces.within),
+        feature_solid: texts(&surfaces.solid),
+        feature_provenance: texts(&surfaces.provenance),
         feature_size_m: rows(&surfaces.size).into_pyarray(py).unbind(),
         looks: looks.collect(),
         instance_feature: of_instance(&surfaces.of_feature).into_pyarray(py).unbind(),
@@ -91,6 +133,10 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         edit_faults: derived.edit_faults,
     };
     Ok(Bound::new(py, lot)?.into_any())
+}
+
+fn texts(column: &[Arc<str>]) -> Vec<String> {
+    column.iter().map(ToString::to_string).collect()
 }
 
 pub fn rows<T: Copy, const N: usize>(tuples: &[[T; N]]) -> Array2<T> {

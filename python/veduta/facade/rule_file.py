@@ -1,0 +1,266 @@
+"""The rule file of a building: `rules.cga`, which the model is derived from and which people edit.
+
+Attributes first, then the rules of this building (its floors, shop fronts and roof), then those
+that its parts need, from `parts/*.cga`.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from veduta import _core
+from veduta.facade.cells import LEAST_M, Cell, metres, splits
+from veduta.facade.document import Element
+from veduta.facade.dormers import LID_M, LID_SIDE_M, Dormer
+from veduta.facade.layout import Opening
+from veduta.facade.plan import Band, Plan
+from veduta.facade.rectangles import Rectangle
+from veduta.facade.rule_head import (
+    DEEP_M,
+    RULES,
+    SHALLOW_M,
+    WIDE_M,
+    floor_attribute,
+    floor_foot,
+    rule_head,
+)
+from veduta.facade.textures import FacadeTextures
+from veduta.place.semantics import Provenance
+
+PARTS = Path(__file__).parent / "parts"
+Size = tuple[float, float]
+_NO_SIZE: Size = (np.nan, np.nan)
+
+
+@dataclass(frozen=True)
+class Known:
+    """What the plan knows of a surface: its size, and the element of the photo that it shows.
+
+    seen_height_m: how much of it was seen, where a rule made it reach further down.
+    """
+
+    size_m: Size
+    element: Element | None = None
+    seen_height_m: float | None = None
+
+
+@dataclass(frozen=True)
+class RuleFile:
+    """The text, and what is known of the surfaces that it names."""
+
+    text: str
+    known: dict[str, Known]
+
+
+def write_rules(
+    plan: Plan, textures: FacadeTextures, roof_said: Provenance, photo: str
+) -> RuleFile:
+    """The rule file of a plan; `photo` is the name of the photo, for the people who read it."""
+    writer = _Writer(plan)
+    front = writer.front()
+    slope = writer.slope(roof_said)
+    building = writer.building()
+    head = rule_head(plan, textures, photo, writer.parts)
+    writer.parts |= {part for word, part in _COLUMNS.items() if word in "".join([*front, slope])}
+    parts = [_part(name) for name in _ORDER if name in writer.parts]
+    text = "\n".join([head, building, *front, slope, *parts])
+    return RuleFile(_core.grammar_format(RULES, text), writer.known)
+
+
+def provenance(opening: Opening) -> Provenance:
+    """That of the element; a size that a rule has added to is inferred, not measured."""
+    said = Provenance(opening.element.provenance)
+    extended = opening.seen_height_m is not None
+    return Provenance.INFERRED if extended and said is Provenance.MEASURED else said
+
+
+class _Writer:
+    """The rules of one building, as they are written."""
+
+    def __init__(self, plan: Plan) -> None:
+        self.plan = plan
+        self.known: dict[str, Known] = {"front wall": Known((plan.width_m, plan.eaves_m))}
+        self.counts: Counter[str] = Counter()
+        self.parts: set[str] = set()
+
+    def building(self) -> str:
+        """From the lot to the sides of the building."""
+        plan = self.plan
+        roof = " [ t(0, eaves, 0) Roof ]" if plan.mansard else ""
+        top = "NIL" if plan.mansard else "FlatRoof"
+        text = _BODY.format(inside=f"[ Body ]{roof}{self._chimneys()}", top=top)
+        return text if plan.mansard else text + _FLAT_ROOF
+
+    def front(self) -> list[str]:
+        """The front, its floors, shop fronts and balconies."""
+        rules: list[str] = []
+        floors = " | ".join(self._floor(band, rules) for band in self.plan.bands)
+        calls = "\n".join(map(self._balcony, self.plan.balconies))
+        walls = "texture(wallPhoto) projectUV(0) Floors"
+        front = _FRONT.format(floors=floors, inside=f"[ {walls} ] Balconies" if calls else walls)
+        return [front, f"Balconies -->\n{calls}\n" if calls else "", *rules]
+
+    def slope(self, said: Provenance) -> str:
+        """The front slope of the roof, with its dormers."""
+        mansard = self.plan.mansard
+        if mansard is None:
+            return ""
+        self.parts |= {"mansard"}
+        for side in ("front", "right", "back", "left"):
+            self.known |= {f"{side} {which} slope": Known(_NO_SIZE) for which in ("lower", "upper")}
+        cells = [self._dormer(*each) for each in enumerate(self.plan.dormers, start=1)]
+        region = Rectangle(0.0, mansard.eaves_m, mansard.width_m, mansard.break_m)
+        return _FRONT_SLOPE.format(said=said, cut=splits(cells, region, "Roof.", "up({})"))
+
+    def _name(self, opening: Opening) -> str:
+        """The name of the surface of an element, with the next number of its kind."""
+        kind, place = opening.element.class_, opening.rectangle
+        self.counts[kind] += 1
+        name = f"{kind} {self.counts[kind]}"
+        size = (place.width, place.height)
+        self.known[name] = Known(size, opening.element, opening.seen_height_m)
+        return name
+
+    def _floor(self, band: Band, rules: list[str]) -> str:
+        """The cell of one floor in the front's split; its rule is added to the others."""
+        attribute = floor_attribute(band)
+        rule = attribute[0].upper() + attribute[1:]
+        region = Rectangle(0.0, band.foot_m, self.plan.width_m, band.top_m)
+        cells = [self._opening(opening, "setback", 1.0, rules) for opening in band.openings]
+        rules.append(f"{rule} --> {splits(cells, region, 'Wall.')}\n")
+        return f"{attribute} : {rule}"
+
+    def _opening(self, opening: Opening, deep: str, share: float, rules: list[str]) -> Cell:
+        """The call that builds an opening; a shop front with doors gets a rule of its own.
+
+        deep: how far it lies back, a share of the setback.
+        """
+        kind, place = opening.element.class_, opening.rectangle
+        name, said = self._name(opening), provenance(opening)
+        self._reveal(name, place, share)
+        if opening.children:
+            inside = [self._opening(o, "setback / 2", 0.5, rules) for o in opening.children]
+            cut, rule = splits(inside, place, "Panel."), name.title().replace(" ", "")
+            rules.append(_SHOP.format(rule=rule, name=name, said=said, cut=cut))
+            return Cell(place, rule)
+        self.parts |= {"panel"}
+        if kind == "window":
+            self.parts |= {"window"}
+            call = f'Window("{name}", "{said}", {deep})'
+            column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if share == 1.0 else ""
+            return Cell(place, call, column)
+        self.parts |= {"opening"}
+        return Cell(place, f'Opening("{kind}", "{name}", "{said}", {deep})')
+
+    def _reveal(self, name: str, place: Rectangle, share: float) -> None:
+        self.parts |= {"reveal"}
+        self.known[f"reveal of {name}"] = Known((share * self.plan.setback_m, place.height))
+
+    def _balcony(self, balcony: Opening) -> str:
+        self.parts |= {"balcony"}
+        name, place = self._name(balcony), balcony.rectangle
+        out = DEEP_M if place.width >= WIDE_M else SHALLOW_M
+        self.known[f"floor and sides of {name}"] = Known((place.width, out))
+        x, w, h = map(metres, (place.x0, place.width, place.height))
+        said = balcony.element.provenance
+        return f'Balcony("{name}", "{said}", {x}, {self._height(place.z0)}, {w}, {h})'
+
+    def _height(self, z_m: float) -> str:
+        """A height over the ground, told from the foot of its floor or from the eaves."""
+        levels = [(band.foot_m, floor_foot(band)) for band in self.plan.bands]
+        levels.append((self.plan.eaves_m, "eaves"))
+        foot_m, name = [level for level in levels if level[0] <= z_m + LEAST_M][-1]
+        return metres(z_m) if name == "0" else f"{name} + {metres(z_m - foot_m)}"
+
+    def _dormer(self, number: int, dormer: Dormer) -> Cell:
+        self.parts |= {"dormer", "window", "panel", "reveal"}
+        name, window = f"dormer {number}", self._name(dormer.window)
+        self._reveal(window, dormer.window.rectangle, 1.0)
+        self.known[name] = Known((dormer.front.width, dormer.front.height))
+        self.known[f"lid of {name}"] = Known((dormer.front.width + 2 * LID_SIDE_M, LID_M))
+        call = f'Dormer("{name}", "{window}", "{provenance(dormer.window)}")'
+        column = (
+            f'SlopeColumn({{}}, {{}}, {{}}, "{name}", "{window}", "{provenance(dormer.window)}")'
+        )
+        return Cell(dormer.front, call, column)
+
+    def _chimneys(self) -> str:
+        calls = ""
+        for number, chimney in enumerate(self.plan.chimneys, start=1):
+            self.parts |= {"chimney"}
+            name, place = f"chimney {number}", chimney.front
+            self.known[name] = Known((place.width, place.height), chimney.element)
+            self.known[f"sides and back of {name}"] = Known(_NO_SIZE)
+            high = place.z1 - self._roof_edge_m()
+            sizes = (place.x0, place.width, high, chimney.near_m, chimney.far_m)
+            calls += f' [ Chimney("{name}", {", ".join(map(metres, sizes))}) ]'
+        return calls
+
+    def _roof_edge_m(self) -> float:
+        mansard = self.plan.mansard
+        return self.plan.eaves_m if mansard is None else mansard.break_m
+
+
+@cache
+def _part(name: str) -> str:
+    return (PARTS / f"{name}.cga").read_text(encoding="utf-8")
+
+
+_ORDER: Sequence[str] = (
+    "window", "column", "opening", "panel", "reveal", "balcony", "mansard", "dormer",
+    "slope_column", "chimney",
+)  # fmt: skip
+_COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
+
+_BODY = """
+// ---- building -------------------------------------------------------------------------------
+
+// The lot's first edge lies along the street.
+@StartRule
+Lot --> t(0, 0, scope.sz - depth) primitiveQuad(width, depth) Building
+
+Building --> {inside}
+
+Body -->
+    set(material.name, "wall") color(wallColor)
+    setupProjection(0, scope.xy, photoWidth, photoHeight, photoLeft, photoFoot)
+    extrude(world.up, eaves)
+    comp(f) {{ front : Front | right : Blind("right wall") | back : Blind("back wall")
+        | left : Blind("left wall") | bottom : Ground | top : {top} }}
+
+Blind(name) --> set(surface, name) Wall.
+Ground --> set(material.name, "ground") set(surface, "footprint") Ground.
+"""
+_FLAT_ROOF = """
+FlatRoof --> set(material.name, "roof") set(surface, "flat roof") color(roofColor) Roof.
+"""
+_FRONT = """
+// ---- front ----------------------------------------------------------------------------------
+
+Front -->
+    set(surface, "front wall") set(provenance, "measured") color(1)
+    {inside}
+
+Floors --> split(y) {{ {floors} }}
+"""
+_FRONT_SLOPE = """
+FrontSlope -->
+    set(surface, "front lower slope") set(provenance, "{said}")
+    color(1) texture(wallPhoto) projectUV(0)
+    {cut}
+"""
+_SHOP = """
+{rule} -->
+    case setback > 0 : [ Reveal("{name}", setback) ] t(0, 0, -setback) {rule}Front
+    else : {rule}Front
+
+{rule}Front -->
+    set(material.name, "shop") set(surface, "{name}") set(provenance, "{said}")
+    {cut}
+"""

@@ -1,0 +1,56 @@
+"""What `rules.cga` needs beside it to be derived alone: its lot, and the textures that it names.
+
+A texture has a mask beside it, `NAME.invented.png`: what is white there is no pixel of the photo.
+"""
+
+from __future__ import annotations
+
+import io
+import json
+from pathlib import Path
+
+import numpy as np
+from PIL import Image
+
+from veduta.facade.model import Model
+from veduta.facade.rule_head import LOT, RULES
+from veduta.grammar.textures import mask_name
+from veduta.place.material import Texture
+
+JPEG_QUALITY = 90
+
+
+def write_rule_files(model: Model, folder: Path) -> None:
+    """Write the rules of a building, its lot and its textures."""
+    (folder / RULES).write_text(model.rules, encoding="utf-8")
+    (folder / LOT).write_text(_lot(model), encoding="utf-8")
+    for name, texture in model.textures.items():
+        path = folder / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_bytes(_jpeg(texture))
+        path.with_name(mask_name(path.name)).write_bytes(_mask(texture))
+
+
+def _lot(model: Model) -> str:
+    """GeoJSON in metres of the facade's frame: the first edge lies along the street."""
+    width, depth = model.size_m
+    ring = [[0.0, 0.0], [width, 0.0], [width, depth], [0.0, depth], [0.0, 0.0]]
+    feature = {
+        "type": "Feature",
+        "properties": {"name": model.part.id},
+        "geometry": {"type": "Polygon", "coordinates": [ring]},
+    }
+    return json.dumps({"type": "FeatureCollection", "features": [feature]}, indent=1) + "\n"
+
+
+def _jpeg(texture: Texture) -> bytes:
+    memory = io.BytesIO()
+    Image.fromarray(texture.pixels).save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
+    return memory.getvalue()
+
+
+def _mask(texture: Texture) -> bytes:
+    memory = io.BytesIO()
+    white = texture.invented.astype(np.uint8) * 255
+    Image.fromarray(white).convert("1").save(memory, "PNG")
+    return memory.getvalue()
