@@ -28,7 +28,7 @@ SQUARE = [[(0.0, 0.0, 0.0), (4.0, 0.0, 0.0), (4.0, 5.0, 0.0), (0.0, 5.0, 0.0)]]
 
 def line(rules: str, name: str = "a", x: float = 0.0) -> dict[str, Any]:
     derived = _core.derive_lots(
-        _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}]
+        _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}], edits=[[]]
     )
     assert derived.fault(0) is None
     text = feature_line(name, {"street": 'Rue "A"'}, derived.city(0, (x, 0.0, 0.0), CLASSES, KINDS))
