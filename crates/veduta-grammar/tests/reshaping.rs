@@ -5,7 +5,7 @@
 mod support;
 
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, said, tree};
+use support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 
 fn print(operations: &str, values: &[&str]) -> Vec<String> {
     let all: String = values
@@ -155,6 +155,21 @@ fn pivots_come_to_corners() {
         ["0"]
     );
     assert!(fault("Lot --> setPivot(xyz, 8)").contains("corner 8"));
+}
+
+#[test]
+fn texture_splits_close_hollows() {
+    // A room of 10 m by 6 m by 4 m, seen from within, in parts of 4 m and 6 m.
+    let found = tree(
+        "Lot --> setupProjection(0, scope.xz, 1, 1) projectUV(0) extrude(4) reverseNormals() \
+         split(u) { 4 : A. | ~1 : B. }",
+    );
+    for (name, volume) in [("A", -96.0), ("B", -144.0)] {
+        let meshes = mesh_of(&found, name);
+        assert_eq!(meshes.len(), 1);
+        assert!(meshes[0].is_closed(), "{name}");
+        assert!((meshes[0].volume() - volume).abs() < 1e-9, "{name}");
+    }
 }
 
 #[test]
