@@ -57,7 +57,15 @@ def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
         f"By eye:     {result.out}/comparison/comparison.png (photo, truth, found)",
         f"Why:        {result.out}/place/street/report.html",
         f"Walk in it: veduta view {result.out}/place",
+        f"  in a street that rules invented: veduta view {result.out}",
+        *_street(result),
     ]
+
+
+def _street(result: DemoResult) -> list[str]:
+    """The lots of the street that have no building."""
+    failures = result.street.failures if result.street else []
+    return [f"  not built {failure.subject}: {failure.reason}" for failure in failures]
 
 
 def _edited(result: DemoResult) -> list[str]:

@@ -2,7 +2,8 @@
 
 OUT/truth has the photo and what is true about it, OUT/place is what `veduta facade` makes of the
 photo, OUT/comparison says how the two agree: as the document in OUT/place is now, also where
-somebody has edited it since.
+somebody has edited it since. OUT/street is a procedural street around the rebuilt house, and
+OUT/place.json shows both together.
 """
 
 from __future__ import annotations
@@ -19,21 +20,24 @@ from pydantic import BaseModel, ConfigDict, Field
 from veduta.facade.batch import CallResult, run_call
 from veduta.facade.compare import Comparison, compare
 from veduta.facade.compare_picture import comparison_png, truth_png
+from veduta.facade.demo_street import LOTS, LOTS_FILE, derive_street, joined_place, street_lots
 from veduta.facade.document import FacadeDocument
 from veduta.facade.load import DOCUMENT, load_document
 from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
 from veduta.facade.pipeline import VERSION as FACADE_VERSION
+from veduta.formats.place_json import write_place
 from veduta.geometry import homography
+from veduta.grammar.pipeline import DeriveResult
 from veduta.run.digests import file_digest, result_key
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.progress import Progress
-from veduta.run.record import load_record
+from veduta.run.record import CALL, load_record
 from veduta.synthetic.facade import SyntheticFacade, make_facade
 from veduta.synthetic.options import SyntheticOptions
 from veduta.synthetic.truth import FacadeTruth
 
-VERSION = "1"
+VERSION = "2"
 TRUTH, PLACE, COMPARISON = "truth", "place", "comparison"
 PHOTO = "street.jpg"
 RECORD = "comparison.json"
@@ -81,6 +85,8 @@ class DemoResult:
     call: CallResult | None = None
     edited: bool = False
     """Whether the document is no longer as `veduta facade` wrote it."""
+    street: DeriveResult | None = None
+    """What became of the lots around it; None when up to date."""
 
 
 def run_demo(
@@ -118,8 +124,10 @@ def run_demo(
             seconds_rebuild=round(seconds_rebuild, 2),
         )
         _publish_comparison(folder, key, facade, document, record)
+        street_of = (facade.truth.style, options.seed, document)
+        neighbours = _publish_street(folder, key, street_of, progress)
         folder.finish()
-        return DemoResult(out, record, call, edited=_is_edited(path))
+        return DemoResult(out, record, call, edited=_is_edited(path), street=neighbours)
 
 
 def _record_of(
@@ -137,6 +145,30 @@ def _record_of(
     record = record.model_copy(update=update)
     _publish_comparison(folder, key, facade, document, record)
     return record
+
+
+def _publish_street(
+    folder: OutFolder,
+    key: str,
+    street_of: tuple[str, int, FacadeDocument],
+    progress: Progress,
+) -> DeriveResult:
+    """The lots around the house, what is built on them, and the place of all.
+
+    street_of: the style and the seed of the street, and the house.
+    """
+    out = folder.path
+    style, seed, document = street_of
+    work = folder.work_folder(LOTS)
+    with writing_to(out):
+        (work / LOTS_FILE).write_text(street_lots(document, style, seed), encoding="utf-8")
+    folder.publish(LOTS, key, work)
+    found = derive_street(out, style, seed, progress, force=True)
+    work = folder.work_folder(CALL)
+    with writing_to(out):
+        write_place(joined_place(out, PLACE), work / "place.json")
+    folder.publish(CALL, key, work)
+    return found
 
 
 def _is_edited(path: Path) -> bool:
