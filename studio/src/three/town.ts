@@ -254,7 +254,7 @@ export class Town implements Obstacles {
     );
     for (const [scene, { model, tile }] of this.#models) {
       if (tile.geometricError > WALKABLE_ERROR_M || this.#isCovered(tile)) continue;
-      const box = new Box3().setFromObject(scene);
+      const box = this.#inPlace(scene, () => new Box3().setFromObject(scene));
       const low = worldFromDrawn(box.min.toArray());
       const high = worldFromDrawn(box.max.toArray());
       const own = new Box3().setFromPoints([new Vector3(...low), new Vector3(...high)]);
@@ -274,12 +274,21 @@ export class Town implements Obstacles {
   #solidOf(scene: Object3D, model: TileModel): Solid {
     const known = this.#solids.get(scene);
     if (known !== undefined) return known;
-    scene.updateMatrixWorld(true);
-    const solid = new Solid(model.soup(null));
+    const solid = this.#inPlace(scene, () => new Solid(model.soup(null)));
     this.#solids.set(scene, solid);
     const [oldest] = this.#solids.keys();
     if (this.#solids.size > MOST_SOLIDS && oldest !== undefined) this.#solids.delete(oldest);
     return solid;
+  }
+
+  /** A tile that is loaded but not drawn hangs nowhere: where it stands shows below the group only. */
+  #inPlace<T>(scene: Object3D, look: () => T): T {
+    const isLoose = scene.parent === null;
+    if (isLoose) this.#tiles.group.add(scene);
+    scene.updateMatrixWorld(true);
+    const seen = look();
+    if (isLoose) this.#tiles.group.remove(scene);
+    return seen;
   }
 
   #stopAtFault(end_ms: number): void {
