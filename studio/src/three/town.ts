@@ -101,7 +101,7 @@ export class Town implements Obstacles {
     const end = performance.now() + LOAD_PATIENCE_MS;
     while (!this.#tiles.getBoundingBox(box)) {
       this.#stopAtFault(end);
-      this.#tiles.update();
+      this.#advance();
       await pause();
     }
     this.bounds = { min: box.min.toArray(), max: box.max.toArray() };
@@ -116,7 +116,7 @@ export class Town implements Obstacles {
     camera.updateMatrixWorld();
     for (let calm = 0; calm < 3; ) {
       this.#stopAtFault(end);
-      this.#tiles.update();
+      this.#advance();
       await pause();
       calm = this.isLoading || this.#models.size === 0 ? 0 : calm + 1;
     }
@@ -148,7 +148,7 @@ export class Town implements Obstacles {
   update(camera: PerspectiveCamera, renderer: WebGLRenderer): void {
     camera.updateMatrixWorld();
     this.#tiles.setResolutionFromRenderer(camera, renderer);
-    this.#tiles.update();
+    this.#advance();
   }
 
   classOf(ref: FeatureRef): SemanticClass | null {
@@ -206,6 +206,17 @@ export class Town implements Obstacles {
 
   dispose(): void {
     this.#tiles.dispose();
+  }
+
+  #advance(): void {
+    // The library takes a tile that it wants to show for shown while that is on its way (0.4.26), and
+    // would then leave it out when it is there.
+    for (const { tile } of this.#models.values()) {
+      // The types leave it out.
+      const traversal = tile.traversal as unknown as { wasSetVisible: boolean };
+      if (traversal.wasSetVisible && !this.#tiles.visibleTiles.has(tile)) traversal.wasSetVisible = false;
+    }
+    this.#tiles.update();
   }
 
   #take(scene: Object3D, tile: Tile, url: string): void {
