@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from closed_shells import assert_closed
 from hypothesis import given
 from hypothesis import strategies as st
@@ -68,3 +69,13 @@ def _assert_apart(openings: list[Opening], border: tuple[float, float, float, fl
             along = max(box.z0 - away.z1, away.z0 - box.z1)
             assert max(across, along) >= slack
         _assert_apart(list(one.children), (box.x0, box.z0, box.x1, box.z1))
+
+
+@pytest.mark.parametrize(("depth_m", "roof_m"), [(0.5, 9.0), (1.0, 3.6), (2.0, 3.6), (10.0, 9.0)])
+def test_dormers_of_steep_slopes_close(depth_m: float, roof_m: float) -> None:
+    """Where a slope is steeper than some 77 degrees, it leans too little to be told by leaning."""
+    chosen = ModelSizes(depth_m=depth_m, setback_m=0.1)
+    window = element("window", 2.0, 1.2, 1.2, 0.75)
+    part = build_part(sample_document([window], roof_m, (8.0, 1.0), chosen), PHOTO, "steep")
+    assert any("dormer" in name for name in part.features.name)
+    assert_closed(part)
