@@ -54,7 +54,8 @@ def overlay(document: FacadeDocument, pixels: NDArray[np.uint8]) -> NDArray[np.u
 def png(pixels: NDArray[np.uint8]) -> bytes:
     """(h, w, 3) sRGB as a PNG file."""
     file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="PNG", compress_level=6)
+    # Level 6 takes three times as long, for a file that is a twentieth smaller.
+    Image.fromarray(pixels).save(file, format="PNG", compress_level=2)
     return file.getvalue()
 
 
