@@ -9,7 +9,7 @@ Points = NDArray[np.float64]
 
 
 def signed_area(polygon: Points) -> float:
-    """Shoelace area; positive when the vertices go clockwise on the screen (y down)."""
+    """Shoelace area; positive counter-clockwise where y goes up, clockwise where it goes down."""
     x, y = polygon[:, 0], polygon[:, 1]
     return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
 

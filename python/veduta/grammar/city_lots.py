@@ -18,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
+from veduta.geometry.polygon import signed_area
 from veduta.grammar.outline import Attribute, Outline, plain_attributes
 from veduta.grammar.rings import MAX_VERTICES, RingFault
 from veduta.run.errors import InputError
@@ -208,19 +209,19 @@ def _loops(edges: set[tuple[int, int]]) -> list[Loop]:
 
 def polygons_of(loops: list[NDArray[np.float64]]) -> list[list[NDArray[np.float64]]]:
     """Outlines with the holes that lie in them."""
-    outlines = [[loop] for loop in loops if _area(loop) > 0]
+    outlines = [[loop] for loop in loops if ring_area(loop) > 0]
     if not outlines:
         raise RingFault("its ground encloses nothing")
     for loop in loops:
-        if _area(loop) < 0:
+        if ring_area(loop) < 0:
             around = [rings for rings in outlines if _is_in(loop[0], rings[0])]
             (around or outlines)[0].append(loop)
     return outlines
 
 
-def _area(loop: NDArray[np.float64]) -> float:
-    x, y = (loop[:, :2] - loop[0, :2]).T
-    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
+def ring_area(loop: NDArray[np.float64]) -> float:
+    """Positive counter-clockwise from above; about the first corner, as coordinates are large."""
+    return signed_area(loop[:, :2] - loop[0, :2])
 
 
 def _is_in(point: NDArray[np.float64], loop: NDArray[np.float64]) -> bool:

@@ -13,7 +13,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.grammar.city_lots import border, polygons_of
+from veduta.grammar.city_lots import border, polygons_of, ring_area
 from veduta.grammar.outline import Outline
 from veduta.grammar.rings import MAX_VERTICES, RingFault
 from veduta.run.errors import InputError
@@ -51,14 +51,9 @@ def _polygons(points: NDArray[np.float64], faces: list[Loop]) -> list[list[NDArr
     """The outlines with their holes; a lone face keeps its first edge."""
     if len(faces) == 1:
         return [[points[faces[0]]]]
-    up = [face if _turns_left(points[face]) else face[::-1] for face in faces]
+    up = [face if ring_area(points[face]) > 0 else face[::-1] for face in faces]
     loops = border(points, [[face] for face in up], seen_from_below=False)
     return polygons_of([points[loop] for loop in loops])
-
-
-def _turns_left(ring: NDArray[np.float64]) -> bool:
-    x, y = (ring[:, :2] - ring[0, :2]).T
-    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) > 0
 
 
 def _parsed(path: Path) -> tuple[NDArray[np.float64], list[tuple[str, list[Loop]]]]:

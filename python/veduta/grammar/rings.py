@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.geometry.polygon import signed_area
 
 MAX_VERTICES = 10_000
 MIN_STEP_M = 1e-3
@@ -65,7 +66,7 @@ def clean_rings(rings_m: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]
         if float(np.ptp(kept, axis=0).max()) > MAX_SIDE_M:
             raise RingFault(f"is more than {MAX_SIDE_M / 1000:.0f} km wide")
         is_outline = number == 0
-        if (_area(kept) > 0) != is_outline:
+        if (signed_area(kept) > 0) != is_outline:
             kept = np.roll(kept[::-1], 2, axis=0)
         found.append(kept)
     _require_area(found)
@@ -77,11 +78,6 @@ def _apart(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     steps = np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1)
     kept: NDArray[np.float64] = ring[steps >= MIN_STEP_M]
     return kept
-
-
-def _area(ring: NDArray[np.float64]) -> float:
-    x, y = ring.T
-    return 0.5 * float(x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
 def _require_area(rings: list[NDArray[np.float64]]) -> None:
