@@ -1,12 +1,13 @@
 //! `veduta_geometry` for Python: columns in, columns out, the GIL released in between.
 
-use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use veduta_geometry::solid::{dissolve, Corner, Sheet};
 use veduta_geometry::{triangulate, triangulate_sound, PolygonError, PolygonSet, Triangulation};
+
+use crate::derived_lot::rows;
 
 create_exception!(_core, PolygonFault, PyValueError);
 create_exception!(_core, BadOffsetsError, PolygonFault);
@@ -84,18 +85,13 @@ fn dissolve_polygons<'py>(
     solid: PyReadonlyArray1<'py, u32>,
     near_m: f64,
 ) -> PyResult<Dissolved<'py>> {
-    let (view, uv) = (positions_m.as_array(), uv.as_array());
+    let (points, uv) = (points_of(&positions_m)?, uv.as_array());
     let (group, solid) = (group.as_array(), solid.as_array());
-    let wide = view.ncols() == 3 && uv.ncols() == 2 && uv.nrows() == view.nrows();
+    let wide = uv.ncols() == 2 && uv.nrows() == points.len();
     let polygons: Vec<i64> = polygon_offsets.as_array().to_vec();
     if !wide || group.len() + 1 != polygons.len() || solid.len() != group.len() {
         return Err(PyValueError::new_err("the columns do not fit each other"));
     }
-    let points: Vec<[f64; 3]> = view
-        .rows()
-        .into_iter()
-        .map(|p| [p[0], p[1], p[2]])
-        .collect();
     let rings: Vec<i64> = ring_offsets.as_array().to_vec();
     let set = PolygonSet::new(&points, &rings, &polygons).map_err(|error| to_python(&error))?;
     let corner = |vertex: usize| Corner {
@@ -125,11 +121,10 @@ fn dissolve_polygons<'py>(
         count += sheet.rings.len() as i64;
         polygon_ends.push(count);
     }
-    let uv = Array2::from_shape_fn((coordinates.len(), 2), |(row, c)| coordinates[row][c]);
     let groups: Vec<u32> = found.iter().map(|sheet| sheet.group).collect();
     Ok((
         rows(&places).into_pyarray(py),
-        uv.into_pyarray(py),
+        rows(&coordinates).into_pyarray(py),
         ring_ends.into_pyarray(py),
         polygon_ends.into_pyarray(py),
         groups.into_pyarray(py),
@@ -165,10 +160,6 @@ fn points_of(positions_m: &PyReadonlyArray2<'_, f64>) -> PyResult<Vec<[f64; 3]>>
     }
     let rows = view.rows().into_iter();
     Ok(rows.map(|p| [p[0], p[1], p[2]]).collect())
-}
-
-fn rows<T: Copy>(triples: &[[T; 3]]) -> Array2<T> {
-    Array2::from_shape_fn((triples.len(), 3), |(row, column)| triples[row][column])
 }
 
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
