@@ -15,6 +15,7 @@ use crate::grammar::Failed;
 /// Polygons of a piece that may be repeated: a window has some dozens.
 const MOST_IN_PIECE: u32 = 96;
 
+#[derive(Clone)]
 pub struct Derived {
     pub packed: Packed,
     pub surfaces: Surfaces,

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::city::city;
 use crate::derivation::GivenEdit;
-use crate::derived_lot::Derived;
+use crate::derived_lot::{lot_to_python, Derived};
 use crate::given::Given;
 use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
 use crate::standing::box_of;
@@ -85,6 +85,14 @@ impl DerivedLots {
         Ok(found
             .map(|derived| derived.edit_faults.clone())
             .unwrap_or_default())
+    }
+
+    /// The columns of a lot.
+    fn columns<'py>(&self, py: Python<'py>, lot: usize) -> PyResult<Bound<'py, PyAny>> {
+        match self.lot(lot)? {
+            Ok(derived) => lot_to_python(py, derived.clone()),
+            Err(failed) => Err(PyValueError::new_err(failed.why.clone())),
+        }
     }
 
     /// What the rules said of a lot.

@@ -14,7 +14,6 @@ from veduta import _core
 from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line
 from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Tile
-from veduta.grammar.assets.library import Library
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
 from veduta.grammar.levels import FULL, PLAIN, VOLUME
@@ -23,7 +22,6 @@ from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
 from veduta.grammar.textures import read_textures
 from veduta.grammar.town import Built, Town, built_of, prisms
-from veduta.place.material import Texture
 from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
 from veduta.run.outputs import writing_to
@@ -179,7 +177,7 @@ def _leaf(
             result.city += _city([plain, full] if plain else [full], rows, built)
         tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)
     if job.separate:
-        built = _models(job, by, built, result)
+        built = _models(job, by, built, (full, rows), result)
     result.town.built += built
     result.town.polygons += sum(one.polygons for one in built)
     return tile
@@ -221,17 +219,18 @@ def _models(
     job: Job,
     by: Deriver,
     built: Sequence[Built],
+    derived: tuple[_core.DerivedLots, Sequence[int]],
     result: BlockResult,
 ) -> list[Built]:
-    """A GLB of each building; those that give one."""
-    with timed_step(result.steps, "derive"):
-        derived = by.alone([one.lot for one in built])
+    """A GLB of each building; those that give one. derived: with the row of each building."""
+    lots, rows = derived
     made = []
     textures = read_textures(job.textures)
     with timed_step(result.steps, "write"):
-        for one, found in zip(built, derived, strict=True):
+        for one, row in zip(built, rows, strict=True):
+            columns = lots.columns(row)
             try:
-                part = _part_of(one.lot, found, by.library, textures)
+                part = build_part(columns, one.lot.id, by.library.assets_of(columns), textures)
             except NothingBuiltError as fault:
                 _fail(job, one.lot, str(fault), result)
                 continue
@@ -254,17 +253,6 @@ def _front(built: Sequence[Built]) -> Built | None:
 
 def _bounds_row(one: Built) -> dict[str, Any]:
     return {"anchor_m": list(one.lot.anchor_m), "bounds": [list(one.low), list(one.high)]}
-
-
-def _part_of(
-    lot: Lot,
-    derived: _core.DerivedLot | str,
-    library: Library,
-    textures: Mapping[str, Texture],
-) -> Part:
-    if isinstance(derived, str):
-        raise NothingBuiltError(derived)
-    return build_part(derived, lot.id, library.assets_of(derived), textures)
 
 
 def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:

@@ -54,29 +54,6 @@ class Deriver:
             if not self._add({name for name in missing if name is not None}):
                 return made
 
-    def alone(self, lots: Sequence[Lot]) -> list[_core.DerivedLot | str]:
-        """The columns of each lot with all that there is, or why there are none."""
-        found: list[_core.DerivedLot | str | None] = [None] * len(lots)
-        while waiting := [index for index, one in enumerate(found) if one is None]:
-            chosen = [lots[index] for index in waiting]
-            made = self.rules.derive(
-                [rings_of(lot) for lot in chosen],
-                self._seeds(chosen),
-                start=self.options.derive.start,
-                attributes=self._given(chosen, FULL),
-                edits=[[edit.core for edit in lot.edits] for lot in chosen],
-                seconds=self.options.derive.seconds,
-                shapes=MAX_SHAPES,
-            )
-            missing = {one.name for one in made if isinstance(one, _core.MissingAsset)}
-            self._add(missing)
-            for index, one in zip(waiting, made, strict=True):
-                if not isinstance(one, _core.MissingAsset):
-                    found[index] = one
-                elif one.name in self.refused:
-                    found[index] = f"{one.why} ({self.refused[one.name]})"
-        return [one for one in found if one is not None]
-
     def fault(self, derived: _core.DerivedLots, row: int, lot: Lot) -> str | None:
         """Why a lot gives no building; None where it may."""
         told = derived.fault(row)

@@ -44,8 +44,7 @@ def lot(name: str = "house", **given: str) -> Lot:
 def made() -> tuple[Part, _core.DerivedLots]:
     by = deriver((("rules.cga", RULES),), Path(), GrammarOptions())
     lots = by.together([lot()], FULL)
-    (columns,) = by.alone([lot()])
-    assert not isinstance(columns, str)
+    columns = lots.columns(0)
     assert len(columns.instance_feature) > 20
     return build_part(columns, "house", by.library.assets_of(columns)), lots
 
@@ -145,9 +144,9 @@ def test_an_asset_that_is_nowhere_fails_its_lot_alone() -> None:
     assert told is not None
     assert "builtin/window-porthole" in told
     assert "is no asset that Veduta brings along" in told
-    good, bad = by.alone(both)
-    assert not isinstance(good, str)
-    assert bad == told
+    assert len(lots.columns(0).instance_feature) > 20
+    with pytest.raises(ValueError, match="builtin/window-porthole"):
+        lots.columns(1)
 
 
 def test_slots_must_fit_the_faces() -> None:
