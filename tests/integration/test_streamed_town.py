@@ -3,14 +3,11 @@
 from __future__ import annotations
 
 import json
-import os
-import shutil
-import subprocess
 from pathlib import Path
 
 import pytest
 from command_line import veduta
-from test_studio import CHROMIUM, viewed
+from test_studio import CHROMIUM, show_in_chromium, viewed
 
 from veduta.formats.tiles import contents
 
@@ -56,17 +53,5 @@ def test_an_export_has_all_tiles(town: Path, tmp_path: Path) -> None:
 @pytest.mark.slow
 @pytest.mark.skipif(not CHROMIUM.is_file(), reason=f"no Chromium at {CHROMIUM}")
 def test_it_is_walked_in_chromium(town: Path, repository: Path) -> None:
-    npm = shutil.which("npm")
-    assert npm is not None, "npm is missing"
     with viewed(town) as (_, url):
-        done = subprocess.run(
-            [npm, "run", "--silent", "test:browser", "--", "town"],
-            cwd=repository / "studio",
-            env={**os.environ, "VEDUTA_TOWN_URL": url, "CHROMIUM": str(CHROMIUM)},
-            capture_output=True,
-            text=True,
-            timeout=400,
-            check=False,
-        )
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "1 passed" in done.stdout, done.stdout
+        show_in_chromium(repository, "town", "VEDUTA_TOWN_URL", url, timeout_s=400)

@@ -99,17 +99,19 @@ def get(
     return response.status, {k.lower(): v for k, v in response.getheaders()}, body
 
 
-def show_in_chromium(url: str, repository: Path) -> None:
-    """Open the address in Chromium, look, and pick a window."""
+def show_in_chromium(
+    repository: Path, test: str, variable: str, url: str, timeout_s: int = 240
+) -> None:
+    """Run the studio's browser test of this name, which finds the address in the variable."""
     npm = shutil.which("npm")
     assert npm is not None, "npm is missing"
     done = subprocess.run(
-        [npm, "run", "--silent", "test:browser", "--", "served"],
+        [npm, "run", "--silent", "test:browser", "--", test],
         cwd=repository / "studio",
-        env={**os.environ, "VEDUTA_STUDIO_URL": url, "CHROMIUM": str(CHROMIUM)},
+        env={**os.environ, variable: url, "CHROMIUM": str(CHROMIUM)},
         capture_output=True,
         text=True,
-        timeout=240,
+        timeout=timeout_s,
         check=False,
     )
     assert done.returncode == 0, done.stdout + done.stderr
@@ -215,7 +217,7 @@ class TestView:
     @needs_chromium
     def test_is_seen_in_chromium(self, place: Path, repository: Path) -> None:
         with viewed(place) as (_, url):
-            show_in_chromium(url, repository)
+            show_in_chromium(repository, "served", "VEDUTA_STUDIO_URL", url)
 
 
 class TestExport:
@@ -312,7 +314,10 @@ class TestExport:
             threading.Thread(target=server.serve_forever, daemon=True).start()
             try:
                 show_in_chromium(
-                    f"http://127.0.0.1:{server.server_address[1]}/below/web/", repository
+                    repository,
+                    "served",
+                    "VEDUTA_STUDIO_URL",
+                    f"http://127.0.0.1:{server.server_address[1]}/below/web/",
                 )
             finally:
                 server.shutdown()
