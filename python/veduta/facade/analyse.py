@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.bare_floors import doubt_railings
+from veduta.facade.between import doubt_unparted, look_between
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
@@ -13,7 +14,7 @@ from veduta.facade.ground import read_ground
 from veduta.facade.ground_windows import find_ground_windows, with_windows
 from veduta.facade.openings import find_openings, only_seen, read_columns
 from veduta.facade.options import FacadeOptions
-from veduta.facade.plausible import require_facade
+from veduta.facade.plausible import require_facade, storey_doubts
 from veduta.facade.presence import require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.roof_windows import find_roof_windows
@@ -62,6 +63,8 @@ def analyse(
         openings = find_openings(evidence, floors, columns, scores, cues)
         boxes += doubt_railings(openings, cues, floors)
         require_facade(lines, floors, wall, boxes)
+        pairs = look_between(boxes, wall, floors)
+        boxes, doubts = doubt_unparted(boxes, pairs, floors), storey_doubts(floors, pairs)
         under = find_ground_windows(evidence, floors, columns)
         boxes += with_windows(read_ground(evidence, floors, wall), under, floors.mean_storey)
         boxes = only_seen(boxes, evidence, skyline)
@@ -69,7 +72,7 @@ def analyse(
             step.counts[kind] = sum(b.kind == kind for b in boxes)
     with timed_step(steps, "document"):
         document = compose(
-            Parse(evidence, sky, skyline, sides, floors, columns, boxes),
+            Parse(evidence, sky, skyline, sides, floors, columns, boxes, doubts),
             rectified,
             source,
             options,

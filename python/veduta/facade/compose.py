@@ -23,7 +23,6 @@ from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.options import FacadeOptions
-from veduta.facade.plausible import STOREY_DOUBT, are_storeys_doubtful
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
@@ -31,7 +30,10 @@ from veduta.facade.sides import Sides
 
 @dataclass(frozen=True)
 class Parse:
-    """What the steps found, in analysis pixels; all but `sky` count from the left side."""
+    """What the steps found, in analysis pixels; all but `sky` count from the left side.
+
+    `doubts` are the reasons why the floors may be other ones.
+    """
 
     evidence: Evidence
     sky: Skyline
@@ -40,6 +42,7 @@ class Parse:
     floors: Floors
     columns: Columns
     boxes: list[Box]
+    doubts: list[str]
 
 
 @dataclass(frozen=True)
@@ -78,9 +81,7 @@ def compose(
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
         notes.append(f"no sky: {parse.skyline.reason}; the eaves and the roof are inferred")
-    doubtful = are_storeys_doubtful(parse.floors)
-    if doubtful:
-        notes.append(STOREY_DOUBT)
+    notes += parse.doubts
     return FacadeDocument(
         source=source,
         rectification=record,
@@ -89,7 +90,7 @@ def compose(
         extents=_extents(parse, k, rows[0], facade, record),
         elements=elements,
         storeys=len(parse.floors.boundaries),
-        storeys_doubtful=doubtful,
+        storeys_doubtful=bool(parse.doubts),
         rules=rules,
         derivation=derivation(rules, facade, elements),
         energy=_energies(parse),

@@ -161,7 +161,7 @@ class FacadeDocument(_Record):
     elements: list[Element] = Field(description="painted in order")
     storeys: int = Field(description="the ground floor and the full floors below the eaves")
     storeys_doubtful: bool = Field(
-        default=False, description="whether the floors found are hardly like one another"
+        default=False, description="whether the floors may be other ones; a note says why"
     )
     rules: RuleParameters
     derivation: DerivationNode

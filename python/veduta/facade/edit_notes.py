@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from veduta.facade.document import FacadeDocument
-from veduta.facade.plausible import STOREY_DOUBT
+from veduta.facade.plausible import STOREY_DOUBTS
 from veduta.facade.scale import ASSUMED_STOREY
 
 _METRES = "pixels and metres differed, and the pixels decided: "
@@ -35,7 +35,7 @@ def told(document: FacadeDocument, edits: Edits) -> FacadeDocument:
     floors, or says that they are not doubtful, has settled a doubt about them.
     """
     settled = edits.floors or not document.storeys_doubtful
-    if edits == Edits() and not (settled and STOREY_DOUBT in document.notes):
+    if edits == Edits() and not (settled and set(STOREY_DOUBTS) & set(document.notes)):
         return document
     notes = [note for note in document.notes if not note.startswith((_METRES, _RULES, _EXTENTS))]
     update: dict[str, object] = {}
@@ -44,7 +44,7 @@ def told(document: FacadeDocument, edits: Edits) -> FacadeDocument:
         notes = [note for note in notes if note != ASSUMED_STOREY]
     if settled:
         update["storeys_doubtful"] = False
-        notes = [note for note in notes if note != STOREY_DOUBT]
+        notes = [note for note in notes if note not in STOREY_DOUBTS]
     if edits.metres:
         notes.append(_METRES + _listed(list(dict.fromkeys(edits.metres))))
     if edits.rules:

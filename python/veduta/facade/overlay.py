@@ -23,7 +23,7 @@ FILL = 0.34
 """Opacity of an element's fill; extents get half of it."""
 DASH_PX = 8
 PANEL_PX = 290
-LEGEND_PX = 590
+LEGEND_PX = 612
 """Height of a legend with every line; the picture of a long street may be lower."""
 INK = (38, 42, 48)
 FAINT = (110, 116, 124)
@@ -158,8 +158,11 @@ def _legend(draw: ImageDraw.ImageDraw, document: FacadeDocument, left: int) -> N
     for line in (f"{box.width_m:.1f} x {box.height_m:.1f} m", f"{document.storeys} storeys"):
         draw.text((left, y), line, INK, _font(24))
         y += 32
-    draw.text((left, y), f"scale {given}", FAINT, _font(17))
-    y += 44
+    doubt = ["storeys doubtful"] if document.storeys_doubtful else []
+    for line in (*doubt, f"scale {given}"):
+        draw.text((left, y), line, FAINT, _font(17))
+        y += 22
+    y += 22
     for name, count in counts.items():
         if count == 0 and name not in painted:
             continue

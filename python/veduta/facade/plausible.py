@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.appearance import Wall
+from veduta.facade.between import Between, are_floors
 from veduta.facade.boxes import Box
 from veduta.facade.dissimilarity import at_offsets
 from veduta.facade.floors import MAX_FLOORS, Floors
@@ -24,7 +25,7 @@ from veduta.run.errors import NotFoundError
 # Energy per row at which no storey is like another (facades: at most -0.07).
 _NOTHING_ALIKE = -0.04
 # Energy per row above which their number is doubtful (as photos of mere parts of facades have it).
-_HARDLY_ALIKE = -0.2
+_DOUBTFUL = -0.2
 # Part of a storey in which a pattern may repeat, and the dissimilarity up to which it does
 # (facades: 0.38 and more at their best offset within a storey).
 _WITHIN = (0.12, 0.62)
@@ -38,7 +39,10 @@ _UNLIKE = 14.5
 _UNLIKE_OF_COPIES = 18.0
 _RATIO_OF_COPIES = 1.3
 
-STOREY_DOUBT = "storeys: they are hardly alike, so check their number, or give --height-m"
+_CHECK = "so check their number, or give --height-m"
+HARDLY_ALIKE = f"storeys: they are hardly alike, {_CHECK}"
+NOT_PARTED = f"storeys: no wall parts the windows of one from those of the next, {_CHECK}"
+STOREY_DOUBTS = (HARDLY_ALIKE, NOT_PARTED)
 
 
 def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> None:
@@ -51,9 +55,13 @@ def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> 
         raise NotFoundError("a facade", reason, REMEDY)
 
 
-def are_storeys_doubtful(floors: Floors) -> bool:
-    """Whether the energy of the floors (per row) is one that mere parts of facades reach."""
-    return floors.energy > _HARDLY_ALIKE
+def storey_doubts(floors: Floors, pairs: list[Between]) -> list[str]:
+    """Why the floors may be other ones; `pairs` are windows with what lies between them.
+
+    They are hardly alike where their energy per row is one that mere parts of facades reach.
+    """
+    found = floors.energy > _DOUBTFUL, not are_floors(pairs, floors)
+    return [reason for reason, holds in zip(STOREY_DOUBTS, found, strict=True) if holds]
 
 
 def _pattern(floors: Floors, unlike: NDArray[np.float64], storey: float) -> str | None:

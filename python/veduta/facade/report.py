@@ -204,7 +204,7 @@ def _facts(document: FacadeDocument) -> list[tuple[str, str]]:
     method = size.method + (" (doubtful)" if found["corners_doubtful"] else "")
     residual = "" if size.residual_deg is None else f", {size.residual_deg:.2f}° off"
     return [
-        ("storeys", str(document.storeys)),
+        ("storeys", f"{document.storeys}{' (doubtful)' if document.storeys_doubtful else ''}"),
         ("windows", f"{found['windows']}{_in_doubt(found['doubtful_windows'])}"),
         ("facade", f"{box.width_m:.1f} x {box.height_m:.1f} m"),
         ("scale", _BASIS[document.scale.basis]),

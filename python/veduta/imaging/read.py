@@ -75,8 +75,9 @@ def read_image(path: Path) -> Photo:
     data = _read_bytes(path)
     with _damage_is_input_error(path), _open_bounded(path, data) as image:
         notes = _frame_notes(image)
-        tags = _camera_tags(image)
         image.load()
+        # After loading: Pillow turns a TIFF by its orientation then, and takes the tag away.
+        tags = _camera_tags(image)
         if image.mode not in READABLE_MODES:
             raise InputError(
                 path,

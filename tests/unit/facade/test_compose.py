@@ -20,7 +20,7 @@ from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.options import FacadeOptions, ScaleOptions
 from veduta.facade.outputs import rasterise
-from veduta.facade.plausible import STOREY_DOUBT
+from veduta.facade.plausible import HARDLY_ALIKE
 from veduta.facade.scale import ASSUMED_STOREY_M, metres
 from veduta.facade.sides import Sides
 from veduta.run.errors import InputError
@@ -39,7 +39,7 @@ def _document(
     sides: Sides,
     scale: ScaleOptions | None = None,
     size: tuple[int, int] = (160, 300),
-    floors_energy: float = -1.5,
+    doubts: tuple[str, ...] = (),
     no_sky: str = "",
 ) -> FacadeDocument:
     """A document of hand-made finds; all but the skyline count from the left side."""
@@ -51,9 +51,10 @@ def _document(
         sky=Skyline(skyline, int(np.median(skyline))),
         skyline=Skyline(cut, int(np.median(cut)), no_sky),
         sides=sides,
-        floors=Floors(BOUNDARIES, 50.0, floors_energy, {"similarity": floors_energy}, 100),
+        floors=Floors(BOUNDARIES, 50.0, -1.5, {"similarity": -1.5}, 100),
         columns=Columns([(20, 22), (90, 22)], -0.5, {}, 50),
         boxes=BOXES,
+        doubts=list(doubts),
     )
     source = Source(image="a.png", sha256="0" * 64, width_px=width, height_px=height)
     return compose(parse, rectified, source, FacadeOptions(scale=scale or ScaleOptions()))
@@ -119,13 +120,13 @@ def test_the_edges_of_the_picture_are_reached(long: int, ratio: float, upright: 
         assert element.y_px == pytest.approx(box.y * height / whole.height, abs=0.01)
 
 
-def test_storeys_that_are_hardly_alike_are_noted() -> None:
+def test_doubts_about_the_storeys_are_noted() -> None:
     document = _document(np.full(160, 20), Sides(0, 160, 300))
     assert not document.storeys_doubtful
-    assert STOREY_DOUBT not in document.notes
-    unlike = _document(np.full(160, 20), Sides(0, 160, 300), floors_energy=-0.1)
+    assert HARDLY_ALIKE not in document.notes
+    unlike = _document(np.full(160, 20), Sides(0, 160, 300), doubts=(HARDLY_ALIKE,))
     assert unlike.storeys_doubtful
-    assert STOREY_DOUBT in unlike.notes
+    assert HARDLY_ALIKE in unlike.notes
 
 
 def test_a_roof_without_sky_above_it_is_inferred() -> None:

@@ -8,7 +8,7 @@ import pytest
 
 from veduta.facade.document import FacadeDocument
 from veduta.facade.edit_notes import Edits, told
-from veduta.facade.plausible import STOREY_DOUBT
+from veduta.facade.plausible import HARDLY_ALIKE, NOT_PARTED
 from veduta.facade.scale import ASSUMED_STOREY
 
 Make = Callable[..., FacadeDocument]
@@ -19,7 +19,7 @@ FOUND = "the left side is that of the picture"
 def doubted(make_document: Make) -> FacadeDocument:
     """A document of assumed scale whose storeys are in doubt."""
     document = make_document()
-    notes = [FOUND, ASSUMED_STOREY, STOREY_DOUBT]
+    notes = [FOUND, ASSUMED_STOREY, HARDLY_ALIKE, NOT_PARTED]
     return document.model_copy(update={"storeys_doubtful": True, "notes": notes})
 
 
@@ -31,7 +31,7 @@ def test_an_edited_scale_is_no_longer_assumed(doubted: FacadeDocument) -> None:
     document = told(doubted, Edits(scale=True))
     assert document.scale.basis == "edited"
     assert document.scale.metres_per_px == doubted.scale.metres_per_px
-    assert document.notes == [FOUND, STOREY_DOUBT]
+    assert document.notes == [FOUND, HARDLY_ALIKE, NOT_PARTED]
     assert document.storeys_doubtful
 
 
@@ -50,9 +50,9 @@ def test_an_edit_elsewhere_leaves_both(doubted: FacadeDocument) -> None:
     document = told(doubted, Edits(metres=("window (elements[3])",), rules=True))
     assert document.storeys_doubtful
     assert document.scale == doubted.scale
-    assert document.notes[:3] == doubted.notes
-    assert "window (elements[3])" in document.notes[3]
-    assert len(document.notes) == 5
+    assert document.notes[:4] == doubted.notes
+    assert "window (elements[3])" in document.notes[4]
+    assert len(document.notes) == 6
 
 
 def test_notes_of_earlier_edits_make_place(doubted: FacadeDocument) -> None:

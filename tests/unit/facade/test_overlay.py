@@ -112,6 +112,7 @@ def test_the_legend_has_room_beside_a_low_picture(make_document: Make) -> None:
     document = make_document(size_px=(1200, 100), elements=elements)
     for element in document.elements:
         element.score = 0.1
+    document.storeys_doubtful = True
     picture = overlay(document, np.full((100, 1200, 3), 128, dtype=np.uint8))
     assert picture.shape[:2] == (LEGEND_PX, 3000 + PANEL_PX)
     panel = picture[:, 3000:].astype(int)

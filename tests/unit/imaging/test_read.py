@@ -61,8 +61,11 @@ def test_reads_each_format_with_its_digest(
 
 
 @pytest.mark.parametrize("orientation", range(1, 9))
+@pytest.mark.parametrize(
+    ("kind", "compression"), [("PNG", None), ("TIFF", None), ("TIFF", "tiff_lzw"), ("WEBP", None)]
+)
 def test_applies_each_exif_orientation(
-    orientation: int, pattern: NDArray[np.uint8], tmp_path: Path
+    kind: str, compression: str | None, orientation: int, pattern: NDArray[np.uint8], tmp_path: Path
 ) -> None:
     # What the camera stores so that the viewer's operation gives the upright picture back
     # (Exif 2.32, table 6: where row 0 and column 0 are).
@@ -78,8 +81,9 @@ def test_applies_each_exif_orientation(
     }[orientation]
     exif = Image.Exif()
     exif[0x0112] = orientation
-    path = tmp_path / "turned.png"
-    Image.fromarray(np.ascontiguousarray(stored)).save(path, exif=exif)
+    path = tmp_path / "turned.any"
+    how = {"compression": compression} if compression else {"lossless": True}
+    Image.fromarray(np.ascontiguousarray(stored)).save(path, format=kind, exif=exif, **how)
     assert np.array_equal(read_image(path).pixels, pattern)
 
 
