@@ -24,7 +24,7 @@ STUDIO_SOURCES := $(shell find studio/src studio/public -type f) \
 export PYO3_PYTHON := $(CURDIR)/$(PY)
 
 .PHONY: help setup demo test lint lint-python lint-rust lint-studio test-python test-rust \
-	test-studio test-browser bench studio pictures lock clean
+	test-studio test-browser bench studio stubs pictures lock clean
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -121,6 +121,12 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/assets_picture.py
 	$(PY) docs/styles_picture.py
 	$(PY) docs/roofs_picture.py
+
+stubs: $(PACKAGES) ## the types of the extension for Python, from its Rust sources
+	@mkdir -p build
+	cargo run --quiet --locked -p veduta-stubs -- crates/veduta-py/src > build/_core.pyi
+	$(PY) -m ruff format --quiet build/_core.pyi
+	@mv build/_core.pyi python/veduta/_core.pyi
 
 # ---- locks ----------------------------------------------------------------------------------
 

@@ -1,7 +1,350 @@
-"""The private Rust extension, typed by hand."""
+"""The private Rust extension. Generated from its sources by `make stubs`: do not edit."""
+
+from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
+
+_T = TypeVar("_T", bound=np.generic)
+_Array1 = np.ndarray[tuple[int], np.dtype[_T]]
+_Array2 = np.ndarray[tuple[int, int], np.dtype[_T]]
+
+# assets.rs
+class MissingAsset:
+    """An asset that a lot's rules want and that is not known yet: add it and derive again."""
+    @property
+    def name(self) -> str: ...
+    @property
+    def why(self) -> str:
+        """What the lot's failure is where there is no such asset."""
+
+# chain.rs
+class ChainFault(ValueError): ...
+class ChainSizeError(ChainFault): ...
+class ChainLabelsError(ChainFault): ...
+
+def skyline_chain(unary: _Array2[np.float32], slope: float, jump: float) -> list[int]:
+    """One row per image column that minimises unary plus truncated linear costs, exactly."""
+
+def floor_chain(
+    distance: _Array2[np.float32],
+    scales: Sequence[
+        tuple[Sequence[int], float, _Array1[np.float64], _Array1[np.float64], _Array1[np.float64]]
+    ],
+    similarity: float,
+    height_change: float,
+    max_floors: int,
+) -> list[list[tuple[float, list[int]] | None]]:
+    """The best chain of floors for every scale `(heights, neutral, eaves, boundary, ground)` and every count."""
+
+def column_chain(
+    distance: _Array2[np.float32],
+    evidence: _Array1[np.float64],
+    jamb: _Array1[np.float64],
+    widths: Sequence[int],
+    *,
+    step: int,
+    gap_min: int,
+    gap_max: int,
+    jamb_weight: float,
+    similarity: float,
+    width_change: float,
+    gap_symmetry: float,
+    neutral: float,
+) -> tuple[float, list[tuple[int, int]]]:
+    """The best chain of window stripes: its energy and `(position, width)` of each."""
+
+# compress.rs
+def compress_attributes(data: bytes, stride: int) -> bytes:
+    """A column as EXT_meshopt_compression has it, mode ATTRIBUTES; `stride` in bytes."""
+
+def compress_indices(data: bytes, stride: int) -> bytes:
+    """The same for whole numbers of `stride` bytes (2 or 4), mode INDICES."""
+
+# derivation.rs
+class Derivation:
+    """A derivation that stays: shapes are named by their number in the tree, which a later
+    `rederive` may change.
+    """
+    def __new__(
+        cls,
+        rules: GrammarRules,
+        lot: Sequence[Sequence[tuple[float, float, float]]],
+        seed: int,
+        *,
+        start: str | None = None,
+        attributes: dict[str, bool | float | str] | None = None,
+        edits: Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+        | None = None,
+        seconds: float = 60.0,
+        shapes: int = 5_000_000,
+    ) -> Derivation: ...
+    def rederive(
+        self,
+        path: Sequence[int],
+        edits: Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ],
+    ) -> bool:
+        """Derives the shape at `path` anew with these edits of the whole tree, and leaves the rest.
+        False where there is no such shape.
+        """
+    def __len__(self) -> int: ...
+    @property
+    def log_prior(self) -> float: ...
+    @property
+    def values(self) -> list[tuple[str, bool, bool | float | str]]:
+        """Attributes (True) and constants that were needed or drawn by chance: name and value."""
+    @property
+    def reports(self) -> list[tuple[str, bool | float | str]]: ...
+    @property
+    def messages(self) -> list[str]: ...
+    @property
+    def edit_faults(self) -> list[tuple[list[int], str]]:
+        """Path and fault of each edit that could not be done."""
+    def find(self, path: Sequence[int]) -> int | None:
+        """The number of the shape at a path; None where there is none."""
+    def path(self, shape: int) -> list[int]: ...
+    def parent(self, shape: int) -> int | None: ...
+    def children(self, shape: int) -> tuple[int, int]:
+        """The numbers of the shapes that were made from it: the first, and the one after the last."""
+    def name(self, shape: int) -> str: ...
+    def is_leaf(self, shape: int) -> bool:
+        """Whether it stays: no rule was applied to it."""
+    def parameters(self, shape: int) -> list[tuple[str, bool | float | str]]:
+        """Name and value of what its rule was given."""
+    def choices(self, shape: int) -> list[tuple[int, int, float]]:
+        """The random alternatives of its rule: which one, of how many, and its chance."""
+    def surface_class(self, shape: int) -> str:
+        """What it is in the model; empty where the rules do not say it."""
+    def colour(self, shape: int) -> list[float]:
+        """sRGB, 0 to 1."""
+    def size_m(self, shape: int) -> list[float]:
+        """Size of its scope (m): along x and y of its face, and z out of it."""
+    def origin_m(self, shape: int) -> list[float]:
+        """Where its scope begins (m), in the frame of places: x east, y north, z up."""
+    def polygons(
+        self, shape: int
+    ) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64]]:
+        """The polygons of one shape, in the frame of places: corners (n, 3) in metres, the first
+        corner of each ring and the first ring of each polygon, each with the end.
+        """
+    def columns(self) -> DerivedLot:
+        """The columns of all leaves."""
+
+# derived_lot.rs
+class DerivedLot:
+    """The columns of one lot."""
+    @property
+    def positions_m(self) -> _Array2[np.float64]: ...
+    @property
+    def uv(self) -> _Array2[np.float32]: ...
+    @property
+    def ring_offsets(self) -> _Array1[np.int64]: ...
+    @property
+    def polygon_offsets(self) -> _Array1[np.int64]: ...
+    @property
+    def polygon_feature(self) -> _Array1[np.int32]:
+        """The surface that each polygon belongs to."""
+    @property
+    def polygon_look(self) -> _Array1[np.int32]: ...
+    @property
+    def feature_name(self) -> list[str]: ...
+    @property
+    def feature_class(self) -> list[str]:
+        """What each surface is, as the rules have it; empty where they do not say it."""
+    @property
+    def feature_size_m(self) -> _Array2[np.float64]: ...
+    @property
+    def feature_surface(self) -> list[str]:
+        """What the rules say of each surface in the attributes `surface`, `solid` and `provenance`,
+        and which `surface` it was made in; empty where they say nothing.
+        """
+    @property
+    def feature_within(self) -> list[str]: ...
+    @property
+    def feature_solid(self) -> list[str]: ...
+    @property
+    def feature_provenance(self) -> list[str]: ...
+    @property
+    def looks(self) -> list[tuple[float, float, float, float, str | None, str]]:
+        """Red, green, blue, opacity (0 to 1), texture and class of each look."""
+    @property
+    def instance_feature(self) -> _Array1[np.int32]:
+        """The surface that each asset belongs to, its look, its place in `asset_names`, and where it
+        stands: 3 x 4 by rows, from the asset's frame (m, z up) to the lot's.
+        """
+    @property
+    def instance_look(self) -> _Array1[np.int32]: ...
+    @property
+    def instance_asset(self) -> _Array1[np.int32]: ...
+    @property
+    def instance_transform(self) -> _Array2[np.float64]: ...
+    @property
+    def asset_names(self) -> list[str]: ...
+    @property
+    def log_prior(self) -> float: ...
+    @property
+    def messages(self) -> list[str]: ...
+    @property
+    def edit_faults(self) -> list[tuple[list[int], str]]:
+        """Path and fault of each edit that could not be done."""
+
+# derived_lots.rs
+class DerivedLots:
+    """Lots that were derived and stay on this side: columns are made for what is asked."""
+    def __len__(self) -> int: ...
+    def fault(self, lot: int) -> str | None:
+        """Why a lot has no shapes; None where it has."""
+    def missing_asset(self, lot: int) -> str | None:
+        """The asset that a lot's rules want and that is not known; None where nothing is wanted."""
+    def edit_faults(self, lot: int) -> list[tuple[list[int], str]]:
+        """Path and fault of each edit of a lot that could not be done."""
+    def columns(self, lot: int) -> DerivedLot:
+        """The columns of a lot."""
+    def messages(self, lot: int) -> list[str]:
+        """What the rules said of a lot."""
+    def extent(
+        self, lot: int
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None:
+        """Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets
+        there are; None where nothing is left.
+        """
+    def colour(self, lot: int, kind: str) -> tuple[float, float, float] | None:
+        """The sRGB colour that most leaves of a class have; None where there is no such class."""
+    def city(
+        self,
+        lot: int,
+        place: tuple[float, float, float],
+        classes: Sequence[str],
+        kinds: Sequence[str],
+    ) -> tuple[str, list[tuple[int, str, str]], str]:
+        """Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
+        texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+        """
+    def tile(
+        self,
+        lots: Sequence[int],
+        places: Sequence[tuple[float, float, float]],
+        classes: Sequence[str],
+    ) -> TileBuffers:
+        """The buffers of a tile with these lots, each at its place (m, z up); `classes` are the
+        classes that are known, the last of them for all others.
+        """
+
+def derive_lots(
+    rules: GrammarRules,
+    lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+    seeds: Sequence[int],
+    *,
+    start: str | None = None,
+    attributes: Sequence[dict[str, bool | float | str]],
+    edits: Sequence[
+        Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+    ],
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> DerivedLots:
+    """Derives lots as `GrammarRules.derive` does."""
+
+# grammar.rs
+class GrammarFault(ValueError): ...
+class AssetWanted(GrammarFault): ...
+
+class GrammarRules:
+    """Checked rule files, ready to derive."""
+    def __new__(cls, files: Sequence[tuple[str, str]], style: str | None = None) -> GrammarRules:
+        """`files` are name and text of each file, the main one first; the others are what it may
+        import, under the names in its import statements.
+        `style` is one of the main file's; `Default` where it is None.
+        """
+    @property
+    def styles(self) -> list[str]:
+        """The styles of the main file, `Default` first."""
+    @property
+    def starts(self) -> list[str]:
+        """Names of the rules that need no arguments, the start rule first."""
+    @property
+    def attributes(self) -> list[tuple[str, str]]:
+        """The attributes, with what each is where its value says so: `number`, `text`, `bool`, or ""."""
+    @property
+    def asset_names(self) -> tuple[list[str], bool]:
+        """The names of assets that stand in the rules, and whether there are others that are computed."""
+    def add_asset(
+        self,
+        name: str,
+        points: _Array2[np.float64],
+        corners: _Array1[np.uint32],
+        offsets: _Array1[np.int64],
+        box_m: _Array2[np.float64],
+        face_slot: _Array1[np.int32] | None = None,
+        slots: Sequence[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
+        | None = None,
+    ) -> None:
+        """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
+        face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
+        `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
+        face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
+        the shape is white.
+        """
+    def derive(
+        self,
+        lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+        seeds: Sequence[int],
+        *,
+        start: str | None = None,
+        attributes: Sequence[dict[str, bool | float | str]] | None = None,
+        edits: Sequence[
+            Sequence[
+                tuple[
+                    Sequence[int],
+                    str | None,
+                    bool,
+                    Sequence[int | None],
+                    Sequence[tuple[str, bool | float | str]],
+                ]
+            ]
+        ]
+        | None = None,
+        seconds: float = 60.0,
+        shapes: int = 5_000_000,
+    ) -> list[DerivedLot | MissingAsset | str]:
+        """Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
+        attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
+        """
+    def pace(
+        self,
+        lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+        seeds: Sequence[int],
+        cores: int,
+        *,
+        start: str | None = None,
+    ) -> tuple[int, int, float]:
+        """Derives and packs the lots on so many cores, and keeps nothing: how many leaves and polygons
+        there were, and the seconds that it took. For benchmarks.
+        """
 
 # polygons.rs
 class PolygonFault(ValueError): ...
@@ -14,254 +357,109 @@ class NotPlanarError(PolygonFault): ...
 class SelfCrossingError(PolygonFault): ...
 
 def triangulate_polygons(
-    positions_m: NDArray[np.float64],
-    ring_offsets: NDArray[np.int64],
-    polygon_offsets: NDArray[np.int64],
+    positions_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
     tolerance_m: float,
-) -> tuple[NDArray[np.uint32], NDArray[np.uint32], NDArray[np.float64], NDArray[np.float64]]: ...
+) -> tuple[_Array2[np.uint32], _Array1[np.uint32], _Array2[np.float64], _Array1[np.float64]]:
+    """Triangles, the polygon of each triangle, unit normals and areas (m2) of columnar polygons."""
+
 def dissolve_polygons(
-    positions_m: NDArray[np.float64],
-    uv: NDArray[np.float64],
-    ring_offsets: NDArray[np.int64],
-    polygon_offsets: NDArray[np.int64],
-    group: NDArray[np.uint32],
-    solid: NDArray[np.uint32],
+    positions_m: _Array2[np.float64],
+    uv: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
+    group: _Array1[np.uint32],
+    solid: _Array1[np.uint32],
     near_m: float,
 ) -> tuple[
-    NDArray[np.float64],
-    NDArray[np.float64],
-    NDArray[np.int64],
-    NDArray[np.int64],
-    NDArray[np.uint32],
-]: ...
+    _Array2[np.float64],
+    _Array2[np.float64],
+    _Array1[np.int64],
+    _Array1[np.int64],
+    _Array1[np.uint32],
+]:
+    """Polygons of one group that touch in one plane as one: positions, texture coordinates, offsets of
+    rings and polygons, and the group of each. Polygons of one solid share their corners.
+    """
+
 def sound_polygons(
-    positions_m: NDArray[np.float64],
-    ring_offsets: NDArray[np.int64],
-    polygon_offsets: NDArray[np.int64],
+    positions_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
     tolerance_m: float,
-) -> NDArray[np.bool_]: ...
+) -> _Array1[np.bool_]:
+    """Which of columnar polygons `triangulate_polygons` takes."""
 
 # roofs.rs
 class RoofFault(ValueError): ...
 
-def roof_types() -> list[str]: ...
+def roof_types() -> list[str]:
+    """The names of the types of roof."""
+
 def roof_solid(
     kind: str,
-    points_m: NDArray[np.float64],
-    ring_offsets: NDArray[np.int64],
+    points_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
     slope: float,
     *,
     overhang_m: float = 0.0,
     gable_overhang_m: float = 0.0,
     numbers: dict[str, float] | None = None,
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64], NDArray[np.uint32]]: ...
-
-# chain.rs
-class ChainFault(ValueError): ...
-class ChainSizeError(ChainFault): ...
-class ChainLabelsError(ChainFault): ...
-
-def skyline_chain(unary: NDArray[np.float32], slope: float, jump: float) -> list[int]: ...
-def floor_chain(
-    distance: NDArray[np.float32],
-    scales: list[
-        tuple[list[int], float, NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]
-    ],
-    similarity: float,
-    height_change: float,
-    max_floors: int,
-) -> list[list[tuple[float, list[int]] | None]]: ...
-def column_chain(
-    distance: NDArray[np.float32],
-    evidence: NDArray[np.float64],
-    jamb: NDArray[np.float64],
-    widths: list[int],
-    *,
-    step: int,
-    gap_min: int,
-    gap_max: int,
-    jamb_weight: float,
-    similarity: float,
-    width_change: float,
-    gap_symmetry: float,
-    neutral: float,
-) -> tuple[float, list[tuple[int, int]]]: ...
+) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64], _Array1[np.uint32]]:
+    """The closed solid between a polygon (x, y in metres; rings by their offsets, the outline first)
+    and a roof over it: points, the first corner of each ring, the first ring of each face (both with
+    the end), and the point of each corner. `slope` is a tangent.
+    """
 
 # rules.rs
-def grammar_imports(main: str, name: str, text: str) -> list[str]: ...
-def grammar_check(files: list[tuple[str, str]]) -> tuple[str, int, int, str]: ...
-def grammar_format(name: str, text: str) -> str: ...
-def grammar_operations() -> list[str]: ...
+def grammar_imports(main: str, name: str, text: str) -> list[str]:
+    """The names of the files that the file `name` imports; `main` is the first file of the program.
+    What lies outside of its folder is left out, and reported when the program is checked.
+    """
 
-# grammar.rs
-class GrammarFault(ValueError): ...
-class AssetWanted(GrammarFault): ...
+def grammar_check(files: Sequence[tuple[str, str]]) -> tuple[str, int, int, str]: ...
+def grammar_format(name: str, text: str) -> str:
+    """The text of a rule file in the house style; GrammarFault where it does not parse."""
 
-_Value = bool | float | str
-_Edit = tuple[list[int], str | None, bool, list[int | None], list[tuple[str, _Value]]]
-
-class GrammarRules:
-    def __new__(cls, files: list[tuple[str, str]], style: str | None = None) -> GrammarRules: ...
-    @property
-    def styles(self) -> list[str]: ...
-    @property
-    def starts(self) -> list[str]: ...
-    @property
-    def attributes(self) -> list[tuple[str, str]]: ...
-    @property
-    def asset_names(self) -> tuple[list[str], bool]: ...
-    def add_asset(
-        self,
-        name: str,
-        points: NDArray[np.float64],
-        corners: NDArray[np.uint32],
-        offsets: NDArray[np.int64],
-        box_m: NDArray[np.float64],
-        face_slot: NDArray[np.int32] | None = None,
-        slots: list[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
-        | None = None,
-    ) -> None: ...
-    def derive(
-        self,
-        lots: list[list[list[tuple[float, float, float]]]],
-        seeds: list[int],
-        *,
-        start: str | None = None,
-        attributes: list[dict[str, bool | float | str]] | None = None,
-        edits: list[list[_Edit]] | None = None,
-        seconds: float = 60.0,
-        shapes: int = 5_000_000,
-    ) -> list[DerivedLot | MissingAsset | str]: ...
-    def pace(
-        self,
-        lots: list[list[list[tuple[float, float, float]]]],
-        seeds: list[int],
-        cores: int,
-        *,
-        start: str | None = None,
-    ) -> tuple[int, int, float]: ...
-
-class MissingAsset:
-    name: str
-    why: str
-
-class DerivedLot:
-    positions_m: NDArray[np.float64]
-    uv: NDArray[np.float32]
-    ring_offsets: NDArray[np.int64]
-    polygon_offsets: NDArray[np.int64]
-    polygon_feature: NDArray[np.int32]
-    polygon_look: NDArray[np.int32]
-    feature_name: list[str]
-    feature_class: list[str]
-    feature_size_m: NDArray[np.float64]
-    feature_surface: list[str]
-    feature_within: list[str]
-    feature_solid: list[str]
-    feature_provenance: list[str]
-    looks: list[tuple[float, float, float, float, str | None, str]]
-    instance_feature: NDArray[np.int32]
-    instance_look: NDArray[np.int32]
-    instance_asset: NDArray[np.int32]
-    instance_transform: NDArray[np.float64]
-    asset_names: list[str]
-    log_prior: float
-    messages: list[str]
-    edit_faults: list[tuple[list[int], str]]
-
-# derivation.rs
-class Derivation:
-    def __new__(
-        cls,
-        rules: GrammarRules,
-        lot: list[list[tuple[float, float, float]]],
-        seed: int,
-        *,
-        start: str | None = None,
-        attributes: dict[str, _Value] | None = None,
-        edits: list[_Edit] | None = None,
-        seconds: float = 60.0,
-        shapes: int = 5_000_000,
-    ) -> Derivation: ...
-    def rederive(self, path: list[int], edits: list[_Edit]) -> bool: ...
-    def __len__(self) -> int: ...
-    @property
-    def log_prior(self) -> float: ...
-    @property
-    def values(self) -> list[tuple[str, bool, _Value]]: ...
-    @property
-    def reports(self) -> list[tuple[str, _Value]]: ...
-    @property
-    def messages(self) -> list[str]: ...
-    @property
-    def edit_faults(self) -> list[tuple[list[int], str]]: ...
-    def find(self, path: list[int]) -> int | None: ...
-    def path(self, shape: int) -> list[int]: ...
-    def parent(self, shape: int) -> int | None: ...
-    def children(self, shape: int) -> tuple[int, int]: ...
-    def name(self, shape: int) -> str: ...
-    def is_leaf(self, shape: int) -> bool: ...
-    def parameters(self, shape: int) -> list[tuple[str, _Value]]: ...
-    def choices(self, shape: int) -> list[tuple[int, int, float]]: ...
-    def surface_class(self, shape: int) -> str: ...
-    def colour(self, shape: int) -> list[float]: ...
-    def size_m(self, shape: int) -> list[float]: ...
-    def origin_m(self, shape: int) -> list[float]: ...
-    def polygons(
-        self, shape: int
-    ) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]: ...
-    def columns(self) -> DerivedLot: ...
-
-# derived_lots.rs
-class DerivedLots:
-    def __len__(self) -> int: ...
-    def fault(self, lot: int) -> str | None: ...
-    def columns(self, lot: int) -> DerivedLot: ...
-    def missing_asset(self, lot: int) -> str | None: ...
-    def edit_faults(self, lot: int) -> list[tuple[list[int], str]]: ...
-    def messages(self, lot: int) -> list[str]: ...
-    def extent(
-        self, lot: int
-    ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None: ...
-    def colour(self, lot: int, kind: str) -> tuple[float, float, float] | None: ...
-    def city(
-        self,
-        lot: int,
-        place: tuple[float, float, float],
-        classes: list[str],
-        kinds: list[str],
-    ) -> tuple[str, list[tuple[int, str, str]], str]: ...
-    def tile(
-        self,
-        lots: list[int],
-        places: list[tuple[float, float, float]],
-        classes: list[str],
-    ) -> TileBuffers: ...
+def grammar_operations() -> list[str]:
+    """The names of the operations that derive."""
 
 # tiles.rs
 class TileBuffers:
-    bounds: tuple[tuple[float, float, float], tuple[float, float, float]] | None
-    grid: tuple[tuple[float, float, float], tuple[float, float, float]]
-    step_m: float
-    triangles: int
-    dropped: int
-    materials: list[tuple[int, tuple[float, float, float]]]
-    counts: list[list[int]]
-    rules: list[str]
-    surfaces: list[bytes]
-    merged: list[tuple[int, bytes, bytes, bytes, list[int], list[int]]]
-    repeated: list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes]]
-
-def derive_lots(
-    rules: GrammarRules,
-    lots: list[list[list[tuple[float, float, float]]]],
-    seeds: list[int],
-    *,
-    start: str | None = None,
-    attributes: list[dict[str, bool | float | str]],
-    edits: list[list[_Edit]],
-    seconds: float = 60.0,
-    shapes: int = 5_000_000,
-) -> DerivedLots: ...
-def compress_attributes(data: bytes, stride: int) -> bytes: ...
-def compress_indices(data: bytes, stride: int) -> bytes: ...
+    """The buffers of one tile."""
+    @property
+    def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
+        """Lower and upper corner (m, z up); None where there is nothing to draw."""
+    @property
+    def grid(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+        """Where merged positions count from, and their steps (m, y-up)."""
+    @property
+    def step_m(self) -> float:
+        """Metres of a step of repeated positions."""
+    @property
+    def triangles(self) -> int: ...
+    @property
+    def dropped(self) -> int: ...
+    @property
+    def materials(self) -> list[tuple[int, list[float]]]:
+        """Class and sRGB colour of each material."""
+    @property
+    def counts(self) -> list[list[int]]:
+        """Surfaces of each class, by lot."""
+    @property
+    def rules(self) -> list[str]:
+        """The names of the rules that surfaces come from."""
+    @property
+    def surfaces(self) -> list[bytes]:
+        """Columns of the surfaces: class (u8), building, rule, width and height in mm (u16)."""
+    @property
+    def merged(self) -> list[tuple[int, bytes, bytes, bytes, list[int], list[int]]]:
+        """Positions are four u16 (the last is zero), features f32, indices u16 or else u32."""
+    @property
+    def repeated(
+        self,
+    ) -> list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes]]:
+        """Positions are four i16, indices u16, translations three f32, rotations four i16, features
+        u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty.
+        """

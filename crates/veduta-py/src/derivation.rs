@@ -11,7 +11,7 @@ use veduta_grammar::engine::{
     derive, lot_form, rederive, to_place, Edit, Limits, Node, Options, Overrides, State, Tree,
 };
 
-use crate::derived_lot::{derived_of, lot_to_python, rows};
+use crate::derived_lot::{derived_of, lot_to_python, rows, DerivedLot};
 use crate::given::{values, Given, GivenBack};
 use crate::grammar::{GrammarFault, GrammarRules, Rings};
 
@@ -249,7 +249,7 @@ impl Derivation {
     }
 
     /// The columns of all leaves.
-    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, PyAny>> {
+    fn columns<'py>(&self, py: Python<'py>) -> PyResult<Bound<'py, DerivedLot>> {
         let (tree, code) = (&self.tree, &self.rules.get().code);
         lot_to_python(py, py.detach(|| derived_of(tree, code)))
     }

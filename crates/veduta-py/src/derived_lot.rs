@@ -78,23 +78,25 @@ pub struct DerivedLot {
     edit_faults: Vec<(Vec<u32>, String)>,
 }
 
-pub fn to_python<'py>(
-    py: Python<'py>,
-    found: Result<Derived, Failed>,
-) -> PyResult<Bound<'py, PyAny>> {
-    match found {
-        Ok(derived) => lot_to_python(py, derived),
-        Err(failed) => match failed.missing_asset {
-            Some(name) => {
-                let why = failed.why;
-                Ok(Bound::new(py, MissingAsset { name, why })?.into_any())
-            }
-            None => Ok(failed.why.into_pyobject(py)?.into_any()),
-        },
-    }
+/// What became of a lot: its columns, an asset that it wants, or why there is nothing.
+#[derive(IntoPyObject)]
+pub enum Outcome<'py> {
+    Lot(Bound<'py, DerivedLot>),
+    Wanting(Bound<'py, MissingAsset>),
+    Fault(String),
 }
 
-pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyAny>> {
+pub fn to_python(py: Python<'_>, found: Result<Derived, Failed>) -> PyResult<Outcome<'_>> {
+    Ok(match found {
+        Ok(derived) => Outcome::Lot(lot_to_python(py, derived)?),
+        Err(Failed { why, missing_asset }) => match missing_asset {
+            Some(name) => Outcome::Wanting(Bound::new(py, MissingAsset { name, why })?),
+            None => Outcome::Fault(why),
+        },
+    })
+}
+
+pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, DerivedLot>> {
     let (packed, surfaces) = (derived.packed, derived.surfaces);
     let of = |leaves: &[i32], column: &[u32]| -> Vec<i32> {
         let each = leaves.iter();
@@ -133,7 +135,7 @@ pub fn lot_to_python(py: Python<'_>, derived: Derived) -> PyResult<Bound<'_, PyA
         messages: derived.messages,
         edit_faults: derived.edit_faults,
     };
-    Ok(Bound::new(py, lot)?.into_any())
+    Bound::new(py, lot)
 }
 
 fn texts(column: &[Arc<str>]) -> Vec<String> {

@@ -7,7 +7,7 @@ use pyo3::prelude::*;
 
 use crate::city::city;
 use crate::derivation::GivenEdit;
-use crate::derived_lot::{lot_to_python, Derived};
+use crate::derived_lot::{lot_to_python, Derived, DerivedLot};
 use crate::given::Given;
 use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
 use crate::standing::box_of;
@@ -55,9 +55,10 @@ fn derive_lots(
 /// Lots that are derived before Ctrl-C is heard.
 const AT_ONCE: usize = 4;
 /// Red, green and blue, sRGB, 0 to 1.
-type Colour = [f32; 3];
+type Colour = (f32, f32, f32);
 /// Lower and upper corner, and how much there is.
-type Extent = ([f64; 3], [f64; 3], usize);
+type Extent = (Point, Point, usize);
+type Point = (f64, f64, f64);
 /// Geometry, installations, vertices.
 type CityTexts = (String, Vec<(u8, String, String)>, String);
 
@@ -88,7 +89,7 @@ impl DerivedLots {
     }
 
     /// The columns of a lot.
-    fn columns<'py>(&self, py: Python<'py>, lot: usize) -> PyResult<Bound<'py, PyAny>> {
+    fn columns<'py>(&self, py: Python<'py>, lot: usize) -> PyResult<Bound<'py, DerivedLot>> {
         match self.lot(lot)? {
             Ok(derived) => lot_to_python(py, derived.clone()),
             Err(failed) => Err(PyValueError::new_err(failed.why.clone())),
@@ -103,8 +104,8 @@ impl DerivedLots {
             .unwrap_or_default())
     }
 
-    /// Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets there are;
-    /// None where nothing is left.
+    /// Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets
+    /// there are; None where nothing is left.
     fn extent(&self, lot: usize) -> PyResult<Option<Extent>> {
         let Ok(derived) = self.lot(lot)?.as_ref() else {
             return Ok(None);
@@ -113,7 +114,7 @@ impl DerivedLots {
         let is_finite = low.iter().chain(&high).all(|c| c.abs() < 1e6);
         let own = derived.packed.polygon_feature.len();
         let polygons = own + derived.packed.instance_feature.len();
-        Ok(is_finite.then_some((low, high, polygons)))
+        Ok(is_finite.then_some((low.into(), high.into(), polygons)))
     }
 
     /// The sRGB colour that most leaves of a class have; None where there is no such class.
@@ -129,7 +130,7 @@ impl DerivedLots {
         let own = looks.filter(|(look, _)| look.class.as_ref() == kind);
         Ok(own
             .max_by_key(|(_, count)| *count)
-            .map(|(look, _)| look.colour))
+            .map(|(look, _)| look.colour.into()))
     }
 
     /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as

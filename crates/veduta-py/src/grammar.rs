@@ -16,7 +16,7 @@ use veduta_grammar::{check, Checked, Program, Source, Style};
 
 use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset};
 use crate::derivation::{overrides_of, GivenEdit};
-use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot};
+use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
 use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
@@ -127,7 +127,7 @@ impl GrammarRules {
         edits: Option<Vec<Vec<GivenEdit>>>,
         seconds: f64,
         shapes: usize,
-    ) -> PyResult<Vec<Bound<'py, PyAny>>> {
+    ) -> PyResult<Vec<Outcome<'py>>> {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
         let edits = edits.unwrap_or_else(|| lots.iter().map(|_| Vec::new()).collect());

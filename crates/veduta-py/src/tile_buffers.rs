@@ -6,7 +6,8 @@ use veduta_tiles::Repeated;
 
 use crate::tiles::TileBuffers;
 
-type Box3 = ([f64; 3], [f64; 3]);
+type Box3 = (Point, Point);
+type Point = (f64, f64, f64);
 /// Material, positions, features, indices, lowest and highest position.
 type MergedMesh<'py> = (
     u32,
@@ -36,13 +37,13 @@ impl TileBuffers {
     #[getter]
     fn bounds(&self) -> Option<Box3> {
         let is_some = self.batch.triangles > 0;
-        is_some.then_some((self.batch.low, self.batch.high))
+        is_some.then_some((self.batch.low.into(), self.batch.high.into()))
     }
 
     /// Where merged positions count from, and their steps (m, y-up).
     #[getter]
     fn grid(&self) -> Box3 {
-        (self.batch.grid_low, self.batch.grid_step)
+        (self.batch.grid_low.into(), self.batch.grid_step.into())
     }
 
     /// Metres of a step of repeated positions.
