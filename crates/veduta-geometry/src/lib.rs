@@ -5,8 +5,9 @@
 //! counter-clockwise seen from outside; the others are its holes. Nothing is allocated per
 //! surface by the caller, so that a part of a million faces stays a handful of arrays.
 //!
-//! [`skeleton`] makes roofs over outlines.
+//! [`skeleton`] makes roofs over outlines. What may take long has a [`Budget`].
 
+mod budget;
 mod error;
 mod plane;
 mod polygon_set;
@@ -14,6 +15,7 @@ pub mod skeleton;
 pub mod solid;
 mod triangulate;
 
+pub use budget::{Budget, Spent, Unlimited};
 pub use error::PolygonError;
 pub use glam;
 pub use plane::{area_vector, Plane};

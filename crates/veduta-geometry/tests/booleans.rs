@@ -7,6 +7,7 @@ use proptest::prelude::*;
 use veduta_geometry::solid::{
     boolean, cone, cube, cylinder, extrude, relation, sphere, Boolean, Mesh,
 };
+use veduta_geometry::Unlimited;
 
 fn boxed(low: [f64; 3], high: [f64; 3]) -> Mesh {
     let (low, high) = (DVec3::from(low), DVec3::from(high));
@@ -112,9 +113,9 @@ fn sheets_in_one_plane_and_sheets_in_solids() {
 #[test]
 fn how_boxes_lie_to_each_other() {
     let a = boxed([0.0; 3], [2.0; 3]);
-    let inner = relation(&boxed([0.5; 3], [1.0; 3]), &a).unwrap();
+    let inner = relation(&boxed([0.5; 3], [1.0; 3]), &a, &Unlimited).unwrap();
     assert_eq!((inner.first[0], inner.second[1]), (1.0, 1.0));
-    let beside = relation(&boxed([2.0, 0.0, 0.0], [4.0, 2.0, 2.0]), &a).unwrap();
+    let beside = relation(&boxed([2.0, 0.0, 0.0], [4.0, 2.0, 2.0]), &a, &Unlimited).unwrap();
     assert!((beside.first[3] - 1.0 / 6.0).abs() < 1e-12);
     assert_eq!(beside.first[0], 0.0);
 }

@@ -1,14 +1,20 @@
-//! Programs made at random from all operations: no panic, bounded time, closed solids stay closed.
+//! Programs made at random from all operations: no panic, bounded work and memory, the same result
+//! again and on another thread, closed solids stay closed.
 
-#![allow(clippy::unwrap_used)] // helpers of tests
+#![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
 
+mod programs;
 mod support;
 
-use std::time::Instant;
+use std::collections::BTreeMap;
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::Mutex;
+use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
-use veduta_grammar::engine::{derive, operation_names, pack, Limits, Options, State};
+use programs::{Case, Words};
+use veduta_grammar::engine::{
+    derive, operation_names, pack, rederive, Fault, Limits, Options, Packed, Tree,
+};
 use veduta_grammar::shape::Geometry;
 
 /// Each operation with `#` for a number and `@` for a rule.
@@ -43,6 +49,7 @@ const OPERATIONS: &[&str] = &[
     "innerRectangle(scope) { shape : @ | remainder = @ }",
     "innerRectangle(edge) { shape : @ | remainder : @ }",
     "footprint()",
+    "i(\"brick.obj\")",
     "inline { @ @ }",
     "inline(unify) @",
     "intersect { t(#, #, #) @ }",
@@ -162,129 +169,178 @@ const NUMBERS: &[&str] = &[
     "comp.index",
 ];
 
-fn number() -> impl Strategy<Value = &'static str> {
-    // Plain sizes are more likely, so that programs get somewhere.
-    prop_oneof![4 => prop::sample::select(&NUMBERS[1..6]), 1 => prop::sample::select(NUMBERS)]
+const WORDS: Words = Words {
+    operations: OPERATIONS,
+    plain: &["1", "2", "3", "0.5", "7.25", "0.3", "high", "1 + rand(3)"],
+    numbers: NUMBERS,
+};
+
+/// The programs of each run of the tests.
+const PROGRAMS: u64 = 10_000;
+/// Of how many programs one is derived again, and shapes of it anew.
+const AGAIN: u64 = 8;
+
+/// Which programs are derived: those numbered from 0 on; or as many as `FUZZ_CASES` of the
+/// environment says, from `FUZZ_FIRST` on or from anywhere, with the time limit that counts.
+struct Plan {
+    first: u64,
+    count: u64,
+    told: bool,
 }
 
-/// A body whose blocks go on to `next`.
-fn body(next: &'static str) -> impl Strategy<Value = String> {
-    let one = (
-        prop::sample::select(OPERATIONS),
-        prop::collection::vec(number(), 7),
-    );
-    prop::collection::vec(one, 1..4).prop_map(move |all| {
-        let mut text = String::new();
-        for (operation, numbers) in all {
-            let mut numbers = numbers.iter();
-            for character in operation.chars() {
-                match character {
-                    '#' => text.push_str(numbers.next().unwrap_or(&"1")),
-                    '@' => text.push_str(next),
-                    other => text.push(other),
-                }
-            }
-            text.push(' ');
+impl Plan {
+    fn of_environment() -> Self {
+        let told = |name: &str| std::env::var(name).ok().and_then(|told| told.parse().ok());
+        let count = told("FUZZ_CASES");
+        let now = SystemTime::now().duration_since(UNIX_EPOCH);
+        let anywhere = now.map_or(0, |now| now.as_nanos() as u64 >> 16 << 24);
+        Self {
+            first: told("FUZZ_FIRST").unwrap_or(if count.is_some() { anywhere } else { 0 }),
+            count: count.unwrap_or(PROGRAMS),
+            told: count.is_some(),
         }
-        text
-    })
-}
+    }
 
-fn program() -> impl Strategy<Value = String> {
-    (body("A"), body("B"), body("C."), any::<bool>()).prop_map(|(lot, a, b, last)| {
-        let end = if last { "A" } else { "" };
-        format!("Lot --> {lot} {end}\nA --> {a}\nB --> {b} C.")
-    })
-}
-
-/// A lot around the origin, with a courtyard or without.
-fn lot(radii: &[f64], court: bool) -> State {
-    let step = std::f64::consts::TAU / radii.len() as f64;
-    let corner = |(k, r): (usize, &f64)| {
-        let angle = step * k as f64;
-        ((r * angle.cos()).round(), r * angle.sin())
-    };
-    let ring: Vec<(f64, f64)> = radii.iter().enumerate().map(corner).collect();
-    let hole: &[(f64, f64)] = &[(0.1, 0.1), (0.1, -0.1), (-0.1, -0.1), (-0.1, 0.1)];
-    if court {
-        support::lot_of(&[&ring, hole])
-    } else {
-        support::lot_of(&[&ring])
+    /// So many steps are some tenths of a second. The clock stops none of the programs of each run:
+    /// how fast a machine is, makes no difference.
+    fn limits(&self) -> Limits {
+        Limits {
+            depth: 20,
+            shapes: 1_000,
+            faces: 2_000,
+            parts: 100,
+            seconds: if self.told { 2.0 } else { 3_600.0 },
+            work: if self.told { u64::MAX } else { 20_000_000 },
+            memory: 256 << 20,
+        }
     }
 }
 
-fn check_one(text: &str, start: State, seed: u64) -> Result<bool, TestCaseError> {
-    let code = support::code(text);
-    let options = Options {
-        seed,
-        limits: Limits {
-            depth: 20,
-            shapes: 3_000,
-            faces: 3_000,
-            parts: 200,
-            seconds: 2.0,
-        },
-        ..Options::default()
-    };
-    let began = Instant::now();
-    let found = derive(&code, 0, start, &options);
-    let seconds = began.elapsed().as_secs_f64();
-    // Far over the limit: the machine may be busy.
-    prop_assert!(seconds < 60.0, "{seconds} s\n{text}");
-    let Ok(tree) = found else {
-        return Ok(false);
-    };
+/// What is in a tree, without numbers that are none.
+fn result(found: &Result<Tree, Fault>) -> Result<(Packed, Vec<String>, usize), String> {
+    let tree = found.as_ref().map_err(|fault| fault.message.clone())?;
+    let names = tree.nodes.iter().map(|node| node.name.to_string());
+    Ok((pack(tree), names.collect(), tree.messages.len()))
+}
+
+fn check_sound(tree: &Tree, limits: &Limits, of: &str) {
+    // The start shape is not counted.
+    assert!(tree.nodes.len() <= limits.shapes + 1, "{of}");
     for leaf in tree.leaves() {
         let form = &leaf.state.form;
-        prop_assert!(
-            form.scope.size.is_finite() && form.scope.origin.is_finite(),
-            "{text}"
-        );
+        let is_finite = form.scope.size.is_finite() && form.scope.origin.is_finite();
+        assert!(is_finite, "{of}");
         if let Geometry::Faces { mesh, solid } = &form.geometry {
-            prop_assert!(mesh.points.iter().all(|point| point.is_finite()), "{text}");
-            prop_assert!(!solid || mesh.is_closed(), "not closed\n{text}");
+            assert!(mesh.points.iter().all(|point| point.is_finite()), "{of}");
+            assert!(mesh.face_count() <= limits.faces, "{of}");
+            assert!(!solid || mesh.is_closed(), "not closed: {of}");
         }
     }
-    prop_assert!(
-        pack(&tree).uv.iter().flatten().all(|c| c.is_finite()),
-        "{text}"
+    let packed = pack(tree);
+    assert!(packed.uv.iter().flatten().all(|c| c.is_finite()), "{of}");
+}
+
+/// Derives a program, looks at what comes of it, and gives what became of it and how long it took.
+fn check_one(number: u64, plan: &Plan) -> (String, f64) {
+    let case = Case::of(number, &WORDS);
+    let of = format!("FUZZ_FIRST={number}\n{}\n{}", case.main, case.library);
+    let told = OnPanic(&of);
+    let code = case.code();
+    let options = Options {
+        seed: case.seed,
+        limits: plan.limits(),
+        assets: support::assets(),
+        ..Options::default()
+    };
+    let began = busy_seconds();
+    let found = derive(&code, 0, case.start.clone(), &options);
+    let seconds = busy_seconds() - began;
+    if let Ok(tree) = &found {
+        check_sound(tree, &options.limits, &of);
+    }
+    if number % AGAIN == 0 && !plan.told {
+        let there = || result(&derive(&code, 0, case.start.clone(), &options));
+        let elsewhere = std::thread::scope(|scope| scope.spawn(there).join().unwrap());
+        assert!(elsewhere == result(&found), "another result: {of}");
+    }
+    if let (Ok(tree), 0) = (&found, number % AGAIN) {
+        let mut again = tree.clone();
+        let node = case.seed as usize % tree.nodes.len();
+        let done = rederive(&code, &mut again, &tree.path(node as u32), &options);
+        if let Ok(done) = done {
+            assert!(done, "{of}");
+            assert!(result(&Ok(again)) == result(&found), "another part: {of}");
+        }
+    }
+    std::mem::forget(told);
+    let outcome = found.map_or_else(|fault| kind_of(&fault.message), |_| "derived".into());
+    (outcome, seconds)
+}
+
+/// Says which program it was, where a thread panics.
+struct OnPanic<'a>(&'a str);
+
+impl Drop for OnPanic<'_> {
+    fn drop(&mut self) {
+        if std::thread::panicking() {
+            eprintln!("{}", self.0);
+        }
+    }
+}
+
+/// A message without its numbers.
+fn kind_of(message: &str) -> String {
+    let words = message.split(' ').take(5);
+    let words = words.filter(|word| !word.contains(|c: char| c.is_ascii_digit()));
+    words.collect::<Vec<_>>().join(" ")
+}
+
+/// How long this thread has been at work (s), where the system tells; else how long it has been.
+fn busy_seconds() -> f64 {
+    static STARTED: std::sync::OnceLock<Instant> = std::sync::OnceLock::new();
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let busy = told.and_then(|told| told.split(' ').next()?.parse::<f64>().ok());
+    busy.map_or_else(
+        || STARTED.get_or_init(Instant::now).elapsed().as_secs_f64(),
+        |nanoseconds| 1e-9 * nanoseconds,
+    )
+}
+
+/// Thousands of programs, on two threads: each tells nothing but its number where it fails.
+#[test]
+fn nothing_breaks() {
+    let plan = Plan::of_environment();
+    let next = AtomicU64::new(0);
+    let found: Mutex<(BTreeMap<String, u64>, Vec<(f64, u64)>)> = Mutex::default();
+    let work = || loop {
+        let index = next.fetch_add(1, Ordering::Relaxed);
+        if index >= plan.count {
+            break;
+        }
+        let number = plan.first.wrapping_add(index);
+        let (outcome, seconds) = check_one(number, &plan);
+        let mut found = found.lock().unwrap();
+        *found.0.entry(outcome).or_default() += 1;
+        found.1.push((seconds, number));
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(work);
+        scope.spawn(work);
+    });
+    let (outcomes, mut times) = found.into_inner().unwrap();
+    times.sort_by(|a, b| b.0.total_cmp(&a.0));
+    if plan.told {
+        println!(
+            "{outcomes:#?}\nslowest (s): {:?}",
+            &times[..times.len().min(20)]
+        );
+    }
+    // Most programs that are made must be of use for this.
+    let derived = outcomes.get("derived").copied().unwrap_or(0);
+    assert!(
+        derived * 3 > plan.count || plan.count < 100,
+        "{outcomes:#?}"
     );
-    Ok(true)
-}
-
-/// 400 programs in all, the same in each run; or as many others as `FUZZ_CASES` of the environment
-/// says, drawn anew.
-fn config() -> ProptestConfig {
-    let told = std::env::var("FUZZ_CASES").ok();
-    let told: Option<u32> = told.and_then(|count| count.parse().ok());
-    ProptestConfig {
-        cases: told.unwrap_or(400).div_ceil(2),
-        rng_seed: told.map_or(RngSeed::Fixed(1), |_| RngSeed::Random),
-        ..ProptestConfig::default()
-    }
-}
-
-// Two tests run side by side, each over half of the programs.
-proptest! {
-    #![proptest_config(config())]
-
-    #[test]
-    fn nothing_breaks_on_lots(
-        text in program(),
-        radii in prop::collection::vec(2.0..12.0f64, 3..12),
-        seed in any::<u64>(),
-    ) {
-        check_one(&text, lot(&radii, false), seed)?;
-    }
-
-    #[test]
-    fn nothing_breaks_on_lots_with_courts(
-        text in program(),
-        radii in prop::collection::vec(2.0..12.0f64, 3..12),
-        seed in any::<u64>(),
-    ) {
-        check_one(&text, lot(&radii, true), seed)?;
-    }
 }
 
 #[test]

@@ -5,6 +5,7 @@
 use glam::{DMat3, DVec3};
 use proptest::prelude::*;
 use veduta_geometry::solid::{extrude, Mesh};
+use veduta_geometry::Unlimited;
 use veduta_grammar::shape::{
     cells, components, is_selected, split, Cell, Direction, Form, Geometry, Kind, Pattern, Scope,
     Size,
@@ -211,7 +212,7 @@ proptest! {
         let cut = |start, length| Cell { part: 0, start, length };
         let pair = [cut(0.0, at * size), cut(at * size, (1.0 - at) * size)];
         for adjust in [true, false] {
-            let parts = split(&form, axis, &pair, adjust);
+            let parts = split(&form, axis, &pair, adjust, &Unlimited).unwrap();
             prop_assert_eq!(parts.len(), 2);
             let volume: f64 = parts.iter().map(|(_, part)| part.world_mesh().volume()).sum();
             prop_assert!((volume - 90.0).abs() < 1e-6, "{volume}");

@@ -2,6 +2,8 @@
 
 use thiserror::Error;
 
+use crate::Spent;
+
 /// What is wrong with eaves, or with the roof that was asked for. Vertices are numbered through
 /// all rings; edge `e` runs from vertex `e` to the next one of its ring.
 #[derive(Debug, Clone, PartialEq, Error)]
@@ -57,6 +59,8 @@ pub enum SkeletonError {
     NoApex,
     #[error("the roof found is not sound: {0}")]
     Unsound(#[from] RoofFault),
+    #[error(transparent)]
+    Spent(#[from] Spent),
 }
 
 /// What is wrong with a roof.

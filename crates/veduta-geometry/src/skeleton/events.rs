@@ -13,6 +13,10 @@ use super::corner::{Corner, Quick};
 use super::double_double::{dot, Dd};
 use super::front::Front;
 use super::planes::Plane;
+use crate::{Budget, Spent};
+
+/// What a corner and an edge cost that may meet, in steps of the budget.
+pub const STEPS_PER_PAIR: usize = 4;
 
 /// What happens. Corners are named by number.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
@@ -78,13 +82,17 @@ impl Queue {
     }
 
     /// All events of a wavefront that has just been made.
-    pub fn fill(&mut self, front: &Front) {
+    pub fn fill(&mut self, front: &Front, budget: &dyn Budget) -> Result<(), Spent> {
         for &start in front.alive() {
             self.collapse_of(front, start, Dd::ZERO);
         }
         for &corner in front.alive() {
-            self.splits_by(front, corner, Dd::ZERO);
+            if front.corner(corner).reflex {
+                budget.take(STEPS_PER_PAIR * front.alive().len())?;
+                self.splits_by(front, corner, Dd::ZERO);
+            }
         }
+        Ok(())
     }
 
     /// The events of a corner that has just been made at `now`.

@@ -59,4 +59,4 @@ pub use check::{check, Soundness};
 pub use clean::{clean, Cleaned};
 pub use eaves::Eaves;
 pub use error::{RoofFault, SkeletonError};
-pub use roof::{roof, FaceOrigin, Level, Roof, RoofFace};
+pub use roof::{roof, roof_within, FaceOrigin, Level, Roof, RoofFace};

@@ -10,6 +10,7 @@ use super::simple::inside;
 use super::sweep::{sweep, Rest};
 use super::tolerance::{ATTEMPTS, SAME_LINE_SHARES, SAME_NODE_SHARE, SHORTEST_EDGE_SHARE};
 use super::{Eaves, SkeletonError};
+use crate::{Budget, Unlimited};
 
 /// Where a face begins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -56,6 +57,15 @@ pub struct Roof {
 ///
 /// The result has passed [`check()`]; what cannot be built is an error, never half a roof.
 pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
+    roof_within(eaves, stop_m, &Unlimited)
+}
+
+/// [`roof`] within a budget.
+pub fn roof_within(
+    eaves: &Eaves,
+    stop_m: Option<f64>,
+    budget: &dyn Budget,
+) -> Result<Roof, SkeletonError> {
     let least_m = SHORTEST_EDGE_SHARE * eaves.diagonal_m() / fastest(eaves);
     if let Some(height_m) = stop_m.filter(|&height| !height.is_finite() || height <= least_m) {
         return Err(SkeletonError::BadHeight { height_m, least_m });
@@ -64,7 +74,7 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
     let mut lines = Lines::of(eaves, near_m[0]);
     let mut attempt = 0;
     loop {
-        let found = attempted(eaves, &lines, stop_m, attempt).and_then(|mut roof| {
+        let found = attempted(eaves, &lines, stop_m, attempt, budget).and_then(|mut roof| {
             check(eaves, &roof)?;
             roof.attempts = attempt as u32 + 1;
             Ok(roof)
@@ -72,7 +82,9 @@ pub fn roof(eaves: &Eaves, stop_m: Option<f64>) -> Result<Roof, SkeletonError> {
         attempt += 1;
         match found {
             Ok(roof) => return Ok(roof),
-            Err(why @ SkeletonError::Unbounded { .. }) => return Err(why),
+            Err(why @ (SkeletonError::Unbounded { .. } | SkeletonError::Spent(_))) => {
+                return Err(why)
+            }
             Err(why) if attempt == ATTEMPTS => return Err(why),
             Err(SkeletonError::NearlyParallel { .. }) => {
                 near_m.rotate_left(1);
@@ -88,6 +100,7 @@ fn attempted(
     lines: &Lines,
     stop_m: Option<f64>,
     attempt: u64,
+    budget: &dyn Budget,
 ) -> Result<Roof, SkeletonError> {
     let fastest = fastest(eaves);
     let moving = eaves.speeds().iter().filter(|&&speed| speed > 0.0);
@@ -97,7 +110,7 @@ fn attempted(
     let last = 2.0 * diagonal_m * fastest / slowest;
     let mut front = Front::on_eaves(eaves, lines.planes(eaves, fastest, attempt))?;
     let stop = stop_m.map(|height| height * fastest);
-    let rests = sweep(&mut front, stop, last, diagonal_m)?;
+    let rests = sweep(&mut front, stop, last, diagonal_m, budget)?;
     let made = Drawing {
         eaves,
         lines,

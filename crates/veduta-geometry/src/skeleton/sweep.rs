@@ -3,10 +3,11 @@
 use super::corner::{Corner, Meeting};
 use super::double_double::Dd;
 use super::eaves::ring_area_m2;
-use super::events::{Event, Happening, Queue};
+use super::events::{Event, Happening, Queue, STEPS_PER_PAIR};
 use super::front::Front;
 use super::tolerance::{PARALLEL, SAME_NODE_SHARE};
 use super::SkeletonError;
+use crate::Budget;
 
 /// A part of the wavefront that is left: its nodes, the inside to the left.
 pub type Rest = Vec<u32>;
@@ -19,12 +20,13 @@ pub fn sweep(
     stop: Option<f64>,
     last: f64,
     diagonal_m: f64,
+    budget: &dyn Budget,
 ) -> Result<Vec<Rest>, SkeletonError> {
     // What happens a hair after the stop belongs to the same event as what happens a hair before.
     let until = stop.map_or(last, |time| last.min(time * (1.0 + 1e-12)));
     let most = 64 + 16 * front.corners.len();
     let mut queue = Queue::new(front.corners.len(), until, diagonal_m);
-    queue.fill(front);
+    queue.fill(front, budget)?;
     let mut events = 0;
     while let Some(event) = queue.pop() {
         if is_void(front, event.what) {
@@ -34,6 +36,7 @@ pub fn sweep(
         if events > most {
             return Err(SkeletonError::TooManyEvents { most });
         }
+        budget.take(STEPS_PER_PAIR * (front.alive().len() + 8))?;
         apply(front, &mut queue, event)?;
     }
     chains(front)

@@ -5,7 +5,11 @@ use std::collections::HashMap;
 use super::inset::Rings;
 use super::level::Level;
 use super::mesh::{Face, Mesh};
-use crate::skeleton::{roof, Eaves, FaceOrigin, SkeletonError};
+use crate::skeleton::{roof_within, Eaves, FaceOrigin, SkeletonError};
+use crate::{Budget, Unlimited};
+
+/// What an edge of a storey costs, in steps of the budget.
+const STEPS_PER_EDGE: usize = 16;
 
 /// How an edge of a face bounds the space over it.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -26,6 +30,17 @@ pub fn envelope(
     bounds: &[Bound],
     most: f64,
 ) -> Result<Mesh, SkeletonError> {
+    envelope_within(mesh, face, bounds, most, &Unlimited)
+}
+
+/// [`envelope`] within a budget.
+pub fn envelope_within(
+    mesh: &Mesh,
+    face: Face<'_>,
+    bounds: &[Bound],
+    most: f64,
+    budget: &dyn Budget,
+) -> Result<Mesh, SkeletonError> {
     let level = Level::of(mesh, face);
     let flat = level.flat(mesh, face);
     let mut heights: Vec<f64> = bounds.iter().map(|bound| bound.wall).collect();
@@ -33,7 +48,7 @@ pub fn envelope(
     heights.sort_by(f64::total_cmp);
     heights.dedup();
     heights.push(most);
-    let mut work = Storeys::on(level, &flat);
+    let mut work = Storeys::on(level, &flat, budget);
     let mut low = 0.0;
     for high in heights {
         work.storey(bounds, low, high)?;
@@ -49,7 +64,8 @@ pub(super) struct Section {
     pub along: Vec<u32>,
 }
 
-pub(super) struct Storeys {
+pub(super) struct Storeys<'a> {
+    budget: &'a dyn Budget,
     level: Level,
     solid: Mesh,
     /// Each point of the solid in the plane of the face.
@@ -59,9 +75,10 @@ pub(super) struct Storeys {
     pub origins: Vec<Option<(u32, bool)>>,
 }
 
-impl Storeys {
-    pub fn on(level: Level, flat: &Rings) -> Self {
+impl<'a> Storeys<'a> {
+    pub fn on(level: Level, flat: &Rings, budget: &'a dyn Budget) -> Self {
         let mut work = Self {
+            budget,
             level,
             solid: Mesh::new(),
             plan: Vec::new(),
@@ -90,6 +107,7 @@ impl Storeys {
     /// Goes on from the height `low` to `high`: an edge whose wall is not higher than `low` moves.
     pub fn storey(&mut self, bounds: &[Bound], low: f64, high: f64) -> Result<(), SkeletonError> {
         for section in std::mem::take(&mut self.sections) {
+            self.budget.take(STEPS_PER_EDGE * section.along.len())?;
             let speed = |&edge: &u32| {
                 let bound = &bounds[edge as usize];
                 if bound.wall <= low {
@@ -142,7 +160,8 @@ impl Storeys {
             .iter()
             .map(|ring| ring.iter().map(place).collect())
             .collect();
-        let found = roof(&Eaves::new(&flat, speeds)?, Some(high - low))?;
+        let eaves = Eaves::new(&flat, speeds)?;
+        let found = roof_within(&eaves, Some(high - low), self.budget)?;
         let mut numbers: Vec<u32> = section.rings.concat();
         for &[x, y, z] in &found.nodes_m[numbers.len()..] {
             numbers.push(self.point([x, y], low + z));

@@ -5,7 +5,8 @@ use std::collections::HashMap;
 use super::level::Level;
 use super::loops::close_in_plane;
 use super::mesh::{Face, Mesh};
-use crate::skeleton::{roof, Eaves, FaceOrigin, Roof, SkeletonError};
+use crate::skeleton::{roof_within, Eaves, FaceOrigin, Roof, SkeletonError};
+use crate::{Budget, Unlimited};
 
 /// Places nearer to each other than this, as a share of the extent, are one.
 const SAME_PLACE_SHARE: f64 = 1e-9;
@@ -38,10 +39,20 @@ pub struct Outset {
 
 /// The face with each edge moved inwards by its distance (the unit of the mesh, through all rings).
 pub fn inset(mesh: &Mesh, face: Face<'_>, distances: &[f64]) -> Result<Pieces, SkeletonError> {
+    inset_within(mesh, face, distances, &Unlimited)
+}
+
+/// [`inset`] within a budget.
+pub fn inset_within(
+    mesh: &Mesh,
+    face: Face<'_>,
+    distances: &[f64],
+    budget: &dyn Budget,
+) -> Result<Pieces, SkeletonError> {
     let level = Level::of(mesh, face);
     let rings = level.flat(mesh, face);
     let mut flat = FlatPieces::new(&rings);
-    match moved(&rings, distances)? {
+    match moved(&rings, distances, budget)? {
         None => flat.push(None, &rings),
         Some(roof) => {
             let all = distances.iter().zip(0u32..);
@@ -63,11 +74,21 @@ pub fn inset(mesh: &Mesh, face: Face<'_>, distances: &[f64]) -> Result<Pieces, S
 
 /// The face with each edge moved outwards by its distance; holes get smaller.
 pub fn outset(mesh: &Mesh, face: Face<'_>, distances: &[f64]) -> Result<Outset, SkeletonError> {
+    outset_within(mesh, face, distances, &Unlimited)
+}
+
+/// [`outset`] within a budget.
+pub fn outset_within(
+    mesh: &Mesh,
+    face: Face<'_>,
+    distances: &[f64],
+    budget: &dyn Budget,
+) -> Result<Outset, SkeletonError> {
     let level = Level::of(mesh, face);
     let rings = level.flat(mesh, face);
     let mut flat = FlatPieces::new(&rings);
     flat.push(None, &rings);
-    let grown = grown(&rings, distances, |roof, edges| {
+    let grown = grown(&rings, distances, budget, |roof, edges| {
         let moves = |edge: &u32| distances[*edge as usize] > 0.0;
         let moving: Vec<_> = edges.iter().map(|edge| edge.filter(moves)).collect();
         flat.strips(roof, &moving);
@@ -110,6 +131,7 @@ pub(super) struct Grown {
 pub(super) fn grown(
     rings: &[Vec<[f64; 2]>],
     distances: &[f64],
+    budget: &dyn Budget,
     mut seen: impl FnMut(&Roof, &[Option<u32>]),
 ) -> Result<Grown, SkeletonError> {
     let mut result = Grown {
@@ -121,7 +143,7 @@ pub(super) fn grown(
     for (index, ring) in rings.iter().enumerate() {
         let own = &distances[first..first + ring.len()];
         let around = turned(ring, first, own, index == 0);
-        match moved(&around.rings, &around.distances)? {
+        match moved(&around.rings, &around.distances, budget)? {
             None => {
                 result.rings.push(ring.clone());
                 result
@@ -264,7 +286,11 @@ fn places(roof: &Roof, rings: &[Vec<u32>]) -> Rings {
 
 /// The way of the edges as a roof: time is the share of the largest distance. None where no edge
 /// moves.
-fn moved(rings: &[Vec<[f64; 2]>], distances: &[f64]) -> Result<Option<Roof>, SkeletonError> {
+fn moved(
+    rings: &[Vec<[f64; 2]>],
+    distances: &[f64],
+    budget: &dyn Budget,
+) -> Result<Option<Roof>, SkeletonError> {
     let farthest = distances.iter().copied().fold(0.0, f64::max);
     let share = |&distance: &f64| {
         let share = distance / farthest;
@@ -278,7 +304,7 @@ fn moved(rings: &[Vec<[f64; 2]>], distances: &[f64]) -> Result<Option<Roof>, Ske
         return Eaves::new(rings, distances).map(|_| None);
     }
     let speeds: Vec<f64> = distances.iter().map(share).collect();
-    roof(&Eaves::new(rings, &speeds)?, Some(farthest)).map(Some)
+    roof_within(&Eaves::new(rings, &speeds)?, Some(farthest), budget).map(Some)
 }
 
 /// Pieces in the plane; places that are one are so once.

@@ -123,6 +123,11 @@ impl Mesh {
         self.corners.len()
     }
 
+    /// About how many bytes it takes.
+    pub fn byte_count(&self) -> usize {
+        24 * self.points.len() + 4 * self.corner_count() + 8 * self.face_count()
+    }
+
     pub fn is_empty(&self) -> bool {
         self.face_count() == 0
     }

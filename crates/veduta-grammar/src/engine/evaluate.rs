@@ -12,10 +12,10 @@ use super::operators::{binary, unary};
 use super::random::Stream;
 use super::run::Run;
 use super::state::State;
-use super::value::{Array, Value};
+use super::value::{Array, Value, MAX_ELEMENTS};
 
-/// The most elements of an array, and of a string in bytes.
-const MAX_ELEMENTS: usize = 100_000;
+/// What a call costs, in steps of work.
+const STEPS_PER_CALL: usize = 16;
 /// How deep functions may call one another.
 const MAX_CALLS: usize = 200;
 
@@ -71,8 +71,9 @@ impl Run<'_> {
             ExprKind::Builtin { function, args } => {
                 let values = self.values(args, scene)?;
                 if let Function::Print = function {
-                    self.write(&values[0]);
+                    self.write(&values[0], expr.span)?;
                 }
+                self.take(values.iter().map(Value::element_count).sum(), expr.span)?;
                 function
                     .call(&values, || scene.stream.draw())
                     .map_err(|message| Fault::at(expr.span, message))
@@ -184,6 +185,7 @@ impl Run<'_> {
             ));
         }
         self.calls += 1;
+        self.take(STEPS_PER_CALL, expr.span)?;
         let code = self.code;
         let called = &code.functions[function];
         let mut inner = Scene {
@@ -224,6 +226,7 @@ impl Run<'_> {
             return Ok(Value::Bool(op == BinaryOp::Or));
         }
         let b = self.value(right, scene)?;
+        self.take(a.element_count() + b.element_count(), expr.span)?;
         let value = binary(op, &a, &b).map_err(|message| Fault::at(expr.span, message))?;
         match &value {
             Value::Text(text) if text.len() > MAX_ELEMENTS => Err(Fault::at(
@@ -253,6 +256,7 @@ impl Run<'_> {
             }
             array.columns = columns;
         }
+        self.take(array.values.len(), expr.span)?;
         Ok(Value::Array(Arc::new(array)))
     }
 
@@ -278,7 +282,11 @@ impl Run<'_> {
             let numbers = (0..count.max(0.0) as usize).map(|k| from + step * k as f64);
             values.extend(numbers.map(Value::Number));
         } else {
-            values.push(self.value(element, scene)?);
+            let value = self.value(element, scene)?;
+            if let Value::Array(_) = value {
+                return Err(Fault::at(element.span, "an array in an array"));
+            }
+            values.push(value);
         }
         if values.len() > MAX_ELEMENTS {
             let message = format!("an array of more than {MAX_ELEMENTS} elements");

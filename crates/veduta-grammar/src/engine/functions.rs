@@ -1,6 +1,6 @@
 //! The functions of the language that need no shape. Angles are in degrees.
 
-use super::value::{Array, Value};
+use super::value::{Array, Value, MAX_ELEMENTS};
 use super::{arrays, colours, lists};
 
 /// A built-in function.
@@ -113,7 +113,7 @@ impl Function {
             Self::Chance => Ok(Value::Bool(random() < number(args, 0)?)),
             Self::ToBool => args[0].truth().map(Value::Bool).ok_or_else(|| no(&args[0])),
             Self::ToFloat => Ok(Value::Number(args[0].number().unwrap_or(f64::NAN))),
-            Self::ToText => Ok(Value::text(&args[0].to_string())),
+            Self::ToText => Ok(Value::text(&args[0].written()?)),
             Self::Sum => folded(args, |a, b| a + b),
             Self::Of(work) => work(args),
             Self::Pick => lists::random(args, random()),
@@ -153,7 +153,14 @@ impl Function {
                 let part: String = all.chars().skip(from as usize).take(length).collect();
                 Value::text(&part)
             }
-            _ => Value::text(&all.replace(text(args, 1)?, text(args, 2)?)),
+            _ => {
+                let (part, other) = (text(args, 1)?, text(args, 2)?);
+                let longest = all.len() + all.matches(part).count() * other.len();
+                if longest > 2 * MAX_ELEMENTS {
+                    return Err(format!("a string of up to {longest} bytes"));
+                }
+                Value::text(&all.replace(part, other))
+            }
         })
     }
 }

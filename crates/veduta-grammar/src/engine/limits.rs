@@ -13,6 +13,12 @@ pub struct Limits {
     pub parts: usize,
     /// Seconds of one derivation.
     pub seconds: f64,
+    /// Steps of work of one derivation. A step is looking at one pair of faces, edges or corners:
+    /// some nanoseconds. Other than the time, it is the same on each machine.
+    pub work: u64,
+    /// Bytes that all shapes together take with their faces, values and messages, counted as they
+    /// are made: of what is dropped again, too.
+    pub memory: u64,
 }
 
 impl Default for Limits {
@@ -23,6 +29,8 @@ impl Default for Limits {
             faces: 1_000_000,
             parts: 100_000,
             seconds: 60.0,
+            work: 30_000_000_000,
+            memory: 4 << 30,
         }
     }
 }

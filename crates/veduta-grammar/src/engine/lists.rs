@@ -1,7 +1,7 @@
 //! Functions of lists that are strings: elements with `;` after each.
 
 use super::functions::{array, number, text, Function};
-use super::value::Value;
+use super::value::{Value, MAX_ELEMENTS};
 
 /// Names, functions, and the fewest and most arguments.
 pub const TABLE: &[(&str, Function, usize, usize)] = {
@@ -51,7 +51,7 @@ fn list<'a>(elements: impl IntoIterator<Item = &'a str>) -> Value {
 /// `listAdd(list, element)`
 fn add(args: &[Value]) -> Result<Value, String> {
     let mut all = elements(args, 0)?;
-    let new = args[1].to_string();
+    let new = args[1].written()?;
     all.push(&new);
     Ok(list(all))
 }
@@ -64,7 +64,7 @@ fn clean(args: &[Value]) -> Result<Value, String> {
 
 /// `listCount(list, element)`
 fn count(args: &[Value]) -> Result<Value, String> {
-    let wanted = args[1].to_string();
+    let wanted = args[1].written()?;
     let all = elements(args, 0)?;
     Ok(Value::Number(
         all.iter().filter(|one| **one == wanted).count() as f64,
@@ -85,8 +85,15 @@ fn last(args: &[Value]) -> Result<Value, String> {
 
 /// `listFromArray(array)`
 fn from_array(args: &[Value]) -> Result<Value, String> {
-    let all: Vec<String> = array(args)?.values.iter().map(Value::to_string).collect();
-    Ok(list(all.iter().map(String::as_str)))
+    let mut all = String::new();
+    for value in &array(args)?.values {
+        all.push_str(&value.written()?);
+        all.push(';');
+        if all.len() > MAX_ELEMENTS {
+            return Err(format!("a string of more than {MAX_ELEMENTS} bytes"));
+        }
+    }
+    Ok(Value::text(&all))
 }
 
 /// `listToArray(list)`
@@ -97,7 +104,7 @@ fn to_array(args: &[Value]) -> Result<Value, String> {
 
 /// `listIndex(list, element)`: of the first; -1 where there is none.
 fn index(args: &[Value]) -> Result<Value, String> {
-    let wanted = args[1].to_string();
+    let wanted = args[1].written()?;
     let place = elements(args, 0)?.iter().position(|one| *one == wanted);
     Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
 }
@@ -120,7 +127,7 @@ fn range(args: &[Value]) -> Result<Value, String> {
 
 /// `listRemove(list, element)`: the first of them.
 fn remove(args: &[Value]) -> Result<Value, String> {
-    let wanted = args[1].to_string();
+    let wanted = args[1].written()?;
     let mut all = elements(args, 0)?;
     if let Some(place) = all.iter().position(|one| *one == wanted) {
         all.remove(place);

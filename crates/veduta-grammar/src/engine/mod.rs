@@ -5,6 +5,7 @@
 
 mod arrays;
 mod asset_names;
+mod clock;
 mod code;
 mod colours;
 mod draws;

@@ -6,7 +6,9 @@ use glam::DVec3;
 use veduta_geometry::solid::Mesh;
 
 use crate::shape::Scope;
+use crate::Span;
 
+use super::fault::Fault;
 use super::run::Run;
 use super::state::State;
 
@@ -89,10 +91,15 @@ impl Run<'_> {
 
     /// In the first of two passes, keeps the current shape for the second: where it is closed, or
     /// has a label.
-    pub(super) fn record(&mut self, label: Option<Arc<str>>, state: &State) {
+    pub(super) fn record(
+        &mut self,
+        label: Option<Arc<str>>,
+        state: &State,
+        span: Span,
+    ) -> Result<(), Fault> {
         let closed = state.form.geometry.is_solid();
         let (Some(recorded), Some(trail)) = (&mut self.recorded, &self.trail) else {
-            return;
+            return Ok(());
         };
         if closed || label.is_some() {
             let mesh = state.form.world_mesh();
@@ -106,7 +113,10 @@ impl Run<'_> {
                 low,
                 high,
             });
+            let last = recorded.last().map_or(0, |one| one.mesh.byte_count());
+            self.hold(last + size_of::<Occluder>(), span)?;
         }
+        Ok(())
     }
 
     /// Whether the current shape came from another, or the other from it.

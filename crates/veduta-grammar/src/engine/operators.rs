@@ -67,6 +67,24 @@ pub fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
     })
 }
 
+/// The most bytes of all strings of an array.
+const MOST_BYTES: usize = 10_000_000;
+
+/// The values, as long as they are not too many bytes together.
+fn bounded(values: impl Iterator<Item = Result<Value, String>>) -> Result<Vec<Value>, String> {
+    let mut bytes = 0;
+    let mut all = Vec::with_capacity(values.size_hint().0);
+    for value in values {
+        let value = value?;
+        bytes += value.element_count();
+        if bytes > MOST_BYTES {
+            return Err(format!("an array of more than {MOST_BYTES} bytes"));
+        }
+        all.push(value);
+    }
+    Ok(all)
+}
+
 /// Element by element; a single value goes with each element of the other side.
 fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
     let (columns, values) = match (a, b) {
@@ -75,15 +93,15 @@ fn each(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
                 return Err(format!("`{}` needs arrays of the same size", op.sign()));
             }
             let pairs = a.values.iter().zip(&b.values);
-            (a.columns, pairs.map(|(a, b)| binary(op, a, b)).collect())
+            (a.columns, bounded(pairs.map(|(a, b)| binary(op, a, b))))
         }
-        (Value::Array(a), b) => {
-            let values: Result<Vec<_>, _> = a.values.iter().map(|a| binary(op, a, b)).collect();
-            (a.columns, values)
-        }
+        (Value::Array(a), b) => (
+            a.columns,
+            bounded(a.values.iter().map(|a| binary(op, a, b))),
+        ),
         (a, Value::Array(b)) => (
             b.columns,
-            b.values.iter().map(|b| binary(op, a, b)).collect(),
+            bounded(b.values.iter().map(|b| binary(op, a, b))),
         ),
         _ => return Err(format!("`{}` needs an array", op.sign())),
     };

@@ -104,8 +104,13 @@ impl Run<'_> {
         if self.recorded.is_some() {
             return Ok(query.nothing());
         }
-        let text = |index: usize| args.get(index).map(ToString::to_string).unwrap_or_default();
-        let (target, label) = (text(0), text(1));
+        let text = |index: usize| {
+            let text = args.get(index).map_or(Ok(String::new()), Value::written);
+            text.map_err(|why| Fault::at(span, why))
+        };
+        let (target, label) = (text(0)?, text(1)?);
+        let others = self.options.neighbours.iter().map(|one| one.len());
+        self.take(self.around.len() + others.sum::<usize>(), span)?;
         let own = self.around.iter().filter(|_| target != "inter");
         let others = self.options.neighbours.iter().flat_map(|one| one.iter());
         let others = others.filter(|_| target != "intra");
@@ -128,7 +133,7 @@ impl Run<'_> {
                 Ok(Value::Number(far.fold(f64::INFINITY, f64::min)))
             }
             Query::Rank => {
-                let order = text(2);
+                let order = text(2)?;
                 let mesh = state.form.world_mesh();
                 let (low, high) = mesh.bounds().unwrap_or_default();
                 let here = ordered(&order, low, high, || mesh.area());
@@ -166,8 +171,8 @@ impl Run<'_> {
                 continue;
             }
             self.check_time(span)?;
-            let found = relation(&mesh, &one.mesh);
-            let found = found.map_err(|error| Fault::at(span, error.to_string()))?;
+            let found = relation(&mesh, &one.mesh, self.budget());
+            let found = found.map_err(|error| self.failed(span, error))?;
             if query.holds(&found, closed) {
                 return Ok(Value::Bool(true));
             }

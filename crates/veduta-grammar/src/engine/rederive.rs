@@ -2,8 +2,8 @@
 
 use std::cmp::Ordering;
 use std::ops::Range;
-use std::time::Instant;
 
+use super::clock::Clock;
 use super::code::Code;
 use super::fault::Fault;
 use super::overrides::Edited;
@@ -89,7 +89,7 @@ fn part(code: &Code, tree: &Tree, root: u32, options: &Options) -> Result<Tree, 
     }
     let streams = path.iter();
     let stream = streams.fold(Stream::new(options.seed), |one, &place| one.child(place));
-    let mut run = Run::new(code, options, line, Instant::now());
+    let mut run = Run::new(code, options, line, Clock::starting(options.limits));
     run.wait(Waiting {
         node: path.len() as u32,
         stream,

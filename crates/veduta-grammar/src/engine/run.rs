@@ -2,11 +2,13 @@
 
 use std::collections::HashMap;
 use std::sync::Arc;
-use std::time::Instant;
+
+use veduta_geometry::{Budget, Spent};
 
 use crate::shape::Asset;
 use crate::Span;
 
+use super::clock::{Clock, Over};
 use super::code::{Code, Expr, Rule};
 use super::draws::{Draws, LogSum};
 use super::fault::Fault;
@@ -58,7 +60,7 @@ pub struct Run<'a> {
     pub(super) recorded: Option<Vec<Occluder>>,
     /// What the first pass has collected, in the second.
     pub(super) around: Vec<Occluder>,
-    started: Instant,
+    clock: Clock,
 }
 
 /// A shape that its rule has still to be applied to.
@@ -76,15 +78,16 @@ pub(super) struct Waiting {
 /// that there is nothing, then it is about the shapes that the first pass made. So no answer
 /// depends on the order of the work.
 pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Result<Tree, Fault> {
-    let started = Instant::now();
+    let mut clock = Clock::starting(options.limits);
     let mut around = Vec::new();
     if code.asks {
-        let mut first = Run::new(code, options, Tree::default(), started);
+        let mut first = Run::new(code, options, Tree::default(), clock);
         first.recorded = Some(Vec::new());
         first.all(rule, start.clone())?;
         around = first.recorded.unwrap_or_default();
+        clock = first.clock;
     }
-    let mut run = Run::new(code, options, Tree::default(), started);
+    let mut run = Run::new(code, options, Tree::default(), clock);
     run.around = around;
     run.all(rule, start)?;
     run.know_all();
@@ -100,7 +103,12 @@ pub fn occluders(
     start: State,
     options: &Options,
 ) -> Result<Vec<Occluder>, Fault> {
-    let mut run = Run::new(code, options, Tree::default(), Instant::now());
+    let mut run = Run::new(
+        code,
+        options,
+        Tree::default(),
+        Clock::starting(options.limits),
+    );
     run.trail = Some(Trail::default());
     run.recorded = Some(Vec::new());
     run.all(rule, start)?;
@@ -108,7 +116,7 @@ pub fn occluders(
 }
 
 impl<'a> Run<'a> {
-    pub(super) fn new(code: &'a Code, options: &'a Options, tree: Tree, started: Instant) -> Self {
+    pub(super) fn new(code: &'a Code, options: &'a Options, tree: Tree, clock: Clock) -> Self {
         let mut globals = vec![Global::Unknown; code.globals.len()];
         for known in &tree.globals {
             globals[known.global as usize] = Global::Known(known.value.clone());
@@ -126,7 +134,7 @@ impl<'a> Run<'a> {
             trail: code.asks.then(Trail::default),
             recorded: None,
             around: Vec::new(),
-            started,
+            clock,
         }
     }
 
@@ -285,10 +293,13 @@ impl<'a> Run<'a> {
     }
 
     /// What `print` is given; what is beyond the most messages is dropped.
-    pub(super) fn write(&mut self, value: &Value) {
+    pub(super) fn write(&mut self, value: &Value, span: Span) -> Result<(), Fault> {
         if self.tree.messages.len() < MOST_MESSAGES {
-            self.tree.messages.push(value.to_string());
+            let text = value.written().map_err(|why| Fault::at(span, why))?;
+            self.hold(text.len(), span)?;
+            self.tree.messages.push(text);
         }
+        Ok(())
     }
 
     /// The shape that the derivation began with.
@@ -296,13 +307,57 @@ impl<'a> Run<'a> {
         &self.tree.nodes[0]
     }
 
-    /// A fault where the derivation takes too long.
+    /// A fault where the derivation takes too long, or too much work or memory.
     pub(super) fn check_time(&self, span: Span) -> Result<(), Fault> {
-        let limit = self.options.limits.seconds;
-        if self.started.elapsed().as_secs_f64() > limit {
-            return Err(Fault::at(span, format!("takes longer than {limit} s")));
+        match self.clock.look() {
+            None => Ok(()),
+            Some(Over::Time) => {
+                let limit = self.options.limits.seconds;
+                let message = format!(
+                    "takes longer than {limit} s: make fewer or simpler shapes, or allow more time"
+                );
+                Err(Fault::at(span, message))
+            }
+            Some(Over::Work) => {
+                let limit = self.options.limits.work;
+                let message =
+                    format!("takes more than {limit} steps of work: make fewer or simpler shapes");
+                Err(Fault::at(span, message))
+            }
+            Some(Over::Memory) => {
+                let limit = self.options.limits.memory >> 20;
+                let message =
+                    format!("takes more than {limit} MiB of memory: make fewer or simpler shapes");
+                Err(Fault::at(span, message))
+            }
         }
-        Ok(())
+    }
+
+    /// Takes steps from the limit, before they are done.
+    pub(super) fn take(&self, steps: usize, span: Span) -> Result<(), Fault> {
+        match self.clock.take(steps) {
+            Ok(()) => Ok(()),
+            Err(Spent) => self.check_time(span),
+        }
+    }
+
+    /// Takes bytes for what is made and stays.
+    pub(super) fn hold(&self, bytes: usize, span: Span) -> Result<(), Fault> {
+        match self.clock.hold(bytes) {
+            Ok(()) => Ok(()),
+            Err(Spent) => self.check_time(span),
+        }
+    }
+
+    /// What long work takes its steps from.
+    pub(super) fn budget(&self) -> &dyn Budget {
+        &self.clock
+    }
+
+    /// The fault for work that came to nothing: that its limit is reached, or what `told` says.
+    pub(super) fn failed(&self, span: Span, told: impl std::fmt::Display) -> Fault {
+        let over = self.check_time(span).err();
+        over.unwrap_or_else(|| Fault::at(span, told.to_string()))
     }
 
     /// The shape as the frame's rule got it.

@@ -153,6 +153,7 @@ impl Run<'_> {
         let mut chosen = Vec::new();
         for selector in selectors {
             let mut picked = Vec::new();
+            self.take(choosing.found.len(), span)?;
             if !matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER) {
                 for (at, is_free) in free.iter_mut().enumerate() {
                     if *is_free && self.selects(selector, choosing, at, span, scene)? {
@@ -186,7 +187,11 @@ impl Run<'_> {
         for ((_, expr), picked) in cells.iter().zip(chosen) {
             for at in picked {
                 let state = choosing.state(scene.state, at);
-                values[at] = Some(self.value(expr, &mut scene.of(&state))?);
+                let value = self.value(expr, &mut scene.of(&state))?;
+                if let Value::Array(_) = value {
+                    return Err(Fault::at(expr.span, "an array in an array"));
+                }
+                values[at] = Some(value);
             }
         }
         let none = match values.iter().flatten().next() {

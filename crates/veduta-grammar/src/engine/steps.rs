@@ -16,8 +16,8 @@ use super::state::State;
 use super::tree::Node;
 use super::value::Value;
 
-/// How often the clock is looked at: every so many shapes.
-const SHAPES_PER_LOOK: usize = 1024;
+/// What a shape costs, in steps of work.
+const STEPS_PER_SHAPE: usize = 32;
 
 impl Run<'_> {
     /// Runs a body on the frame's shape; `frame.fate` tells what became of it.
@@ -73,6 +73,7 @@ impl Run<'_> {
         let kept = std::mem::replace(&mut frame.state, state);
         let children = frame.children;
         frame.fate = Fate::Untouched;
+        self.hold(frame.state.form.geometry.byte_count(), frame.span)?;
         self.enter();
         self.run_body(body, frame)?;
         if frame.stays(children) {
@@ -120,7 +121,7 @@ impl Run<'_> {
     pub(super) fn leave(&mut self, name: &Arc<str>, frame: &mut Frame) -> Result<(), Fault> {
         self.enter();
         if self.nested == 0 {
-            self.record(None, &frame.state);
+            self.record(None, &frame.state, frame.span)?;
         }
         self.back();
         self.add(name.clone(), None, Vec::new(), frame, frame.span)?;
@@ -150,9 +151,9 @@ impl Run<'_> {
             return Err(Fault::at(span, format!("more than {} shapes", self.made)));
         }
         self.made += 1;
-        if self.made % SHAPES_PER_LOOK == 0 {
-            self.check_time(span)?;
-        }
+        self.take(STEPS_PER_SHAPE, span)?;
+        let values: usize = args.iter().map(Value::element_count).sum();
+        self.hold(size_of::<Node>() + size_of::<Value>() * values, span)?;
         self.tree.nodes.push(Node {
             parent: Some(frame.node),
             place,

@@ -1,7 +1,10 @@
 //! What expressions give.
 
-use std::fmt;
+use std::fmt::{self, Write};
 use std::sync::Arc;
+
+/// The most elements of an array, and of a string in bytes.
+pub const MAX_ELEMENTS: usize = 100_000;
 
 /// A value of the language. Arrays hold values of one kind; the checker sees to that.
 #[derive(Debug, Clone, PartialEq)]
@@ -36,6 +39,25 @@ impl Value {
         Self::Array(Arc::new(Array { columns, values }))
     }
 
+    /// The elements of an array, the bytes of a string, 1 of others.
+    pub fn element_count(&self) -> usize {
+        match self {
+            Self::Text(text) => text.len(),
+            Self::Array(array) => array.values.len(),
+            _ => 1,
+        }
+    }
+
+    /// The value as the function `str` writes it; Err where that is too long. An array may hold
+    /// the same long array many times.
+    pub fn written(&self) -> Result<String, String> {
+        let mut text = Bounded(String::new());
+        match write!(text, "{self}") {
+            Ok(()) => Ok(text.0),
+            Err(_) => Err(format!("a string of more than {MAX_ELEMENTS} bytes")),
+        }
+    }
+
     /// The name of the kind, for messages.
     pub fn kind(&self) -> &'static str {
         match self {
@@ -64,6 +86,19 @@ impl Value {
             Self::Text(text) => Some(text.as_ref() == "true"),
             Self::Array(_) => None,
         }
+    }
+}
+
+/// A text that refuses to become too long.
+struct Bounded(String);
+
+impl fmt::Write for Bounded {
+    fn write_str(&mut self, part: &str) -> fmt::Result {
+        if self.0.len() + part.len() > MAX_ELEMENTS {
+            return Err(fmt::Error);
+        }
+        self.0.push_str(part);
+        Ok(())
     }
 }
 

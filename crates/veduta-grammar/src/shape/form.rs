@@ -95,6 +95,14 @@ impl Geometry {
         }
     }
 
+    /// About how many bytes of its own it takes.
+    pub fn byte_count(&self) -> usize {
+        match self {
+            Self::Faces { mesh, .. } => mesh.byte_count(),
+            _ => 0,
+        }
+    }
+
     /// The faces of an instance; anything else as it is.
     pub fn opened(&self) -> Self {
         match self {

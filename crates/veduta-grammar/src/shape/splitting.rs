@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 use veduta_geometry::solid::{cut, Mesh};
+use veduta_geometry::{Budget, Spent};
 
 use super::form::{Form, Geometry, TOLERANCE};
 use super::scope::{over, Scope};
@@ -11,9 +12,18 @@ use super::sizes::Cell;
 ///
 /// Closed shapes give closed parts. With `adjust` the scope of each part is fitted to its
 /// geometry; otherwise it is the cell, so that the scopes fill that of the whole.
-pub fn split(form: &Form, axis: usize, cells: &[Cell], adjust: bool) -> Vec<(Cell, Form)> {
-    match &form.geometry.opened() {
-        Geometry::Faces { mesh, solid } => split_faces(&form.scope, mesh, *solid, axis, cells)
+///
+/// # Errors
+/// Where the budget does not suffice.
+pub fn split(
+    form: &Form,
+    axis: usize,
+    cells: &[Cell],
+    adjust: bool,
+    budget: &dyn Budget,
+) -> Result<Vec<(Cell, Form)>, Spent> {
+    Ok(match &form.geometry.opened() {
+        Geometry::Faces { mesh, solid } => split_faces(form, mesh, *solid, (axis, cells), budget)?
             .into_iter()
             .map(|(cell, part)| (cell, if adjust { part.fitted() } else { part }))
             .collect(),
@@ -28,19 +38,20 @@ pub fn split(form: &Form, axis: usize, cells: &[Cell], adjust: bool) -> Vec<(Cel
                 (cell, part)
             })
             .collect(),
-    }
+    })
 }
 
 fn split_faces(
-    scope: &Scope,
+    form: &Form,
     mesh: &Mesh,
     solid: bool,
-    axis: usize,
-    cells: &[Cell],
-) -> Vec<(Cell, Form)> {
+    (axis, cells): (usize, &[Cell]),
+    budget: &dyn Budget,
+) -> Result<Vec<(Cell, Form)>, Spent> {
+    let scope = &form.scope;
     let size = scope.size[axis];
     if size <= 0.0 {
-        return Vec::new();
+        return Ok(Vec::new());
     }
     // A hollow is cut as the solid that fills it, so that the cuts close.
     let hollow = solid && mesh.volume() < 0.0;
@@ -49,6 +60,7 @@ fn split_faces(
     let mut parts = Vec::with_capacity(cells.len());
     for &cell in cells {
         let end = (cell.start + cell.length) / size;
+        budget.take(STEPS_PER_CORNER * rest.corner_count())?;
         let piece = if end < 1.0 - TOLERANCE {
             let sides = cut(&rest, axis, end, TOLERANCE, solid);
             rest = sides.above.mesh;
@@ -57,11 +69,15 @@ fn split_faces(
             std::mem::take(&mut rest)
         };
         if !piece.is_empty() {
+            budget.hold(piece.byte_count())?;
             parts.push((cell, part_of(scope, turned(piece), solid, axis, cell)));
         }
     }
-    parts
+    Ok(parts)
 }
+
+/// What a corner of what is cut costs, in steps of the budget.
+const STEPS_PER_CORNER: usize = 4;
 
 /// A piece in shares of the whole's scope, in shares of its own.
 fn part_of(scope: &Scope, piece: Mesh, solid: bool, axis: usize, cell: Cell) -> Form {

@@ -8,8 +8,12 @@ use super::super::mesh::Mesh;
 use super::super::weld::Places;
 use super::flat::{distance, Polygon};
 use super::{MOST_PAIRS, NEAR};
+use crate::{Budget, Spent};
 
 pub type Segment = (u32, u32);
+
+/// What a corner of two faces that may meet costs, in steps of the budget.
+const STEPS_PER_CORNER: usize = 4;
 
 /// The faces of two meshes over common points, and the segments that divide each.
 pub struct Cuts {
@@ -78,21 +82,25 @@ impl Cuts {
     }
 
     /// Finds the segments along which faces of the two meshes meet.
-    pub fn meet(&mut self) {
+    pub fn meet(&mut self, budget: &dyn Budget) -> Result<(), Spent> {
         for f in 0..self.polygons[0].len() {
+            budget.take(self.polygons[1].len())?;
             for g in 0..self.polygons[1].len() {
                 let (one, other) = (&self.polygons[0][f], &self.polygons[1][g]);
                 let apart = one.low.cmpgt(other.high + self.near).any()
                     || other.low.cmpgt(one.high + self.near).any();
                 if !apart {
-                    self.meet_pair(f, g);
+                    self.meet_pair(f, g, budget)?;
                 }
             }
         }
+        Ok(())
     }
 
-    fn meet_pair(&mut self, f: usize, g: usize) {
+    fn meet_pair(&mut self, f: usize, g: usize, budget: &dyn Budget) -> Result<(), Spent> {
         let (one, other) = (&self.polygons[0][f], &self.polygons[1][g]);
+        let corners = one.corner_count() + other.corner_count();
+        budget.take(STEPS_PER_CORNER * corners)?;
         let (mut places, mut is_level) = (Vec::new(), [false; 2]);
         for (side, (polygon, plane)) in [(one, other), (other, one)].into_iter().enumerate() {
             let (crossed, level) = self.crossed(polygon, plane);
@@ -107,7 +115,7 @@ impl Cuts {
             self.segments[1][g].extend(own);
             self.level[0][f].push(g);
             self.level[1][g].push(f);
-            return;
+            return Ok(());
         }
         let along = one.normal().cross(other.normal());
         let mut stops: Vec<u32> = places.into_iter().map(|place| self.point(place)).collect();
@@ -115,6 +123,7 @@ impl Cuts {
         stops.sort_by(|a, b| at(a).total_cmp(&at(b)).then(a.cmp(b)));
         stops.dedup();
         let (one, other) = (&self.polygons[0][f], &self.polygons[1][g]);
+        budget.take(stops.len() * corners)?;
         for pair in stops.windows(2) {
             let ends = pair_of(pair);
             let middle = 0.5 * (self.points[ends.0 as usize] + self.points[ends.1 as usize]);
@@ -123,6 +132,7 @@ impl Cuts {
                 self.segments[1][g].push(ends);
             }
         }
+        Ok(())
     }
 
     /// Where the rings of a polygon meet a plane, and whether it lies in the plane.
@@ -158,7 +168,7 @@ impl Cuts {
 
     /// Divides all segments at the points that lie on them and where they cross; false where that
     /// is too much work.
-    pub fn divide(&mut self) -> bool {
+    pub fn divide(&mut self, budget: &dyn Budget) -> Result<bool, Spent> {
         let mut on: HashMap<Segment, Vec<u32>> = HashMap::new();
         for which in 0..2 {
             for face in 0..self.polygons[which].len() {
@@ -169,9 +179,9 @@ impl Cuts {
                 segments.sort_unstable();
                 segments.dedup();
                 if segments.len().saturating_mul(segments.len()) > MOST_PAIRS {
-                    return false;
+                    return Ok(false);
                 }
-                self.divide_in(which, face, &mut on);
+                self.divide_in(which, face, &mut on, budget)?;
             }
         }
         for (&(from, to), numbers) in &mut on {
@@ -182,10 +192,16 @@ impl Cuts {
             numbers.retain(|&number| number != from && number != to);
         }
         self.between = on;
-        true
+        Ok(true)
     }
 
-    fn divide_in(&mut self, which: usize, face: usize, on: &mut HashMap<Segment, Vec<u32>>) {
+    fn divide_in(
+        &mut self,
+        which: usize,
+        face: usize,
+        on: &mut HashMap<Segment, Vec<u32>>,
+        budget: &dyn Budget,
+    ) -> Result<(), Spent> {
         let segments = self.segments[which][face].clone();
         let polygon = &self.polygons[which][face];
         let mut corners: Vec<u32> = segments.iter().flat_map(|&(a, b)| [a, b]).collect();
@@ -195,6 +211,7 @@ impl Cuts {
         let corners: Vec<(u32, DVec2)> = corners.into_iter().map(|c| (c, flat(c))).collect();
         let ends: Vec<[DVec2; 2]> = segments.iter().map(|&(a, b)| [flat(a), flat(b)]).collect();
         for (segment, [from, to]) in segments.iter().zip(&ends) {
+            budget.take(corners.len())?;
             let (low, high) = (from.min(*to) - self.near, from.max(*to) + self.near);
             for (number, place) in &corners {
                 let beside = place.cmplt(low).any() || place.cmpgt(high).any();
@@ -205,6 +222,7 @@ impl Cuts {
         }
         let mut crossings = Vec::new();
         for (k, &one) in segments.iter().enumerate() {
+            budget.take(segments.len() - k)?;
             for (j, &other) in segments.iter().enumerate().skip(k + 1) {
                 if let Some(place) = crossing(ends[k], ends[j], self.near) {
                     crossings.push((one, other, polygon.place(place)));
@@ -216,6 +234,7 @@ impl Cuts {
             on.entry(one).or_default().push(number);
             on.entry(other).or_default().push(number);
         }
+        Ok(())
     }
 }
 

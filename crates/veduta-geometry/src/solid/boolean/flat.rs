@@ -71,6 +71,10 @@ impl Polygon {
         self.x * flat.x + self.y * flat.y + self.normal * self.height
     }
 
+    pub fn corner_count(&self) -> usize {
+        self.rings.iter().map(Vec::len).sum()
+    }
+
     /// Edges of all rings, as numbers of points.
     pub fn edges(&self) -> impl Iterator<Item = (u32, u32)> + '_ {
         self.rings.iter().flat_map(|ring| {

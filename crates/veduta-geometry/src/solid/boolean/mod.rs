@@ -14,6 +14,7 @@ mod result;
 mod sides;
 
 use super::mesh::Mesh;
+use crate::{Budget, Spent, Unlimited};
 use cuts::Cuts;
 use flat::Polygon;
 
@@ -50,6 +51,8 @@ pub enum BooleanError {
     /// Closed meshes gave an open one: faces lie nearer to each other than can be told apart.
     #[error("the shapes lie too near to each other to be told apart; move one by a millimetre")]
     Unclear,
+    #[error(transparent)]
+    Spent(#[from] Spent),
 }
 
 /// A part of a face with its place to the other mesh.
@@ -70,7 +73,7 @@ pub(super) struct Overlay {
     pub normals: [Vec<glam::DVec3>; 2],
 }
 
-fn overlay(a: &Mesh, b: &Mesh) -> Result<Overlay, BooleanError> {
+fn overlay(a: &Mesh, b: &Mesh, budget: &dyn Budget) -> Result<Overlay, BooleanError> {
     let too_many = BooleanError::TooManyFaces {
         a: a.face_count(),
         b: b.face_count(),
@@ -79,13 +82,15 @@ fn overlay(a: &Mesh, b: &Mesh) -> Result<Overlay, BooleanError> {
         return Err(too_many);
     }
     let mut cuts = Cuts::new(a, b);
-    cuts.meet();
-    if !cuts.divide() {
+    cuts.meet(budget)?;
+    if !cuts.divide(budget)? {
         return Err(too_many);
     }
-    let regions = [0, 1].map(|which| regions::of(&cuts, which));
     Ok(Overlay {
-        regions,
+        regions: [
+            regions::of(&cuts, 0, budget)?,
+            regions::of(&cuts, 1, budget)?,
+        ],
         normals: [0, 1].map(|which| cuts.polygons[which].iter().map(Polygon::normal).collect()),
         points: cuts.points,
     })
@@ -95,8 +100,18 @@ fn overlay(a: &Mesh, b: &Mesh) -> Result<Overlay, BooleanError> {
 /// mesh and a closed one, it is what is in or out of the closed one of the open, and all faces of
 /// both for a union; of two that lie in one plane, it is in that plane.
 pub fn boolean(a: &Mesh, b: &Mesh, operation: Boolean) -> Result<Combined, BooleanError> {
+    boolean_within(a, b, operation, &Unlimited)
+}
+
+/// [`boolean`] within a budget.
+pub fn boolean_within(
+    a: &Mesh,
+    b: &Mesh,
+    operation: Boolean,
+    budget: &dyn Budget,
+) -> Result<Combined, BooleanError> {
     let closed = [a.is_closed(), b.is_closed()];
-    let combined = result::of(&overlay(a, b)?, operation, closed);
+    let combined = result::of(&overlay(a, b, budget)?, operation, closed);
     if closed == [true; 2] && !combined.mesh.is_empty() && !combined.mesh.is_closed() {
         return Err(BooleanError::Unclear);
     }
@@ -122,8 +137,8 @@ pub struct Relation {
 }
 
 /// How two meshes lie to each other.
-pub fn relation(a: &Mesh, b: &Mesh) -> Result<Relation, BooleanError> {
-    let overlay = overlay(a, b)?;
+pub fn relation(a: &Mesh, b: &Mesh, budget: &dyn Budget) -> Result<Relation, BooleanError> {
+    let overlay = overlay(a, b, budget)?;
     let shares = |regions: &[Region]| {
         let mut sums = [0.0; 4];
         for region in regions {

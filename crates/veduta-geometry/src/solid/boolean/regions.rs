@@ -8,12 +8,19 @@ use super::cuts::{Cuts, Segment};
 use super::flat::{area, inner_place, is_in, Polygon};
 use super::sides::side;
 use super::Region;
+use crate::{Budget, Spent};
+
+/// What a corner of the other mesh costs that a region is looked at from, in steps of the budget.
+const STEPS_PER_SEEN_CORNER: usize = 4;
 
 /// The regions of all faces of a mesh.
-pub fn of(cuts: &Cuts, which: usize) -> Vec<Region> {
+pub fn of(cuts: &Cuts, which: usize, budget: &dyn Budget) -> Result<Vec<Region>, Spent> {
     let mut found = Vec::new();
+    let others = &cuts.polygons[1 - which];
+    let seen: usize = others.iter().map(Polygon::corner_count).sum();
     for (face, polygon) in cuts.polygons[which].iter().enumerate() {
-        for rings in rings_of(cuts, which, face) {
+        for rings in rings_of(cuts, which, face, budget)? {
+            budget.take(STEPS_PER_SEEN_CORNER * seen)?;
             let flat: Vec<Vec<DVec2>> =
                 rings.iter().map(|ring| flat(cuts, polygon, ring)).collect();
             let Some(place) = inner_place(&flat) else {
@@ -30,7 +37,7 @@ pub fn of(cuts: &Cuts, which: usize) -> Vec<Region> {
             }
         }
     }
-    found
+    Ok(found)
 }
 
 fn flat(cuts: &Cuts, polygon: &Polygon, ring: &[u32]) -> Vec<DVec2> {
@@ -39,7 +46,12 @@ fn flat(cuts: &Cuts, polygon: &Polygon, ring: &[u32]) -> Vec<DVec2> {
 }
 
 /// The rings of each region: the outline, then the holes.
-fn rings_of(cuts: &Cuts, which: usize, face: usize) -> Vec<Vec<Vec<u32>>> {
+fn rings_of(
+    cuts: &Cuts,
+    which: usize,
+    face: usize,
+    budget: &dyn Budget,
+) -> Result<Vec<Vec<Vec<u32>>>, Spent> {
     let polygon = &cuts.polygons[which][face];
     let segments = &cuts.segments[which][face];
     let is_whole = segments.len() == polygon.edges().count()
@@ -47,7 +59,7 @@ fn rings_of(cuts: &Cuts, which: usize, face: usize) -> Vec<Vec<Vec<u32>>> {
             .iter()
             .all(|s| !cuts.between.contains_key(s) || cuts.between[s].is_empty());
     if is_whole {
-        return vec![polygon.rings.clone()];
+        return Ok(vec![polygon.rings.clone()]);
     }
     let graph = Graph::new(divided(cuts, segments), |p| {
         polygon.flat(cuts.points[p as usize])
@@ -63,7 +75,9 @@ fn rings_of(cuts: &Cuts, which: usize, face: usize) -> Vec<Vec<Vec<u32>>> {
             holes.push((shape, ring));
         }
     }
+    let corners: usize = outlines.iter().map(|(_, shape, ..)| shape.len()).sum();
     for (shape, ring) in holes {
+        budget.take(corners)?;
         let part = parts[&ring[0]];
         let around = outlines
             .iter_mut()
@@ -73,7 +87,7 @@ fn rings_of(cuts: &Cuts, which: usize, face: usize) -> Vec<Vec<Vec<u32>>> {
             rings.push(ring);
         }
     }
-    outlines.into_iter().map(|(.., rings)| rings).collect()
+    Ok(outlines.into_iter().map(|(.., rings)| rings).collect())
 }
 
 /// The segments between neighbouring points, each once.

@@ -1,8 +1,9 @@
 //! Which edges carry what: gables, slopes, and how far they reach out.
 
 use super::Overhang;
-use crate::skeleton::{roof, Eaves, FaceOrigin, SkeletonError};
+use crate::skeleton::{roof_within, Eaves, FaceOrigin, SkeletonError};
 use crate::solid::inset::{grown, Rings};
+use crate::Budget;
 
 /// The edges of a face that stay upright to the top.
 #[derive(Debug, Clone, PartialEq, Eq, Default)]
@@ -18,12 +19,12 @@ pub enum Gables {
 
 impl Gables {
     /// Whether each edge carries a gable.
-    pub fn of(&self, even: &Eaves) -> Result<Vec<bool>, SkeletonError> {
+    pub fn of(&self, even: &Eaves, budget: &dyn Budget) -> Result<Vec<bool>, SkeletonError> {
         let mut upright = vec![false; even.len()];
         match self {
             Self::None => {}
             Self::Triangles => {
-                let hip = roof(even, None)?;
+                let hip = roof_within(even, None, budget)?;
                 for face in &hip.faces {
                     let FaceOrigin::Edge(edge) = face.origin else {
                         continue;
@@ -55,12 +56,13 @@ pub fn reaching(
     rings: &Rings,
     upright: &[bool],
     overhang: Overhang,
+    budget: &dyn Budget,
 ) -> Result<(Rings, Vec<u32>), SkeletonError> {
     if overhang == Overhang::default() {
         return Ok((rings.clone(), (0..upright.len() as u32).collect()));
     }
     let distance = |&is: &bool| if is { overhang.gables } else { overhang.eaves };
     let distances: Vec<f64> = upright.iter().map(distance).collect();
-    let larger = grown(rings, &distances, |_, _| {})?;
+    let larger = grown(rings, &distances, budget, |_, _| {})?;
     Ok((larger.rings, larger.along))
 }

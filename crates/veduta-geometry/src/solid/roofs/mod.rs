@@ -16,7 +16,8 @@ pub use edges::Gables;
 
 use super::level::Level;
 use super::mesh::{Face, Mesh};
-use crate::skeleton::{roof, Eaves, SkeletonError};
+use crate::skeleton::{roof_within, Eaves, SkeletonError};
+use crate::{Budget, Unlimited};
 use edges::reaching;
 use planes::Across;
 use profile::Profile;
@@ -122,6 +123,17 @@ pub fn roofed_over(
     slope: f64,
     overhang: Overhang,
 ) -> Result<Mesh, SkeletonError> {
+    roofed_within(sheet, kind, slope, overhang, &Unlimited)
+}
+
+/// [`roofed_over`] within a budget.
+pub fn roofed_within(
+    sheet: &Mesh,
+    kind: &RoofKind,
+    slope: f64,
+    overhang: Overhang,
+    budget: &dyn Budget,
+) -> Result<Mesh, SkeletonError> {
     let mut solid = Mesh::new();
     for face in sheet.faces() {
         let work = Work {
@@ -129,6 +141,7 @@ pub fn roofed_over(
             face,
             slope,
             overhang,
+            budget,
         };
         solid.append(&work.roof(kind)?);
     }
@@ -140,6 +153,7 @@ struct Work<'a> {
     face: Face<'a>,
     slope: f64,
     overhang: Overhang,
+    budget: &'a dyn Budget,
 }
 
 impl Work<'_> {
@@ -172,12 +186,19 @@ impl Work<'_> {
             RoofKind::HalfHip { gables, clipped } => {
                 let (level, eaves) = self.eaves(gables)?;
                 let below = self.overhang.eaves * slope;
-                storeys::half_hip(level.raised(-below), &eaves, slope, *clipped, below)
+                storeys::half_hip(
+                    level.raised(-below),
+                    &eaves,
+                    slope,
+                    *clipped,
+                    below,
+                    self.budget,
+                )
             }
             RoofKind::Dutch { share } => {
                 let (level, eaves) = self.eaves(none)?;
                 let below = self.overhang.eaves * slope;
-                storeys::gablet(level.raised(-below), &eaves, slope, *share)
+                storeys::gablet(level.raised(-below), &eaves, slope, *share, self.budget)
             }
             RoofKind::Flat {
                 slab,
@@ -185,7 +206,7 @@ impl Work<'_> {
                 width,
             } => {
                 let (level, eaves) = self.eaves(none)?;
-                let solid = flat::flat(&eaves, *slab, *parapet, *width)?;
+                let solid = flat::flat(&eaves, *slab, *parapet, *width, self.budget)?;
                 Ok(placed(solid, &level))
             }
             RoofKind::Pyramid => self.pyramid(),
@@ -215,8 +236,8 @@ impl Work<'_> {
     fn eaves(&self, gables: &Gables) -> Result<(Level, Eaves), SkeletonError> {
         let level = self.level();
         let rings = level.flat(self.sheet, self.face);
-        let upright = gables.of(&Eaves::even(&rings)?)?;
-        let (rings, along) = reaching(&rings, &upright, self.overhang)?;
+        let upright = gables.of(&Eaves::even(&rings)?, self.budget)?;
+        let (rings, along) = reaching(&rings, &upright, self.overhang, self.budget)?;
         let speed = |&edge: &u32| f64::from(!upright[edge as usize]);
         let speeds: Vec<f64> = along.iter().map(speed).collect();
         Ok((level, Eaves::new(&rings, &speeds)?))
@@ -224,7 +245,7 @@ impl Work<'_> {
 
     fn sloped(&self, gables: &Gables, even: bool) -> Result<Mesh, SkeletonError> {
         let (level, eaves) = self.eaves(gables)?;
-        let found = roof(&eaves, None)?;
+        let found = roof_within(&eaves, None, self.budget)?;
         let mut solid = Shell::of(&eaves, &found).closed(|p| p.z * self.slope);
         if even {
             solid = even::levelled(&solid);
@@ -241,7 +262,7 @@ impl Work<'_> {
         profile: impl Fn(f64) -> Profile,
     ) -> Result<Mesh, SkeletonError> {
         let (level, eaves) = self.eaves(gables)?;
-        let found = roof(&eaves, None)?;
+        let found = roof_within(&eaves, None, self.budget)?;
         let shell = Shell::of(&eaves, &found);
         let reach = self.overhang.eaves;
         let profile = profile(shell.deepest() - reach).reaching(reach);
@@ -254,7 +275,7 @@ impl Work<'_> {
         const BELLY: f64 = 0.2;
         const NECK: f64 = 0.15;
         let (level, eaves) = self.eaves(&Gables::None)?;
-        let found = roof(&eaves, None)?;
+        let found = roof_within(&eaves, None, self.budget)?;
         let shell = Shell::of(&eaves, &found);
         let (deepest, belly) = (shell.deepest(), BELLY * height);
         let profile = Profile::bulb(deepest, height - belly, steps);
@@ -289,13 +310,13 @@ impl Work<'_> {
                 (false, false) => 0.0,
             };
             let distances: Vec<f64> = (0..edges).map(distance).collect();
-            let grown = super::inset::grown(&larger, &distances, |_, _| {})?;
+            let grown = super::inset::grown(&larger, &distances, self.budget, |_, _| {})?;
             (larger, along) = (grown.rings, grown.along);
         }
         let speed = |&edge: &u32| 1.0 / slopes[edge as usize];
         let speeds: Vec<f64> = along.iter().map(speed).collect();
         let eaves = Eaves::new(&larger, &speeds)?;
-        let found = roof(&eaves, None)?;
+        let found = roof_within(&eaves, None, self.budget)?;
         let solid = Shell::of(&eaves, &found).closed(|p| p.z);
         Ok(placed(solid, &level.raised(-below)))
     }
@@ -303,7 +324,7 @@ impl Work<'_> {
     fn saltbox(&self, back: f64, front: Option<u32>) -> Result<Mesh, SkeletonError> {
         let rings = self.level().flat(self.sheet, self.face);
         let even = Eaves::even(&rings)?;
-        let upright = Gables::Triangles.of(&even)?;
+        let upright = Gables::Triangles.of(&even, self.budget)?;
         let along = |edge: usize| {
             let (a, b) = (even.points_m()[edge], even.points_m()[even.next(edge)]);
             [b[0] - a[0], b[1] - a[1]]
@@ -365,7 +386,7 @@ impl Work<'_> {
         let rings = level.flat(self.sheet, self.face);
         let upright = vec![false; Eaves::even(&rings)?.len()];
         let walls = Across::of(&rings);
-        let (larger, _) = reaching(&rings, &upright, self.overhang)?;
+        let (larger, _) = reaching(&rings, &upright, self.overhang, self.budget)?;
         let solid = make(&walls.grown(larger));
         Ok(placed(solid, &level))
     }

@@ -3,12 +3,13 @@
 use std::collections::{BTreeMap, HashMap};
 
 use super::edges::Gables;
-use crate::skeleton::{roof, Eaves, FaceOrigin, SkeletonError};
+use crate::skeleton::{roof_within, Eaves, FaceOrigin, SkeletonError};
 use crate::solid::envelope::{Bound, Storeys};
 use crate::solid::inset::Rings;
 use crate::solid::level::Level;
 use crate::solid::loops::close_in_plane;
 use crate::solid::{Face, Mesh};
+use crate::Budget;
 
 /// How often a height is moved a little where what is left at it touches itself.
 const ATTEMPTS: u32 = 8;
@@ -23,8 +24,9 @@ pub fn half_hip(
     slope: f64,
     clipped: f64,
     below: f64,
+    budget: &dyn Budget,
 ) -> Result<Mesh, SkeletonError> {
-    let gabled = roof(eaves, None)?;
+    let gabled = roof_within(eaves, None, budget)?;
     let mut tops = vec![0.0; eaves.len()];
     for face in &gabled.faces {
         if let FaceOrigin::Edge(edge) = face.origin {
@@ -45,7 +47,7 @@ pub fn half_hip(
             }
         };
         let bounds: Vec<Bound> = (0..eaves.len()).map(bound).collect();
-        let mut work = Work::on(level, eaves);
+        let mut work = Work::on(level, eaves, budget);
         let mut walls: Vec<f64> = bounds.iter().map(|bound| bound.wall).collect();
         walls.retain(|&wall| wall > 0.0);
         walls.sort_by(f64::total_cmp);
@@ -61,8 +63,14 @@ pub fn half_hip(
 }
 
 /// A hip roof up to the share `share` of its height, and a gable roof over what is left there.
-pub fn gablet(level: Level, eaves: &Eaves, slope: f64, share: f64) -> Result<Mesh, SkeletonError> {
-    let hip = roof(eaves, None)?;
+pub fn gablet(
+    level: Level,
+    eaves: &Eaves,
+    slope: f64,
+    share: f64,
+    budget: &dyn Budget,
+) -> Result<Mesh, SkeletonError> {
+    let hip = roof_within(eaves, None, budget)?;
     let top = hip.nodes_m.iter().map(|node| node[2]).fold(0.0, f64::max) * slope;
     tried(|attempt| {
         let knee = share * top * (1.0 - 0.003 * f64::from(attempt));
@@ -71,7 +79,7 @@ pub fn gablet(level: Level, eaves: &Eaves, slope: f64, share: f64) -> Result<Mes
             speed: 1.0 / slope,
         };
         let mut bounds = vec![moving; eaves.len()];
-        let mut work = Work::on(level, eaves);
+        let mut work = Work::on(level, eaves, budget);
         work.storeys.storey(&bounds, 0.0, knee)?;
         for section in work.storeys.sections.iter_mut() {
             let plan = &work.storeys.plan;
@@ -80,7 +88,7 @@ pub fn gablet(level: Level, eaves: &Eaves, slope: f64, share: f64) -> Result<Mes
                 .iter()
                 .map(|ring| ring.iter().map(|&node| plan[node as usize]).collect())
                 .collect();
-            let upright = Gables::Triangles.of(&Eaves::even(&flat)?)?;
+            let upright = Gables::Triangles.of(&Eaves::even(&flat)?, budget)?;
             for (edge, stands) in section.along.iter_mut().zip(upright) {
                 work.edges.push(*edge);
                 *edge = bounds.len() as u32;
@@ -97,25 +105,26 @@ fn tried(mut make: impl FnMut(u32) -> Result<Mesh, SkeletonError>) -> Result<Mes
     let mut attempt = 0;
     loop {
         match make(attempt) {
+            Err(why @ SkeletonError::Spent(_)) => return Err(why),
             Err(_) if attempt + 1 < ATTEMPTS => attempt += 1,
             result => return result,
         }
     }
 }
 
-struct Work {
-    storeys: Storeys,
+struct Work<'a> {
+    storeys: Storeys<'a>,
     /// The edge of the eaves that each edge of the bounds is.
     edges: Vec<u32>,
 }
 
-impl Work {
-    fn on(level: Level, eaves: &Eaves) -> Self {
+impl<'a> Work<'a> {
+    fn on(level: Level, eaves: &Eaves, budget: &'a dyn Budget) -> Self {
         let rings: Rings = (0..eaves.ring_count())
             .map(|ring| eaves.ring(ring).to_vec())
             .collect();
         Self {
-            storeys: Storeys::on(level, &rings),
+            storeys: Storeys::on(level, &rings, budget),
             edges: (0..eaves.len() as u32).collect(),
         }
     }

@@ -28,7 +28,7 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         let message = format!("`{kind}` is no component: f, e, fe, v or h");
         return Err(Fault::at(op.span, message));
     };
-    run.record(None, &frame.state);
+    run.record(None, &frame.state, op.span)?;
     let whole = frame.state.clone();
     let choosing = Choosing::of(&whole.form, kind, run);
     let mut planes = match kind {

@@ -1,6 +1,7 @@
 //! `split`: a shape to parts along an axis.
 
 use veduta_geometry::solid::Mesh;
+use veduta_geometry::Spent;
 
 use super::super::code::{Body, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
@@ -56,7 +57,8 @@ fn run_parts(
     if let Geometry::Faces { mesh, .. } = &whole.form.geometry {
         check_cuts(op, mesh, found.len())?;
     }
-    let parts = shape::split(&whole.form, axis, found, adjust);
+    let parts = shape::split(&whole.form, axis, found, adjust, run.budget())
+        .map_err(|Spent| run.failed(op.span, Spent))?;
     let total = parts.len();
     for (index, (cell, form)) in parts.into_iter().enumerate() {
         let mut state = whole.with_form(form);
@@ -89,6 +91,7 @@ pub fn split_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     let mut start = 0.0;
     for cell in &mut found {
         run.check_time(op.span)?;
+        run.take(SEARCHES * places.unit.corner_count(), op.span)?;
         let end = places.place(cell.start + cell.length);
         (cell.start, cell.length) = (start, end - start);
         start = end;
@@ -98,6 +101,9 @@ pub fn split_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
 
 /// The most parts of a split by area: the place of each is searched for.
 const MOST_PARTS_BY_AREA: usize = 10_000;
+
+/// How often the place of a part is halved.
+const SEARCHES: usize = 52;
 
 /// How much of a shape's area lies below each place along an axis.
 struct AreaAlong {
@@ -123,7 +129,7 @@ impl AreaAlong {
         if area >= self.whole * (1.0 - 1e-12) {
             return self.scope.size[self.axis];
         }
-        for _ in 0..52 {
+        for _ in 0..SEARCHES {
             let middle = 0.5 * (low + high);
             let sides = veduta_geometry::solid::cut(&self.unit, self.axis, middle, 1e-12, false);
             let below = sides.below.mesh.mapped(|unit| self.scope.world(unit));

@@ -58,6 +58,7 @@ pub fn split(
     let mut rest = turned(flat);
     let mut parts = Vec::with_capacity(found.len());
     for cell in found {
+        run.take(rest.corner_count(), op.span)?;
         let end = low.x + (cell.start + cell.length) / stretch;
         let piece = if end < high.x - near {
             let sides = cut(&rest, 0, end, near, solid);
@@ -67,6 +68,7 @@ pub fn split(
             std::mem::take(&mut rest)
         };
         if !piece.is_empty() {
+            run.hold(piece.byte_count(), op.span)?;
             let piece = turned(piece).mapped(|flat| level.world(flat));
             parts.push((cell.part, piece));
         }

@@ -1,7 +1,7 @@
 //! `envelope`: the space over a face that walls and slopes leave.
 
 use glam::DVec3;
-use veduta_geometry::solid::{envelope as space, Bound, Face, Mesh};
+use veduta_geometry::solid::{envelope_within as space, Bound, Face, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
@@ -48,8 +48,8 @@ pub fn envelope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
         if face.normal() == DVec3::ZERO {
             continue;
         }
-        let found = space(&sheet, face, own, most);
-        let told = |error| Fault::at(op.span, format!("no envelope here: {error}"));
+        let found = space(&sheet, face, own, most, run.budget());
+        let told = |error| run.failed(op.span, format!("no envelope here: {error}"));
         solid.append(&found.map_err(told)?);
     }
     if let Some(normal) = sheet.faces().map(Face::normal).find(|n| *n != DVec3::ZERO) {

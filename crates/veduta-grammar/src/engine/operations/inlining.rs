@@ -1,7 +1,7 @@
 //! Rules whose shapes become the current shape, and booleans with them.
 
 use glam::DVec3;
-use veduta_geometry::solid::{boolean, joined, Boolean, Mesh};
+use veduta_geometry::solid::{boolean_within, joined, Boolean, Mesh};
 
 use super::super::code::{Cell, Operation};
 use super::super::fault::Fault;
@@ -178,7 +178,8 @@ fn combined(
         return Err(Fault::at(op.span, message));
     }
     run.check_time(op.span)?;
-    let found = boolean(&a, &b, how).map_err(|error| Fault::at(op.span, error.to_string()))?;
+    let found = boolean_within(&a, &b, how, run.budget());
+    let found = found.map_err(|error| run.failed(op.span, error))?;
     if found.mesh.is_empty() {
         return Ok(emptied(first));
     }

@@ -190,6 +190,8 @@ pub(super) fn run(
         ));
     }
     if let Geometry::Faces { mesh, .. } = &form.geometry {
+        run.hold(mesh.byte_count(), operation.span)?;
+        run.take(mesh.corner_count(), operation.span)?;
         check_faces(
             run,
             operation,
@@ -306,7 +308,10 @@ fn word(
 ) -> Result<Arc<str>, Fault> {
     match &operation.args[index] {
         Arg::Word(word) => Ok(word.clone()),
-        Arg::Value(_, expr) => Ok(run.evaluate(expr, frame)?.to_string().into()),
+        Arg::Value(_, expr) => {
+            let text = run.evaluate(expr, frame)?.written();
+            Ok(text.map_err(|why| Fault::at(expr.span, why))?.into())
+        }
     }
 }
 

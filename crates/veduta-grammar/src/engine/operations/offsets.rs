@@ -1,6 +1,7 @@
 //! `offset`: faces with all their edges moved.
 
-use veduta_geometry::solid::{inset, outset, Face, Mesh, Pieces};
+use veduta_geometry::solid::{inset_within, outset_within, Face, Mesh, Pieces};
+use veduta_geometry::Budget;
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
@@ -18,7 +19,7 @@ use crate::shape::{Form, Geometry};
 /// face as it was and the strips around it, and the strips look where the face does. Corners are
 /// always mitred.
 pub fn offset(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    run.record(None, &frame.state);
+    run.record(None, &frame.state, op.span)?;
     let distance = number(run, op, 0, frame)?;
     let kept = match op.args.len() {
         1 => "all".into(),
@@ -31,8 +32,9 @@ pub fn offset(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     let mut moved = Mesh::new();
     for face in mesh.faces() {
         run.check_time(op.span)?;
-        let told = |error| Fault::at(op.span, format!("no offset here: {error}"));
-        moved.append(&face_moved(&mesh, face, distance, &kept).map_err(told)?);
+        let told = |error| run.failed(op.span, format!("no offset here: {error}"));
+        let found = face_moved(&mesh, face, distance, &kept, run.budget());
+        moved.append(&found.map_err(told)?);
     }
     let scope = frame.state.form.scope;
     frame.state.form = if moved.is_empty() {
@@ -52,13 +54,14 @@ fn face_moved(
     face: Face<'_>,
     distance: f64,
     kept: &str,
+    budget: &dyn Budget,
 ) -> Result<Mesh, veduta_geometry::skeleton::SkeletonError> {
     let edges: usize = face.rings().map(<[u32]>::len).sum();
     if distance < 0.0 {
-        let found = inset(mesh, face, &vec![-distance; edges])?;
+        let found = inset_within(mesh, face, &vec![-distance; edges], budget)?;
         return Ok(pieces(found, kept));
     }
-    let found = outset(mesh, face, &vec![distance; edges])?;
+    let found = outset_within(mesh, face, &vec![distance; edges], budget)?;
     Ok(match kept {
         "inside" => found.grown,
         _ => pieces(found.pieces, kept),

@@ -1,7 +1,7 @@
 //! The whole geometry of a shape anew: as it was at first, seen from above, cleaned, squared.
 
 use glam::{DVec2, DVec3};
-use veduta_geometry::solid::{boolean, cleaned, Boolean, Cleaning, Mesh};
+use veduta_geometry::solid::{boolean_within, cleaned, Boolean, Cleaning, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
@@ -59,9 +59,8 @@ pub fn footprint(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
         whole = if whole.is_empty() {
             flat
         } else {
-            let both = boolean(&whole, &flat, Boolean::Union);
-            both.map_err(|error| Fault::at(op.span, error.to_string()))?
-                .mesh
+            let both = boolean_within(&whole, &flat, Boolean::Union, run.budget());
+            both.map_err(|error| run.failed(op.span, error))?.mesh
         };
     }
     let extent = whole.bounds().map_or(0.0, |(low, high)| low.distance(high));

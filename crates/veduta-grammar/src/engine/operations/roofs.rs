@@ -1,7 +1,7 @@
 //! Roofs over the faces of a shape: those that CityEngine has.
 
 use glam::DVec3;
-use veduta_geometry::solid::{roofed_over, Along, Face, Gables, Mesh, Overhang, RoofKind};
+use veduta_geometry::solid::{roofed_within, Along, Face, Gables, Mesh, Overhang, RoofKind};
 
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
@@ -292,8 +292,9 @@ fn over_each(
         run.check_time(op.span)?;
         let kind = kind(sheet, face)?;
         let alone = sheet.of_faces([face.index()]);
-        let roof = roofed_over(&alone, &kind, slope, overhang);
-        solid.append(&roof.map_err(|why| Fault::at(op.span, format!("no roof here: {why}")))?);
+        let roof = roofed_within(&alone, &kind, slope, overhang, run.budget());
+        let told = |why| run.failed(op.span, format!("no roof here: {why}"));
+        solid.append(&roof.map_err(told)?);
     }
     Ok(solid)
 }

@@ -43,6 +43,7 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
             return Err(Fault::at(op.span, message));
         }
     };
+    run.take(STEPS_PER_POINT * count as usize, op.span)?;
     let mut scopes = Vec::with_capacity(count as usize);
     for _ in 0..count as usize {
         scopes.push(match &surface {
@@ -67,6 +68,9 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     frame.consumed();
     Ok(())
 }
+
+/// What a point costs, in steps of work.
+const STEPS_PER_POINT: usize = 256;
 
 /// A bell curve in shares of the scope's size.
 struct Bell {

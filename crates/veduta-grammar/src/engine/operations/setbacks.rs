@@ -1,6 +1,6 @@
 //! Faces to the strips along some of their edges, and what is left of them.
 
-use veduta_geometry::solid::{inset, merged, Mesh, Pieces};
+use veduta_geometry::solid::{inset_within, merged, Mesh, Pieces};
 
 use super::super::code::{Arg, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
@@ -83,7 +83,7 @@ pub fn to_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
         let at = |far: f64| edges.of_chosen(|edge| (least[edge] + far).min(most[edge]));
         let left = |far: f64| -> Result<(f64, Pieces), Fault> {
             run.check_time(op.span)?;
-            let found = edges.face_moved(op, face, &at(far))?;
+            let found = edges.face_moved(run, op, face, &at(far))?;
             Ok((area_left(&found), found))
         };
         let (mut low, mut high) = (0.0, extent);
@@ -127,7 +127,7 @@ pub struct Edges {
 impl Edges {
     pub fn of(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<Self, Fault> {
         run.check_time(op.span)?;
-        run.record(None, &frame.state);
+        run.record(None, &frame.state, op.span)?;
         let form = frame.state.form.clone();
         let choosing = Choosing::of(&form, Kind::FaceEdges, run);
         let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
@@ -174,7 +174,13 @@ impl Edges {
             .collect()
     }
 
-    fn face_moved(&self, op: &Operation, face: usize, distances: &[f64]) -> Result<Pieces, Fault> {
+    fn face_moved(
+        &self,
+        run: &Run<'_>,
+        op: &Operation,
+        face: usize,
+        distances: &[f64],
+    ) -> Result<Pieces, Fault> {
         let own = &distances[self.first[face]..self.first[face + 1]];
         if self.mesh.face(face).normal() == glam::DVec3::ZERO {
             // A face without area is left as it is.
@@ -183,8 +189,8 @@ impl Edges {
                 along: vec![None],
             });
         }
-        inset(&self.mesh, self.mesh.face(face), own)
-            .map_err(|error| Fault::at(op.span, format!("no setback here: {error}")))
+        inset_within(&self.mesh, self.mesh.face(face), own, run.budget())
+            .map_err(|error| run.failed(op.span, format!("no setback here: {error}")))
     }
 
     /// The pieces of each face.
@@ -197,7 +203,7 @@ impl Edges {
         let mut all = Vec::with_capacity(self.mesh.face_count());
         for face in 0..self.mesh.face_count() {
             run.check_time(op.span)?;
-            all.push(self.face_moved(op, face, distances)?);
+            all.push(self.face_moved(run, op, face, distances)?);
         }
         Ok(all)
     }

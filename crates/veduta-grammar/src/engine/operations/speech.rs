@@ -10,8 +10,7 @@ use super::word;
 /// `print(value)`
 pub fn print(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let text = word(run, op, 0, frame)?;
-    run.write(&Value::Text(text));
-    Ok(())
+    run.write(&Value::Text(text), op.span)
 }
 
 /// `report(key, value)`
@@ -22,6 +21,10 @@ pub fn report(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     };
     let value = run.evaluate(expr, frame)?;
     if run.tree.reports.len() < MOST_MESSAGES {
+        run.hold(
+            key.len() + size_of::<Value>() * value.element_count(),
+            op.span,
+        )?;
         run.tree.reports.push((key, value));
     }
     Ok(())
@@ -32,7 +35,7 @@ pub fn report(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 pub fn label(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let name = word(run, op, 0, frame)?;
     if !name.is_empty() {
-        run.record(Some(name), &frame.state);
+        run.record(Some(name), &frame.state, op.span)?;
     }
     Ok(())
 }
