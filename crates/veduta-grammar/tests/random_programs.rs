@@ -40,6 +40,9 @@ const OPERATIONS: &[&str] = &[
     "extrude(#)",
     "extrude(world.up, #)",
     "extrude(\"x\", #)",
+    "i(\"brick.obj\")",
+    "insertAlongUV(0, \"brick.obj\", #)",
+    "insertAlongUV(0, \"brick.obj\", #, vertex.normal, keepPosition)",
     "innerRectangle(scope) { shape : @ | remainder = @ }",
     "innerRectangle(edge) { shape : @ | remainder : @ }",
     "footprint()",
@@ -224,6 +227,7 @@ fn check_one(text: &str, start: State, seed: u64) -> Result<bool, TestCaseError>
             parts: 200,
             seconds: 2.0,
         },
+        assets: support::assets(),
         ..Options::default()
     };
     let began = Instant::now();

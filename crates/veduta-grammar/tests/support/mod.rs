@@ -39,7 +39,7 @@ pub fn lot_of(rings: &[&[(f64, f64)]]) -> State {
 }
 
 /// One asset, `brick.obj`: a box of 2 m by 1 m by 1 m from its origin on.
-fn assets() -> Arc<HashMap<Arc<str>, Arc<Asset>>> {
+pub fn assets() -> Arc<HashMap<Arc<str>, Arc<Asset>>> {
     let size = DVec3::new(2.0, 1.0, 1.0);
     let mesh = cube().mapped(|unit| unit * size);
     let asset = Asset::new("brick.obj".into(), mesh, (DVec3::ZERO, size)).unwrap();
