@@ -4,9 +4,8 @@ use std::collections::BTreeSet;
 use std::sync::Arc;
 
 use super::code::{Arg, Body, Cell, Code, Expr, ExprKind, Operation, Step};
-use super::operations::OperationId;
 
-/// What `i` is given in a program.
+/// What `i` and `insertAlongUV` are given in a program.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct AssetNames {
     /// Names that stand in the rules as they are, or in constants.
@@ -18,17 +17,15 @@ pub struct AssetNames {
 /// The assets that the rules name.
 pub fn asset_names(code: &Code) -> AssetNames {
     let mut found = AssetNames::default();
-    let insert = OperationId::named("i");
     for rule in &code.rules {
         in_body(&rule.body, &mut |operation| {
-            if Some(operation.id) == insert {
-                match operation.args.first() {
-                    Some(Arg::Value(_, expr)) => in_expr(expr, code, 0, &mut found),
-                    Some(Arg::Word(word)) => {
-                        found.written.insert(word.clone());
-                    }
-                    None => {}
+            let place = operation.id.asset_argument();
+            match place.and_then(|place| operation.args.get(place)) {
+                Some(Arg::Value(_, expr)) => in_expr(expr, code, 0, &mut found),
+                Some(Arg::Word(word)) => {
+                    found.written.insert(word.clone());
                 }
+                None => {}
             }
         });
     }

@@ -9,6 +9,7 @@ use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{cube, Mesh};
 
 use super::state::Look;
+use super::texture_map::axes_of;
 use super::tree::{Node, Tree};
 use crate::shape::{over, Asset, Geometry, Instance, Scope};
 
@@ -117,7 +118,7 @@ impl Packer {
             Geometry::Faces { mesh, .. } => self.faces(mesh, node, feature),
             Geometry::Rectangle(axis) => {
                 let corners = crate::shape::rectangle(*axis);
-                let (u, v) = ((axis + 1) % 3, (axis + 2) % 3);
+                let (u, v) = axes_of(form);
                 for corner in corners {
                     let place = form.scope.world(corner);
                     self.vertex(place, texture(node, place, [corner[u], corner[v]]));
@@ -144,12 +145,13 @@ impl Packer {
 
     fn faces(&mut self, mesh: &Mesh, node: &Node, feature: i32) {
         let scope = &node.state.form.scope;
+        let (u, v) = axes_of(&node.state.form);
         for face in mesh.faces() {
             for ring in face.rings() {
                 for &point in ring {
                     let unit = mesh.points[point as usize];
                     let place = scope.world(unit);
-                    self.vertex(place, texture(node, place, [unit.x, unit.y]));
+                    self.vertex(place, texture(node, place, [unit[u], unit[v]]));
                 }
                 self.end_ring();
             }

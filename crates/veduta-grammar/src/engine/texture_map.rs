@@ -30,10 +30,7 @@ impl TextureMap {
 
     /// The map that a shape has by itself: shares of its scope.
     pub fn of_scope(form: &Form) -> Self {
-        let (u, v) = match form.geometry {
-            Geometry::Rectangle(axis) => ((axis + 1) % 3, (axis + 2) % 3),
-            _ => (0, 1),
-        };
+        let (u, v) = axes_of(form);
         let along = |axis: usize| {
             let size = form.scope.size[axis];
             if size > 0.0 {
@@ -122,6 +119,19 @@ impl TextureMap {
             offset: [0, 1].map(|axis| self.offset[axis] + self.grow[axis].dot(at_origin)),
         }
     }
+}
+
+/// The axes of the scope along which u and v grow where nothing else is said: x and y, or, of
+/// what is flat, the two that it lies in.
+pub fn axes_of(form: &Form) -> (usize, usize) {
+    let flat = match form.geometry {
+        Geometry::Rectangle(axis) => Some(axis),
+        _ => {
+            let mut flat = (0..3).filter(|&axis| form.scope.size[axis] == 0.0);
+            flat.next().filter(|_| flat.next().is_none())
+        }
+    };
+    flat.map_or((0, 1), |axis| ((axis + 1) % 3, (axis + 2) % 3))
 }
 
 /// The number of a texture layer.

@@ -1,5 +1,7 @@
 //! `i`: assets in place of what a shape is filled with.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 
 use super::super::code::Operation;
@@ -7,7 +9,7 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
 use super::word;
-use crate::shape::{Geometry, Instance, Scope};
+use crate::shape::{Asset, Geometry, Instance, Scope};
 
 /// Operations that leave an asset whole: they change where it stands and how it looks, or do not
 /// look at it at all.
@@ -38,14 +40,12 @@ const KEEPS_WHOLE: &[&str] = &[
 /// `keepSizeAlignPosition` keeps the asset's size and stands it in the middle of the scope's floor.
 /// A fourth word (about cleaning) changes nothing: assets are cleaned when they are read.
 pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let name = word(run, op, 0, frame)?;
+    let asset = asset(run, op, 0, frame)?;
     let z_up = op.args.len() > 1 && word(run, op, 1, frame)?.as_ref() == "zUp";
     let mode = match op.args.len() {
         0..=2 => "alignSizeAndPosition".into(),
         _ => word(run, op, 2, frame)?,
     };
-    let asset = run.options.assets.get(&name).cloned();
-    let asset = asset.ok_or_else(|| Fault::missing(op.span, name))?;
     let instance = Instance { asset, z_up };
     let (low, size) = instance.bounds();
     let scope = frame.state.form.scope;
@@ -61,6 +61,18 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     frame.state.form.geometry = Geometry::Instance(instance);
     frame.changed();
     Ok(())
+}
+
+/// The asset that the argument at `index` names.
+pub fn asset(
+    run: &mut Run<'_>,
+    op: &Operation,
+    index: usize,
+    frame: &mut Frame,
+) -> Result<Arc<Asset>, Fault> {
+    let name = word(run, op, index, frame)?;
+    let asset = run.options.assets.get(&name).cloned();
+    asset.ok_or_else(|| Fault::missing(op.span, name))
 }
 
 /// How far the scope moves, and its size, for an asset to fill it: where it has no size, the asset

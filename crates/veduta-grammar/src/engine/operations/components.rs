@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::DMat3;
-use veduta_geometry::solid::Mesh;
+use veduta_geometry::solid::{joined, Mesh};
 
 use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
@@ -13,7 +13,7 @@ use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
 use super::trimming::planes;
 use super::word;
-use crate::shape::{Component, Form, Kind};
+use crate::shape::{Component, Form, Kind, TOLERANCE};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
 /// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
@@ -127,10 +127,13 @@ fn combine(whole: &State, picked: &[usize], found: &[Component]) -> Vec<(Form, u
     let Some(&first) = picked.first() else {
         return Vec::new();
     };
-    let mut all = Mesh::new();
-    for &at in picked {
-        all.append(&found[at].form.world_mesh());
-    }
+    let parts: Vec<Mesh> = picked
+        .iter()
+        .map(|&at| found[at].form.world_mesh())
+        .collect();
+    // What met in a corner still does.
+    let near = TOLERANCE * whole.form.scope.size.length();
+    let all = joined(&parts.iter().collect::<Vec<_>>(), near);
     let axes: DMat3 = whole.form.scope.axes;
     vec![(Form::around(all, axes, false), found[first].index)]
 }

@@ -3,8 +3,7 @@
 use std::collections::HashMap;
 
 use glam::DVec3;
-use veduta_geometry::solid::{Face, Mesh};
-use veduta_geometry::{triangulate, PolygonSet};
+use veduta_geometry::solid::{self, Face, Mesh};
 
 use super::super::code::Operation;
 use super::super::fault::Fault;
@@ -68,21 +67,8 @@ pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
 
 /// The triangles of a face, as numbers of the mesh's points.
 pub fn triangles(mesh: &Mesh, face: Face<'_>) -> Result<Vec<[u32; 3]>, String> {
-    let corners: Vec<u32> = face.rings().flatten().copied().collect();
-    let places: Vec<[f64; 3]> = corners
-        .iter()
-        .map(|&point| mesh.points[point as usize].to_array())
-        .collect();
-    let mut rings = vec![0];
-    for ring in face.rings() {
-        rings.push(rings[rings.len() - 1] + ring.len() as i64);
-    }
-    let polygons = [0, rings.len() as i64 - 1];
     let extent = mesh.bounds().map_or(0.0, |(low, high)| low.distance(high));
-    let set = PolygonSet::new(&places, &rings, &polygons).map_err(|error| error.to_string())?;
-    let found = triangulate(&set, 1e-6 * extent).map_err(|error| error.to_string())?;
-    let named = |triangle: [u32; 3]| triangle.map(|corner| corners[corner as usize]);
-    Ok(found.triangles.into_iter().map(named).collect())
+    solid::triangles(mesh, face, 1e-6 * extent).map_err(|error| error.to_string())
 }
 
 /// Triangles joined across their sides as long as that stays convex (Hertel and Mehlhorn 1983).

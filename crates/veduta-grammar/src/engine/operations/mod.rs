@@ -1,5 +1,6 @@
 //! The operations that shapes are made with; each is a function of the run and the frame.
 
+mod along_uv;
 mod appearance;
 mod assets;
 mod components;
@@ -67,6 +68,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("i", assets::insert, 1, 4),
     ("inline", inlining::inline, 0, 1),
     ("innerRectangle", inner_rectangles::inner_rectangle, 1, 1),
+    ("insertAlongUV", along_uv::insert, 3, 5),
     ("intersect", inlining::intersect, 0, 1),
     ("label", speech::label, 1, 1),
     ("mirror", scopes::mirror, 3, 3),
@@ -145,6 +147,15 @@ impl OperationId {
     /// Whether shapes have to keep the planes that part them from each other.
     pub fn trims(self) -> bool {
         TABLE[self.0].0 == "trim"
+    }
+
+    /// Which argument names an asset.
+    pub fn asset_argument(self) -> Option<usize> {
+        match TABLE[self.0].0 {
+            "i" => Some(0),
+            "insertAlongUV" => Some(1),
+            _ => None,
+        }
     }
 
     /// The fewest and most arguments.

@@ -178,7 +178,8 @@ fn change(
     Ok(())
 }
 
-fn current(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<TextureMap, Fault> {
+/// The map of the layer that the first argument names.
+pub fn current(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<TextureMap, Fault> {
     let layer = number(run, op, 0, frame)?;
     map_of(&frame.state, layer).map_err(|message| Fault::at(op.span, message))
 }
