@@ -223,7 +223,12 @@ class DerivedLots:
     def extent(
         self, lot: int
     ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None: ...
-    def colour(self, lot: int, kind: str) -> tuple[float, float, float] | None: ...
+    def colour(
+        self,
+        lot: int,
+        kind: str,
+        textures: list[tuple[str, tuple[float, float, float]]] = ...,
+    ) -> tuple[float, float, float] | None: ...
     def city(
         self,
         lot: int,
@@ -236,6 +241,10 @@ class DerivedLots:
         lots: list[int],
         places: list[tuple[float, float, float]],
         classes: list[str],
+        provenances: list[str],
+        textures: list[tuple[str, tuple[float, float, float]]] = ...,
+        *,
+        mapped: bool = False,
     ) -> TileBuffers: ...
 
 # tiles.rs
@@ -245,12 +254,15 @@ class TileBuffers:
     step_m: float
     triangles: int
     dropped: int
-    materials: list[tuple[int, tuple[float, float, float]]]
+    materials: list[tuple[int, int, tuple[float, float, float], float, int | None]]
+    uv_steps: dict[int, float]
     counts: list[list[int]]
     rules: list[str]
     surfaces: list[bytes]
-    merged: list[tuple[int, bytes, bytes, bytes, list[int], list[int]]]
-    repeated: list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes]]
+    merged: list[tuple[int, bytes, bytes, bytes, list[int], list[int], bytes]]
+    repeated: list[
+        tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes, bytes]
+    ]
 
 def derive_lots(
     rules: GrammarRules,
