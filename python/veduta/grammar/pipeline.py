@@ -24,7 +24,7 @@ from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.placing import block_origin, place_of, town_of
+from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
@@ -275,6 +275,7 @@ def _write_call(
     """The place of all that is done, and the report of the call."""
     whole = result.built
     work = folder.work_folder(CALL)
+    result.notes.append(placed_how(lots))
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
         rules_name, options, whole, result.failures, result.notes, result.steps
