@@ -11,7 +11,7 @@ use crate::derived_lot::{lot_to_python, Derived, DerivedLot};
 use crate::given::Given;
 use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
 use crate::standing::box_of;
-use crate::tiles::{tile, TileBuffers};
+use crate::tiles::{tile, Codes, Textures, TileBuffers};
 
 /// Lots that were derived and stay on this side: columns are made for what is asked.
 #[pyclass(frozen, module = "veduta._core")]
@@ -117,8 +117,15 @@ impl DerivedLots {
         Ok(is_finite.then_some((low.into(), high.into(), polygons)))
     }
 
-    /// The sRGB colour that most leaves of a class have; None where there is no such class.
-    fn colour(&self, lot: usize, kind: &str) -> PyResult<Option<Colour>> {
+    /// The sRGB colour that most leaves of a class have, with the mean colours of textures; None
+    /// where there is no such class.
+    #[pyo3(signature = (lot, kind, textures=Vec::new()))]
+    fn colour(
+        &self,
+        lot: usize,
+        kind: &str,
+        textures: Vec<(String, [f32; 3])>,
+    ) -> PyResult<Option<Colour>> {
         let Ok(derived) = self.lot(lot)?.as_ref() else {
             return Ok(None);
         };
@@ -128,9 +135,16 @@ impl DerivedLots {
         }
         let looks = derived.packed.looks.iter().zip(counts);
         let own = looks.filter(|(look, _)| look.class.as_ref() == kind);
-        Ok(own
-            .max_by_key(|(_, count)| *count)
-            .map(|(look, _)| look.colour.into()))
+        Ok(own.max_by_key(|(_, count)| *count).map(|(look, _)| {
+            let named = textures;
+            Textures {
+                named,
+                shown: false,
+            }
+            .seen(look)
+            .0
+            .into()
+        }))
     }
 
     /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
@@ -159,14 +173,20 @@ impl DerivedLots {
         Ok((text.body, text.installations, text.vertices))
     }
 
-    /// The buffers of a tile with these lots, each at its place (m, z up); `classes` are the
-    /// classes that are known, the last of them for all others.
+    /// The buffers of a tile with these lots, each at its place (m, z up); `classes` and
+    /// `provenances` are those that are known, the last of them for all others. `textures` have
+    /// their mean colours (sRGB); a tile that is not `mapped` has these instead.
+    #[pyo3(signature = (lots, places, classes, provenances, textures=Vec::new(), *, mapped=false))]
+    #[allow(clippy::too_many_arguments)] // as Python calls it
     fn tile(
         &self,
         py: Python<'_>,
         lots: Vec<usize>,
         places: Vec<[f64; 3]>,
         classes: Vec<String>,
+        provenances: Vec<String>,
+        textures: Vec<(String, [f32; 3])>,
+        mapped: bool,
     ) -> PyResult<TileBuffers> {
         let mut chosen = Vec::new();
         for &lot in &lots {
@@ -175,10 +195,18 @@ impl DerivedLots {
             };
             chosen.push(derived);
         }
-        if places.len() != lots.len() || classes.is_empty() {
+        if places.len() != lots.len() || classes.is_empty() || provenances.is_empty() {
             return Err(PyValueError::new_err("each lot needs a place"));
         }
-        py.detach(|| tile(&chosen, &places, &classes))
+        let codes = Codes {
+            classes,
+            provenances,
+        };
+        let textures = Textures {
+            named: textures,
+            shown: mapped,
+        };
+        py.detach(|| tile(&chosen, &places, &codes, &textures))
             .map_err(PyValueError::new_err)
     }
 }

@@ -23,13 +23,13 @@ pub struct Stands {
 
 impl Stands {
     /// Adds the assets of a lot that stands at `offset` and whose surfaces count from `first`.
-    /// `material` is the number of a look in a colour.
+    /// `material` is the number of a leaf's look in a colour.
     pub fn add(
         &mut self,
         lot: &Derived,
         offset: [f64; 3],
         first: u32,
-        mut material: impl FnMut(&Look, [f32; 3]) -> u32,
+        mut material: impl FnMut(usize, &Look, [f32; 3]) -> u32,
     ) {
         let packed = &lot.packed;
         for (row, &leaf) in packed.instance_feature.iter().enumerate() {
@@ -37,7 +37,7 @@ impl Stands {
             let look = &packed.looks[packed.feature_look[leaf as usize] as usize];
             let slots = asset.slots().iter();
             let materials: Vec<u32> = slots
-                .map(|slot| material(look, slot.colour_in(look.colour)))
+                .map(|slot| material(leaf as usize, look, slot.colour_in(look.colour)))
                 .collect();
             let key = (Arc::as_ptr(asset), materials);
             let next = self.found.len();

@@ -1,14 +1,16 @@
 //! The buffers of a tile for Python, as bytes.
 
+use std::collections::BTreeMap;
+
 use pyo3::prelude::*;
 use pyo3::types::PyBytes;
 use veduta_tiles::Repeated;
 
-use crate::tiles::TileBuffers;
+use crate::tiles::{MaterialRow, TileBuffers};
 
 type Box3 = (Point, Point);
 type Point = (f64, f64, f64);
-/// Material, positions, features, indices, lowest and highest position.
+/// Material, positions, features, indices, lowest and highest position; texture coordinates.
 type MergedMesh<'py> = (
     u32,
     Bound<'py, PyBytes>,
@@ -16,15 +18,17 @@ type MergedMesh<'py> = (
     Bound<'py, PyBytes>,
     [u16; 3],
     [u16; 3],
+    Bound<'py, PyBytes>,
 );
 /// Material, positions, indices, lowest and highest position; translations, rotations, features,
-/// scales.
+/// scales; texture coordinates.
 type RepeatedMesh<'py> = (
     u32,
     Bound<'py, PyBytes>,
     Bound<'py, PyBytes>,
     [i16; 3],
     [i16; 3],
+    Bound<'py, PyBytes>,
     Bound<'py, PyBytes>,
     Bound<'py, PyBytes>,
     Bound<'py, PyBytes>,
@@ -62,10 +66,16 @@ impl TileBuffers {
         self.batch.dropped
     }
 
-    /// Class and sRGB colour of each material.
+    /// Class, provenance, sRGB colour, opacity and number of the texture of each material.
     #[getter]
-    fn materials(&self) -> Vec<(u8, [f32; 3])> {
+    fn materials(&self) -> Vec<MaterialRow> {
         self.materials.clone()
+    }
+
+    /// What a step of texture coordinates is, by material: shares of a texture.
+    #[getter]
+    fn uv_steps(&self) -> BTreeMap<u32, f64> {
+        self.batch.uv_steps.clone()
     }
 
     /// Surfaces of each class, by lot.
@@ -80,9 +90,10 @@ impl TileBuffers {
         self.surfaces.rules.clone()
     }
 
-    /// Columns of the surfaces: class (u8), building, rule, width and height in mm (u16).
+    /// Columns of the surfaces: class (u8), building, rule, width and height in mm (u16),
+    /// provenance (u8).
     #[getter]
-    fn surfaces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyBytes>; 5] {
+    fn surfaces<'py>(&self, py: Python<'py>) -> [Bound<'py, PyBytes>; 6] {
         let all = &self.surfaces;
         let sixteen = |column: &[u16]| bytes(py, column.iter().map(|v| v.to_le_bytes()));
         [
@@ -91,10 +102,12 @@ impl TileBuffers {
             sixteen(&all.rule),
             sixteen(&all.width_mm),
             sixteen(&all.height_mm),
+            PyBytes::new(py, &all.provenance),
         ]
     }
 
-    /// Positions are four u16 (the last is zero), features f32, indices u16 or else u32.
+    /// Positions are four u16 (the last is zero), features f32, indices u16 or else u32, texture
+    /// coordinates two u16 or empty.
     #[getter]
     fn merged<'py>(&self, py: Python<'py>) -> Vec<MergedMesh<'py>> {
         let each = self.batch.merged.iter();
@@ -107,13 +120,15 @@ impl TileBuffers {
                 indices(py, &mesh.indices, mesh.features.len()),
                 low,
                 high,
+                bytes(py, mesh.uv.iter().map(|v| v.to_le_bytes())),
             )
         })
         .collect()
     }
 
     /// Positions are four i16, indices u16, translations three f32, rotations four i16, features
-    /// u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty.
+    /// u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty, texture
+    /// coordinates two u16 or empty.
     #[getter]
     fn repeated<'py>(&self, py: Python<'py>) -> Vec<RepeatedMesh<'py>> {
         let is_small = self.surfaces.class.len() <= usize::from(u16::MAX);
@@ -135,6 +150,7 @@ impl TileBuffers {
                 bytes(py, mesh.rotations.iter().map(|v| v.to_le_bytes())),
                 features,
                 bytes(py, mesh.scales.iter().map(|v| v.to_le_bytes())),
+                bytes(py, mesh.uv.iter().map(|v| v.to_le_bytes())),
             )
         })
         .collect()

@@ -3,6 +3,7 @@
 use std::collections::HashMap;
 
 use pyo3::prelude::*;
+use veduta_grammar::engine::Look;
 use veduta_tiles::{batch, Batch, Building};
 
 use crate::derived_lot::Derived;
@@ -19,7 +20,50 @@ pub struct Surfaces {
     pub rule: Vec<u16>,
     pub width_mm: Vec<u16>,
     pub height_mm: Vec<u16>,
+    pub provenance: Vec<u8>,
     pub rules: Vec<String>,
+}
+
+/// Class, provenance, sRGB colour, opacity, and the number of the texture.
+pub type MaterialRow = (u8, u8, [f32; 3], f32, Option<u32>);
+
+/// The textures that rules may name: each with its mean sRGB colour, which stands for it where
+/// `shown` is false.
+#[derive(Default)]
+pub struct Textures {
+    pub named: Vec<(String, [f32; 3])>,
+    pub shown: bool,
+}
+
+impl Textures {
+    /// The colour and the texture of a look; a texture that nobody knows is not there.
+    pub fn seen(&self, look: &Look) -> ([f32; 3], Option<u32>) {
+        let known = look.texture.as_ref().and_then(|name| {
+            let place = self
+                .named
+                .iter()
+                .position(|(own, _)| own == name.as_ref())?;
+            Some((place as u32, self.named[place].1))
+        });
+        match known {
+            Some((number, _)) if self.shown => (look.colour, Some(number)),
+            // A product of sRGB values is nearly that of light.
+            Some((_, mean)) => ([0, 1, 2].map(|k| look.colour[k] * mean[k]), None),
+            None => (look.colour, None),
+        }
+    }
+}
+
+/// What a tile tells of surfaces: names by their codes, the last of each for all others.
+pub struct Codes {
+    pub classes: Vec<String>,
+    pub provenances: Vec<String>,
+}
+
+fn code_of<'a>(names: &'a [String]) -> impl Fn(&str) -> u8 + 'a {
+    let known: HashMap<&str, u8> = names.iter().map(String::as_str).zip(0..).collect();
+    let other = (names.len() - 1) as u8;
+    move |name| known.get(name).copied().unwrap_or(other)
 }
 
 /// The columns of the buildings that go into a tile.
@@ -36,8 +80,7 @@ struct Columns {
 pub struct TileBuffers {
     pub batch: Batch,
     pub surfaces: Surfaces,
-    /// Class and colour.
-    pub materials: Vec<(u8, [f32; 3])>,
+    pub materials: Vec<MaterialRow>,
     /// Surfaces of each class, by lot.
     pub counts: Vec<Vec<u32>>,
 }
@@ -45,20 +88,20 @@ pub struct TileBuffers {
 pub fn tile(
     lots: &[&Derived],
     places: &[[f64; 3]],
-    classes: &[String],
+    codes: &Codes,
+    textures: &Textures,
 ) -> Result<TileBuffers, String> {
     let mut surfaces = Surfaces::default();
     let mut materials = Materials::default();
     let mut rules = HashMap::new();
-    let code_of: HashMap<&str, u8> = classes.iter().map(String::as_str).zip(0..).collect();
-    let other = (classes.len() - 1) as u8;
-    let code = |name: &str| code_of.get(name).copied().unwrap_or(other);
+    let code = code_of(&codes.classes);
+    let provenance = code_of(&codes.provenances);
     let mut counts = Vec::new();
     let mut all = Vec::new();
     let mut stands = Stands::default();
     for (number, lot) in lots.iter().enumerate() {
         let first = surfaces.class.len() as u32;
-        let mut count = vec![0; classes.len()];
+        let mut count = vec![0; codes.classes.len()];
         for (row, name) in lot.names.iter().enumerate() {
             let class = code(&lot.surfaces.class[row]);
             count[usize::from(class)] += 1;
@@ -72,14 +115,36 @@ pub fn tile(
             surfaces.height_mm.push(millimetres(height));
         }
         counts.push(count);
-        let looks: Vec<u32> = lot
-            .packed
-            .looks
+        let told: Vec<u8> = lot
+            .surfaces
+            .provenance
             .iter()
-            .map(|look| materials.number(code(&look.class), look.colour))
+            .map(|p| provenance(p))
             .collect();
-        stands.add(lot, places[number], first, |look, colour| {
-            materials.number(code(&look.class), colour)
+        surfaces.provenance.extend(&told);
+        let told_of = |leaf: usize| told[lot.surfaces.of_feature[leaf] as usize];
+        let mut numbers = HashMap::new();
+        let mut material = |leaf: i32| {
+            let (look, told) = (
+                lot.packed.feature_look[leaf as usize],
+                told_of(leaf as usize),
+            );
+            *numbers.entry((look, told)).or_insert_with(|| {
+                let look = &lot.packed.looks[look as usize];
+                let (colour, texture) = textures.seen(look);
+                let kind = (code(&look.class), told);
+                materials.number(kind, colour, look.opacity, texture)
+            })
+        };
+        let material: Vec<u32> = lot
+            .packed
+            .polygon_feature
+            .iter()
+            .map(|&l| material(l))
+            .collect();
+        stands.add(lot, places[number], first, |leaf, look, colour| {
+            let kind = (code(&look.class), told_of(leaf));
+            materials.number(kind, colour, look.opacity, None)
         });
         let leaves = &lot.packed.polygon_feature;
         let of = |column: &[u32]| leaves.iter().map(|&leaf| column[leaf as usize]).collect();
@@ -88,10 +153,7 @@ pub fn tile(
                 .iter()
                 .map(|&leaf| first + lot.surfaces.of_feature[leaf as usize])
                 .collect(),
-            material: leaves
-                .iter()
-                .map(|&leaf| looks[lot.packed.feature_look[leaf as usize] as usize])
-                .collect(),
+            material,
             piece: of(&lot.pieces),
             part: leaves.iter().map(|&leaf| leaf as u32).collect(),
         });
@@ -102,6 +164,8 @@ pub fn tile(
         .into_iter()
         .map(|(name, _)| name.to_string())
         .collect();
+    let each = materials.rows.iter();
+    let mapped: Vec<bool> = each.map(|(.., texture)| texture.is_some()).collect();
     let buildings: Vec<Building<'_>> = lots
         .iter()
         .zip(&all)
@@ -114,6 +178,8 @@ pub fn tile(
             material: &columns.material,
             piece: &columns.piece,
             part: &columns.part,
+            uv: &lot.packed.uv,
+            mapped: &mapped,
             offset,
         })
         .collect();
@@ -135,20 +201,30 @@ fn millimetres(size_m: f64) -> u16 {
     }
 }
 
-/// Looks that are told apart: of another class, or of another colour of 8 bits.
+/// Looks that are told apart: of another class, provenance or texture, or of another colour of 8 bits.
 #[derive(Default)]
 struct Materials {
-    rows: Vec<(u8, [f32; 3])>,
-    known: HashMap<(u8, [u8; 3]), u32>,
+    rows: Vec<MaterialRow>,
+    known: HashMap<((u8, u8), [u8; 4], Option<u32>), u32>,
 }
 
 impl Materials {
-    fn number(&mut self, class: u8, colour: [f32; 3]) -> u32 {
-        let bytes = colour.map(|c| (c * 255.0).round().clamp(0.0, 255.0) as u8);
+    /// `kind` is class and provenance.
+    fn number(
+        &mut self,
+        kind: (u8, u8),
+        colour: [f32; 3],
+        opacity: f32,
+        texture: Option<u32>,
+    ) -> u32 {
+        let [r, g, b] = colour;
+        let bytes = [r, g, b, opacity].map(|c| (c * 255.0).round().clamp(0.0, 255.0) as u8);
         let next = self.rows.len() as u32;
-        let number = *self.known.entry((class, bytes)).or_insert(next);
+        let number = *self.known.entry((kind, bytes, texture)).or_insert(next);
         if number == next {
-            self.rows.push((class, bytes.map(|c| f32::from(c) / 255.0)));
+            let [r, g, b, opacity] = bytes.map(|c| f32::from(c) / 255.0);
+            self.rows
+                .push((kind.0, kind.1, [r, g, b], opacity, texture));
         }
         number
     }

@@ -117,7 +117,7 @@ impl<'a> Names<'a> {
             "Option" => format!("{} | None", python(0)?),
             "Vec" if way == Way::In => format!("Sequence[{}]", python(0)?),
             "Vec" => format!("list[{}]", python(0)?),
-            "HashMap" => format!("dict[{}, {}]", python(0)?, python(1)?),
+            "HashMap" | "BTreeMap" => format!("dict[{}, {}]", python(0)?, python(1)?),
             "PyReadonlyArray1" | "PyArray1" => format!("_Array1[{}]", dtype(segment)?),
             "PyReadonlyArray2" | "PyArray2" => format!("_Array2[{}]", dtype(segment)?),
             _ => return self.declared(file, &name, way),

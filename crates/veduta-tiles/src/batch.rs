@@ -1,10 +1,13 @@
 //! Buildings in, the meshes of a tile out.
 
+use std::collections::BTreeMap;
+
 use glam::DVec3;
 use rayon::prelude::*;
 use veduta_geometry::{triangulate_sound, PolygonError, PolygonSet};
 
 use crate::building::Building;
+use crate::mapping::steps;
 use crate::merge::{merge, Grid, Merged};
 use crate::repeats::{take_repeats, Cut, Piece, Repeated};
 use crate::standing::Standing;
@@ -20,6 +23,8 @@ pub struct Batch {
     /// Where the merged positions count from, and their steps (m, y-up).
     pub grid_low: [f64; 3],
     pub grid_step: [f64; 3],
+    /// What a step of texture coordinates is, by material: shares of a texture.
+    pub uv_steps: BTreeMap<u32, f64>,
     /// The box around all, z up (m); `low` is above `high` where there is nothing.
     pub low: [f64; 3],
     pub high: [f64; 3],
@@ -45,8 +50,10 @@ pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch,
         made.dropped += building.feature.len() - sound;
     }
     let pieces = pieces(buildings, &cuts, |building| building.piece);
-    let (repeated, rest) = take_repeats(buildings, &cuts, pieces);
-    let (more, rest) = take_repeats(buildings, &cuts, split(buildings, rest));
+    let uv_steps = steps(buildings, &pieces);
+    let (repeated, rest) = take_repeats(buildings, &cuts, &uv_steps, pieces);
+    let rest = split(buildings, rest);
+    let (more, rest) = take_repeats(buildings, &cuts, &uv_steps, rest);
     made.repeated = repeated;
     made.repeated.extend(more);
     let mut alone = Vec::new();
@@ -56,7 +63,8 @@ pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch,
             None => alone.push(one),
         }
     }
-    made.merged = merge(buildings, &cuts, &rest, &alone, &grid);
+    made.merged = merge(buildings, &cuts, &uv_steps, &rest, &alone, &grid);
+    made.uv_steps = uv_steps;
     made.triangles = made.merged.iter().map(|m| m.indices.len() / 3).sum();
     for mesh in &made.repeated {
         made.triangles += mesh.indices.len() / 3 * mesh.features.len();

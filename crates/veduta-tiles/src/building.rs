@@ -1,5 +1,7 @@
 //! What goes in: the polygons of a building as columns.
 
+use std::ops::Range;
+
 use glam::DVec3;
 
 /// Columns of one building; the columns by polygon are equally long.
@@ -17,11 +19,22 @@ pub struct Building<'a> {
     pub piece: &'a [u32],
     /// The same, finer: tried where a piece is not repeated.
     pub part: &'a [u32],
+    /// Texture coordinates of each vertex, from the lower left; empty where nothing has a texture.
+    pub uv: &'a [[f32; 2]],
+    /// Whether a material has a texture, by its number; none has beyond the end.
+    pub mapped: &'a [bool],
     /// Where the building stands in the tile (m), z up.
     pub offset: [f64; 3],
 }
 
 impl Building<'_> {
+    /// The vertices of a polygon, of all its rings.
+    pub(crate) fn vertices(&self, polygon: usize) -> Range<usize> {
+        let ring = |polygon: usize| self.polygon_offsets[polygon] as usize;
+        let vertex = |ring: usize| self.ring_offsets[ring] as usize;
+        vertex(ring(polygon))..vertex(ring(polygon + 1))
+    }
+
     /// The rings of a polygon in the tile, z up.
     pub(crate) fn rings(&self, polygon: usize) -> impl Iterator<Item = Vec<DVec3>> + '_ {
         let first = self.polygon_offsets[polygon] as usize;

@@ -10,6 +10,7 @@
 mod batch;
 mod building;
 mod compress;
+mod mapping;
 mod merge;
 mod piece;
 mod repeats;

@@ -5,6 +5,7 @@ use std::collections::{BTreeMap, HashMap};
 use glam::DVec3;
 
 use crate::building::Building;
+use crate::mapping::Mapping;
 use crate::repeats::{Cut, Piece};
 use crate::standing::Standing;
 
@@ -14,6 +15,9 @@ pub struct Merged {
     pub material: u32,
     /// x, y, z (y-up) and a zero for each vertex, in steps from the tile's lower corner.
     pub positions: Vec<u16>,
+    /// Two texture coordinates of each vertex, in the steps of the material; empty where it has no
+    /// texture.
+    pub uv: Vec<u16>,
     /// The surface of each vertex.
     pub features: Vec<u32>,
     pub indices: Vec<u32>,
@@ -54,6 +58,7 @@ pub(crate) fn y_up(point: DVec3) -> DVec3 {
 pub(crate) fn merge(
     buildings: &[Building<'_>],
     cuts: &[Cut],
+    uv_steps: &BTreeMap<u32, f64>,
     pieces: &[Piece],
     alone: &[&Standing],
     grid: &Grid,
@@ -62,12 +67,15 @@ pub(crate) fn merge(
     for piece in pieces {
         let building = &buildings[piece.building];
         let offset = DVec3::from_array(building.offset);
+        let mapping = Mapping::of(building, &piece.polygons, uv_steps);
         for &polygon in &piece.polygons {
             let look = (building.material[polygon], building.feature[polygon]);
             for triangle in &cuts[piece.building].triangles[polygon] {
                 let corners = triangle.map(|vertex| {
-                    let point = DVec3::from_array(building.positions[vertex as usize]) + offset;
-                    grid.place(point)
+                    let vertex = vertex as usize;
+                    let point = DVec3::from_array(building.positions[vertex]) + offset;
+                    let uv = mapping.as_ref().map(|m| m.at(building, vertex));
+                    (grid.place(point), uv)
                 });
                 meshes.push(look, corners);
             }
@@ -77,7 +85,10 @@ pub(crate) fn merge(
         for (place, &feature) in one.places.iter().zip(&one.feature) {
             for (triangle, &material) in one.triangles.iter().zip(&one.material) {
                 let point = |vertex: u32| one.at(place, one.points[vertex as usize]);
-                meshes.push((material, feature), triangle.map(|v| grid.place(point(v))));
+                meshes.push(
+                    (material, feature),
+                    triangle.map(|v| (grid.place(point(v)), None)),
+                );
             }
         }
     }
@@ -91,25 +102,29 @@ struct Meshes {
     of_material: BTreeMap<u32, (Merged, Known)>,
 }
 
-/// The vertex at each place of a surface.
-type Known = HashMap<(u32, [u16; 3]), u32>;
+/// Place and texture coordinates, in steps.
+type Corner = ([u16; 3], Option<[u16; 2]>);
+/// The vertex at each corner of a surface.
+type Known = HashMap<(u32, Corner), u32>;
 
 impl Meshes {
     /// Adds a triangle of a material and a surface.
-    fn push(&mut self, (material, feature): (u32, u32), corners: [[u16; 3]; 3]) {
+    fn push(&mut self, (material, feature): (u32, u32), corners: [Corner; 3]) {
+        let [(a, _), (b, _), (c, _)] = corners;
+        if a == b || b == c || c == a {
+            return;
+        }
         let (mesh, known) = self.of_material.entry(material).or_default();
         mesh.material = material;
-        let corners = corners.map(|place| {
-            *known.entry((feature, place)).or_insert_with(|| {
+        let corners = corners.map(|(place, uv)| {
+            *known.entry((feature, (place, uv))).or_insert_with(|| {
                 mesh.positions.extend(place);
                 mesh.positions.push(0);
+                mesh.uv.extend(uv.into_iter().flatten());
                 mesh.features.push(feature);
                 mesh.features.len() as u32 - 1
             })
         });
-        let [a, b, c] = corners;
-        if a != b && b != c && c != a {
-            mesh.indices.extend(corners);
-        }
+        mesh.indices.extend(corners);
     }
 }

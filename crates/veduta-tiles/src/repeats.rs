@@ -1,10 +1,11 @@
 //! Pieces that occur several times: one mesh, and where each stands.
 
-use std::collections::HashMap;
+use std::collections::{BTreeMap, HashMap};
 
 use glam::DVec3;
 
 use crate::building::Building;
+use crate::mapping::Mapping;
 use crate::piece::{describe, Key, Motion, STEP_M};
 
 /// A mesh and its instances.
@@ -13,6 +14,9 @@ pub struct Repeated {
     pub material: u32,
     /// x, y, z and a zero for each vertex, in steps of [`Repeated::step_m`].
     pub positions: Vec<i16>,
+    /// Two texture coordinates of each vertex, in the steps of the material; empty where it has no
+    /// texture.
+    pub uv: Vec<u16>,
     pub indices: Vec<u16>,
     /// Three numbers for each instance, in the same steps.
     pub translations: Vec<f32>,
@@ -55,12 +59,14 @@ pub(crate) const MESH: usize = 900;
 pub(crate) fn take_repeats(
     buildings: &[Building<'_>],
     cuts: &[Cut],
+    uv_steps: &BTreeMap<u32, f64>,
     pieces: Vec<Piece>,
 ) -> (Vec<Repeated>, Vec<Piece>) {
     let mut groups: Vec<Vec<(usize, Motion)>> = Vec::new();
     let mut known: HashMap<(u32, Key), usize> = HashMap::new();
     for (number, piece) in pieces.iter().enumerate() {
-        let Some((motion, key)) = described(&buildings[piece.building], cuts, piece) else {
+        let Some((motion, key)) = described(&buildings[piece.building], cuts, uv_steps, piece)
+        else {
             continue;
         };
         let material = buildings[piece.building].material[piece.polygons[0]];
@@ -85,7 +91,7 @@ pub(crate) fn take_repeats(
         if group.len() * alone < alone + group.len() * INSTANCE + MESH {
             continue;
         }
-        let Some(repeated) = repeated(buildings, cuts, &pieces, &group) else {
+        let Some(repeated) = repeated(buildings, cuts, uv_steps, &pieces, &group) else {
             continue;
         };
         for (number, _) in &group {
@@ -97,7 +103,12 @@ pub(crate) fn take_repeats(
     (found, rest.filter(|(_, is)| !is).map(|(p, _)| p).collect())
 }
 
-fn described(building: &Building<'_>, cuts: &[Cut], piece: &Piece) -> Option<(Motion, Key)> {
+fn described(
+    building: &Building<'_>,
+    cuts: &[Cut],
+    uv_steps: &BTreeMap<u32, f64>,
+    piece: &Piece,
+) -> Option<(Motion, Key)> {
     let first = *piece.polygons.first()?;
     let normal = DVec3::from_array(cuts[piece.building].normals[first]);
     let motion = Motion::of(&building.rings(first).next()?, normal)?;
@@ -108,13 +119,21 @@ fn described(building: &Building<'_>, cuts: &[Cut], piece: &Piece) -> Option<(Mo
             return None;
         }
     }
+    if let Some(mapping) = Mapping::of(building, &piece.polygons, uv_steps) {
+        let vertices = piece.polygons.iter().flat_map(|&p| building.vertices(p));
+        key.extend(vertices.flat_map(|v| mapping.at(building, v).map(i32::from)));
+    }
     Some((motion, key))
 }
+
+/// Place and texture coordinates, in steps.
+type Corner = ([i32; 3], Option<[u16; 2]>);
 
 /// The mesh is that of the first piece.
 fn repeated(
     buildings: &[Building<'_>],
     cuts: &[Cut],
+    uv_steps: &BTreeMap<u32, f64>,
     pieces: &[Piece],
     group: &[(usize, Motion)],
 ) -> Option<Repeated> {
@@ -124,22 +143,27 @@ fn repeated(
         material: building.material[first.polygons[0]],
         ..Repeated::default()
     };
-    let mut known: HashMap<[i32; 3], u16> = HashMap::new();
+    let mapping = Mapping::of(building, &first.polygons, uv_steps);
+    let mut known: HashMap<Corner, u16> = HashMap::new();
     let offset = DVec3::from_array(building.offset);
     for &polygon in &first.polygons {
         for triangle in &cuts[first.building].triangles[polygon] {
             let mut corners = [0; 3];
+            let mut places = [[0; 3]; 3];
             for k in 0..3 {
-                let point = DVec3::from_array(building.positions[triangle[k] as usize]) + offset;
-                let local = motion.local(point);
+                let vertex = triangle[k] as usize;
+                let local = motion.local(DVec3::from_array(building.positions[vertex]) + offset);
+                let uv = mapping.as_ref().map(|m| m.at(building, vertex));
                 let next = u16::try_from(known.len()).ok()?;
-                corners[k] = *known.entry(local).or_insert(next);
+                corners[k] = *known.entry((local, uv)).or_insert(next);
+                places[k] = local;
                 if corners[k] == next {
                     made.positions.extend(local.map(|c| c as i16));
                     made.positions.push(0);
+                    made.uv.extend(uv.into_iter().flatten());
                 }
             }
-            if corners[0] != corners[1] && corners[1] != corners[2] && corners[2] != corners[0] {
+            if places[0] != places[1] && places[1] != places[2] && places[2] != places[0] {
                 made.indices.extend(corners);
             }
         }

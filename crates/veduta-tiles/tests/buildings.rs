@@ -53,6 +53,8 @@ fn building(columns: &Columns, offset: [f64; 3]) -> Building<'_> {
         material: &columns.material,
         piece: &columns.piece,
         part: &columns.piece,
+        uv: &[],
+        mapped: &[],
         offset,
     }
 }

@@ -4,8 +4,9 @@ Positions are whole numbers (KHR_mesh_quantization), columns are compressed
 (EXT_meshopt_compression), pieces that repeat are one mesh with instances
 (EXT_mesh_gpu_instancing), all faces are flat (no normals). Each vertex or instance has the number
 of its surface (EXT_mesh_features, EXT_instance_features): its row in the property table `surfaces`,
-which names the row of its building in the table `buildings` (EXT_structural_metadata). Axes: glTF's
-y-up.
+which names the row of its building in the table `buildings` (EXT_structural_metadata). Pictures are
+files that tiles share; texture coordinates are whole steps, too (KHR_texture_transform). Axes:
+glTF's y-up.
 """
 
 from __future__ import annotations
@@ -18,8 +19,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from veduta import _core
-from veduta.place.semantics import SemanticClass
+from veduta.place.semantics import Provenance, SemanticClass
 
+TRANSFORM = "KHR_texture_transform"
+LINEAR, LINEAR_MIPMAP, REPEAT = 9729, 9987, 10497
 BYTE, UBYTE, SHORT, USHORT, UINT, FLOAT = 5120, 5121, 5122, 5123, 5125, 5126
 _SIZES = {BYTE: 1, UBYTE: 1, SHORT: 2, USHORT: 2, UINT: 4, FLOAT: 4}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
@@ -139,9 +142,13 @@ def _appended(content: bytearray, data: bytes) -> dict[str, Any]:
 
 
 def tile_glb(
-    buffers: _core.TileBuffers, buildings: Sequence[BuildingRow], *, name: str = "tile"
+    buffers: _core.TileBuffers,
+    buildings: Sequence[BuildingRow],
+    pictures: Sequence[str] = (),
+    *,
+    name: str = "tile",
 ) -> bytes:
-    """The GLB of a tile; the frame is the tile's, y-up."""
+    """The GLB of a tile; the frame is the tile's, y-up. pictures: the addresses of textures."""
     binary = Binary()
     low, step = buffers.grid
     extensions = {"KHR_mesh_quantization", "EXT_mesh_features", "EXT_structural_metadata"}
@@ -165,19 +172,31 @@ def tile_glb(
             }
         )
     metadata = _metadata(buffers, buildings, binary)
+    shown = sorted({number for *_, number in buffers.materials if number is not None})
+    if shown:
+        extensions.add(TRANSFORM)
     root: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "veduta"},
         "extensionsUsed": sorted(extensions),
         "extensionsRequired": sorted(
-            extensions & {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing"}
+            extensions & {"KHR_mesh_quantization", "EXT_mesh_gpu_instancing", TRANSFORM}
         ),
         "scene": 0,
         "scenes": [{"name": name, "nodes": list(range(len(nodes)))}],
         "nodes": nodes,
         "meshes": meshes,
-        "materials": [_material(code, colour) for code, colour in buffers.materials],
+        "materials": [
+            _material(row, shown, buffers.uv_steps.get(number, 1.0))
+            for number, row in enumerate(buffers.materials)
+        ],
         "extensions": {"EXT_structural_metadata": metadata},
     }
+    if shown:
+        root["images"] = [{"uri": pictures[number]} for number in shown]
+        root["samplers"] = [
+            {"magFilter": LINEAR, "minFilter": LINEAR_MIPMAP, "wrapS": REPEAT, "wrapT": REPEAT}
+        ]
+        root["textures"] = [{"source": place, "sampler": 0} for place in range(len(shown))]
     return packed(root, binary)
 
 
@@ -206,9 +225,9 @@ def packed(root: Mapping[str, Any], binary: Binary) -> bytes:
 
 
 def _merged(
-    mesh: tuple[int, bytes, bytes, bytes, list[int], list[int]], binary: Binary, count: int
+    mesh: tuple[int, bytes, bytes, bytes, list[int], list[int], bytes], binary: Binary, count: int
 ) -> dict[str, Any]:
-    material, positions, features, indices, low, high = mesh
+    material, positions, features, indices, low, high, uv = mesh
     vertices = len(features) // 4
     component = USHORT if vertices <= MOST_SMALL else UINT
     return {
@@ -217,19 +236,26 @@ def _merged(
                 positions, USHORT, "VEC3", stride=8, target=_ARRAY, min=low, max=high
             ),
             "_FEATURE_ID_0": binary.accessor(features, FLOAT, "SCALAR", target=_ARRAY),
-        },
+        }
+        | _mapped(uv, binary),
         "indices": binary.accessor(indices, component, "SCALAR", target=_ELEMENTS),
         "material": material,
         "extensions": {"EXT_mesh_features": {"featureIds": [_feature_id(count)]}},
     }
 
 
-Repeated = tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes]
+def _mapped(uv: bytes, binary: Binary) -> dict[str, int]:
+    if not uv:
+        return {}
+    return {"TEXCOORD_0": binary.accessor(uv, USHORT, "VEC2", target=_ARRAY)}
+
+
+Repeated = tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes, bytes]
 
 
 def _together(repeated: Sequence[Repeated]) -> list[list[Repeated]]:
     """Neighbours with the same instances: the materials of one mesh."""
-    return [list(group) for _, group in itertools.groupby(repeated, key=lambda one: one[5:])]
+    return [list(group) for _, group in itertools.groupby(repeated, key=lambda one: one[5:9])]
 
 
 def _repeated(
@@ -241,13 +267,14 @@ def _repeated(
                 "POSITION": binary.accessor(
                     positions, SHORT, "VEC3", stride=8, target=_ARRAY, min=low, max=high
                 )
-            },
+            }
+            | _mapped(uv, binary),
             "indices": binary.accessor(indices, USHORT, "SCALAR", target=_ELEMENTS),
             "material": material,
         }
-        for material, positions, indices, low, high, *_ in group
+        for material, positions, indices, low, high, *_, uv in group
     ]
-    translations, rotations, features, scales = group[0][5:]
+    translations, rotations, features, scales = group[0][5:9]
     component = USHORT if count <= MOST_SMALL else FLOAT
     attributes = {
         "TRANSLATION": binary.accessor(translations, FLOAT, "VEC3"),
@@ -267,16 +294,29 @@ def _feature_id(count: int) -> dict[str, Any]:
     return {"featureCount": count, "attribute": 0, "propertyTable": 0}
 
 
-def _material(code: int, colour: Sequence[float]) -> dict[str, Any]:
-    semantic = SemanticClass.of_code(code)
-    return {
-        "name": semantic.value,
-        "pbrMetallicRoughness": {
-            "baseColorFactor": [*(linear(channel) for channel in colour), 1.0],
-            "metallicFactor": 0.0,
-            "roughnessFactor": _ROUGHNESS.get(semantic, 0.9),
-        },
+Look = tuple[int, int, tuple[float, float, float], float, int | None]
+
+
+def _material(row: Look, shown: Sequence[int], step: float) -> dict[str, Any]:
+    """row: class, provenance, colour, opacity, picture. step: of texture coordinates."""
+    code, known, colour, opacity, picture = row
+    semantic, provenance = SemanticClass.of_code(code), list(Provenance)[known]
+    shading: dict[str, Any] = {
+        "baseColorFactor": [*(linear(channel) for channel in colour), round(opacity, 4)],
+        "metallicFactor": 0.0,
+        "roughnessFactor": _ROUGHNESS.get(semantic, 0.9),
     }
+    if picture is not None:
+        shading["baseColorTexture"] = {
+            "index": shown.index(picture),
+            "extensions": {TRANSFORM: {"scale": [step, step]}},
+        }
+    made: dict[str, Any] = {"name": semantic.value, "pbrMetallicRoughness": shading}
+    if opacity < 1.0:
+        made["alphaMode"] = "BLEND"
+    if provenance is not Provenance.INVENTED:
+        made["extras"] = {"veduta": {"provenance": provenance.value}}
+    return made
 
 
 def linear(srgb: float) -> float:
@@ -289,8 +329,10 @@ def _metadata(
     buffers: _core.TileBuffers, buildings: Sequence[BuildingRow], binary: Binary
 ) -> dict[str, Any]:
     """The schema, and the tables of surfaces and of buildings."""
-    columns = [binary.number(binary.view(column)) for column in buffers.surfaces]
-    names = ("class", "building", "rule", "width", "height")
+    names = ["class", "building", "rule", "width", "height", "provenance"]
+    if set(buffers.surfaces[5]) <= {Provenance.INVENTED.code}:
+        names.remove("provenance")
+    columns = [binary.number(binary.view(column)) for column in buffers.surfaces[: len(names)]]
     tables = [
         {
             "class": "surface",
@@ -328,6 +370,10 @@ def schema(rules: Sequence[str]) -> dict[str, Any]:
             "values": [{"name": one.value, "value": one.code} for one in SemanticClass],
         }
     }
+    enums["provenance"] = {
+        "valueType": "UINT8",
+        "values": [{"name": one.value, "value": one.code} for one in Provenance],
+    }
     if rules:
         enums["rule"] = {
             "valueType": "UINT16",
@@ -350,6 +396,12 @@ def schema(rules: Sequence[str]) -> dict[str, Any]:
         "width": {"description": "metres"} | size,
         "height": {"description": "metres"} | size,
     }
+    surface["provenance"] = {
+        "description": "how it is known",
+        "type": "ENUM",
+        "enumType": "provenance",
+        "default": Provenance.INVENTED.value,
+    }
     if rules:
         surface["rule"] = {"type": "ENUM", "enumType": "rule"}
     building = {"id": {"type": "STRING"}, "name": {"type": "STRING"}}
@@ -358,7 +410,7 @@ def schema(rules: Sequence[str]) -> dict[str, Any]:
         "enums": enums,
         "classes": {
             "surface": {
-                "description": "a surface of a building; invented: no record shows it",
+                "description": "a surface of a building",
                 "properties": surface,
             },
             "building": {"properties": building},

@@ -9,6 +9,8 @@ reader turns.
 from __future__ import annotations
 
 import json
+import posixpath
+import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -94,6 +96,7 @@ def _box(box: Box) -> list[float]:
 def contents(folder: Path, name: str = "tileset.json") -> list[str]:
     """All files of a tileset, by path below the folder; ValueError for a name that leads out."""
     found: list[str] = []
+    pictures: dict[str, None] = {}
     waiting = [name]
     while waiting:
         current = waiting.pop()
@@ -108,6 +111,23 @@ def contents(folder: Path, name: str = "tileset.json") -> list[str]:
                 waiting.append(path)
             else:
                 found.append(path)
+                pictures |= dict.fromkeys(_pictures(folder, path))
+    return found + sorted(pictures)
+
+
+def _pictures(folder: Path, glb: str) -> list[str]:
+    """The images that lie beside a GLB, by path below the folder."""
+    with (folder / glb).open("rb") as file:
+        head = file.read(20)
+        if len(head) < 20 or head[:4] != b"glTF":
+            raise ValueError(f"{glb!r} is no GLB")
+        document = json.loads(file.read(struct.unpack_from("<I", head, 12)[0]))
+    found = []
+    for uri in (image["uri"] for image in document.get("images", ()) if "uri" in image):
+        path = posixpath.normpath(posixpath.join(posixpath.dirname(glb), uri))
+        if path.startswith("..") or ":" in uri or path.startswith("/"):
+            raise ValueError(f"{uri!r} leads out of the folder")
+        found.append(path)
     return found
 
 

@@ -5,84 +5,112 @@ north pole. The grid's north is not true north but at the central meridian (meri
 and its metre not quite a metre (scale): both come out of differences of the projection itself.
 Heights are taken for heights above the ellipsoid; where they are above the sea, all stands tens of
 metres too low or high, together.
+
+The projections and the shifts between national datums are those of the EPSG registry, by PROJ with
+the data that it brings along: no grids of corrections, and nothing is fetched. Without its grid a
+national datum is known to a metre or some (`Grid.accuracy_m`).
 """
 
 from __future__ import annotations
 
 import re
+import warnings
 from dataclasses import dataclass
 
 import numpy as np
+import pyproj
 from numpy.typing import NDArray
+from pyproj import network
 
-from veduta.geometry.utm import EQUATORIAL_RADIUS_M, FLATTENING, utm
+EQUATORIAL_RADIUS_M = 6_378_137.0
+FLATTENING = 1 / 298.257223563
+_STEP_M = 10.0
+_WORLD = "EPSG:4326"
 
-_STEP_DEG = 1e-4
-_ROUNDS = 8
+network.set_network_enabled(active=False)  # type: ignore[attr-defined]  # it is public
 
 
 @dataclass(frozen=True)
-class UtmZone:
-    """A zone of UTM about WGS 84 (or ETRS89, which is the same to a metre)."""
+class Grid:
+    """A projected CRS in metres.
 
-    number: int
-    south: bool
+    name: that of the registry. accuracy_m: of longitude and latitude (WGS 84); None where the
+    registry does not say it.
+    """
+
+    name: str
+    accuracy_m: float | None
+    to_lonlat: pyproj.Transformer
 
 
-def zone_of_crs(crs: str | None) -> UtmZone | None:
-    """The zone of an EPSG code; None for other projections."""
-    match = re.fullmatch(r"EPSG:(326|327|258)(\d\d)", crs or "")
-    if match is None or not 1 <= int(match[2]) <= 60:
+def grid_of_crs(crs: str | None) -> Grid | None:
+    """The grid of a code such as `EPSG:28992`, or the plane one of a compound CRS.
+
+    None for other kinds of CRS, for feet, and where no way to WGS 84 is known.
+    """
+    if re.fullmatch(r"EPSG:\d{4,6}", crs or "") is None:
         return None
-    if match[1] == "258" and not 28 <= int(match[2]) <= 38:
+    try:
+        known = pyproj.CRS.from_user_input(crs)
+        if known.is_compound:
+            known = known.sub_crs_list[0]
+        units = {axis.unit_name for axis in known.axis_info}
+        if not known.is_projected or units != {"metre"}:
+            return None
+        way = pyproj.Transformer.from_crs(known, _WORLD, always_xy=True, allow_ballpark=False)
+    except pyproj.exceptions.ProjError:
         return None
-    return UtmZone(int(match[2]), match[1] == "327")
+    accuracy = _accuracy(known)
+    return Grid(known.name, accuracy, way)
 
 
-def lonlat_of(zone: UtmZone, east_m: float, north_m: float) -> tuple[float, float]:
-    """Longitude and latitude (degrees) of a place on the grid, by Newton's method."""
-    target = np.array([east_m, north_m])
-    guess = np.array([6.0 * zone.number - 183.0, (north_m - 1e7 * zone.south) / 111_000.0])
-    for _ in range(_ROUNDS):
-        around = guess + _STEP_DEG * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
-        at = utm(around, zone.number, south=zone.south)
-        slope = np.column_stack([at[1] - at[2], at[3] - at[4]]) / (2 * _STEP_DEG)
-        guess = guess + np.linalg.solve(slope, target - at[0])
-    return float(guess[0]), float(guess[1])
+def _accuracy(known: pyproj.CRS) -> float | None:
+    """Of the best way to WGS 84 for which all is there."""
+    with warnings.catch_warnings():
+        # It warns that a grid would be better.
+        warnings.simplefilter("ignore", UserWarning)
+        ways = pyproj.transformer.TransformerGroup(
+            known, _WORLD, always_xy=True, allow_ballpark=False
+        ).transformers
+    told = [way.accuracy for way in ways[:1] if way.accuracy >= 0]
+    return told[0] if told else None
 
 
-def ecef(lon_deg: float, lat_deg: float, height_m: float) -> NDArray[np.float64]:
-    """(3,) metres of a place above the WGS 84 ellipsoid."""
-    lon, lat = np.radians(lon_deg), np.radians(lat_deg)
+def lonlat_of(grid: Grid, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2) longitude and latitude (degrees, WGS 84) of (n, 2) places on the grid.
+
+    ValueError where a place is none of the projection.
+    """
+    found = np.column_stack(grid.to_lonlat.transform(points_m[:, 0], points_m[:, 1]))
+    if not np.isfinite(found).all():
+        raise ValueError(f"{grid.name} has no place at {points_m[0].tolist()}")
+    return found
+
+
+def ecef(lonlat_deg: NDArray[np.float64], height_m: float) -> NDArray[np.float64]:
+    """(n, 3) metres of (n, 2) places above the WGS 84 ellipsoid."""
+    lon, lat = np.radians(lonlat_deg[:, 0]), np.radians(lonlat_deg[:, 1])
     squared = FLATTENING * (2 - FLATTENING)
     radius = EQUATORIAL_RADIUS_M / np.sqrt(1 - squared * np.sin(lat) ** 2)
     flat = (radius + height_m) * np.cos(lat)
     up = (radius * (1 - squared) + height_m) * np.sin(lat)
-    return np.array([flat * np.cos(lon), flat * np.sin(lon), up])
+    return np.column_stack([flat * np.cos(lon), flat * np.sin(lon), up])
 
 
-def ecef_from_grid(zone: UtmZone, point_m: tuple[float, float, float]) -> NDArray[np.float64]:
+def ecef_from_grid(grid: Grid, point_m: tuple[float, float, float]) -> NDArray[np.float64]:
     """(4, 4) ecef_from_local: x along the grid's east, y along its north, z up, about the point.
 
     A metre of the grid is 1 / k metres on the ground (k is the scale of the projection there),
     which the first two columns are long.
     """
     east, north, height = point_m
-    lon, lat = lonlat_of(zone, east, north)
-    around = np.array([[lon + _STEP_DEG, lat], [lon - _STEP_DEG, lat]])
-    ahead, behind = utm(around, zone.number, south=zone.south)
-    convergence = float(np.arctan2(*(ahead - behind)[::-1]))
-    ground = ecef(lon + _STEP_DEG, lat, 0.0) - ecef(lon - _STEP_DEG, lat, 0.0)
-    scale = float(np.linalg.norm(ahead - behind) / np.linalg.norm(ground))
-    lam, phi = np.radians(lon), np.radians(lat)
-    to_east = np.array([-np.sin(lam), np.cos(lam), 0.0])
-    up = np.array([np.cos(phi) * np.cos(lam), np.cos(phi) * np.sin(lam), np.sin(phi)])
-    to_north = np.cross(up, to_east)
-    # True east lies at the angle of convergence in the grid, counter-clockwise from its east.
-    cos, sin = np.cos(convergence), np.sin(convergence)
+    steps = _STEP_M * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])
+    around = lonlat_of(grid, np.array([east, north]) + steps)
+    ground = ecef(around, 0.0)
+    lam, phi = np.radians(around[0])
     matrix = np.eye(4)
-    matrix[:3, 0] = (cos * to_east - sin * to_north) / scale
-    matrix[:3, 1] = (sin * to_east + cos * to_north) / scale
-    matrix[:3, 2] = up
-    matrix[:3, 3] = ecef(lon, lat, height)
+    matrix[:3, 0] = (ground[1] - ground[2]) / (2 * _STEP_M)
+    matrix[:3, 1] = (ground[3] - ground[4]) / (2 * _STEP_M)
+    matrix[:3, 2] = [np.cos(phi) * np.cos(lam), np.cos(phi) * np.sin(lam), np.sin(phi)]
+    matrix[:3, 3] = ecef(around[:1], height)[0]
     return matrix

@@ -21,6 +21,7 @@ from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
 from veduta.grammar.textures import read_textures
+from veduta.grammar.tile_pictures import tile_pictures
 from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
@@ -88,6 +89,7 @@ class BlockResult:
             "triangles": town.triangles,
             "classes": {kind: count for kind, count in sorted(town.classes.items()) if count},
             "dropped": town.dropped,
+            "pictures": sorted(town.shown),
             "notes": dict(self.notes.most_common(50)),
             "front": front and _bounds_row(front),
             "box": self.tile and [list(corner) for corner in self.tile.box],
@@ -107,7 +109,7 @@ def run_block(job: Job) -> BlockResult:
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
-    result = BlockResult(Town(folder))
+    result = BlockResult(Town(folder, tile_pictures(read_textures(job.textures))))
     middles = np.array([_middle(lot) for lot in job.block.lots])
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
@@ -165,7 +167,7 @@ def _leaf(
     rows, built = [], []
     for row, lot in enumerate(sound):
         fault = by.fault(full, row, lot)
-        one = None if fault else built_of(full, row, lot, job.block.origin_m)
+        one = None if fault else built_of(full, row, lot, job.block.origin_m, result.town.pictures)
         if one is None:
             _fail(job, lot, fault or NOTHING, result)
             continue

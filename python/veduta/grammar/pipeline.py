@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -24,11 +24,12 @@ from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.placing import block_origin, place_of, town_of
+from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.tile_pictures import picture_files
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
@@ -36,7 +37,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
@@ -143,7 +144,7 @@ def run_derive(
             _process(jobs_to_do, folder, keys, result, progress, jobs)
         _collect(folder, blocks, lots, result)
         if not result.up_to_date:
-            _write_call(folder, key, lots, blocks, options, rules_name, result)
+            _write_call(folder, key, lots, blocks, options, rules_name, textures, result)
         result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
@@ -268,11 +269,13 @@ def _write_call(
     blocks: list[Block],
     options: GrammarOptions,
     rules_name: str,
+    textures: Mapping[str, str],
     result: DeriveResult,
 ) -> None:
     """The place of all that is done, and the report of the call."""
     whole = result.built
     work = folder.work_folder(CALL)
+    result.notes.append(placed_how(lots))
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
         rules_name, options, whole, result.failures, result.notes, result.steps
@@ -281,6 +284,7 @@ def _write_call(
         if whole.count:
             with timed_step(result.steps, "join"):
                 _write_town(folder.path, work, lots, blocks, options, Path(rules_name).stem, whole)
+                _write_pictures(work, textures, whole)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)
@@ -311,3 +315,12 @@ def _write_town(
         write_sequence(work / "city.city.jsonl", first, pieces)
     else:
         write_joined(work / "city.city.json", first, pieces)
+
+
+def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
+    """The pictures that tiles show, once for all of them."""
+    shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
+    chosen = {name: path for name, path in textures.items() if name in shown}
+    for file, data in picture_files(read_textures(chosen), list(chosen)).items():
+        (work / file).parent.mkdir(exist_ok=True)
+        (work / file).write_bytes(data)

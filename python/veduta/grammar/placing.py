@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.tiles import Box, Tile, union
-from veduta.geometry.ecef import ecef_from_grid, zone_of_crs
+from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs, lonlat_of
 from veduta.grammar.block import Block
 from veduta.grammar.levels import BOXES_ERROR_M
 from veduta.grammar.lots import Lot, Lots
@@ -44,7 +44,8 @@ def block_origin(lots: Sequence[Lot]) -> tuple[float, float, float]:
 def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
     """The tree over the tiles of all blocks, on the Earth where the place has a known CRS."""
     origin = {block.name: block.origin_m for block in blocks}
-    ground = _on_earth(lots, (0.0, 0.0, 0.0))
+    grid = _grid(lots)
+    ground = None if grid is None else _on_earth(grid, lots, (0.0, 0.0, 0.0))
     tiles = []
     boxes = []
     for name, summary in whole.blocks:
@@ -53,8 +54,8 @@ def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
         own = origin[name]
         local: NDArray[np.float64] = np.eye(4)
         local[:3, 3] = own
-        if ground is not None:
-            local[:] = np.linalg.solve(ground, _known(_on_earth(lots, own)))
+        if grid is not None and ground is not None:
+            local[:] = np.linalg.solve(ground, _on_earth(grid, lots, own))
         low, high = (tuple(corner) for corner in summary["box"])
         content = f"{name}/tiles/tileset.json"
         tiles.append(Tile((low, high), BOXES_ERROR_M, content, (), local, own))
@@ -64,16 +65,33 @@ def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
     return Tile(box, max(4 * BOXES_ERROR_M, size / 4), None, tuple(tiles), ground, (0.0, 0.0, 0.0))
 
 
-def _on_earth(lots: Lots, place_m: tuple[float, float, float]) -> NDArray[np.float64] | None:
-    zone = zone_of_crs(lots.crs)
-    if zone is None:
+def placed_how(lots: Lots) -> str:
+    """Where on the Earth the tiles of lots stand, in words."""
+    grid = _grid(lots)
+    if grid is not None:
+        within = "" if grid.accuracy_m is None else f", known to {max(grid.accuracy_m, 0.1):g} m"
+        return f"the tiles stand on the Earth by {grid.name}{within}"
+    if lots.crs is None:
+        what = "the lots name no CRS"
+    elif grid_of_crs(lots.crs) is None:
+        what = f"{lots.crs} is no known projection in metres"
+    else:
+        what = f"{lots.crs} has no place where the lots lie"
+    return f"{what}: the tiles stand in metres of their own, not on the Earth"
+
+
+def _grid(lots: Lots) -> Grid | None:
+    """The projection of the lots; None where it is not known, or ends before them."""
+    grid = grid_of_crs(lots.crs)
+    try:
+        return grid if grid and len(lonlat_of(grid, np.array([lots.origin_m[:2]]))) else None
+    except ValueError:
         return None
+
+
+def _on_earth(grid: Grid, lots: Lots, place_m: tuple[float, float, float]) -> NDArray[np.float64]:
     x, y, z = (np.array(lots.origin_m) + np.array(place_m)).tolist()
-    return ecef_from_grid(zone, (x, y, z))
-
-
-def _known(matrix: NDArray[np.float64] | None) -> NDArray[np.float64]:
-    return np.eye(4) if matrix is None else matrix
+    return ecef_from_grid(grid, (x, y, z))
 
 
 def _moved(box: Box, matrix: NDArray[np.float64]) -> Box:

@@ -28,10 +28,16 @@ from veduta.grammar.levels import (
 )
 from veduta.grammar.lots import Lot
 from veduta.grammar.outline import Attribute
-from veduta.place.semantics import SemanticClass
+from veduta.grammar.tile_pictures import TilePicture
+from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.atomic import write_bytes
 
 CLASSES = [semantic.value for semantic in SemanticClass]
+PROVENANCES = [provenance.value for provenance in Provenance]
+MAPPED = (FULL, PLAIN)
+"""Levels that show pictures; the others have their mean colours."""
+TO_OUT = "../../.."
+"""From the folder of a block's tiles."""
 Vector = tuple[float, float, float]
 TILESET = "tileset.json"
 
@@ -54,9 +60,13 @@ class Built:
 
 @dataclass
 class Town:
-    """What is known of a block's tiles while they are written."""
+    """What is known of a block's tiles while they are written.
+
+    pictures: those that rules may name. shown: the names of those that a tile has.
+    """
 
     folder: Path
+    pictures: Sequence[TilePicture] = ()
     built: list[Built] = field(default_factory=list)
     tiles: list[Tile] = field(default_factory=list)
     leaves: list[tuple[str, int, Box]] = field(default_factory=list)
@@ -64,6 +74,7 @@ class Town:
     polygons: int = 0
     triangles: int = 0
     dropped: int = 0
+    shown: set[str] = field(default_factory=set)
 
     def leaf(
         self, name: str, built: Sequence[Built], full: Derived, plain: Derived | None
@@ -120,11 +131,21 @@ class Town:
         ]
         if not chosen:
             return None
-        buffers = lots.tile([row for row, _ in chosen], [one.place_m for _, one in chosen], CLASSES)
+        buffers = lots.tile(
+            [row for row, _ in chosen],
+            [one.place_m for _, one in chosen],
+            CLASSES,
+            PROVENANCES,
+            [picture.named for picture in self.pictures],
+            mapped=level in MAPPED,
+        )
         if buffers.bounds is None:
             return None
         names = [BuildingRow(one.lot.id, one.lot.name) for _, one in chosen]
-        write_bytes(self.folder / name, tile_glb(buffers, names))
+        uris = [f"{TO_OUT}/{picture.file}" for picture in self.pictures]
+        write_bytes(self.folder / name, tile_glb(buffers, names, uris))
+        numbers = {picture for *_, picture in buffers.materials if picture is not None}
+        self.shown |= {self.pictures[number].name for number in numbers}
         if level == FULL:
             self.triangles += buffers.triangles
             self.dropped += buffers.dropped
@@ -137,7 +158,13 @@ Derived = tuple[_core.DerivedLots, list[int]]
 """Derived lots, and which of them are meant."""
 
 
-def built_of(derived: _core.DerivedLots, row: int, lot: Lot, origin_m: Vector) -> Built | None:
+def built_of(
+    derived: _core.DerivedLots,
+    row: int,
+    lot: Lot,
+    origin_m: Vector,
+    pictures: Sequence[TilePicture] = (),
+) -> Built | None:
     """What a lot's derivation is, seen from the block's origin; None where nothing is left."""
     extent = derived.extent(row)
     if extent is None:
@@ -148,7 +175,8 @@ def built_of(derived: _core.DerivedLots, row: int, lot: Lot, origin_m: Vector) -
         lot.anchor_m[1] - origin_m[1],
         lot.anchor_m[2] - origin_m[2],
     )
-    walls, roofs = derived.colour(row, "wall"), derived.colour(row, "roof")
+    named = [picture.named for picture in pictures]
+    walls, roofs = derived.colour(row, "wall", named), derived.colour(row, "roof", named)
     return Built(lot, place, low, high, polygons, walls, roofs)
 
 

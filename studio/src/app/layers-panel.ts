@@ -5,6 +5,7 @@ import {
   CLASSES,
   PROVENANCE_LOOKS,
   PROVENANCES,
+  type Provenance,
   type SemanticClass,
 } from "../core/classes.ts";
 import { countClasses, countProvenances, type FeatureTable } from "../core/features.ts";
@@ -18,6 +19,11 @@ const COLOURINGS: readonly { readonly value: Colouring; readonly label: string }
   { value: "provenance", label: "Provenance" },
 ];
 
+export interface Counted {
+  readonly classes: ReadonlyMap<SemanticClass, number>;
+  readonly provenances: ReadonlyMap<Provenance, number>;
+}
+
 export class LayersPanel extends LitElement {
   static override properties = {
     tables: { attribute: false },
@@ -26,8 +32,8 @@ export class LayersPanel extends LitElement {
     colouring: { type: String },
   };
   declare tables: readonly FeatureTable[];
-  /** Surfaces of each class where they are counted elsewhere: in the tiles that are drawn. */
-  declare counted: ReadonlyMap<SemanticClass, number> | null;
+  /** Surfaces where they are counted elsewhere: in the tiles that are drawn. */
+  declare counted: Counted | null;
   declare hidden_: ReadonlySet<SemanticClass>;
   declare colouring: Colouring;
 
@@ -132,7 +138,7 @@ export class LayersPanel extends LitElement {
   }
 
   override render(): TemplateResult {
-    const counts = this.counted ?? countClasses(this.tables);
+    const counts = this.counted?.classes ?? countClasses(this.tables);
     return html`
       <h2 class="eyebrow" id="colours">Colours</h2>
       <div class="segments" role="radiogroup" aria-labelledby="colours">
@@ -165,10 +171,7 @@ export class LayersPanel extends LitElement {
   }
 
   #legend(): TemplateResult {
-    const counts =
-      this.counted === null
-        ? countProvenances(this.tables)
-        : new Map([["invented", [...this.counted.values()].reduce((sum, count) => sum + count, 0)]]);
+    const counts = this.counted?.provenances ?? countProvenances(this.tables);
     return html`<ul class="legend">
       ${PROVENANCES.map((kind) => {
         const { label, meaning, colour } = PROVENANCE_LOOKS[kind];

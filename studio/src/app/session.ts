@@ -24,6 +24,7 @@ export async function openPlace(
   canvas: HTMLCanvasElement,
   store: Store<StudioState>,
   onProgress: (share: number, file: string) => void,
+  onShown: () => void,
 ): Promise<Session> {
   const begin = performance.now();
   checkWebGL();
@@ -40,7 +41,10 @@ export async function openPlace(
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
   let viewer: Viewer | null = null;
-  const town = tileset === null ? null : new Town(fileAddress(tileset, address), () => viewer?.invalidate());
+  const town =
+    tileset === null
+      ? null
+      : new Town(fileAddress(tileset, address), () => viewer?.invalidate(), onShown);
   const parts =
     tileset === null
       ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))

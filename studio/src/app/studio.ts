@@ -13,6 +13,7 @@ import "./help-dialog.ts";
 import { inspect } from "./inspect.ts";
 import "./joystick.ts";
 import "./layers-panel.ts";
+import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
 import { openPlace, type Session } from "./session.ts";
@@ -83,9 +84,15 @@ export class Studio extends LitElement {
 
   async #open(): Promise<void> {
     try {
-      const session = await openPlace(new URL(location.href), this.#canvas, this.#store, (share, file) => {
-        this.progress = { share, file };
-      });
+      const session = await openPlace(
+        new URL(location.href),
+        this.#canvas,
+        this.#store,
+        (share, file) => {
+          this.progress = { share, file };
+        },
+        () => this.requestUpdate(),
+      );
       this.session = session;
       document.title = `${titleOf(session)} · Veduta`;
       window.veduta = inspect(session, this.#store);
@@ -152,7 +159,7 @@ export class Studio extends LitElement {
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
-      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables} .counted=${session.town?.counts() ?? null}
+      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables} .counted=${this.#counted(session)}
         .hidden_=${state.hidden} .colouring=${state.colouring}
         @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
         @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}>
@@ -172,6 +179,12 @@ export class Studio extends LitElement {
       )}
       <veduta-help></veduta-help>
     `;
+  }
+
+  /** What of a streamed place is drawn now, as the panel counts it. */
+  #counted({ town }: Session): Counted | null {
+    if (town === null || !this.layersOpen) return null;
+    return { classes: town.counts(), provenances: town.provenances() };
   }
 
   #shown(session: Session): ShownFeature | null {

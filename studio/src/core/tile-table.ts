@@ -2,7 +2,7 @@
  * What the surfaces of a tile are: the property tables of EXT_structural_metadata that
  * `formats/tile_glb.py` writes. Rows become features when somebody asks for one.
  */
-import { isSemanticClass, type SemanticClass } from "./classes.ts";
+import { isProvenance, isSemanticClass, type Provenance, type SemanticClass } from "./classes.ts";
 import { Fault } from "./fault.ts";
 import type { Feature, FeatureTable } from "./features.ts";
 
@@ -36,6 +36,8 @@ export class TileTable implements FeatureTable {
   readonly count: number;
   readonly #classes: readonly (SemanticClass | undefined)[];
   readonly #rules: readonly string[];
+  readonly #provenances: readonly (Provenance | undefined)[];
+  readonly #provenance: Uint8Array | null;
   readonly #class: Uint8Array;
   readonly #building: Uint16Array | null;
   readonly #rule: Uint16Array | null;
@@ -44,6 +46,7 @@ export class TileTable implements FeatureTable {
   readonly #ids: readonly string[];
   readonly #names: readonly string[];
   #rows: readonly Feature[] | null = null;
+  #counts: ReadonlyMap<SemanticClass, number> | null = null;
 
   /** `metadata` is the extension of the document's root; it may come from anywhere. */
   constructor(metadata: unknown, views: Views, file: string) {
@@ -60,6 +63,7 @@ export class TileTable implements FeatureTable {
     this.count = surfaces.count;
     this.#classes = named("semantic").map((name) => (isSemanticClass(name) ? name : undefined));
     this.#rules = named("rule");
+    this.#provenances = named("provenance").map((name) => (isProvenance(name) ? name : undefined));
     const column = (name: string): Uint8Array | null => {
       const view = surfaces.properties[name]?.values;
       return view === undefined ? null : views(view);
@@ -72,6 +76,7 @@ export class TileTable implements FeatureTable {
     };
     this.#class = column("class") ?? new Uint8Array();
     if (this.#class.length < this.count) throw new Fault(file, "a table is cut short", REMEDY);
+    this.#provenance = column("provenance");
     this.#building = sixteen("building");
     this.#rule = sixteen("rule");
     this.#width = sixteen("width");
@@ -95,14 +100,22 @@ export class TileTable implements FeatureTable {
     return this.#names[this.#building?.[row] ?? 0] ?? "";
   }
 
+  /** A table without the column has invented surfaces only. */
+  provenanceOf(row: number): Provenance {
+    return this.#provenances[this.#provenance?.[row] ?? 255] ?? "invented";
+  }
+
   /** How many surfaces of each class there are. */
-  counts(): Map<SemanticClass, number> {
-    const found = new Map<SemanticClass, number>();
-    for (let row = 0; row < this.count; row += 1) {
-      const kind = this.classOf(row);
-      found.set(kind, (found.get(kind) ?? 0) + 1);
-    }
-    return found;
+  counts(): ReadonlyMap<SemanticClass, number> {
+    this.#counts ??= counted(this.count, (row) => this.classOf(row));
+    return this.#counts;
+  }
+
+  /** How many surfaces there are of each provenance. */
+  provenances(): ReadonlyMap<Provenance, number> {
+    return this.#provenance === null
+      ? new Map([["invented", this.count]])
+      : counted(this.count, (row) => this.provenanceOf(row));
   }
 
   #feature(row: number): Feature {
@@ -112,7 +125,7 @@ export class TileTable implements FeatureTable {
       id: `${this.#ids[building] ?? ""}/${rule === "" ? "building" : rule}-${row}`,
       class: this.classOf(row),
       parent: null,
-      provenance: "invented",
+      provenance: this.provenanceOf(row),
       name: rule,
       width_m: metres(this.#width?.[row]),
       height_m: metres(this.#height?.[row]),
@@ -121,6 +134,15 @@ export class TileTable implements FeatureTable {
       seen_height_m: null,
     };
   }
+}
+
+function counted<K>(rows: number, keyOf: (row: number) => K): Map<K, number> {
+  const found = new Map<K, number>();
+  for (let row = 0; row < rows; row += 1) {
+    const key = keyOf(row);
+    found.set(key, (found.get(key) ?? 0) + 1);
+  }
+  return found;
 }
 
 function metres(size_mm: number | undefined): number | null {

@@ -8,9 +8,10 @@ import {
   type Mesh,
   type MeshStandardMaterial,
   type Object3D,
+  type Texture,
   Vector3,
 } from "three";
-import { isSemanticClass, type SemanticClass } from "../core/classes.ts";
+import { isProvenance, isSemanticClass, type Provenance, type SemanticClass } from "../core/classes.ts";
 import { worldFromDrawn } from "../core/frames.ts";
 import type { TileTable } from "../core/tile-table.ts";
 import type { Soup } from "./solid.ts";
@@ -20,8 +21,10 @@ type Column = BufferAttribute | InterleavedBufferAttribute;
 export interface TileMesh {
   readonly mesh: Mesh;
   readonly kind: SemanticClass;
-  /** The colour of the rules, sRGB. */
+  readonly provenance: Provenance;
+  /** The colour of the rules, sRGB, and their texture. */
   readonly own: number;
+  readonly texture: Texture | null;
 }
 
 export class TileModel {
@@ -39,12 +42,17 @@ export class TileModel {
     for (const mesh of all) {
       const material = mesh.material as MeshStandardMaterial;
       const { name } = material;
+      const told = (material.userData.veduta as { provenance?: unknown } | undefined)?.provenance;
+      // The faces are drawn flat; shadows are told from the surface's own by where its normals point.
+      if (!mesh.geometry.hasAttribute("normal")) mesh.geometry.computeVertexNormals();
       mesh.castShadow = true;
       mesh.receiveShadow = true;
       meshes.push({
         mesh,
         kind: isSemanticClass(name) ? name : "other",
+        provenance: isProvenance(told) ? told : "invented",
         own: material.color.getHex(),
+        texture: material.map,
       });
     }
     this.meshes = meshes;

@@ -19,7 +19,7 @@ import {
 } from "three";
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
-import { CLASS_LOOKS, PROVENANCE_LOOKS, type SemanticClass } from "../core/classes.ts";
+import { CLASS_LOOKS, PROVENANCE_LOOKS, type Provenance, type SemanticClass } from "../core/classes.ts";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { FeatureTable } from "../core/features.ts";
@@ -29,6 +29,7 @@ import { TileTable } from "../core/tile-table.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
 import { type Hit, Solid } from "./solid.ts";
+import { SharedImages } from "./shared-images.ts";
 import { TileModel } from "./tile-model.ts";
 
 /** A tile is refined where its error is larger on the screen (pixels). */
@@ -70,15 +71,18 @@ export class Town implements Obstacles {
   readonly #models = new Map<Object3D, { model: TileModel; part: number; tile: Tile }>();
   readonly #byPart: (TileModel | undefined)[] = [];
   readonly #solids = new Map<Object3D, Solid>();
+  readonly #images = new SharedImages();
   readonly #onChange: () => void;
   #fault: Fault | null = null;
   #state: StudioState | null = null;
 
-  constructor(address: URL, onChange: () => void) {
+  /** `onShown` is called when other tiles are shown than before. */
+  constructor(address: URL, onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
     this.#tiles = new FlatTiles(address.href);
     this.#tiles.errorTarget = ERROR_PX;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
+    loader.register((parser) => this.#images.pluginOf(parser));
     this.#tiles.manager.addHandler(/\.(gltf|glb)$/i, loader);
     this.#tiles.group.rotation.x = -Math.PI / 2;
     this.group.add(this.#tiles.group);
@@ -90,6 +94,7 @@ export class Town implements Obstacles {
     this.#tiles.addEventListener("load-error", ({ error, url }) => {
       this.#fault ??= new Fault(String(url), error.message, "Write the place again, or copy it whole.");
     });
+    this.#tiles.addEventListener("tile-visibility-change", onShown);
     for (const kind of ["tile-visibility-change", "needs-update", "load-tileset"] as const) {
       this.#tiles.addEventListener(kind, onChange);
     }
@@ -168,6 +173,15 @@ export class Town implements Obstacles {
     return all;
   }
 
+  /** How many surfaces of each provenance are drawn. */
+  provenances(): Map<Provenance, number> {
+    const all = new Map<Provenance, number>();
+    for (const { model } of this.#shown()) {
+      for (const [kind, count] of model.table.provenances()) all.set(kind, (all.get(kind) ?? 0) + count);
+    }
+    return all;
+  }
+
   /** The first visible surface on the ray; `direction` is a unit vector. */
   firstHit(origin: Vec3, direction: Vec3, isVisible: (feature: FeatureRef) => boolean): Hit | null {
     const from = new Vector3(...drawnFromWorld(origin));
@@ -206,6 +220,7 @@ export class Town implements Obstacles {
 
   dispose(): void {
     this.#tiles.dispose();
+    this.#images.dispose();
   }
 
   #advance(): void {
@@ -324,12 +339,17 @@ function tableOf(gltf: GLTF, url: string): TileTable {
 }
 
 function dress(model: TileModel, state: StudioState): void {
-  for (const { mesh, kind, own } of model.meshes) {
+  for (const { mesh, kind, provenance, own, texture } of model.meshes) {
     mesh.visible = !state.hidden.has(kind);
     const material = mesh.material as MeshStandardMaterial;
     material.color.setHex(own);
+    const map = state.colouring === "photo" ? texture : null;
+    if (material.map !== map) {
+      material.map = map;
+      material.needsUpdate = true;
+    }
     if (state.colouring === "photo") continue;
-    const look = state.colouring === "class" ? CLASS_LOOKS[kind] : PROVENANCE_LOOKS.invented;
+    const look = state.colouring === "class" ? CLASS_LOOKS[kind] : PROVENANCE_LOOKS[provenance];
     material.color.lerp(new Color().setStyle(look.colour, SRGBColorSpace), COLOURING_STRENGTH);
   }
 }

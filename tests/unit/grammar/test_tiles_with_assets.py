@@ -19,6 +19,7 @@ from veduta.grammar.deriving import deriver
 from veduta.grammar.levels import FULL
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.town import PROVENANCES
 from veduta.place.part import Part
 
 RULES = """
@@ -59,7 +60,7 @@ def drawn(buffers: _core.TileBuffers) -> Triangles:
         triangles = np.frombuffer(indices, "<u2" if len(ids) <= 65535 else "<u4").reshape(-1, 3)
         features.append(ids[triangles[:, 0]])
         corners.append(at[triangles])
-    for _, positions, indices, _, _, moves, turns, feature, scales in buffers.repeated:
+    for _, positions, indices, _, _, moves, turns, feature, scales, _ in buffers.repeated:
         own = np.frombuffer(positions, "<i2").reshape(-1, 4)[:, :3].astype(float)
         triangles = np.frombuffer(indices, "<u2").reshape(-1, 3)
         ids = np.frombuffer(feature, "<u2").astype(np.int64)
@@ -83,7 +84,7 @@ def area(corners: NDArray[np.float64]) -> NDArray[np.float64]:
 
 def test_a_tile_shows_what_the_model_shows(made: tuple[Part, _core.DerivedLots]) -> None:
     part, lots = made
-    buffers = lots.tile([0], [PLACE], CLASSES)
+    buffers = lots.tile([0], [PLACE], CLASSES, PROVENANCES)
     feature, corners = drawn(buffers)
     found = np.bincount(feature, area(corners), minlength=len(part.features))
     assert found == pytest.approx(part.feature_area_m2, rel=2e-2, abs=2e-3)
@@ -102,14 +103,14 @@ def test_windows_are_instances_and_have_the_colours_of_their_slots(
     made: tuple[Part, _core.DerivedLots],
 ) -> None:
     part, lots = made
-    buffers = lots.tile([0], [PLACE], CLASSES)
+    buffers = lots.tile([0], [PLACE], CLASSES, PROVENANCES)
     assert part.instances is not None
     shared = [one for one in buffers.repeated if one[8]]
     stands = max(len(group.feature) for group in part.instances.groups)
     assert max(len(one[5]) // 12 for one in shared) == stands
     colours = {
         tuple(round(255 * channel) for channel in colour)
-        for code, colour in buffers.materials
+        for code, _, colour, *_ in buffers.materials
         if CLASSES[code] == "window"
     }
     told = {

@@ -1,4 +1,4 @@
-"""A derived town as 3D Tiles: what the published schema asks for, and that boxes hold content."""
+"""A derived town as 3D Tiles: its files, its levels, and where it stands."""
 
 from __future__ import annotations
 
@@ -9,10 +9,9 @@ from typing import Any
 
 import numpy as np
 import pytest
-from numpy.typing import NDArray
 
 from veduta.formats.tiles import contents
-from veduta.geometry.ecef import UtmZone, ecef_from_grid
+from veduta.geometry.ecef import ecef_from_grid, grid_of_crs
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
 from veduta.run.progress import Progress
@@ -66,7 +65,6 @@ def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def tiles_of(folder: Path, name: str = "tileset.json") -> list[tuple[dict[str, Any], str]]:
     """All tiles of all files, with the folder that their contents are named from."""
     document = json.loads((folder / name).read_text())
-    check_tileset(document)
     found: list[tuple[dict[str, Any], str]] = []
     waiting = [document["root"]]
     base = name.rpartition("/")[0]
@@ -80,46 +78,6 @@ def tiles_of(folder: Path, name: str = "tileset.json") -> list[tuple[dict[str, A
     return found
 
 
-def check_tileset(document: dict[str, Any]) -> None:
-    """`tileset.schema.json` and `tile.schema.json` of 3D Tiles 1.1, as far as it is used."""
-    assert document["asset"]["version"] == "1.1"
-    assert document["geometricError"] >= document["root"]["geometricError"]
-    assert document["root"]["refine"] in ("ADD", "REPLACE")
-    check_tile(document["root"])
-
-
-def check_tile(tile: dict[str, Any]) -> None:
-    known = {"boundingVolume", "geometricError", "refine", "transform", "content", "children"}
-    assert set(tile) <= known | {"extras"}
-    assert len(tile["boundingVolume"]["box"]) == 12
-    assert tile["geometricError"] >= 0
-    assert len(tile.get("transform", [0] * 16)) == 16
-    assert len(tile.get("children", [0])) > 0
-    for child in tile.get("children", []):
-        assert child["geometricError"] < tile["geometricError"]
-        assert holds(tile, child)
-        check_tile(child)
-
-
-def corners(tile: dict[str, Any]) -> NDArray[np.float64]:
-    box = np.array(tile["boundingVolume"]["box"])
-    signs = np.array(np.meshgrid([-1, 1], [-1, 1], [-1, 1])).reshape(3, -1).T
-    found: NDArray[np.float64] = box[:3] + signs @ box[3:].reshape(3, 3)
-    return found
-
-
-def holds(tile: dict[str, Any], child: dict[str, Any]) -> bool:
-    """Whether the child's box lies in that of its parent."""
-    points = corners(child)
-    if "transform" in child:
-        matrix = np.array(child["transform"]).reshape(4, 4).T
-        points = points @ matrix[:3, :3].T + matrix[:3, 3]
-    own = corners(tile)
-    return bool(
-        (points >= own.min(axis=0) - 2e-3).all() and (points <= own.max(axis=0) + 2e-3).all()
-    )
-
-
 def glb_document(path: Path) -> dict[str, Any]:
     data = path.read_bytes()
     (size,) = struct.unpack_from("<I", data, 12)
@@ -127,7 +85,7 @@ def glb_document(path: Path) -> dict[str, Any]:
     return document
 
 
-def test_the_tree_keeps_to_the_schema(town: Path) -> None:
+def test_the_tree_names_all_files(town: Path) -> None:
     tiles = tiles_of(town)
     errors = {tile["geometricError"] for tile, _ in tiles if "content" in tile}
     assert len(errors) == 4  # boxes, volumes, plain, full
@@ -137,29 +95,6 @@ def test_the_tree_keeps_to_the_schema(town: Path) -> None:
     files = set(contents(town))
     assert files == names | {"tileset.json"}
     assert all((town / name).is_file() for name in files)
-
-
-def test_contents_lie_in_their_boxes(town: Path) -> None:
-    """The lowest and highest vertex of merged meshes, and where instances stand."""
-    checked = 0
-    for tile, base in tiles_of(town):
-        uri = tile.get("content", {}).get("uri", "")
-        if not uri.endswith("-volume.glb"):
-            continue
-        document = glb_document(town / base / uri)
-        own = corners(tile)
-        for node in document["nodes"]:
-            if "extensions" in node:
-                continue
-            low, step = np.array(node["translation"]), np.array(node["scale"])
-            for primitive in document["meshes"][node["mesh"]]["primitives"]:
-                accessor = document["accessors"][primitive["attributes"]["POSITION"]]
-                ends = np.array([accessor["min"], accessor["max"]]) * step + low
-                z_up = np.stack([ends[:, 0], -ends[:, 2], ends[:, 1]], axis=1)
-                assert (z_up >= own.min(axis=0) - 2e-3).all()
-                assert (z_up <= own.max(axis=0) + 2e-3).all()
-                checked += 1
-    assert checked > 0
 
 
 def test_every_building_is_in_each_level_once(town: Path) -> None:
@@ -178,14 +113,14 @@ def test_it_stands_on_the_earth(town: Path) -> None:
     assert (place["crs"], place["tileset"]) == ("EPSG:32631", "tileset.json")
     root = json.loads((town / "tileset.json").read_text())["root"]
     matrix = np.array(root["transform"]).reshape(4, 4).T
-    assert matrix == pytest.approx(ecef_from_grid(UtmZone(31, south=False), tuple(place["origin"])))
+    grid = grid_of_crs("EPSG:32631")
+    assert grid is not None
+    assert matrix == pytest.approx(ecef_from_grid(grid, tuple(place["origin"])))
     for child in root["children"]:
         at = np.array(child["extras"]["veduta"]["world_m"])
         told = (matrix @ np.array(child["transform"]).reshape(4, 4).T)[:3, 3]
         world = tuple((np.array(place["origin"]) + at).tolist())
-        assert told == pytest.approx(
-            ecef_from_grid(UtmZone(31, south=False), world)[:3, 3], abs=1e-6
-        )
+        assert told == pytest.approx(ecef_from_grid(grid, world)[:3, 3], abs=1e-6)
 
 
 def test_cityjson_has_all_buildings(town: Path) -> None:
