@@ -121,6 +121,7 @@ class GrammarRules:
         slots: list[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
         | None = None,
     ) -> None: ...
+    def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None: ...
     def derive(
         self,
         lots: list[list[list[tuple[float, float, float]]]],

@@ -14,6 +14,7 @@ mod frame;
 mod functions;
 mod globals;
 mod instances;
+mod laid;
 mod limits;
 mod lists;
 mod lot;
