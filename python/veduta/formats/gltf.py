@@ -213,7 +213,13 @@ def _vertex_features(part: Part) -> NDArray[np.float32]:
 
 
 def _wrap(part: Part, row: int) -> int:
-    """A texture is repeated where surfaces of its material ask for more than it has."""
+    """A texture is repeated where surfaces of its material ask for more than it has.
+
+    What stands many times has coordinates in repeats.
+    """
+    groups = part.instances.groups if part.instances is not None else ()
+    if any(row in group.materials for group in groups):
+        return _REPEAT
     corners = np.repeat(part.polygon_material, np.diff(part.ring_offsets[part.polygon_offsets]))
     uv = part.uv[corners == row]
     beside = (uv < -_BESIDE_UV) | (uv > 1.0 + _BESIDE_UV)

@@ -1,8 +1,8 @@
 """The pictures that rule files name in `texture`: where they are, and what is in them.
 
-A name that begins with `builtin/textures/` is a texture that Veduta brings along (`surfaces`). Others
-are files, looked for below the folder of the rule file, and nowhere else. A file may have a mask
-beside it, `NAME.invented.png`, in which white says what nobody has photographed.
+A name that begins with `builtin/textures/` is a texture that Veduta brings along (`surfaces`).
+Others are files, looked for below the folder of the rule file, and nowhere else. A file may have a
+mask beside it, `NAME.invented.png`, in which white says what nobody has photographed.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ import numpy as np
 from PIL import Image
 from pydantic import JsonValue
 
-from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sources_digest
+from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.imaging.read import read_image
 from veduta.place.material import Colour, Texture
 from veduta.run.digests import file_digest
@@ -36,20 +36,20 @@ _SHOWN_AS_THEY_ARE = (".jpg", ".jpeg", ".png")
 
 
 class Textures(Mapping[str, Texture]):
-    """The pictures by the names that rules have for them, each read or painted when it is asked for.
+    """The pictures by the names that rules have for them, read or painted when they are asked for.
 
-    Asking raises InputError where a file cannot be read.
+    All built-in ones are among them, whether rules write their names or compute them. Asking raises InputError where a file cannot be read.
     """
 
     def __init__(self, files: Mapping[str, str]) -> None:
         self._files = files
 
     def __getitem__(self, name: str) -> Texture:
-        path = self._files[name]
+        path = name if is_known(name) else self._files[name]
         return _painted(path) if is_builtin(path) else _read(path, *_changed(path))
 
     def __contains__(self, name: object) -> bool:
-        return name in self._files
+        return name in self._files or (isinstance(name, str) and is_known(name))
 
     def __iter__(self) -> Iterator[str]:
         return iter(self._files)
@@ -61,6 +61,11 @@ class Textures(Mapping[str, Texture]):
 def is_builtin(name: str) -> bool:
     """Whether a texture is one that Veduta brings along."""
     return name.startswith(PREFIX)
+
+
+def is_known(name: str) -> bool:
+    """Whether there is a built-in texture of this name."""
+    return name in sizes_m()
 
 
 def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:

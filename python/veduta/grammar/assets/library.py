@@ -12,7 +12,7 @@ from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
-from veduta.grammar.surfaces.catalogue import sizes_m
+from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
 from veduta.run.errors import InputError
 
 MOST_FILES, MOST_FOLDERS = 2_000, 10_000
@@ -56,7 +56,7 @@ class Library:
     def digest(self, rules: _core.GrammarRules) -> str:
         """The digest of all assets that the rules may name; InputError where one is none."""
         written, computed = rules.asset_names
-        total = hashlib.sha256()
+        total = hashlib.sha256(sources_digest().encode())
         for name in written:
             asset = self[name]
             total.update(f"{name} {asset.slots}".encode())

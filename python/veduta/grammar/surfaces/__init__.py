@@ -1,1 +1,1 @@
-"""Textures made by code, of known sizes in metres: what the walls and roofs of rule files look like."""
+"""Textures made by code, of known sizes in metres: walls, roofs, grounds, wood."""

@@ -64,8 +64,8 @@ class Canvas:
         """A random field of mean 0 and deviation 1 whose features have these sizes (m).
 
         Its amplitude goes with the feature's size to the power of `fall`. `stretch` multiplies
-        their sizes to the right and up. Keep `largest_m` well below the canvas: larger ones would be seen
-        to repeat.
+        their sizes to the right and up. Keep `largest_m` well below the canvas:
+        larger ones would be seen to repeat.
         """
         right, up = self._waves
         wave = np.hypot(right * stretch[0], up * stretch[1])

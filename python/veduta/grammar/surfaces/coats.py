@@ -38,6 +38,15 @@ def panels(canvas: Canvas) -> Image:
 
 
 def concrete(canvas: Canvas) -> Image:
+    """Smooth concrete with pores."""
+    relief = 0.00025 * canvas.noise(0.12, 0.015, 0.5)
+    shade = canvas.lit(relief, 0.8) * (1.0 + 0.014 * canvas.noise(0.5, 0.02, 0.8))
+    shade *= 1.0 + 0.01 * canvas.noise(0.5, 0.03, 0.8, stretch=(0.15, 1.0))
+    pores = eased(canvas.noise(0.04, 0.012, 0.0), 2.6, 3.1)
+    return canvas.image(shade * (1.0 - 0.18 * pores), (1.0, 1.0, 0.99), 0.92)
+
+
+def boarded(canvas: Canvas) -> Image:
     """Concrete as it came out of boards."""
     boards = running(canvas, 1, 16, (0.1, 0.55, 0.8, 0.3))
     seam = 1.0 - eased(np.minimum(boards.up, boards.height - boards.up), 0.001, 0.006)

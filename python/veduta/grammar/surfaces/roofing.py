@@ -83,7 +83,9 @@ def zinc(canvas: Canvas) -> Image:
     shade *= 1.0 + 0.022 * bloom + 0.008 * canvas.grain()
     beyond = eased(pans.right, 0.017, 0.05)  # the seam's own shadow falls to its right
     shade *= 0.86 + 0.14 * beyond
-    return canvas.image(shade, mixed((1.0, 1.0, 1.0), (0.96, 0.985, 1.0), eased(bloom, -2, 2)), 0.88)
+    return canvas.image(
+        shade, mixed((1.0, 1.0, 1.0), (0.96, 0.985, 1.0), eased(bloom, -2, 2)), 0.88
+    )
 
 
 def gravel(canvas: Canvas) -> Image:
@@ -93,7 +95,9 @@ def gravel(canvas: Canvas) -> Image:
     relief = np.asarray(0.007 * np.abs(stones) + 0.0035 * np.abs(fine), np.float32)
     shade = canvas.lit(relief, 0.55) * canvas.hollow(relief, 0.012, 1.6)
     shade *= 1.0 + 0.09 * canvas.noise(0.035, 0.02, 0.0) + 0.02 * canvas.noise(0.5, 0.05)
-    tint = mixed((1.0, 0.97, 0.93), (0.95, 0.98, 1.0), eased(canvas.noise(0.04, 0.02, 0), -1.5, 1.5))
+    tint = mixed(
+        (1.0, 0.97, 0.93), (0.95, 0.98, 1.0), eased(canvas.noise(0.04, 0.02, 0), -1.5, 1.5)
+    )
     return canvas.image(shade, tint, 0.8)
 
 

@@ -57,7 +57,7 @@ def _weathered(canvas: Canvas, spread: float) -> Field:
     return np.asarray(1.0 + spread * (0.7 * clouds + 0.5 * runs + 0.25 * canvas.grain()))
 
 
-def _hues(canvas: Canvas, stones: Bond  ) -> Field:
+def _hues(canvas: Canvas, stones: Bond) -> Field:
     """A little warmer or cooler, stone by stone."""
     share = 0.5 + 0.7 * stones.each(canvas.rng.uniform(-0.5, 0.5, stones.count))
     return mixed(WARM, COOL, np.asarray(share, np.float32))
