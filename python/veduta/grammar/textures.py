@@ -38,7 +38,8 @@ _SHOWN_AS_THEY_ARE = (".jpg", ".jpeg", ".png")
 class Textures(Mapping[str, Texture]):
     """The pictures by the names that rules have for them, read or painted when they are asked for.
 
-    All built-in ones are among them, whether rules write their names or compute them. Asking raises InputError where a file cannot be read.
+    All built-in ones are among them, whether rules write their names or compute them. Asking raises
+    InputError where a file cannot be read.
     """
 
     def __init__(self, files: Mapping[str, str]) -> None:
