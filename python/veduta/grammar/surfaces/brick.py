@@ -65,7 +65,7 @@ def _laid(canvas: Canvas, bricks: Bond, clays: Sequence[Rgb], mortar: Rgb) -> Im
     chosen = canvas.rng.choice(len(clays), bricks.count, p=_shares(len(clays)))
     clay = np.asarray(clays, np.float32)[chosen][bricks.number]
     neutral = len(clays) == 1
-    bed = np.asarray(mortar, np.float32) * (1.13 if neutral else 1.0)
+    bed = np.asarray(mortar, np.float32) * (1.3 if neutral else 1.0)
     tint = mixed(bed, clay, face)
     mean = 0.86 if neutral else float(0.8 * np.mean(clays) + 0.2 * np.mean(mortar))
     return canvas.image(shade, tint, mean)
