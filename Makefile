@@ -119,6 +119,7 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/pictures.py
 	$(PY) docs/grammar_picture.py
 	$(PY) docs/assets_picture.py
+	$(PY) docs/textures_picture.py
 	$(PY) docs/styles_picture.py
 	$(PY) docs/roofs_picture.py
 

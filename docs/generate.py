@@ -24,6 +24,7 @@ from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
 from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
+from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
 from veduta.grammar.rules import style_names
 from veduta.run.options import declared_options, flag
 
@@ -114,6 +115,16 @@ def assets_table() -> str:
     return table(("name", "what it is", "x, y, z (m)", "parts", "triangles"), rows)
 
 
+def textures_table() -> str:
+    """What Veduta brings along for `texture`, with its size and mean colour."""
+    rows = []
+    for name, surface in SURFACES.items():
+        width, height = surface.size_m
+        mean = "#" + "".join(f"{round(255 * channel):02x}" for channel in surface.mean)
+        rows.append((f"`{PREFIX}{name}`", surface.told, f"{width:.2f} x {height:.2f}", mean))
+    return table(("name", "what it is", "width x height (m)", "mean"), rows)
+
+
 def attributes_table(style: str) -> str:
     """What a style takes, group by group."""
     return table(("attribute", "takes", "default", "what it is"), attribute_rows(style))
@@ -138,6 +149,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "sample": lambda: options_table(SampleCall),
         "tree": lambda: options_table(TreeCall),
     },
+    "textures.md": {"textures": textures_table},
     "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},
 }
 

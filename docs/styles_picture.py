@@ -78,7 +78,8 @@ def _buildings(style: str, scene: Scene) -> list[Part]:
     for number, width in enumerate(scene.widths_m):
         lot = _rectangle(left, 0.0, left + width, scene.depth_m, 0.0)
         columns = derive(rules, [lot], seed=scene.first_seed + number).columns()
-        parts.append(build_part(columns, f"lot-{number}", rules.library.assets_of(columns)))
+        assets = rules.library.assets_of(columns)
+        parts.append(build_part(columns, f"lot-{number}", assets, rules.textures))
         left += width + scene.gap_m
     return parts
 

@@ -8,6 +8,7 @@ import subprocess
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from sample_document import element, sample_document, sample_photo
 
@@ -95,6 +96,28 @@ def test_repeated_assets_are_valid(tmp_path: Path) -> None:
     part = read_glb(model)
     assert part.instances is not None
     assert len(part.instances) == int((part.features.class_code == SemanticClass.WINDOW.code).sum())
+
+
+def test_a_style_is_textured_and_valid(tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    lots = tmp_path / "lots.geojson"
+    square = [[0, 0], [14, 0], [14, 12], [0, 12], [0, 0]]
+    lots.write_text(json.dumps({"type": "Polygon", "coordinates": [square]}))
+    run_derive("haussmann", lots, out, GrammarOptions(), Progress(quiet=True), jobs=1)
+    (model,) = out.glob("parts/*/*.glb")
+    issues = validate_gltf(model)
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    part = read_glb(model)
+    assert not [note for note in part.notes if "texture" in note]
+    textured = np.array([material.texture is not None for material in part.materials])
+    shown = textured[part.polygon_material]
+    for semantic in (SemanticClass.WALL, SemanticClass.ROOF):
+        of_class = part.features.class_code[part.polygon_feature] == semantic.code
+        assert shown[of_class].mean() > 0.7
+    assert part.instances is not None
+    stones = [g for g in part.instances.groups if textured[list(g.materials)].any()]
+    assert stones
+    assert all(part.instances.meshes[group.mesh].uv is not None for group in stones)
 
 
 def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:

@@ -12,6 +12,7 @@ from veduta.grammar.deriving import attributes_of
 from veduta.grammar.lots import Lot, read_lots
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.rules import compile_rules, find_rules, read_rules, style_names
+from veduta.grammar.textures import Textures
 
 
 def rings_of(lot: Lot) -> list[list[tuple[float, float, float]]]:
@@ -31,7 +32,7 @@ def faults(style: str, lots: tuple[Lot, ...], level: float) -> dict[str, str]:
         (derived,) = rules.derive([rings_of(lot)], [1], attributes=[given | {"LOD": level}])
         if isinstance(derived, str):
             told[lot.name] = derived
-        elif notes := build_part(derived, "lot", library.assets_of(derived)).notes:
+        elif notes := build_part(derived, "lot", library.assets_of(derived), Textures({})).notes:
             told[lot.name] = notes[0]
     return told
 

@@ -9,6 +9,8 @@ use veduta_geometry::solid::Mesh;
 use veduta_grammar::shape::{Asset, Slot};
 
 pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
+/// The metres that textures of a known size cover to the right and up.
+pub type Textures = HashMap<Arc<str>, [f64; 2]>;
 /// The colour (sRGB) of each slot or None for that of the shape, and the colour where the shape has
 /// none.
 pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3])>;

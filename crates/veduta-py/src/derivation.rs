@@ -90,6 +90,7 @@ impl Derivation {
             attributes: values(attributes.unwrap_or_default()),
             overrides: overrides_of(edits.unwrap_or_default()),
             assets: rules.get().known_assets(),
+            textures: rules.get().known_textures(),
             neighbours: Vec::new(),
         };
         let with = rules.get();

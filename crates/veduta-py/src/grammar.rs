@@ -14,7 +14,7 @@ use veduta_grammar::engine::{
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
-use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset};
+use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset, Textures};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
@@ -34,6 +34,7 @@ pub struct GrammarRules {
     /// The files, as faults number them.
     sources: Vec<Source>,
     assets: RwLock<Arc<Assets>>,
+    textures: RwLock<Arc<Textures>>,
     styles: Vec<String>,
 }
 
@@ -110,6 +111,21 @@ impl GrammarRules {
         let asset = asset_of(name, &points, corners, offsets, &box_m, looks).ok_or_else(fault)?;
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
+        Ok(())
+    }
+
+    /// Makes textures known that cover so many metres to the right and up: they lie in metres where
+    /// no rule says how they lie, and a name of a built-in one that is not among them is a fault.
+    fn add_textures(&self, sizes_m: HashMap<String, [f64; 2]>) -> PyResult<()> {
+        let is_size = |size: &[f64; 2]| size.iter().all(|side| (1e-3..1e6).contains(side));
+        if let Some((name, _)) = sizes_m.iter().find(|(_, size)| !is_size(size)) {
+            let fault = format!("texture {name}: not from a millimetre to 1000 km");
+            return Err(PyValueError::new_err(fault));
+        }
+        let fault = |_| PyValueError::new_err("textures cannot be added now");
+        let mut known = self.textures.write().map_err(fault)?;
+        let sizes = sizes_m.into_iter();
+        Arc::make_mut(&mut known).extend(sizes.map(|(name, size)| (name.into(), size)));
         Ok(())
     }
 
@@ -201,6 +217,7 @@ fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
         code: lowered.code,
         sources: program.units.into_iter().map(|unit| unit.source).collect(),
         assets: RwLock::default(),
+        textures: RwLock::default(),
         styles,
     })
 }
@@ -240,7 +257,7 @@ impl GrammarRules {
         limits: Limits,
     ) -> Vec<Result<Derived, Failed>> {
         let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
-        let assets = self.known_assets();
+        let (assets, textures) = (self.known_assets(), self.known_textures());
         let each = lots.par_iter().zip(seeds).zip(given).zip(edits);
         each.map(|(((lot, &seed), attributes), edits)| {
             let options = Options {
@@ -248,6 +265,7 @@ impl GrammarRules {
                 limits,
                 attributes,
                 assets: assets.clone(),
+                textures: textures.clone(),
                 overrides: overrides_of(edits),
                 neighbours: Vec::new(),
             };
@@ -283,6 +301,13 @@ impl GrammarRules {
             Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
             None => GrammarFault::new_err(self.told(fault)),
         }
+    }
+
+    /// The textures of known sizes.
+    pub fn known_textures(&self) -> Arc<Textures> {
+        self.textures
+            .read()
+            .map_or_else(|_| Arc::default(), |known| known.clone())
     }
 
     /// The assets that are known by now.

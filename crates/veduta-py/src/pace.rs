@@ -17,11 +17,13 @@ pub fn pace(
     start: Option<&str>,
 ) -> PyResult<(usize, usize, f64)> {
     let (rule, assets) = (rules.start_rule(start)?, rules.known_assets());
+    let textures = rules.known_textures();
     let one = |(lot, &seed): (&Rings, &u64)| {
         let form = lot_form(lot).ok_or("the lot encloses nothing")?;
         let options = Options {
             seed,
             assets: assets.clone(),
+            textures: textures.clone(),
             ..Options::default()
         };
         let state = State::new(form, (seed & 0xffff_ffff) as u32);

@@ -1,7 +1,7 @@
 //! What a function takes and gives, as Python has it.
 
 use syn::punctuated::Punctuated;
-use syn::{Attribute, Expr, FnArg, Meta, Pat, ReturnType, Signature, Token, Type};
+use syn::{Attribute, Expr, FnArg, Lit, Meta, Pat, ReturnType, Signature, Token, Type};
 
 use crate::types::{text_of, Names, Way};
 
@@ -88,7 +88,7 @@ fn given_signature(attrs: &[Attribute]) -> Result<Option<Given>, Unwritten> {
                 } else {
                     let name: syn::Ident = within.parse()?;
                     let default = match within.parse::<Option<Token![=]>>()? {
-                        Some(_) => Some(text_of(within.parse::<Expr>()?)),
+                        Some(_) => Some(default_of(&within.parse::<Expr>()?)),
                         None => None,
                     };
                     all.push((name.to_string(), default));
@@ -104,6 +104,18 @@ fn given_signature(attrs: &[Attribute]) -> Result<Option<Given>, Unwritten> {
         }
     }
     Ok(None)
+}
+
+/// A default as Python writes it; `...` for what Python has no words for.
+fn default_of(value: &Expr) -> String {
+    match value {
+        Expr::Lit(literal) => match &literal.lit {
+            Lit::Bool(truth) => if truth.value { "True" } else { "False" }.into(),
+            _ => text_of(value),
+        },
+        Expr::Path(_) | Expr::Unary(_) => text_of(value),
+        _ => "...".into(),
+    }
 }
 
 /// The words in the brackets of an attribute: `frozen`, `get_all`, `name = "X"`.

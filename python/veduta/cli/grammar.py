@@ -63,6 +63,7 @@ def _check(arguments: list[str]) -> int:
     from veduta.cli.grammar_call import CheckCall
     from veduta.grammar.assets.library import Library
     from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
+    from veduta.grammar.textures import texture_faults
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
@@ -72,6 +73,7 @@ def _check(arguments: list[str]) -> int:
     faults: list[str] = []
     if not verdict.errors and not verdict.underived:
         faults = Library(rules.path.parent).faults(compile_rules(rules))
+        faults += texture_faults(text for _, text in rules.files)
         print("".join(f"error: {fault}\n" for fault in faults), end="")
     if verdict.underived:
         print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")

@@ -13,6 +13,7 @@ import io
 import json
 import math
 import struct
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +24,7 @@ from PIL import Image
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.formats.gltf_instances import add_instances
 from veduta.formats.gltf_read import read_glb
-from veduta.place.material import Material
+from veduta.place.material import Texture
 from veduta.place.part import Features, Part
 from veduta.run.atomic import write_bytes
 
@@ -118,15 +119,54 @@ class _Materials:
     def __init__(self, root: dict[str, Any], part: Part, binary: GltfBin) -> None:
         self._root, self._part, self._binary = root, part, binary
         self._number_of: dict[int, int] = {}
+        self._images: dict[Texture, tuple[int, int]] = {}
 
     def number(self, row: int) -> int:
         """The number in the file of a material of the part."""
         if row not in self._number_of:
-            material, wrap = self._part.materials[row], _wrap(self._part, row)
-            entry = _material(self._root, material, self._binary, wrap)
+            entry = self._entry(row)
             self._number_of[row] = len(self._number_of)
             self._root["materials"].append(entry)
         return self._number_of[row]
+
+    def _entry(self, row: int) -> dict[str, Any]:
+        material = self._part.materials[row]
+        shading: dict[str, Any] = {
+            "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
+            "metallicFactor": material.metalness,
+            "roughnessFactor": material.roughness,
+        }
+        entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
+        if material.texture is not None:
+            image, invented = self._pictures(material.texture)
+            shading["baseColorTexture"] = {"index": self._texture(image, _wrap(self._part, row))}
+            entry["extras"] = {"veduta": {"invented_mask": invented}}
+        return entry
+
+    def _pictures(self, texture: Texture) -> tuple[int, int]:
+        """The images of a texture and of its mask: once in the file, whatever colours it has."""
+        if texture not in self._images:
+            image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
+            invented = _image(self._root, _mask_png(texture), "image/png", self._binary)
+            self._images[texture] = (image, invented)
+        return self._images[texture]
+
+    def _texture(self, image: int, wrap: int) -> int:
+        """The number of the texture with this image and wrapping."""
+        samplers = self._root.setdefault("samplers", [])
+        sampler = {
+            "magFilter": _LINEAR,
+            "minFilter": _LINEAR_MIPMAP_LINEAR,
+            "wrapS": wrap,
+            "wrapT": wrap,
+        }
+        if sampler not in samplers:
+            samplers.append(sampler)
+        textures: list[dict[str, Any]] = self._root.setdefault("textures", [])
+        told = {"source": image, "sampler": samplers.index(sampler)}
+        if told not in textures:
+            textures.append(told)
+        return textures.index(told)
 
 
 def _primitives(part: Part, materials: _Materials, binary: GltfBin) -> list[dict[str, Any]]:
@@ -173,39 +213,17 @@ def _vertex_features(part: Part) -> NDArray[np.float32]:
 
 
 def _wrap(part: Part, row: int) -> int:
-    """A texture is repeated where surfaces of its material ask for more than it has."""
+    """A texture is repeated where surfaces of its material ask for more than it has.
+
+    What stands many times has coordinates in repeats.
+    """
+    groups = part.instances.groups if part.instances is not None else ()
+    if any(row in group.materials for group in groups):
+        return _REPEAT
     corners = np.repeat(part.polygon_material, np.diff(part.ring_offsets[part.polygon_offsets]))
     uv = part.uv[corners == row]
     beside = (uv < -_BESIDE_UV) | (uv > 1.0 + _BESIDE_UV)
     return _REPEAT if beside.any() else _CLAMP
-
-
-def _material(
-    root: dict[str, Any], material: Material, binary: GltfBin, wrap: int
-) -> dict[str, Any]:
-    shading: dict[str, Any] = {
-        "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
-        "metallicFactor": material.metalness,
-        "roughnessFactor": material.roughness,
-    }
-    entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
-    if material.texture is not None:
-        image = _image(root, _encoded(material.texture.pixels, "JPEG"), "image/jpeg", binary)
-        mask = material.texture.invented.astype(np.uint8) * 255
-        invented = _image(root, _encoded(mask, "PNG"), "image/png", binary)
-        root.setdefault("samplers", []).append(
-            {
-                "magFilter": _LINEAR,
-                "minFilter": _LINEAR_MIPMAP_LINEAR,
-                "wrapS": wrap,
-                "wrapT": wrap,
-            }
-        )
-        textures = root.setdefault("textures", [])
-        textures.append({"source": image, "sampler": len(root["samplers"]) - 1})
-        shading["baseColorTexture"] = {"index": len(textures) - 1}
-        entry["extras"] = {"veduta": {"invented_mask": invented}}
-    return entry
 
 
 def _linear(srgb: float) -> float:
@@ -220,11 +238,17 @@ def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int
     return len(images) - 1
 
 
-def _encoded(pixels: NDArray[np.uint8], form: str) -> bytes:
+@lru_cache(maxsize=32)
+def _jpeg(texture: Texture) -> bytes:
+    """Encoded once for all models of a process."""
     memory = io.BytesIO()
-    image = Image.fromarray(pixels)
-    if form == "JPEG":
-        image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    else:
-        image.convert("1").save(memory, "PNG")
+    image = Image.fromarray(texture.pixels)
+    image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
+    return memory.getvalue()
+
+
+@lru_cache(maxsize=32)
+def _mask_png(texture: Texture) -> bytes:
+    memory = io.BytesIO()
+    Image.fromarray(texture.invented.astype(np.uint8) * 255).convert("1").save(memory, "PNG")
     return memory.getvalue()

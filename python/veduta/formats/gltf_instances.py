@@ -51,6 +51,8 @@ def _vertices(mesh: SharedMesh, binary: GltfBin) -> tuple[dict[str, int], list[i
         "POSITION": binary.add_array(y_up(mesh.positions_m), "VEC3", bounds=True),
         "NORMAL": binary.add_array(y_up(mesh.normals), "VEC3"),
     }
+    if mesh.uv is not None:
+        attributes["TEXCOORD_0"] = binary.add_array(mesh.uv, "VEC2")
     of_slot = [mesh.indices[mesh.slot == slot].reshape(-1) for slot in range(len(mesh.slots))]
     return attributes, [
         binary.add_array(corners, "SCALAR") if len(corners) else None for corners in of_slot

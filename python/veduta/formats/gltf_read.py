@@ -168,6 +168,7 @@ def _shared_mesh(glb: _Glb, mesh: dict[str, Any]) -> SharedMesh:
         indices=np.concatenate(corners),
         slot=np.repeat(np.arange(len(corners)), [len(own) for own in corners]).astype(np.int32),
         slots=tuple(slots),
+        uv=glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else None,
     )
 
 

@@ -76,7 +76,7 @@ def _part(
     of_polygon = derived.polygon_feature[kept]
     used = np.unique(np.concatenate([of_polygon, derived.instance_feature]))
     number_of, material_of_look = _materials(derived.looks, textures)
-    instances = instances_of(derived, used, assets, number_of)
+    instances = instances_of(derived, used, assets, number_of, textures)
     with np.errstate(over="ignore"):  # what is too far away is found not to be finite
         positions = derived.positions_m[vertices].astype(np.float32)
     return Part(

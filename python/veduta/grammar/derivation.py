@@ -26,6 +26,7 @@ from veduta.grammar.assets.library import Library
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.outline import Attribute
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.textures import Textures, find_textures, read_textures
 from veduta.run.errors import InputError, VedutaError
 
 T = TypeVar("T")
@@ -44,6 +45,7 @@ class Rules:
     path: Path
     core: _core.GrammarRules
     library: Library
+    textures: Textures
 
     def with_assets(self, make: Callable[[], T]) -> T:
         """What `make` gives, again where an asset is wanted whose name only the derivation shows.
@@ -309,7 +311,8 @@ def parse(rules: str | Path, *, style: str | None = None) -> Rules:
     files = read_rules(find_rules(str(rules)))
     core, library = compile_rules(files, style), Library(files.path.parent)
     library.add_written_to(core)
-    return Rules(files.path, core, library)
+    textures = read_textures(find_textures(files.path, [text for _, text in files.files]))
+    return Rules(files.path, core, library, textures)
 
 
 def derive(

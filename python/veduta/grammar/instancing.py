@@ -9,8 +9,9 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.grammar.assets.asset import Asset, Slot
+from veduta.grammar.surfaces.catalogue import PREFIX
 from veduta.place.instances import InstanceGroup, Instances
-from veduta.place.material import Colour, Material
+from veduta.place.material import Colour, Material, Texture
 
 WHITE: Colour = (1.0, 1.0, 1.0)
 """The colour of a shape that none was given to."""
@@ -21,11 +22,13 @@ def instances_of(
     used: NDArray[np.int32],
     assets: Mapping[str, Asset],
     number_of: dict[Material, int],
+    textures: Mapping[str, Texture],
 ) -> Instances | None:
     """The instances; None without any.
 
     used: (f,) the surfaces that are rows of the feature table, in order. number_of: the part's
-    materials with their numbers; those of the assets are added.
+    materials with their numbers; those of the assets are added. textures: by the names of rule
+    files; a built-in one that is not among them is left out.
     """
     if len(derived.instance_feature) == 0:
         return None
@@ -35,7 +38,7 @@ def instances_of(
     groups: dict[tuple[int, tuple[int, ...]], list[NDArray[np.intp]]] = {}
     for number, (mesh, look) in enumerate(pairs.tolist()):
         colour = derived.looks[look][:3]
-        materials = [_material(slot, colour) for slot in meshes[mesh].slots]
+        materials = [_material(slot, colour, textures) for slot in meshes[mesh].slots]
         rows = tuple(number_of.setdefault(found, len(number_of)) for found in materials)
         groups.setdefault((mesh, rows), []).append(np.flatnonzero(pair_of.reshape(-1) == number))
     feature = np.searchsorted(used, derived.instance_feature).astype(np.int32)
@@ -51,8 +54,9 @@ def instances_of(
     )
 
 
-def _material(slot: Slot, shape: Colour) -> Material:
+def _material(slot: Slot, shape: Colour, textures: Mapping[str, Texture]) -> Material:
     """A slot without a colour of its own takes that of the shape, where it has one."""
     colour = slot.colour or (slot.fallback if shape == WHITE else shape)
     red, green, blue = (round(channel, 4) for channel in colour)
-    return Material(slot.name, (red, green, blue), slot.roughness, slot.metalness)
+    texture = None if slot.texture is None else textures.get(f"{PREFIX}{slot.texture}")
+    return Material(slot.name, (red, green, blue), slot.roughness, slot.metalness, texture)

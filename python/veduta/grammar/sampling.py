@@ -54,7 +54,8 @@ def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) ->
         made = derive_lot(rules, lot, options, seed)
         try:
             columns = made.columns()
-            part = build_part(columns, lot.id, rules.library.assets_of(columns))
+            assets = rules.library.assets_of(columns)
+            part = build_part(columns, lot.id, assets, rules.textures)
         except NothingBuiltError as fault:
             raise InputError(
                 f"seed {seed}", f"makes no building: {fault}", "Mend the rules."

@@ -1,42 +1,102 @@
 """The pictures that rule files name in `texture`: where they are, and what is in them.
 
-They are looked for below the folder of the rule file, and nowhere else. A picture may have a mask
-beside it, `NAME.invented.png`, in which white says what nobody has photographed.
+A name that begins with `builtin/textures/` is a texture that Veduta brings along (`surfaces`).
+Others are files, looked for below the folder of the rule file, and nowhere else. A file may have a
+mask beside it, `NAME.invented.png`, in which white says what nobody has photographed.
 """
 
 from __future__ import annotations
 
+import io
 import os
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
+from PIL import Image
 from pydantic import JsonValue
 
+from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.imaging.read import read_image
-from veduta.place.material import Texture
+from veduta.place.material import Colour, Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 
 MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
 """Of one picture: 67 megapixels."""
-_NAMED = re.compile(r'"([^"\n\0]{1,400}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE)
+JPEG_QUALITY = 85
+_NAMED = re.compile(
+    rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+)
+_SHOWN_AS_THEY_ARE = (".jpg", ".jpeg", ".png")
+"""Files of these kinds can stand in a glTF model as they are."""
+
+
+class Textures(Mapping[str, Texture]):
+    """The pictures by the names that rules have for them, read or painted when they are asked for.
+
+    All built-in ones are among them, whether rules write their names or compute them. Asking raises
+    InputError where a file cannot be read.
+    """
+
+    def __init__(self, files: Mapping[str, str]) -> None:
+        self._files = files
+
+    def __getitem__(self, name: str) -> Texture:
+        path = name if is_known(name) else self._files[name]
+        return _painted(path) if is_builtin(path) else _read(path, *_changed(path))
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._files or (isinstance(name, str) and is_known(name))
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._files)
+
+    def __len__(self) -> int:
+        return len(self._files)
+
+
+def is_builtin(name: str) -> bool:
+    """Whether a texture is one that Veduta brings along."""
+    return name.startswith(PREFIX)
+
+
+def is_known(name: str) -> bool:
+    """Whether there is a built-in texture of this name."""
+    return name in sizes_m()
 
 
 def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
-    """The files of the pictures that the texts name, by those names; what is not there is not."""
+    """The pictures that the texts name, by those names: files, or the names of built-in ones.
+
+    A file that is not there is not among them; InputError for a built-in one that is not there.
+    """
     folder = os.path.realpath(rules.parent)
     found: dict[str, str] = {}
     for name in dict.fromkeys(name for text in texts for name in _NAMED.findall(text)):
         path = os.path.realpath(os.path.join(folder, name))
-        if os.path.isfile(path) and os.path.commonpath([folder, path]) == folder:
+        if is_builtin(name):
+            mean_colour(name)
+            found[name] = name
+        elif os.path.isfile(path) and os.path.commonpath([folder, path]) == folder:
             found[name] = path
         if len(found) > MAX_TEXTURES:
             raise InputError(rules, f"names more than {MAX_TEXTURES} pictures", "Use fewer.")
     return found
+
+
+def texture_faults(texts: Iterable[str]) -> list[str]:
+    """What is wrong with the built-in textures that the texts name."""
+    told = []
+    for name in dict.fromkeys(name for text in texts for name in _NAMED.findall(text)):
+        try:
+            _ = is_builtin(name) and mean_colour(name)
+        except InputError as error:
+            told.append(str(error))
+    return told
 
 
 def mask_name(name: str) -> str:
@@ -48,14 +108,51 @@ def textures_digests(files: Mapping[str, str]) -> dict[str, JsonValue]:
     """What the pictures and their masks are: a result of others is not taken for theirs."""
     told: dict[str, JsonValue] = {}
     for name, path in files.items():
+        if is_builtin(path):
+            told[name] = [sources_digest()]
+            continue
         mask = Path(path).with_name(mask_name(path))
         told[name] = [file_digest(each) for each in (Path(path), mask) if each.is_file()]
     return told
 
 
-def read_textures(files: Mapping[str, str]) -> dict[str, Texture]:
-    """The pictures by the names that rules have for them; InputError where one cannot be read."""
-    return {name: _read(path, *_changed(path)) for name, path in files.items()}
+def read_textures(files: Mapping[str, str]) -> Textures:
+    """The pictures of `find_textures`; InputError where a file cannot be read."""
+    textures = Textures(files)
+    for name, path in files.items():
+        if not is_builtin(path):
+            _ = textures[name]
+    return textures
+
+
+def encoded(path: str) -> tuple[bytes, str]:
+    """The content of a picture of `find_textures` as a file, and the file's suffix: .jpg or .png.
+
+    InputError where it cannot be read.
+    """
+    if not is_builtin(path) and path.lower().endswith(_SHOWN_AS_THEY_ARE):
+        _ = _read(path, *_changed(path))
+        suffix = PurePosixPath(path).suffix.lower()
+        return Path(path).read_bytes(), ".png" if suffix == ".png" else ".jpg"
+    texture = Textures({path: path})[path]
+    memory = io.BytesIO()
+    Image.fromarray(texture.pixels).save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
+    return memory.getvalue(), ".jpg"
+
+
+def mean_of(path: str) -> Colour:
+    """The mean colour (sRGB, 0..1) of a picture of `find_textures`: what it is from afar."""
+    if is_builtin(path):
+        return mean_colour(path)
+    red, green, blue = (_read(path, *_changed(path)).pixels.mean(axis=(0, 1)) / 255.0).tolist()
+    return red, green, blue
+
+
+@lru_cache(maxsize=64)
+def _painted(name: str) -> Texture:
+    """Painted once in each process; nobody has photographed it."""
+    pixels = painted(name)
+    return Texture(pixels=pixels, invented=np.ones(pixels.shape[:2], dtype=np.bool_))
 
 
 def _changed(path: str) -> tuple[int, int]:

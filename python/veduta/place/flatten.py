@@ -39,7 +39,7 @@ def flattened(part: Part) -> Part:
     return replace(
         part,
         positions_m=positions,
-        uv=np.concatenate([part.uv, np.zeros((added, 2), dtype=np.float32)]),
+        uv=np.concatenate([part.uv, *(group[3] for group in groups)]),
         ring_offsets=np.concatenate([part.ring_offsets, rings]),
         polygon_offsets=np.concatenate([part.polygon_offsets, polygons]),
         polygon_feature=np.concatenate([part.polygon_feature, *(group[1] for group in groups)]),
@@ -50,11 +50,18 @@ def flattened(part: Part) -> Part:
 
 def _triangles(
     instances: Instances, group: InstanceGroup
-) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.int32]]:
-    """Corners, and feature and material of each triangle, of all instances of a group."""
+) -> tuple[NDArray[np.float32], NDArray[np.int32], NDArray[np.int32], NDArray[np.float32]]:
+    """Corners, feature and material of each triangle, texture coordinates; of a whole group."""
     mesh = instances.meshes[group.mesh]
     points = placed(group.part_from_mesh, mesh.positions_m.astype(np.float64))
     corners = points[:, mesh.indices.reshape(-1)].reshape(-1, 3).astype(np.float32)
     each = len(mesh.indices)
+    uv = np.zeros((len(mesh.positions_m), 2), np.float32) if mesh.uv is None else mesh.uv
     material = np.array(group.materials, dtype=np.int32)[mesh.slot]
-    return corners, np.repeat(group.feature, each), np.tile(material, len(group.feature))
+    count = len(group.feature)
+    return (
+        corners,
+        np.repeat(group.feature, each),
+        np.tile(material, count),
+        np.tile(uv[mesh.indices.reshape(-1)], (count, 1)),
+    )

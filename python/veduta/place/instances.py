@@ -18,7 +18,7 @@ class SharedMesh:
 
     positions_m, normals: (v, 3) float32. indices: (m, 3) uint32, counter-clockwise seen from
     outside. slot: (m,) int32, which of `slots` a triangle is of; what a slot looks like is said
-    where the mesh stands.
+    where the mesh stands. uv: (v, 2) float32, glTF's; None where no slot ever has a texture.
     """
 
     name: str
@@ -27,6 +27,7 @@ class SharedMesh:
     indices: NDArray[np.uint32]
     slot: NDArray[np.int32]
     slots: tuple[str, ...]
+    uv: NDArray[np.float32] | None = None
 
 
 @dataclass(frozen=True)

@@ -15,6 +15,7 @@ mod frame;
 mod functions;
 mod globals;
 mod instances;
+mod laid;
 mod limits;
 mod lists;
 mod lot;

@@ -8,8 +8,9 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::{cube, Mesh};
 
+use super::laid::{laid, normal};
 use super::state::Look;
-use super::texture_map::axes_of;
+use super::texture_map::{axes_of, TextureMap};
 use super::tree::{Node, Tree};
 use crate::shape::{over, Asset, Geometry, Instance, Scope};
 
@@ -119,9 +120,11 @@ impl Packer {
             Geometry::Rectangle(axis) => {
                 let corners = crate::shape::rectangle(*axis);
                 let (u, v) = axes_of(form);
-                for corner in corners {
-                    let place = form.scope.world(corner);
-                    self.vertex(place, texture(node, place, [corner[u], corner[v]]));
+                let places = corners.map(|corner| form.scope.world(corner));
+                let map = map_on(node, || normal(&places));
+                for (corner, place) in corners.into_iter().zip(places) {
+                    let own = [corner[u], corner[v]];
+                    self.vertex(place, map.map_or(own, |map| map.at(place)));
                 }
                 self.end_ring();
                 self.end_polygon(feature);
@@ -147,11 +150,17 @@ impl Packer {
         let scope = &node.state.form.scope;
         let (u, v) = axes_of(&node.state.form);
         for face in mesh.faces() {
+            let map = map_on(node, || {
+                let outline = face.rings().next().into_iter().flatten();
+                let places = outline.map(|&point| scope.world(mesh.points[point as usize]));
+                normal(&places.collect::<Vec<DVec3>>())
+            });
             for ring in face.rings() {
                 for &point in ring {
                     let unit = mesh.points[point as usize];
                     let place = scope.world(unit);
-                    self.vertex(place, texture(node, place, [unit[u], unit[v]]));
+                    let own = [unit[u], unit[v]];
+                    self.vertex(place, map.map_or(own, |map| map.at(place)));
                 }
                 self.end_ring();
             }
@@ -204,10 +213,12 @@ impl Packer {
     }
 }
 
-/// The texture coordinates at a place of a shape: of its map, or else `own`.
-fn texture(node: &Node, place: DVec3, own: [f64; 2]) -> [f64; 2] {
-    let map = node.state.extra.as_ref().and_then(|extra| extra.maps[0]);
-    map.map_or(own, |map| map.at(place))
+/// Where the texture lies on a face with this normal: as the rules say, or in metres where its size
+/// is known; None where it covers the scope.
+fn map_on(node: &Node, normal: impl FnOnce() -> DVec3) -> Option<TextureMap> {
+    let told = node.state.extra.as_ref().and_then(|extra| extra.maps[0]);
+    let by_size = || node.state.look.tile.map(|size| laid(normal(), size));
+    told.or_else(by_size)
 }
 
 /// From an asset's frame to that of places, by rows; None where its box is flat and the asset is not.

@@ -35,6 +35,9 @@ pub struct Options {
     pub overrides: Overrides,
     /// What `i` may insert, by name.
     pub assets: Arc<HashMap<Arc<str>, Arc<Asset>>>,
+    /// Textures of known sizes by name: metres to the right and up, all above 0. They lie in
+    /// metres where no rule says how they lie.
+    pub textures: Arc<HashMap<Arc<str>, [f64; 2]>>,
     /// What stands around the start shape: what [`occluders`] gives for each of its neighbours.
     pub neighbours: Vec<Arc<Vec<Occluder>>>,
 }

@@ -21,6 +21,8 @@ pub struct Look {
     pub colour: [f32; 3],
     pub opacity: f32,
     pub texture: Option<Arc<str>>,
+    /// Metres that the texture covers to the right and up, where it is one of a known size.
+    pub tile: Option<[f64; 2]>,
     /// What a surface is in the model: `wall`, `window`, `door`, `roof`, ...; empty where the
     /// rules do not say it.
     pub class: Arc<str>,
@@ -32,6 +34,7 @@ impl Default for Look {
             colour: [1.0; 3],
             opacity: 1.0,
             texture: None,
+            tile: None,
             class: "".into(),
         }
     }

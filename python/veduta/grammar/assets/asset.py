@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.grammar.surfaces.catalogue import PREFIX, sizes_m
 from veduta.place.instances import SharedMesh
 from veduta.place.material import Colour
 
@@ -27,7 +28,8 @@ class Slot:
     """A semantic part of an asset (frame, pane, iron) and its look.
 
     colour: sRGB, 0..1; None for that of the shape that the asset is put into. fallback: the colour
-    where a shape has none of its own (white).
+    where a shape has none of its own (white). texture: a built-in one, by its plain name; it
+    multiplies with the colour.
     """
 
     name: str
@@ -35,6 +37,7 @@ class Slot:
     roughness: float = 0.9
     metalness: float = 0.0
     fallback: Colour = (1.0, 1.0, 1.0)
+    texture: str | None = None
 
 
 @dataclass(frozen=True)
@@ -79,8 +82,14 @@ class Asset:
         indices, face, normal = self.triangles
         used = np.unique(indices)
         shading = corner_normals(self.corners, self.offsets, normal)
+        side, uv = boxed(self, normal)
         key = np.concatenate(
-            [self.corners[used, None], np.round(shading[used] * 1000.0).astype(np.int64)], axis=1
+            [
+                self.corners[used, None],
+                np.round(shading[used] * 1000.0).astype(np.int64),
+                side[used, None],
+            ],
+            axis=1,
         )
         _, first, vertex = np.unique(key, axis=0, return_index=True, return_inverse=True)
         vertex_of = np.zeros(len(self.corners), dtype=np.uint32)
@@ -95,7 +104,33 @@ class Asset:
             indices=vertex_of[indices[order]],
             slot=slot[order],
             slots=tuple(slot.name for slot in self.slots),
+            uv=uv[chosen] if side.any() else None,
         )
+
+
+def boxed(
+    asset: Asset, normal: NDArray[np.float64]
+) -> tuple[NDArray[np.int64], NDArray[np.float32]]:
+    """Where textures lie on an asset: in metres, from the side of a box that a face looks to most.
+
+    normal: (f, 3) of the faces. (c,) a number for each slot and side, 0 where there is no texture;
+    (c, 2) texture coordinates from the upper left.
+    """
+    sizes = sizes_m()
+    size = np.array([sizes.get(f"{PREFIX}{slot.texture}", (0.0, 0.0)) for slot in asset.slots])
+    face = np.repeat(np.arange(len(asset.offsets) - 1), np.diff(asset.offsets))
+    axis = np.abs(normal).argmax(axis=1)
+    sign = np.where(np.take_along_axis(normal, axis[:, None], axis=1)[:, 0] < 0.0, -1.0, 1.0)
+    x, y, z = asset.points_m[asset.corners].T
+    to_right = np.choose(axis[face], [-z * sign[face], x, x * sign[face]])
+    upward = np.choose(axis[face], [y, -z * sign[face], y])
+    own = size[asset.face_slot[face]]
+    is_textured = own[:, 0] > 0.0
+    metres = np.stack([to_right, upward], axis=1)
+    shares = np.divide(metres, own, out=np.zeros_like(metres), where=is_textured[:, None])
+    shares[:, 1] = 1.0 - shares[:, 1]
+    number = 1 + 6 * asset.face_slot[face] + 2 * axis[face] + (sign[face] > 0.0)
+    return np.where(is_textured, number, 0), shares.astype(np.float32)
 
 
 def corner_normals(

@@ -12,6 +12,7 @@ from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
+from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
 from veduta.run.errors import InputError
 
 MOST_FILES, MOST_FOLDERS = 2_000, 10_000
@@ -40,7 +41,11 @@ class Library:
         rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
-        """Hand over the assets whose names stand in the rules; InputError where one is none."""
+        """Hand over the assets whose names stand in the rules; InputError where one is none.
+
+        And the sizes of the built-in textures, which lie in metres.
+        """
+        rules.add_textures(sizes_m())
         for name in rules.asset_names[0]:
             self.add_to(rules, name)
 
@@ -51,7 +56,7 @@ class Library:
     def digest(self, rules: _core.GrammarRules) -> str:
         """The digest of all assets that the rules may name; InputError where one is none."""
         written, computed = rules.asset_names
-        total = hashlib.sha256()
+        total = hashlib.sha256(sources_digest().encode())
         for name in written:
             asset = self[name]
             total.update(f"{name} {asset.slots}".encode())

@@ -11,6 +11,10 @@ use super::super::run::Run;
 use super::super::state::Look;
 use super::super::value::Value;
 use super::{number, word};
+use crate::suggest::{closest, did_you_mean};
+
+/// What names of built-in textures begin with.
+const BUILT_IN: &str = "builtin/textures/";
 
 /// `NIL`: the shape is gone.
 pub fn nothing(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -55,10 +59,26 @@ pub fn colour(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 /// `texture(path)`; the empty string takes it away.
 pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let path = word(run, op, 0, frame)?;
+    let tile = tile_of(run, op, &path)?;
     let look = Arc::make_mut(&mut frame.state.look);
     look.texture = (!path.is_empty()).then_some(path);
+    look.tile = tile;
     frame.changed();
     Ok(())
+}
+
+/// The size of a texture, where it is known; a fault where a built-in one is named that is not
+/// there.
+fn tile_of(run: &Run<'_>, op: &Operation, path: &str) -> Result<Option<[f64; 2]>, Fault> {
+    let known = &run.options.textures;
+    let found = known.get(path).copied();
+    if found.is_some() || known.is_empty() || !path.starts_with(BUILT_IN) {
+        return Ok(found);
+    }
+    let near = closest(path, known.keys().map(AsRef::as_ref));
+    let hint = did_you_mean(near).map_or_else(String::new, |hint| format!(": {hint}"));
+    let message = format!("`{path}` is no texture that is built in{hint}");
+    Err(Fault::at(op.span, message))
 }
 
 /// `resetMaterial()`, `resetMaterial(shape | geometry | all)`: white and opaque without a texture,
@@ -113,6 +133,7 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         ("material.color.a" | "material.opacity", _) => look.opacity = channel,
         ("material.colormap", _) => {
             let path = value.to_string();
+            look.tile = tile_of(run, op, &path)?;
             look.texture = (!path.is_empty()).then(|| path.into());
         }
         ("trim.horizontal", _) => {
