@@ -46,12 +46,12 @@ class Scene:
 SCENES = {
     "haussmann": Scene((17, 13, 15, 14), 13, (0, -27, 5), (21, 0, 10.5)),
     "louis-xiii": Scene((16, 13, 16), 13, (1, -26, 4), (18, 0, 8.5)),
-    "louis-xiv": Scene((25, 15, 15), 14, (2, -27, 4), (20, 0, 8.5)),
+    "louis-xiv": Scene((25, 15, 15), 14, (0, -26, 3.5), (19, 0, 8.8)),
     "restauration": Scene((13, 16, 15), 12, (0, -25, 4), (18, 0, 8.5)),
     "victorian": Scene((12, 18, 12), 10, (-1, -16, 3), (13, 0, 5), first_seed=5),
-    "gothic-revival": Scene((24, 16), 15, (0, -21, 3), (15, 0, 7.2), gap_m=7),
-    "modern-slab": Scene((42, 24), 12, (-8, -40, 8), (23, 0, 12.5), gap_m=10),
-    "suburban-house": Scene((20, 21, 20), 27, (4, -11, 4.5), (20, 8, 2.2)),
+    "gothic-revival": Scene((25, 17, 20), 15, (-7, -25, 2.5), (18, 0, 8.6), gap_m=6, first_seed=9),
+    "modern-slab": Scene((42, 26, 30), 12, (-12, -40, 5), (25, 0, 12.5), gap_m=10, first_seed=3),
+    "suburban-house": Scene((20, 21, 20), 27, (2, -12, 3.5), (20, 8, 2.6), first_seed=4),
 }
 
 

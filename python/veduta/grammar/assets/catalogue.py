@@ -11,7 +11,7 @@ import re
 from collections.abc import Callable
 from dataclasses import replace
 
-from veduta.grammar.assets import doors, railings, roofs, stonework, windows
+from veduta.grammar.assets import doors, hoods, railings, roofs, stonework, windows
 from veduta.grammar.assets.asset import Asset
 
 PREFIX = "builtin/"
@@ -47,6 +47,7 @@ MAKERS: dict[str, Maker] = {
     "quoin": stonework.quoin,
     "keystone": stonework.keystone,
     "window-hood": stonework.hood,
+    "window-hood-round": hoods.segmental,
     "dormer-pediment": roofs.pediment,
     "dormer-arched": roofs.arched,
     "dormer-shed": roofs.shed,
