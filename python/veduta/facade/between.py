@@ -1,8 +1,9 @@
 """What lies between windows that stand one above another: wall, or more window.
 
-A storey ends in a slab, and a slab is not of glass: between the windows of one column there is wall,
-or a ledge. Where floors were fitted to something else (the panes of one large window, the arch of a
-gateway, courses of stone), what lies between two "windows" looks as unlike the wall as they do.
+A storey ends in a slab, and a slab is not of glass: between the windows of one column there is
+wall, or a ledge. Where floors were fitted to something else (the panes of one large window, the
+arch of a gateway, courses of stone), what lies between two "windows" looks as unlike the wall as
+they do.
 """
 
 from __future__ import annotations
@@ -19,9 +20,9 @@ from veduta.facade.floors import Floors
 
 # Least part of the narrower of two windows that the other covers for them to be of one column.
 _SHARED = 0.5
-# Colour distance from the wall of what is between, as a part of that of the windows, up to which it
-# is wall. Of 463 windows of 20 facades of Paris 81 % are right, of 530 of other places 50 %; of those
-# above this 45 % and 17 %.
+# Colour distance from the wall of what is between, as a part of that of the windows, up to which
+# it is wall. Of 463 windows of 20 facades of Paris 81 % are right, of 530 of other places 50 %; of
+# those above this 45 % and 17 %.
 _LIKE_WALL = 0.8
 # Energy per row of floors so alike that nothing else needs to confirm them (close views of parts of
 # facades: at least -0.33).

@@ -21,9 +21,7 @@ class ViewOptions(Options):
     port: Annotated[int, Field(ge=0, le=65535)] = Field(
         default=0, description="port to listen on; 0 takes a free one"
     )
-    browser: bool = Field(
-        default=True, description="open the page; --no-browser only prints its address"
-    )
+    no_browser: bool = Field(default=False, description="print the address, open no browser")
 
 
 class ExportOptions(Options):

@@ -39,7 +39,7 @@ def serve(options: ViewOptions, announce: Callable[[Address], None]) -> None:
     with _listening_socket(options.host, options.port) as listener:
         address = _address(options.host, listener.getsockname()[1], token)
         announce(address)
-        if options.browser:
+        if not options.no_browser:
             _open_browser(address.url)
         config = uvicorn.Config(
             make_app(static, place, token),

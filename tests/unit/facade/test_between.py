@@ -9,7 +9,6 @@ from veduta.facade.appearance import Wall
 from veduta.facade.between import Between, are_floors, doubt_unparted, look_between
 from veduta.facade.boxes import Box
 from veduta.facade.floors import Floors
-from veduta.facade.plausible import HARDLY_ALIKE, NOT_PARTED, storey_doubts
 
 FLOORS = Floors([20, 60, 100, 140], 40.0, -0.3, {}, 100)
 WIDTH = 120
@@ -45,7 +44,6 @@ def test_wall_between_windows(between: float, parted: bool, railing: int) -> Non
     assert all(p.upper.column == p.lower.column for p in pairs)
     assert [p.unlike for p in pairs] == pytest.approx([between / 40] * 4)
     assert are_floors(pairs, FLOORS) == parted
-    assert (NOT_PARTED in storey_doubts(FLOORS, pairs)) != parted
     doubted = doubt_unparted(boxes, pairs, FLOORS)
     if parted:
         assert doubted == boxes
@@ -58,7 +56,6 @@ def test_floors_that_are_very_alike_are_floors_whatever_is_between() -> None:
     pairs = look_between(windows(), wall(windows(), 40.0), alike)
     assert not are_floors(pairs, FLOORS)
     assert are_floors(pairs, alike)
-    assert storey_doubts(alike, pairs) == []
     # The windows still are no better parted for that.
     doubted = doubt_unparted([pair.upper for pair in pairs], pairs, alike)
     assert all(box.score < 0.5 for box in doubted)
@@ -87,6 +84,3 @@ def test_a_single_row_of_windows_is_not_doubted_for_this() -> None:
     assert pairs == []
     assert are_floors(pairs, FLOORS)
     assert doubt_unparted(boxes, pairs, FLOORS) == boxes
-    assert storey_doubts(FLOORS, pairs) == []
-    unlike = Floors(FLOORS.boundaries, 40.0, -0.1, {}, 100)
-    assert storey_doubts(unlike, pairs) == [HARDLY_ALIKE]
