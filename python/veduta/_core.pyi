@@ -84,6 +84,8 @@ class Derivation:
             ]
         ]
         | None = None,
+        around: Surroundings | None = None,
+        beside: Sequence[tuple[int, tuple[float, float, float]]] | None = None,
         seconds: float = 60.0,
         shapes: int = 5_000_000,
     ) -> Derivation: ...
@@ -264,10 +266,14 @@ def derive_lots(
             ]
         ]
     ],
+    around: Surroundings | None = None,
+    beside: Sequence[Sequence[tuple[int, tuple[float, float, float]]]] | None = None,
     seconds: float = 60.0,
     shapes: int = 5_000_000,
 ) -> DerivedLots:
-    """Derives lots as `GrammarRules.derive` does."""
+    """Derives lots as `GrammarRules.derive` does. `beside`: per lot, which lots of `around` stand beside
+    it, and how far their frames lie from its own (m, z up).
+    """
 
 # grammar.rs
 class GrammarFault(ValueError): ...
@@ -289,6 +295,9 @@ class GrammarRules:
     @property
     def attributes(self) -> list[tuple[str, str]]:
         """The attributes, with what each is where its value says so: `number`, `text`, `bool`, or ""."""
+    @property
+    def asks_beside(self) -> bool:
+        """Whether they ask about shapes of other lots."""
     @property
     def asset_names(self) -> tuple[list[str], bool]:
         """The names of assets that stand in the rules, and whether there are others that are computed."""
@@ -424,6 +433,38 @@ def grammar_format(name: str, text: str) -> str:
 
 def grammar_operations() -> list[str]:
     """The names of the operations that derive."""
+
+# surroundings.rs
+class Surroundings:
+    """The shapes that lots put in the way of others: those that the first of the two passes makes."""
+    def __len__(self) -> int: ...
+    def missing_asset(self, lot: int) -> str | None:
+        """The asset that a lot's rules want and that is not known; None where nothing is wanted."""
+
+def derive_surroundings(
+    rules: GrammarRules,
+    lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+    seeds: Sequence[int],
+    *,
+    start: str | None = None,
+    attributes: Sequence[dict[str, bool | float | str]],
+    edits: Sequence[
+        Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+    ],
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> Surroundings:
+    """Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
+    nothing there.
+    """
 
 # tiles.rs
 class TileBuffers:

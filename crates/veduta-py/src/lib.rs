@@ -17,6 +17,7 @@ mod polygons;
 mod roofs;
 mod rules;
 mod standing;
+mod surroundings;
 mod tile_buffers;
 mod tiles;
 
@@ -29,6 +30,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     roofs::register(m)?;
     rules::register(m)?;
     derived_lots::register(m)?;
+    surroundings::register(m)?;
     tile_buffers::register(m)?;
     polygons::register(m)
 }

@@ -38,11 +38,16 @@ NOTHING = "the rules leave nothing on it"
 
 @dataclass(frozen=True)
 class Block:
-    """Lots whose files go to one folder; `name` is its path in OUT. origin_m: of its tiles."""
+    """Lots whose files go to one folder; `name` is its path in OUT. origin_m: of its tiles.
+
+    beside: the lots that stand beside each, by its id, also those of other blocks, where the rules
+    ask about them.
+    """
 
     name: str
     lots: tuple[Lot, ...]
     origin_m: tuple[float, float, float]
+    beside: Mapping[str, tuple[Lot, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -103,7 +108,7 @@ class BlockResult:
 
 def run_block(job: Job) -> BlockResult:
     """Derive each lot and write its tiles, its model and its line of CityJSON."""
-    by = deriver(job.files, job.folder, job.options)
+    by = deriver(job.files, job.folder, job.options, job.block.beside)
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)

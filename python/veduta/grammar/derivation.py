@@ -29,6 +29,7 @@ from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.run.errors import InputError, VedutaError
 
 T = TypeVar("T")
+Surroundings = tuple[_core.Surroundings, list[tuple[int, tuple[float, float, float]]]]
 SECONDS = 60.0
 MAX_SHAPES = 5_000_000
 
@@ -320,6 +321,7 @@ def derive(
     start: str | None = None,
     attributes: Mapping[str, Attribute] | None = None,
     edits: Sequence[Edit] = (),
+    surroundings: Surroundings | None = None,
     seconds: float = SECONDS,
     shapes: int = MAX_SHAPES,
 ) -> Derivation:
@@ -327,8 +329,10 @@ def derive(
 
     InputError where the rules fail, or there is no such start rule. Edits that cannot be done are
     in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more than `shapes`.
+    surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
     rings = [_ring(ring) for ring in lot]
+    around, beside = surroundings or (None, None)
 
     def derived() -> _core.Derivation:
         return _core.Derivation(
@@ -338,6 +342,8 @@ def derive(
             start=start,
             attributes=dict(attributes or {}),
             edits=[edit.core for edit in edits],
+            around=around,
+            beside=beside,
             seconds=seconds,
             shapes=shapes,
         )

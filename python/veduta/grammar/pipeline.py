@@ -22,7 +22,8 @@ from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
-from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
+from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
+from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import block_origin, place_of, town_of
 from veduta.grammar.quadtree import squares
@@ -101,7 +102,7 @@ def run_derive(
         lots = _lots(lots_path, options)
         if edits_path is not None:
             lots = edited_lots(lots, edits_path, read_edits(edits_path))
-    blocks = _blocks(lots)
+    blocks = _blocks(lots, ask_beside=compiled.asks_beside)
     pictures: JsonValue = textures_digests(textures)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
@@ -156,16 +157,22 @@ def _lots(path: Path | None, options: GrammarOptions) -> Lots:
     return read_lots(path, options.lots)
 
 
-def _blocks(lots: Lots) -> list[Block]:
-    """The lots by squares of a map, some to a folder."""
+def _blocks(lots: Lots, *, ask_beside: bool) -> list[Block]:
+    """The lots by squares of a map, some to a folder; with what stands beside them if rules ask."""
     size = max(FEW, -(-len(lots.lots) // MOST_BLOCKS))
     if not lots.lots:
         return []
     points = np.array([lot.anchor_m[:2] for lot in lots.lots])
+    beside = neighbours_of(lots.lots) if ask_beside else [()] * len(lots.lots)
     blocks = []
     for number, rows in enumerate(squares(points, size)):
         chosen = tuple(lots.lots[row] for row in rows)
-        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen)))
+        near = {
+            lots.lots[row].id: tuple(lots.lots[other] for other in beside[row])
+            for row in rows
+            if beside[row]
+        }
+        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen), near))
     return blocks
 
 
@@ -185,16 +192,21 @@ def files_digest(files: Sequence[tuple[str, str]]) -> str:
 
 
 def _told(block: Block) -> str:
-    """The digest of all that is known of the lots of a block."""
-    content = [
-        [
-            *(lot.id, lot.name, lot.anchor_m, lot.attributes),
-            [ring.tolist() for ring in lot.rings_m],
-            [edit.core for edit in lot.edits],
-        ]
-        for lot in block.lots
+    """The digest of all that is known of the lots of a block, and of those beside them."""
+    lots = {lot.id: lot for near in block.beside.values() for lot in near}
+    lots |= {lot.id: lot for lot in block.lots}
+    own = [lot.id for lot in block.lots]
+    beside = [[name, *(lot.id for lot in near)] for name, near in block.beside.items()]
+    content = [block.name, own, beside, [_lot_told(lot) for lot in lots.values()]]
+    return hashlib.sha256(json.dumps(content).encode()).hexdigest()
+
+
+def _lot_told(lot: Lot) -> list[Any]:
+    return [
+        *(lot.id, lot.name, lot.anchor_m, lot.attributes),
+        [ring.tolist() for ring in lot.rings_m],
+        [edit.core for edit in lot.edits],
     ]
-    return hashlib.sha256(json.dumps([block.name, content]).encode()).hexdigest()
 
 
 def _key(step: str, options: GrammarOptions, inputs: JsonValue) -> str:
