@@ -30,6 +30,7 @@ from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
@@ -116,11 +117,12 @@ def run_derive(
     with open_out(out, COMMAND, key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
+        needs_lines = options.output.city and not _has_city(folder, key, lots)
         waiting = [
             b
             for b in blocks
             if not folder.is_current(b.name, keys[b.name])
-            or (options.output.city and not _city_path(out, b).exists())
+            or (needs_lines and not _city_path(out, b).exists())
         ]
         if result.up_to_date:
             waiting = []
@@ -184,6 +186,15 @@ def is_separate(options: GrammarOptions, lots: Lots) -> bool:
 def _city_path(out: Path, block: Block) -> Path:
     """A block's lines of CityJSON, until all are there."""
     return out / CITY / f"{block.name.rpartition('/')[2]}.jsonl"
+
+
+def _city_name(lots: Lots) -> str:
+    return "city.city.jsonl" if len(lots.lots) > SEQUENCE else "city.city.json"
+
+
+def _has_city(folder: OutFolder, key: str, lots: Lots) -> bool:
+    """Whether the CityJSON of this very call is there: its lines need not be made again."""
+    return folder.is_done(CALL, key) and (folder.path / _city_name(lots)).exists()
 
 
 def files_digest(files: Sequence[tuple[str, str]]) -> str:
@@ -292,7 +303,7 @@ def _write_call(
     with writing_to(folder.path):
         if whole.count:
             with timed_step(result.steps, "join"):
-                _write_town(folder.path, work, lots, blocks, options, Path(rules_name).stem, whole)
+                _write_town(folder, key, work, lots, blocks, options, Path(rules_name).stem, whole)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)
@@ -302,7 +313,8 @@ def _write_call(
 
 
 def _write_town(
-    out: Path,
+    folder: OutFolder,
+    key: str,
     work: Path,
     lots: Lots,
     blocks: list[Block],
@@ -317,9 +329,11 @@ def _write_town(
     if not options.output.city:
         return
     done = {name for name, _ in whole.blocks}
-    pieces = [_city_path(out, block) for block in blocks if block.name in done]
+    pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
+    name = _city_name(lots)
+    if _has_city(folder, key, lots) and not all(piece.exists() for piece in pieces):
+        same_file(folder.path / name, work / name)
+        return
     first = header(title, lots.crs, lots.origin_m)
-    if len(lots.lots) > SEQUENCE:
-        write_sequence(work / "city.city.jsonl", first, pieces)
-    else:
-        write_joined(work / "city.city.json", first, pieces)
+    write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
+    write(work / name, first, pieces)
