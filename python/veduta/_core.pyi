@@ -234,9 +234,12 @@ class DerivedLots:
         place: tuple[float, float, float],
         classes: Sequence[str],
         kinds: Sequence[str],
+        volumes: DerivedLots | None = None,
     ) -> tuple[str, list[tuple[int, str, str]], str]:
         """Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
         texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+        `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+        geometries of LoD 1.2 and 2.2.
         """
     def tile(
         self,

@@ -136,6 +136,9 @@ impl DerivedLots {
 
     /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
     /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    /// `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+    /// geometries of LoD 1.2 and 2.2.
+    #[pyo3(signature = (lot, place, classes, kinds, volumes=None))]
     fn city(
         &self,
         py: Python<'_>,
@@ -143,6 +146,7 @@ impl DerivedLots {
         place: [f64; 3],
         classes: Vec<String>,
         kinds: Vec<String>,
+        volumes: Option<&DerivedLots>,
     ) -> PyResult<CityTexts> {
         let Ok(derived) = self.lot(lot)?.as_ref() else {
             return Err(PyValueError::new_err("a lot that failed has no surfaces"));
@@ -155,7 +159,11 @@ impl DerivedLots {
             let found = classes.iter().position(|class| class == name);
             found.unwrap_or(other) as u8
         };
-        let made = py.detach(|| city(derived, place, &kinds, code));
+        let volume = match volumes {
+            Some(volumes) => volumes.lot(lot)?.as_ref().ok(),
+            None => None,
+        };
+        let made = py.detach(|| city(derived, volume, place, &kinds, code));
         let text = made.map_err(PyValueError::new_err)?;
         Ok((text.body, text.installations, text.vertices))
     }

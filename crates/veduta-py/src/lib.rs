@@ -20,6 +20,7 @@ mod standing;
 mod surroundings;
 mod tile_buffers;
 mod tiles;
+mod volumes;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {

@@ -3,12 +3,14 @@
 https://www.cityjson.org/specs/2.0.1/ and https://www.cityjson.org/cityjsonseq/ - each building is a
 line of its own (`CityJSONFeature`) with its own vertices; a CityJSON file is all of them with
 shared vertices. What rules leave is mostly open surfaces: a MultiSurface; what closes is a Solid.
+A building seen from afar gives closed volumes, which stand beside it as LoD 1.2 and 2.2.
 """
 
 from __future__ import annotations
 
 import json
 import math
+import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
@@ -18,6 +20,7 @@ from numpy.typing import NDArray
 
 from veduta.place.semantics import CITYJSON_SURFACE, SemanticClass
 
+FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
 VERTICES = '"vertices":'
 """The last member of a line."""
 VERTICES_AT_ONCE = 10_000
@@ -53,6 +56,11 @@ def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometr
         f'{{"type":"CityJSONFeature","id":{json.dumps(building)},'
         f'"CityObjects":{{{",".join(objects)}}},"vertices":{vertices}}}'
     )
+
+
+def forms_of(geometry: Geometry) -> list[str]:
+    """What the geometries of a building itself are: `MultiSurface 3`, `Solid 2.2`."""
+    return [f"{kind} {lod}" for kind, lod in FORM.findall(geometry[0])]
 
 
 def _object(name: str, record: Mapping[str, Any], geometry: str) -> str:

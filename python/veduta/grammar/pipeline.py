@@ -38,7 +38,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
