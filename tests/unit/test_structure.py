@@ -26,8 +26,15 @@ def tracked(repository: Path) -> list[Path]:
     return [name for name in names if (repository / name).is_file()]
 
 
+GENERATED = {Path("python/veduta/_core.pyi")}
+
+
 def _sources(tracked: list[Path]) -> list[Path]:
-    return [name for name in tracked if name.suffix in SOURCES and "generated" not in name.parts]
+    return [
+        name
+        for name in tracked
+        if name.suffix in SOURCES and "generated" not in name.parts and name not in GENERATED
+    ]
 
 
 def _hits(repository: Path, names: list[Path], pattern: str) -> list[str]:

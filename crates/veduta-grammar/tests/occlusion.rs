@@ -9,7 +9,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use proptest::prelude::*;
 use support::{code, said, tree};
-use veduta_grammar::engine::{derive, occluders, Options, State};
+use veduta_grammar::engine::{derive, occluders, Neighbour, Options, State};
 use veduta_grammar::shape::{box_distance, Form, Geometry, Scope};
 
 /// Two blocks of 5 m by 6 m, 3 m and 6 m high, side by side.
@@ -92,7 +92,7 @@ fn neighbours_are_asked_for_by_inter() {
     let start = rules.start.unwrap();
     let beside = occluders(&rules, start, lot(10.0), &Options::default()).unwrap();
     let options = Options {
-        neighbours: vec![Arc::new(beside)],
+        neighbours: vec![Neighbour::new(Arc::new(beside), DVec3::ZERO)],
         ..Options::default()
     };
     let found = derive(&rules, start, lot(0.0), &options).unwrap().messages;
@@ -101,6 +101,55 @@ fn neighbours_are_asked_for_by_inter() {
         .unwrap()
         .messages;
     assert!(alone.iter().all(|text| text == "false"));
+}
+
+#[test]
+fn a_neighbour_may_be_in_a_frame_of_its_own() {
+    // The same house, 10 m to the right: as a shape that stands there, or seen from there.
+    let rules = code(
+        "Lot --> extrude(3) label(\"hull\") comp(f) { front : W | right : W | back : W | left : W | all : X. } \
+         W --> print(comp.sel + inside(inter) + minimumDistance(inter, \"hull\") \
+         + contextCompare(inter, \"hull\", world.easternmost))",
+    );
+    let lot = |x: f64| {
+        let mut scope = Scope::of_size(DVec3::new(10.0, 0.0, 6.0));
+        scope.origin.x = x;
+        let geometry = Geometry::Rectangle(1);
+        State::new(Form { scope, geometry }, 0)
+    };
+    let start = rules.start.unwrap();
+    let said = |own: f64, offset: f64| {
+        let shapes = occluders(&rules, start, lot(own), &Options::default()).unwrap();
+        let one = Neighbour::new(Arc::new(shapes), DVec3::new(offset, 0.0, 0.0));
+        let options = Options {
+            neighbours: vec![one],
+            ..Options::default()
+        };
+        derive(&rules, start, lot(0.0), &options).unwrap().messages
+    };
+    let told = said(0.0, 10.0);
+    assert_eq!(told, said(10.0, 0.0));
+    // Right's wall lies on the neighbour and comes no nearer; the left one is 10 m off.
+    let mut sorted = told.clone();
+    sorted.sort();
+    assert_eq!(
+        sorted,
+        ["backfalse01", "frontfalse01", "leftfalse101", "righttrue01"]
+    );
+}
+
+#[test]
+fn code_tells_whether_it_asks_about_other_lots() {
+    let asks = |question: &str| {
+        let found = code(&format!("Lot --> print({question})"));
+        (found.asks, found.asks_beside)
+    };
+    assert_eq!(asks("inside(intra)"), (true, false));
+    assert_eq!(asks("contextCount(intra, \"a\")"), (true, false));
+    assert_eq!(asks("inside()"), (true, true));
+    assert_eq!(asks("touches(inter)"), (true, true));
+    assert_eq!(asks("overlaps(all)"), (true, true));
+    assert_eq!(asks("getTreeKey()"), (false, false));
 }
 
 fn turned() -> impl Strategy<Value = Scope> {

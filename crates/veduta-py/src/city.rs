@@ -9,6 +9,7 @@ use veduta_geometry::{triangulate_sound, PolygonSet};
 
 use crate::derived_lot::Derived;
 use crate::flat::Flat;
+use crate::volumes::{block, ground, VolumeFace};
 
 const STEPS_PER_M: f64 = 1000.0;
 const PLANE_TOLERANCE_M: f64 = 1e-3;
@@ -25,7 +26,23 @@ pub(crate) struct CityText {
     pub vertices: String,
 }
 
-type Vertex = [i64; 3];
+pub type Vertex = [i64; 3];
+
+/// The vertices so far, each once.
+#[derive(Default)]
+struct Grid {
+    vertices: Vec<Vertex>,
+    known: HashMap<Vertex, u32>,
+}
+
+impl Grid {
+    fn number(&mut self, vertex: Vertex) -> u32 {
+        *self.known.entry(vertex).or_insert_with(|| {
+            self.vertices.push(vertex);
+            self.vertices.len() as u32 - 1
+        })
+    }
+}
 
 struct Face {
     feature: usize,
@@ -34,15 +51,17 @@ struct Face {
 }
 
 /// The texts of a building at its place (m, z up). `kinds` has the semantic surface of each class,
-/// "" for what is an installation; `code` the class of a name.
+/// "" for what is an installation; `code` the class of a name. `volume`: the building at its lowest
+/// level of detail, for further geometries of LoD 1.2 and 2.2 where it gives closed volumes.
 pub(crate) fn city(
     lot: &Derived,
+    volume: Option<&Derived>,
     place: [f64; 3],
     kinds: &[String],
     code: impl Fn(&str) -> u8,
 ) -> Result<CityText, String> {
-    let mut vertices: Vec<Vertex> = Vec::new();
-    let faces = faces(lot, place, &mut vertices)?;
+    let mut grid = Grid::default();
+    let faces = faces(lot, place, &mut grid)?;
     let classes: Vec<u8> = lot.surfaces.class.iter().map(|name| code(name)).collect();
     let kind = |feature: usize| kinds[usize::from(classes[feature])].as_str();
     let mut body = Vec::new();
@@ -75,25 +94,26 @@ pub(crate) fn city(
         (classes[feature], lot.names[feature].clone(), text)
     });
     let installations = installations.collect();
-    let body = if body.is_empty() {
-        String::new()
-    } else {
-        geometry(&body, &surfaces, &values)
-    };
+    let mut own = Vec::new();
+    if !body.is_empty() {
+        own.push(geometry(&body, &surfaces, &values));
+    }
+    if let Some(volume) = volume {
+        own.extend(volumes(volume, place, kinds, &code, &mut grid)?);
+    }
     Ok(CityText {
-        body,
+        body: own.join(","),
         installations,
-        vertices: vertices_text(&vertices),
+        vertices: vertices_text(&grid.vertices),
     })
 }
 
 /// The sound polygons, on whole millimetres; what collapses there is left out.
-fn faces(lot: &Derived, place: [f64; 3], vertices: &mut Vec<Vertex>) -> Result<Vec<Face>, String> {
+fn faces(lot: &Derived, place: [f64; 3], grid: &mut Grid) -> Result<Vec<Face>, String> {
     let flat = Flat::of(&lot.packed)?;
     let set = PolygonSet::of_any_rings(&flat.positions, &flat.rings, &flat.polygons);
     let set = set.map_err(|error| error.to_string())?;
     let sound = triangulate_sound(&set, PLANE_TOLERANCE_M);
-    let mut known: HashMap<Vertex, u32> = HashMap::new();
     let mut found = Vec::new();
     for polygon in (0..set.len()).filter(|&polygon| sound.is_sound[polygon]) {
         let on_grid: Vec<Vec<Vertex>> = set
@@ -119,13 +139,7 @@ fn faces(lot: &Derived, place: [f64; 3], vertices: &mut Vec<Vertex>) -> Result<V
         if on_grid.is_empty() || !is_whole {
             continue;
         }
-        let number = |vertex: Vertex| {
-            *known.entry(vertex).or_insert_with(|| {
-                vertices.push(vertex);
-                vertices.len() as u32 - 1
-            })
-        };
-        let mut number = number;
+        let mut number = |vertex: Vertex| grid.number(vertex);
         let rings = on_grid.into_iter();
         let leaf = flat.feature[polygon] as usize;
         found.push(Face {
@@ -194,10 +208,75 @@ fn by_direction(faces: &[&Face]) -> (Vec<String>, Vec<usize>) {
     (texts.collect(), values)
 }
 
+/// The closed volumes of a building at its lowest level of detail.
+fn volumes(
+    lot: &Derived,
+    place: [f64; 3],
+    kinds: &[String],
+    code: &impl Fn(&str) -> u8,
+    grid: &mut Grid,
+) -> Result<Vec<String>, String> {
+    let mut own = Grid::default();
+    let faces = faces(lot, place, &mut own)?;
+    let all: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
+    let top = own.vertices.iter().map(|vertex| vertex[2]).max();
+    let (Some(foot), Some(top)) = (ground(&all, &own.vertices), top) else {
+        return Ok(Vec::new());
+    };
+    if top <= own.vertices[foot[0][0] as usize][2] {
+        return Ok(Vec::new());
+    }
+    let raised = |at: u32, z: i64| {
+        let [x, y, _] = own.vertices[at as usize];
+        own.number([x, y, z])
+    };
+    let block = block(&foot, top, raised);
+    let mut roofed: Vec<VolumeFace> = vec![(foot, "GroundSurface")];
+    roofed.extend(faces.into_iter().map(|face| {
+        let kind = &kinds[usize::from(code(&lot.surfaces.class[face.feature]))];
+        let known = ["RoofSurface", "GroundSurface"];
+        let kind = known.into_iter().find(|known| known == kind);
+        (face.rings, kind.unwrap_or("WallSurface"))
+    }));
+    let mut found = Vec::new();
+    for (lod, faces) in [("1.2", block), ("2.2", roofed)] {
+        let rings: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.0).collect();
+        if is_closed(&rings) {
+            found.push(solid(lod, faces, &own.vertices, grid));
+        }
+    }
+    Ok(found)
+}
+
+/// A Solid whose surfaces are one of each kind.
+fn solid(lod: &str, faces: Vec<VolumeFace>, vertices: &[Vertex], grid: &mut Grid) -> String {
+    let kinds = ["GroundSurface", "WallSurface", "RoofSurface"];
+    let surfaces = kinds
+        .map(|kind| format!(r#"{{"type":"{kind}"}}"#))
+        .join(",");
+    let (mut boundaries, mut values) = (Vec::new(), Vec::new());
+    for (rings, kind) in faces {
+        let place = kinds.iter().position(|known| *known == kind).unwrap_or(1);
+        values.push(place.to_string());
+        let mut number = |at: u32| grid.number(vertices[at as usize]);
+        let rings = rings.into_iter();
+        let rings: Vec<Vec<u32>> = rings
+            .map(|ring| ring.into_iter().map(&mut number).collect())
+            .collect();
+        boundaries.push(rings_text(&rings));
+    }
+    format!(
+        r#"{{"type":"Solid","lod":"{lod}","boundaries":[[{}]],"semantics":{{"surfaces":[{surfaces}],"values":[[{}]]}}}}"#,
+        boundaries.join(","),
+        values.join(",")
+    )
+}
+
 fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize]) -> String {
-    let boundaries: Vec<String> = faces.iter().map(|face| rings_text(&face.rings)).collect();
+    let rings: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
+    let boundaries: Vec<String> = rings.iter().map(|rings| rings_text(rings)).collect();
     let values: Vec<String> = values.iter().map(ToString::to_string).collect();
-    let (kind, open, close) = if is_closed(faces) {
+    let (kind, open, close) = if is_closed(&rings) {
         ("Solid", "[", "]")
     } else {
         ("MultiSurface", "", "")
@@ -212,10 +291,10 @@ fn geometry(faces: &[&Face], surfaces: &[String], values: &[usize]) -> String {
 
 /// Whether the faces close one body: each edge is there once in each direction, and they hang
 /// together.
-fn is_closed(faces: &[&Face]) -> bool {
+fn is_closed(faces: &[&Vec<Vec<u32>>]) -> bool {
     let mut edges: HashMap<(u32, u32), usize> = HashMap::new();
     for (number, face) in faces.iter().enumerate() {
-        for ring in &face.rings {
+        for ring in face.iter() {
             for k in 0..ring.len() {
                 let edge = (ring[k], ring[(k + 1) % ring.len()]);
                 if edges.insert(edge, number).is_some() {

@@ -14,6 +14,7 @@ use veduta_grammar::engine::{
 use crate::derived_lot::{derived_of, lot_to_python, rows, DerivedLot};
 use crate::given::{values, Given, GivenBack};
 use crate::grammar::{GrammarFault, GrammarRules, Rings};
+use crate::surroundings::{neighbours, Beside, Surroundings};
 
 /// Path, name or None, whether to delete, alternatives or None for those to draw, and values.
 pub type GivenEdit = (
@@ -67,7 +68,7 @@ type Polygons = (Py<PyArray2<f64>>, Py<PyArray1<i64>>, Py<PyArray1<i64>>);
 #[pymethods]
 impl Derivation {
     #[new]
-    #[pyo3(signature = (rules, lot, seed, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (rules, lot, seed, *, start=None, attributes=None, edits=None, around=None, beside=None, seconds=60.0, shapes=5_000_000))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn new(
         py: Python<'_>,
@@ -77,9 +78,13 @@ impl Derivation {
         start: Option<&str>,
         attributes: Option<HashMap<String, Given>>,
         edits: Option<Vec<GivenEdit>>,
+        around: Option<&Surroundings>,
+        beside: Option<Beside>,
         seconds: f64,
         shapes: usize,
     ) -> PyResult<Self> {
+        let beside = beside.map(|one| vec![one]);
+        let neighbours = neighbours(around, beside, 1)?.pop().unwrap_or_default();
         let options = Options {
             seed,
             limits: Limits {
@@ -91,7 +96,7 @@ impl Derivation {
             overrides: overrides_of(edits.unwrap_or_default()),
             assets: rules.get().known_assets(),
             textures: rules.get().known_textures(),
-            neighbours: Vec::new(),
+            neighbours,
         };
         let with = rules.get();
         let rule = with.start_rule(start)?;

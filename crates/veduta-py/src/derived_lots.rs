@@ -11,6 +11,7 @@ use crate::derived_lot::{lot_to_python, Derived, DerivedLot};
 use crate::given::Given;
 use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
 use crate::standing::box_of;
+use crate::surroundings::{neighbours, Beside, Surroundings};
 use crate::tiles::{tile, Codes, Textures, TileBuffers};
 
 /// Lots that were derived and stay on this side: columns are made for what is asked.
@@ -19,9 +20,10 @@ pub struct DerivedLots {
     lots: Vec<Result<Derived, Failed>>,
 }
 
-/// Derives lots as `GrammarRules.derive` does.
+/// Derives lots as `GrammarRules.derive` does. `beside`: per lot, which lots of `around` stand beside
+/// it, and how far their frames lie from its own (m, z up).
 #[pyfunction]
-#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, seconds=60.0, shapes=5_000_000))]
+#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, around=None, beside=None, seconds=60.0, shapes=5_000_000))]
 #[allow(clippy::too_many_arguments)] // as Python calls it: with names
 fn derive_lots(
     py: Python<'_>,
@@ -31,29 +33,28 @@ fn derive_lots(
     start: Option<&str>,
     attributes: Vec<HashMap<String, Given>>,
     edits: Vec<Vec<GivenEdit>>,
+    around: Option<&Surroundings>,
+    beside: Option<Vec<Beside>>,
     seconds: f64,
     shapes: usize,
 ) -> PyResult<DerivedLots> {
     let rule = rules.start_rule(start)?;
-    if [seeds.len(), attributes.len(), edits.len()] != [lots.len(); 3] {
-        return Err(PyValueError::new_err(
-            "each lot needs a seed, attributes and edits",
-        ));
-    }
     let limits = limits_of(seconds, shapes);
+    let mut options = rules.options_of(&seeds, attributes, edits, limits)?;
+    let beside = neighbours(around, beside, lots.len())?;
+    for (options, beside) in options.iter_mut().zip(beside) {
+        options.neighbours = beside;
+    }
     let mut found = Vec::with_capacity(lots.len());
-    let (mut given, mut edits) = (attributes.into_iter(), edits.into_iter());
-    for (some, seeds) in lots.chunks(AT_ONCE).zip(seeds.chunks(AT_ONCE)) {
-        let given = given.by_ref().take(some.len()).collect();
-        let edits = edits.by_ref().take(some.len()).collect();
-        found.extend(py.detach(|| rules.all(some, seeds, given, edits, rule, limits)));
+    for (lots, options) in lots.chunks(AT_ONCE).zip(options.chunks(AT_ONCE)) {
+        found.extend(py.detach(|| rules.all(lots, options, rule)));
         py.check_signals()?;
     }
     Ok(DerivedLots { lots: found })
 }
 
 /// Lots that are derived before Ctrl-C is heard.
-const AT_ONCE: usize = 4;
+pub const AT_ONCE: usize = 4;
 /// Red, green and blue, sRGB, 0 to 1.
 type Colour = (f32, f32, f32);
 /// Lower and upper corner, and how much there is.
@@ -149,6 +150,9 @@ impl DerivedLots {
 
     /// Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
     /// texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+    /// `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+    /// geometries of LoD 1.2 and 2.2.
+    #[pyo3(signature = (lot, place, classes, kinds, volumes=None))]
     fn city(
         &self,
         py: Python<'_>,
@@ -156,6 +160,7 @@ impl DerivedLots {
         place: [f64; 3],
         classes: Vec<String>,
         kinds: Vec<String>,
+        volumes: Option<&DerivedLots>,
     ) -> PyResult<CityTexts> {
         let Ok(derived) = self.lot(lot)?.as_ref() else {
             return Err(PyValueError::new_err("a lot that failed has no surfaces"));
@@ -168,7 +173,11 @@ impl DerivedLots {
             let found = classes.iter().position(|class| class == name);
             found.unwrap_or(other) as u8
         };
-        let made = py.detach(|| city(derived, place, &kinds, code));
+        let volume = match volumes {
+            Some(volumes) => volumes.lot(lot)?.as_ref().ok(),
+            None => None,
+        };
+        let made = py.detach(|| city(derived, volume, place, &kinds, code));
         let text = made.map_err(PyValueError::new_err)?;
         Ok((text.body, text.installations, text.vertices))
     }

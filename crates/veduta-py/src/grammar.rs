@@ -10,7 +10,7 @@ use pyo3::prelude::*;
 use rayon::prelude::*;
 use veduta_grammar::engine::{
     asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Limits, Options,
-    State, Value,
+    State,
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
@@ -26,6 +26,8 @@ create_exception!(_core, GrammarFault, PyValueError);
 create_exception!(_core, AssetWanted, GrammarFault);
 
 pub type Rings = Vec<Vec<[f64; 3]>>;
+
+const WANTED: &str = "each lot needs a seed, attributes and edits";
 
 /// Checked rule files, ready to derive.
 #[pyclass(frozen, name = "GrammarRules", module = "veduta._core")]
@@ -78,6 +80,12 @@ impl GrammarRules {
             .filter(|global| global.is_attribute);
         all.map(|global| (global.name.to_string(), kind(&global.value)))
             .collect()
+    }
+
+    /// Whether they ask about shapes of other lots.
+    #[getter]
+    fn asks_beside(&self) -> bool {
+        self.code.asks_beside
     }
 
     /// The names of assets that stand in the rules, and whether there are others that are computed.
@@ -147,13 +155,11 @@ impl GrammarRules {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
         let edits = edits.unwrap_or_else(|| lots.iter().map(|_| Vec::new()).collect());
-        if [seeds.len(), given.len(), edits.len()] != [lots.len(); 3] {
-            return Err(PyValueError::new_err(
-                "each lot needs a seed, attributes and edits",
-            ));
+        if seeds.len() != lots.len() {
+            return Err(PyValueError::new_err(WANTED));
         }
-        let limits = limits_of(seconds, shapes);
-        let found = py.detach(|| self.all(&lots, &seeds, given, edits, rule, limits));
+        let options = self.options_of(&seeds, given, edits, limits_of(seconds, shapes))?;
+        let found = py.detach(|| self.all(&lots, &options, rule));
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
 
@@ -246,45 +252,62 @@ impl GrammarRules {
         found.ok_or_else(|| GrammarFault::new_err(told()))
     }
 
-    /// What the rules make of each lot; `seeds`, `given` and `edits` are as long as `lots`.
-    pub fn all(
+    /// How each lot is to be derived: of lots that stand alone.
+    pub fn options_of(
         &self,
-        lots: &[Rings],
         seeds: &[u64],
         given: Vec<HashMap<String, Given>>,
         edits: Vec<Vec<GivenEdit>>,
-        rule: usize,
         limits: Limits,
-    ) -> Vec<Result<Derived, Failed>> {
-        let given: Vec<HashMap<String, Value>> = given.into_iter().map(values).collect();
+    ) -> PyResult<Vec<Options>> {
+        if [given.len(), edits.len()] != [seeds.len(); 2] {
+            return Err(PyValueError::new_err(WANTED));
+        }
         let (assets, textures) = (self.known_assets(), self.known_textures());
-        let each = lots.par_iter().zip(seeds).zip(given).zip(edits);
-        each.map(|(((lot, &seed), attributes), edits)| {
-            let options = Options {
-                seed,
-                limits,
-                attributes,
-                assets: assets.clone(),
-                textures: textures.clone(),
-                overrides: overrides_of(edits),
-                neighbours: Vec::new(),
-            };
-            self.one(lot, rule, &options)
+        let each = seeds.iter().zip(given).zip(edits);
+        let each = each.map(|((&seed, given), edits)| Options {
+            seed,
+            limits,
+            attributes: values(given),
+            assets: assets.clone(),
+            textures: textures.clone(),
+            overrides: overrides_of(edits),
+            neighbours: Vec::new(),
+        });
+        Ok(each.collect())
+    }
+
+    /// What the rules make of each lot.
+    pub fn all(
+        &self,
+        lots: &[Rings],
+        options: &[Options],
+        rule: usize,
+    ) -> Vec<Result<Derived, Failed>> {
+        let each = lots.par_iter().zip(options);
+        each.map(|(lot, options)| {
+            let start = self.start_shape(lot, options)?;
+            let tree = derive(&self.code, rule, start, options);
+            let tree = tree.map_err(|fault| self.failed(fault))?;
+            Ok(derived_of(&tree, &self.code))
         })
         .collect()
     }
 
-    fn one(&self, lot: &Rings, rule: usize, options: &Options) -> Result<Derived, Failed> {
+    /// The shape that a lot's derivation starts with.
+    pub fn start_shape(&self, lot: &Rings, options: &Options) -> Result<State, Failed> {
         let form = lot_form(lot).ok_or_else(|| Failed {
             why: "the lot encloses nothing".to_string(),
             missing_asset: None,
         })?;
-        let start = State::new(form, (options.seed & 0xffff_ffff) as u32);
-        let tree = derive(&self.code, rule, start, options).map_err(|fault| Failed {
+        Ok(State::new(form, (options.seed & 0xffff_ffff) as u32))
+    }
+
+    pub fn failed(&self, fault: Fault) -> Failed {
+        Failed {
             why: self.told(&fault),
             missing_asset: fault.missing_asset.map(|name| name.to_string()),
-        })?;
-        Ok(derived_of(&tree, &self.code))
+        }
     }
 
     /// A fault with its place in the file.

@@ -17,8 +17,10 @@ mod polygons;
 mod roofs;
 mod rules;
 mod standing;
+mod surroundings;
 mod tile_buffers;
 mod tiles;
+mod volumes;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -29,6 +31,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     roofs::register(m)?;
     rules::register(m)?;
     derived_lots::register(m)?;
+    surroundings::register(m)?;
     tile_buffers::register(m)?;
     polygons::register(m)
 }

@@ -16,9 +16,10 @@ pub enum Way {
 
 /// The names that types may have beside those of Rust and PyO3.
 pub struct Names<'a> {
-    /// By file and name; a name that one file alone has is known in the others too.
+    /// By file and name; a name that one file alone has is known in the others too, and one that
+    /// several have is not (None).
     aliases: HashMap<(&'a str, String), (&'a str, &'a Type)>,
-    shared: HashMap<String, (&'a str, &'a Type)>,
+    shared: HashMap<String, Option<(&'a str, &'a Type)>>,
     /// Enums that are one of several types: the file and the types of their variants.
     unions: HashMap<String, (&'a str, Vec<&'a Type>)>,
     /// The name in Python of each class.
@@ -41,7 +42,8 @@ impl<'a> Names<'a> {
                 Item::Type(alias) => {
                     let (name, known) = (alias.ident.to_string(), (file, &*alias.ty));
                     names.aliases.insert((file, name.clone()), known);
-                    names.shared.insert(name, known);
+                    let shared = names.shared.entry(name);
+                    shared.and_modify(|one| *one = None).or_insert(Some(known));
                 }
                 Item::Enum(one) => {
                     let types = one
@@ -127,7 +129,8 @@ impl<'a> Names<'a> {
     /// A type that the sources declare: an alias, a class, or an enum of several types.
     fn declared(&self, file: &str, name: &str, way: Way) -> Result<String, String> {
         let own = self.aliases.get(&(file, name.to_string()));
-        if let Some((home, ty)) = own.or_else(|| self.shared.get(name)) {
+        let shared = || self.shared.get(name).and_then(Option::as_ref);
+        if let Some((home, ty)) = own.or_else(shared) {
             return self.python(home, ty, way);
         }
         if let Some(class) = self.classes.get(name) {

@@ -92,6 +92,20 @@ fn a_type_that_is_not_known_is_an_error() {
 }
 
 #[test]
+fn a_name_that_two_files_give_to_types_is_an_error_in_a_third() {
+    let file = |name: &str, text: &str| (name.to_string(), text.to_string());
+    let one = file("a.rs", "type Pair = (f64, f64);");
+    let two = file("b.rs", "type Pair = (u8, u8);");
+    let used = file(
+        "c.rs",
+        "use crate::a::Pair; #[pyfunction] fn f() -> Pair {}",
+    );
+    assert!(stub(&[one.clone(), used.clone()]).is_ok());
+    let why = stub(&[one, two, used]).unwrap_err().to_string();
+    assert!(why.contains("`Pair`"), "{why}");
+}
+
+#[test]
 fn a_signature_that_forgets_an_argument_is_an_error() {
     let source = "#[pyfunction] #[pyo3(signature = (a))] fn f(a: f64, b: f64) {}";
     assert!(matches!(

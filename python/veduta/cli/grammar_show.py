@@ -34,8 +34,8 @@ def sample(arguments: list[str]) -> int:
     given = read_attributes(call.attr)
     options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     options = check_options(rules.core, rules.path, options)
-    lot = find_lot(call.lots, call.lot, call.read, call.derive.seed)
-    samples = draw_samples(rules, lot, options, call.count)
+    lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
+    samples = draw_samples(rules, lot, options, call.count, beside)
     cells = picture_cells(samples, call.sheet, Progress(quiet=call.quiet))
     sheet = sheet_of(rules.path.stem, lot, samples, cells, call.sheet)
     _write(call.out, encoded(sheet, call.out.suffix.lower()))
@@ -72,9 +72,9 @@ def tree(arguments: list[str]) -> int:
     given = read_attributes(call.attr)
     options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
     options = check_options(rules.core, rules.path, options)
-    lot = find_lot(call.lots, call.lot, call.read, call.derive.seed)
+    lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
     edits = edits_of(call.edits, lot.id)
-    derivation = derive_lot(rules, lot, options, call.derive.seed, edits)
+    derivation = derive_lot(rules, lot, options, call.derive.seed, edits, beside)
     start = derivation.shape(path)
     if start is None:
         raise InputError(

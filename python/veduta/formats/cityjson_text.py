@@ -3,19 +3,27 @@
 https://www.cityjson.org/specs/2.0.1/ and https://www.cityjson.org/cityjsonseq/ - each building is a
 line of its own (`CityJSONFeature`) with its own vertices; a CityJSON file is all of them with
 shared vertices. What rules leave is mostly open surfaces: a MultiSurface; what closes is a Solid.
+A building seen from afar gives closed volumes, which stand beside it as LoD 1.2 and 2.2.
 """
 
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable, Mapping, Sequence
+import math
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.place.semantics import CITYJSON_SURFACE, SemanticClass
 
+FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
+VERTICES = '"vertices":'
+"""The last member of a line."""
+VERTICES_AT_ONCE = 10_000
 GRID_M = 1e-3
 """Vertices are whole millimetres."""
 INSTALLATIONS = frozenset({SemanticClass.BALCONY, SemanticClass.CORNICE, SemanticClass.CHIMNEY})
@@ -50,6 +58,11 @@ def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometr
     )
 
 
+def forms_of(geometry: Geometry) -> list[str]:
+    """What the geometries of a building itself are: `MultiSurface 3`, `Solid 2.2`."""
+    return [f"{kind} {lod}" for kind, lod in FORM.findall(geometry[0])]
+
+
 def _object(name: str, record: Mapping[str, Any], geometry: str) -> str:
     text = json.dumps(record, separators=(",", ":"), allow_nan=False)
     shape = f',"geometry":[{geometry}]' if geometry else ""
@@ -81,36 +94,65 @@ def write_sequence(path: Path, first: Mapping[str, Any], pieces: Iterable[Path])
                 out.writelines(lines)
 
 
-def write_joined(path: Path, first: Mapping[str, Any], pieces: Iterable[Path]) -> None:
-    """Write CityJSON from files of lines: one list of vertices for all."""
-    objects: dict[str, Any] = {}
-    vertices: list[np.ndarray[Any, np.dtype[np.int64]]] = []
-    count = 0
+def write_joined(path: Path, first: Mapping[str, Any], pieces: Sequence[Path]) -> None:
+    """Write CityJSON from files of lines: one list of vertices for all.
+
+    The lines are read twice, one in memory at a time: for the vertices, and for the rest.
+    """
+    shared, number = _shared_vertices(pieces)
+    head = json.dumps(
+        {name: value for name, value in first.items() if name not in ("CityObjects", "vertices")},
+        separators=(",", ":"),
+        allow_nan=False,
+    )
+    begin = 0
+    with path.open("w", encoding="utf-8") as out:
+        out.write(f'{head[:-1]},"CityObjects":{{')
+        for line in _lines(pieces):
+            feature = json.loads(line)
+            own = number[begin : begin + len(feature["vertices"])].tolist()
+            for one in feature["CityObjects"].values():
+                for geometry in one.get("geometry", ()):
+                    geometry["boundaries"] = _renumbered(geometry["boundaries"], own)
+            text = json.dumps(feature["CityObjects"], separators=(",", ":"), allow_nan=False)
+            out.write(f"{',' if begin else ''}{text[1:-1]}")
+            begin += len(own)
+        out.write('},"vertices":[')
+        for row in range(0, len(shared), VERTICES_AT_ONCE):
+            text = json.dumps(shared[row : row + VERTICES_AT_ONCE].tolist(), separators=(",", ":"))
+            out.write(f"{',' if row else ''}{text[1:-1]}")
+        out.write("]}")
+
+
+def _lines(pieces: Iterable[Path]) -> Iterator[str]:
     for piece in pieces:
         with piece.open(encoding="utf-8") as lines:
-            for line in lines:
-                feature = json.loads(line)
-                for one in feature["CityObjects"].values():
-                    for geometry in one.get("geometry", ()):
-                        geometry["boundaries"] = _shifted(geometry["boundaries"], count)
-                objects.update(feature["CityObjects"])
-                vertices.append(np.array(feature["vertices"], dtype=np.int64))
-                count += len(feature["vertices"])
-    every = np.concatenate(vertices) if vertices else np.zeros((0, 3), dtype=np.int64)
-    shared, number = np.unique(every, axis=0, return_inverse=True)
-    renumbered = number.reshape(-1).tolist()
-    for one in objects.values():
-        for geometry in one.get("geometry", ()):
-            geometry["boundaries"] = _renumbered(geometry["boundaries"], renumbered)
-    whole = dict(first) | {"CityObjects": objects, "vertices": shared.tolist()}
-    with path.open("w", encoding="utf-8") as out:
-        out.write(json.dumps(whole, separators=(",", ":"), allow_nan=False))
+            yield from lines
 
 
-def _shifted(boundaries: Any, by: int) -> Any:
-    if boundaries and isinstance(boundaries[0], int):
-        return [vertex + by for vertex in boundaries]
-    return [_shifted(one, by) for one in boundaries]
+def _shared_vertices(pieces: Iterable[Path]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """The distinct vertices (n, 3) in order, and the number of each one of the lines there."""
+    found: list[NDArray[np.int64]] = []
+    for line in _lines(pieces):
+        own = line.rstrip()[line.rindex(VERTICES) + len(VERTICES) : -1]
+        found.append(np.array(json.loads(own), dtype=np.int64).reshape(-1, 3))
+    if not found:
+        return np.zeros((0, 3), dtype=np.int64), np.zeros(0, dtype=np.int64)
+    every = np.concatenate(found)
+    found.clear()
+    low = every.min(axis=0)
+    spans = [int(span) + 1 for span in every.max(axis=0) - low]
+    if math.prod(spans) >= 2**63:
+        distinct, number = np.unique(every, axis=0, return_inverse=True)
+        return distinct, number.reshape(-1)
+    # One number for the three of a vertex, in the same order: a third of the memory.
+    every -= low
+    packed = (every[:, 0] * spans[1] + every[:, 1]) * spans[2] + every[:, 2]
+    del every
+    keys, number = np.unique(packed, return_inverse=True)
+    rest, z = np.divmod(keys, spans[2])
+    x, y = np.divmod(rest, spans[1])
+    return np.column_stack([x, y, z]) + low, number
 
 
 def _renumbered(boundaries: Any, number: list[int]) -> Any:

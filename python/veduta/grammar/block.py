@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from veduta import _core
-from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line
+from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, forms_of
 from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import NothingBuiltError, build_part
@@ -39,11 +39,16 @@ NOTHING = "the rules leave nothing on it"
 
 @dataclass(frozen=True)
 class Block:
-    """Lots whose files go to one folder; `name` is its path in OUT. origin_m: of its tiles."""
+    """Lots whose files go to one folder; `name` is its path in OUT. origin_m: of its tiles.
+
+    beside: the lots that stand beside each, by its id, also those of other blocks, where the rules
+    ask about them.
+    """
 
     name: str
     lots: tuple[Lot, ...]
     origin_m: tuple[float, float, float]
+    beside: Mapping[str, tuple[Lot, ...]] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -77,6 +82,7 @@ class BlockResult:
     city: list[str] = field(default_factory=list)
     failures: list[Failure] = field(default_factory=list)
     notes: Counter[str] = field(default_factory=Counter)
+    forms: Counter[str] = field(default_factory=Counter)
     steps: list[StepRecord] = field(default_factory=list)
 
     def summary(self, name: str) -> dict[str, Any]:
@@ -91,6 +97,7 @@ class BlockResult:
             "dropped": town.dropped,
             "pictures": sorted(town.shown),
             "notes": dict(self.notes.most_common(50)),
+            "forms": dict(sorted(self.forms.items())),
             "front": front and _bounds_row(front),
             "box": self.tile and [list(corner) for corner in self.tile.box],
             "leaves": [
@@ -105,7 +112,7 @@ class BlockResult:
 
 def run_block(job: Job) -> BlockResult:
     """Derive each lot and write its tiles, its model and its line of CityJSON."""
-    by = deriver(job.files, job.folder, job.options)
+    by = deriver(job.files, job.folder, job.options, job.block.beside)
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
@@ -164,6 +171,8 @@ def _leaf(
     with timed_step(result.steps, "derive"):
         full = by.together(sound, FULL)
         plain = by.together(sound, PLAIN) if by.levels.plain else None
+        is_solid = job.city is not None and by.levels.marked
+        volumes = by.together(sound, VOLUME) if is_solid else None
     rows, built = [], []
     for row, lot in enumerate(sound):
         fault = by.fault(full, row, lot)
@@ -176,7 +185,7 @@ def _leaf(
         built.append(one)
     with timed_step(result.steps, "write"), writing_to(job.out):
         if job.city is not None:
-            result.city += _city([plain, full] if plain else [full], rows, built)
+            _city([plain, full] if plain else [full], volumes, rows, built, result)
         tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)
     if job.separate:
         built = _models(job, by, built, (full, rows), result)
@@ -204,17 +213,23 @@ def _sound(job: Job, by: Deriver, lots: Sequence[Lot], result: BlockResult) -> l
 
 
 def _city(
-    levels: Sequence[_core.DerivedLots], rows: Sequence[int], built: Sequence[Built]
-) -> list[str]:
-    """The lines of the buildings, of the first level that has something of each."""
-    lines = []
+    levels: Sequence[_core.DerivedLots],
+    volumes: _core.DerivedLots | None,
+    rows: Sequence[int],
+    built: Sequence[Built],
+    result: BlockResult,
+) -> None:
+    """The lines of the buildings, of the first level that has something of each.
+
+    With `volumes`, the lots at their lowest level, closed volumes stand beside it.
+    """
     for row, one in zip(rows, built, strict=True):
         derived = next(level for level in levels if level.extent(row) is not None)
-        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS)
+        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, volumes)
         about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
         line = feature_line(one.lot.id, about, geometry)
-        lines += [line] if line else []
-    return lines
+        result.city += [line] if line else []
+        result.forms.update(forms_of(geometry))
 
 
 def _models(

@@ -30,6 +30,7 @@ from veduta.grammar.textures import Textures, find_textures, read_textures
 from veduta.run.errors import InputError, VedutaError
 
 T = TypeVar("T")
+Surroundings = tuple[_core.Surroundings, list[tuple[int, tuple[float, float, float]]]]
 SECONDS = 60.0
 MAX_SHAPES = 5_000_000
 
@@ -323,6 +324,7 @@ def derive(
     start: str | None = None,
     attributes: Mapping[str, Attribute] | None = None,
     edits: Sequence[Edit] = (),
+    surroundings: Surroundings | None = None,
     seconds: float = SECONDS,
     shapes: int = MAX_SHAPES,
 ) -> Derivation:
@@ -330,8 +332,10 @@ def derive(
 
     InputError where the rules fail, or there is no such start rule. Edits that cannot be done are
     in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more than `shapes`.
+    surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
     rings = [_ring(ring) for ring in lot]
+    around, beside = surroundings or (None, None)
 
     def derived() -> _core.Derivation:
         return _core.Derivation(
@@ -341,6 +345,8 @@ def derive(
             start=start,
             attributes=dict(attributes or {}),
             edits=[edit.core for edit in edits],
+            around=around,
+            beside=beside,
             seconds=seconds,
             shapes=shapes,
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import functools
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -17,6 +17,7 @@ from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError
 
+Vector = tuple[float, float, float]
 MAX_SHAPES = 500_000
 """Of one lot's tree; it bounds memory to some hundred megabytes."""
 
@@ -25,6 +26,7 @@ MAX_SHAPES = 500_000
 class Deriver:
     """Compiled rules with their assets, and how they are to be derived.
 
+    beside: the lots that stand beside each, by its id, where the rules ask about them.
     refused: why an asset could not be made known, by its name.
     """
 
@@ -32,13 +34,16 @@ class Deriver:
     library: Library
     levels: Levels
     options: GrammarOptions
+    beside: Mapping[str, Sequence[Lot]] = field(default_factory=dict)
     refused: dict[str, str] = field(default_factory=dict)
 
     def together(self, lots: Sequence[Lot], level: float) -> _core.DerivedLots:
         """The lots at a level of detail, on the engine's side.
 
-        They are derived again where one wants an asset whose name only the derivation shows.
+        They are derived again where one wants an asset whose name only the derivation shows. What
+        stands beside them is there at the same level.
         """
+        around, rows = self.surroundings(lots, level)
         while True:
             made = _core.derive_lots(
                 self.rules,
@@ -47,12 +52,52 @@ class Deriver:
                 start=self.options.derive.start,
                 attributes=self._given(lots, level),
                 edits=[[edit.core for edit in lot.edits] for lot in lots],
+                around=around,
+                beside=rows,
                 seconds=self.options.derive.seconds,
                 shapes=MAX_SHAPES,
             )
-            missing = {made.missing_asset(row) for row in range(len(lots))} - {None}
-            if not self._add({name for name in missing if name is not None}):
+            if not self._add_missing(made):
                 return made
+
+    def surroundings(
+        self, lots: Sequence[Lot], level: float
+    ) -> tuple[_core.Surroundings | None, list[list[tuple[int, Vector]]] | None]:
+        """What stands beside lots: all of it, and per lot the rows there with their offsets (m).
+
+        A lot puts the same in the way of all others, whatever lots it is derived with.
+        """
+        if not any(self.beside.get(lot.id) for lot in lots):
+            return None, None
+        kinds = dict(self.rules.attributes)
+        seen = {one.id: one for lot in lots for one in self.beside.get(lot.id, ())}
+        sound = [
+            one
+            for one in seen.values()
+            if not isinstance(attributes_of(one, kinds, self.options), str)
+        ]
+        row_of = {one.id: row for row, one in enumerate(sound)}
+        rows = [
+            [
+                (row_of[one.id], _between(lot, one))
+                for one in self.beside.get(lot.id, ())
+                if one.id in row_of
+            ]
+            for lot in lots
+        ]
+        while True:
+            around = _core.derive_surroundings(
+                self.rules,
+                [rings_of(lot) for lot in sound],
+                self._seeds(sound),
+                start=self.options.derive.start,
+                attributes=self._given(sound, level),
+                edits=[[edit.core for edit in lot.edits] for lot in sound],
+                seconds=self.options.derive.seconds,
+                shapes=MAX_SHAPES,
+            )
+            if not self._add_missing(around):
+                return around, rows
 
     def fault(self, derived: _core.DerivedLots, row: int, lot: Lot) -> str | None:
         """Why a lot gives no building; None where it may."""
@@ -62,8 +107,10 @@ class Deriver:
         why = self.refused.get(derived.missing_asset(row) or "")
         return f"{told} ({why})" if why else told
 
-    def _add(self, names: set[str]) -> bool:
-        """Make assets known; whether there is a new one."""
+    def _add_missing(self, made: _core.DerivedLots | _core.Surroundings) -> bool:
+        """Make the assets known that are wanted; whether there is a new one."""
+        wanted = {made.missing_asset(row) for row in range(len(made))}
+        names = {name for name in wanted if name is not None}
         added = False
         for name in sorted(names - set(self.refused)):
             try:
@@ -100,10 +147,19 @@ def _compiled(
     return rules, library
 
 
-def deriver(files: tuple[tuple[str, str], ...], folder: Path, options: GrammarOptions) -> Deriver:
-    """What derives by these files; `folder` is where they lie, and the assets that they name."""
+def deriver(
+    files: tuple[tuple[str, str], ...],
+    folder: Path,
+    options: GrammarOptions,
+    beside: Mapping[str, Sequence[Lot]] | None = None,
+) -> Deriver:
+    """What derives by these files; `folder` is where they lie, and the assets that they name.
+
+    beside: the lots that stand beside each, by its id, where the rules ask about them.
+    """
     rules, library = _compiled(files, options.derive.style, folder)
-    return Deriver(rules, library, levels_of(rules, options.attributes.values), options)
+    levels = levels_of(rules, options.attributes.values)
+    return Deriver(rules, library, levels, options, beside or {})
 
 
 def attributes_of(
@@ -148,3 +204,9 @@ def seed_of(lot: Lot, seed: int) -> int:
 def rings_of(lot: Lot) -> list[list[tuple[float, float, float]]]:
     """The rings as the engine takes them (m)."""
     return [[(x, y, 0.0) for x, y in ring.tolist()] for ring in lot.rings_m]
+
+
+def _between(lot: Lot, other: Lot) -> Vector:
+    """How far the frame of another lot lies from a lot's own (m)."""
+    (x, y, z), (to_x, to_y, to_z) = lot.anchor_m, other.anchor_m
+    return (to_x - x, to_y - y, to_z - z)

@@ -9,9 +9,11 @@ import numpy as np
 
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.derivation import Derivation, Rules, derive
-from veduta.grammar.deriving import attributes_of, seed_of
+from veduta.grammar.deriving import Deriver, attributes_of, seed_of
 from veduta.grammar.edits import Edit, fault_told
+from veduta.grammar.levels import FULL, Levels
 from veduta.grammar.lots import Lot, read_lots, require_lots
+from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions, LotOptions
 from veduta.run.errors import InputError
 
@@ -27,35 +29,46 @@ def plain_lot(width_m: float = WIDTH_M, depth_m: float = DEPTH_M) -> Lot:
 
 def find_lot(
     path: Path | None, lot_id: str | None, options: LotOptions | None = None, seed: int = 0
-) -> Lot:
-    """The lot of this id, or the first of the file.
+) -> tuple[Lot, tuple[Lot, ...]]:
+    """The lot of this id, or the first of the file; and those that stand beside it.
 
     Where there is no file: the lot of this id in the synthetic street of `derive` with this seed,
     or the plain one.
     """
     require_lots(path, options)
     if path is None and lot_id in (None, PLAIN_ID):
-        return plain_lot()
+        return plain_lot(), ()
     named = "the synthetic street" if path is None else str(path)
     lots = (demo_lots(DEMO_LOTS, seed) if path is None else read_lots(path, options)).lots
-    if lot_id is None:
-        return lots[0]
-    found = [lot for lot in lots if lot_id in (lot.id, lot.name)]
-    if not found:
+    rows = [row for row, lot in enumerate(lots) if lot_id in (lot.id, lot.name)]
+    if lot_id is not None and not rows:
         ids = [lot.id for lot in lots]
         near = difflib.get_close_matches(lot_id, ids, n=1)
         hint = f"Did you mean `{near[0]}`?" if near else f"It has: {', '.join(ids[:12])}."
         raise InputError(f"--lot {lot_id}", f"is no lot of {named}", hint)
-    return found[0]
+    row = rows[0] if rows else 0
+    return lots[row], tuple(lots[other] for other in neighbours_of(lots)[row])
 
 
 def derive_lot(
-    rules: Rules, lot: Lot, options: GrammarOptions, seed: int, edits: tuple[Edit, ...] = ()
+    rules: Rules,
+    lot: Lot,
+    options: GrammarOptions,
+    seed: int,
+    edits: tuple[Edit, ...] = (),
+    beside: tuple[Lot, ...] = (),
 ) -> Derivation:
-    """The building that `veduta grammar derive` makes of this lot with this seed."""
+    """The building that `veduta grammar derive` makes of this lot with this seed.
+
+    beside: the lots that stand beside it.
+    """
     given = attributes_of(lot, rules.attributes, options)
     if isinstance(given, str):
         raise InputError(lot.name, given, "Correct it, or set it with --attr.")
+    options = options.with_seed(seed)
+    near = {lot.id: beside} if rules.core.asks_beside else {}
+    by = Deriver(rules.core, rules.library, Levels(marked=False), options, near)
+    around, rows = by.surroundings([lot], FULL)
     made = derive(
         rules,
         lot.rings_m,
@@ -63,6 +76,7 @@ def derive_lot(
         start=options.derive.start,
         attributes=given,
         edits=edits,
+        surroundings=(around, rows[0]) if around and rows else None,
         seconds=options.derive.seconds,
     )
     fault = fault_told(edits, made.edit_faults)

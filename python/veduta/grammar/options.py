@@ -94,3 +94,8 @@ class GrammarOptions(Options):
     lots: LotOptions = LotOptions()
     output: OutputOptions = OutputOptions()
     attributes: AttributeOptions = AttributeOptions()
+
+    def with_seed(self, seed: int) -> GrammarOptions:
+        """The same with another seed."""
+        derive = self.derive.model_copy(update={"seed": seed})
+        return self.model_copy(update={"derive": derive})

@@ -22,7 +22,8 @@ from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
-from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
+from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
+from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
@@ -30,6 +31,7 @@ from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.grammar.tile_pictures import picture_files
+from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
@@ -102,7 +104,7 @@ def run_derive(
         lots = _lots(lots_path, options)
         if edits_path is not None:
             lots = edited_lots(lots, edits_path, read_edits(edits_path))
-    blocks = _blocks(lots)
+    blocks = _blocks(lots, ask_beside=compiled.asks_beside)
     pictures: JsonValue = textures_digests(textures)
     source = rules_name if lots_path is None else str(lots_path)
     keys = {
@@ -116,11 +118,12 @@ def run_derive(
     with open_out(out, COMMAND, key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
+        needs_lines = options.output.city and not _has_city(folder, key, lots)
         waiting = [
             b
             for b in blocks
             if not folder.is_current(b.name, keys[b.name])
-            or (options.output.city and not _city_path(out, b).exists())
+            or (needs_lines and not _city_path(out, b).exists())
         ]
         if result.up_to_date:
             waiting = []
@@ -157,16 +160,22 @@ def _lots(path: Path | None, options: GrammarOptions) -> Lots:
     return read_lots(path, options.lots)
 
 
-def _blocks(lots: Lots) -> list[Block]:
-    """The lots by squares of a map, some to a folder."""
+def _blocks(lots: Lots, *, ask_beside: bool) -> list[Block]:
+    """The lots by squares of a map, some to a folder; with what stands beside them if rules ask."""
     size = max(FEW, -(-len(lots.lots) // MOST_BLOCKS))
     if not lots.lots:
         return []
     points = np.array([lot.anchor_m[:2] for lot in lots.lots])
+    beside = neighbours_of(lots.lots) if ask_beside else [()] * len(lots.lots)
     blocks = []
     for number, rows in enumerate(squares(points, size)):
         chosen = tuple(lots.lots[row] for row in rows)
-        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen)))
+        near = {
+            lots.lots[row].id: tuple(lots.lots[other] for other in beside[row])
+            for row in rows
+            if beside[row]
+        }
+        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen), near))
     return blocks
 
 
@@ -180,22 +189,36 @@ def _city_path(out: Path, block: Block) -> Path:
     return out / CITY / f"{block.name.rpartition('/')[2]}.jsonl"
 
 
+def _city_name(lots: Lots) -> str:
+    return "city.city.jsonl" if len(lots.lots) > SEQUENCE else "city.city.json"
+
+
+def _has_city(folder: OutFolder, key: str, lots: Lots) -> bool:
+    """Whether the CityJSON of this very call is there: its lines need not be made again."""
+    return folder.is_done(CALL, key) and (folder.path / _city_name(lots)).exists()
+
+
 def files_digest(files: Sequence[tuple[str, str]]) -> str:
     """The digest of all rule files and their names."""
     return hashlib.sha256(json.dumps(files).encode()).hexdigest()
 
 
 def _told(block: Block) -> str:
-    """The digest of all that is known of the lots of a block."""
-    content = [
-        [
-            *(lot.id, lot.name, lot.anchor_m, lot.attributes),
-            [ring.tolist() for ring in lot.rings_m],
-            [edit.core for edit in lot.edits],
-        ]
-        for lot in block.lots
+    """The digest of all that is known of the lots of a block, and of those beside them."""
+    lots = {lot.id: lot for near in block.beside.values() for lot in near}
+    lots |= {lot.id: lot for lot in block.lots}
+    own = [lot.id for lot in block.lots]
+    beside = [[name, *(lot.id for lot in near)] for name, near in block.beside.items()]
+    content = [block.name, own, beside, [_lot_told(lot) for lot in lots.values()]]
+    return hashlib.sha256(json.dumps(content).encode()).hexdigest()
+
+
+def _lot_told(lot: Lot) -> list[Any]:
+    return [
+        *(lot.id, lot.name, lot.anchor_m, lot.attributes),
+        [ring.tolist() for ring in lot.rings_m],
+        [edit.core for edit in lot.edits],
     ]
-    return hashlib.sha256(json.dumps([block.name, content]).encode()).hexdigest()
 
 
 def _key(step: str, options: GrammarOptions, inputs: JsonValue) -> str:
@@ -283,7 +306,7 @@ def _write_call(
     with writing_to(folder.path):
         if whole.count:
             with timed_step(result.steps, "join"):
-                _write_town(folder.path, work, lots, blocks, options, Path(rules_name).stem, whole)
+                _write_town(folder, key, work, lots, blocks, options, Path(rules_name).stem, whole)
                 _write_pictures(work, textures, whole)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
@@ -294,7 +317,8 @@ def _write_call(
 
 
 def _write_town(
-    out: Path,
+    folder: OutFolder,
+    key: str,
     work: Path,
     lots: Lots,
     blocks: list[Block],
@@ -309,12 +333,14 @@ def _write_town(
     if not options.output.city:
         return
     done = {name for name, _ in whole.blocks}
-    pieces = [_city_path(out, block) for block in blocks if block.name in done]
+    pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
+    name = _city_name(lots)
+    if _has_city(folder, key, lots) and not all(piece.exists() for piece in pieces):
+        same_file(folder.path / name, work / name)
+        return
     first = header(title, lots.crs, lots.origin_m)
-    if len(lots.lots) > SEQUENCE:
-        write_sequence(work / "city.city.jsonl", first, pieces)
-    else:
-        write_joined(work / "city.city.json", first, pieces)
+    write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
+    write(work / name, first, pieces)
 
 
 def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:

@@ -28,6 +28,7 @@ class Whole:
     dropped: int = 0
     classes: Counter[str] = field(default_factory=Counter)
     notes: Counter[str] = field(default_factory=Counter)
+    forms: Counter[str] = field(default_factory=Counter)
     rows: list[dict[str, Any]] = field(default_factory=list)
     blocks: list[tuple[str, dict[str, Any]]] = field(default_factory=list)
 
@@ -39,6 +40,7 @@ class Whole:
         self.dropped += summary["dropped"]
         self.classes.update(summary["classes"])
         self.notes.update(summary["notes"])
+        self.forms.update(summary["forms"])
         self.rows += summary["lots"]
         self.blocks.append((name, summary))
 
@@ -69,7 +71,7 @@ def derive_report(
         title=rules,
         summary=summary_line(found),
         facts=[(name, f"{found[name]:,}") for name in ("lots", "built", "surfaces", "triangles")],
-        tables=[_classes(found), *([_table(whole.rows)] if whole.rows else [])]
+        tables=[_classes(found), *_forms(found), *([_table(whole.rows)] if whole.rows else [])]
         if whole.count
         else [],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in steps])],
@@ -87,6 +89,7 @@ def measures(whole: Whole, total: int) -> dict[str, Any]:
         "polygons": whole.polygons,
         "triangles": whole.triangles,
         "classes": dict(sorted(whole.classes.items())),
+        "city": dict(sorted(whole.forms.items())),
     }
 
 
@@ -113,6 +116,14 @@ def _classes(found: Mapping[str, Any]) -> Table:
     rows = [[name, count] for name, count in found["classes"].items()]
     note = "All of it is invented: a rule file is no record of what stands there."
     return Table("Surfaces", ("class", "count"), rows, note=note)
+
+
+def _forms(found: Mapping[str, Any]) -> list[Table]:
+    """What the buildings are in CityJSON, where it is written."""
+    rows = [[*form.split(), count] for form, count in found["city"].items()]
+    note = "A Solid is closed, which was checked; a MultiSurface has gaps or surfaces that overlap."
+    columns = ("geometry", "level of detail", "buildings")
+    return [Table("CityJSON", columns, rows, note=note)] if rows else []
 
 
 def _table(lots: Sequence[Mapping[str, Any]]) -> Table:

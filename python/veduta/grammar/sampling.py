@@ -45,13 +45,19 @@ class Sample:
     box_m: Box
 
 
-def draw_samples(rules: Rules, lot: Lot, options: GrammarOptions, count: int) -> list[Sample]:
+def draw_samples(
+    rules: Rules,
+    lot: Lot,
+    options: GrammarOptions,
+    count: int,
+    beside: tuple[Lot, ...] = (),
+) -> list[Sample]:
     """Derivations with the seeds from that of the options on."""
     found = []
     first = options.derive.seed
     along = lot.rings_m[0][1] - lot.rings_m[0][0]
     for seed in range(first, first + count):
-        made = derive_lot(rules, lot, options, seed)
+        made = derive_lot(rules, lot, options, seed, beside=beside)
         try:
             columns = made.columns()
             assets = rules.library.assets_of(columns)

@@ -54,6 +54,14 @@ def write_bytes(path: Path, content: bytes) -> None:
         temporary.write_bytes(content)
 
 
+def same_file(known: Path, path: Path) -> None:
+    """Have a file at `path`, too: the same one where the file system can, or else a copy."""
+    try:
+        os.link(known, path)
+    except OSError:
+        shutil.copyfile(known, path)
+
+
 def sync_tree(folder: Path) -> None:
     """Force all files below `folder`, and the folders' entries, to disk."""
     for parent, _, files in os.walk(folder):

@@ -68,6 +68,11 @@ class OutFolder:
             return False
         return all((self.path / name).exists() for name in self.record.files_of(item))
 
+    def is_done(self, item: str, key: str) -> bool:
+        """Whether the item's result for `key` was finished; files of it may have gone since."""
+        known = self.record.items.get(item)
+        return known is not None and known.key == key and known.state == "done"
+
     def edited(self, item: str | None = None) -> list[str]:
         """The recorded files (of one item) that somebody has changed, as paths in OUT."""
         names = sorted(self.record.files) if item is None else self.record.files_of(item)

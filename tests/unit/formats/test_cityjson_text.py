@@ -7,9 +7,17 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import trimesh
 
 from veduta import _core
-from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, header, write_joined
+from veduta.formats.cityjson_text import (
+    CLASSES,
+    KINDS,
+    feature_line,
+    forms_of,
+    header,
+    write_joined,
+)
 
 BOX = """
 Lot --> extrude(world.up, 3) comp(f) { top : Roof | bottom : Floor | all : Wall }
@@ -86,3 +94,64 @@ def test_neighbours_share_vertices(tmp_path: Path) -> None:
         for face, same in zip(shell, joined, strict=True):
             told = [feature["vertices"][vertex] for vertex in face[0]]
             assert told == [city["vertices"][vertex] for vertex in same[0]]
+
+
+HOUSE = """
+Lot --> extrude(world.up, 3) comp(f) { top : roofGable(45) R | bottom : NIL | all : Wall }
+Wall --> set(material.name, "wall") W.
+R --> comp(f) { bottom : NIL | all : set(material.name, "roof") Roof. }
+"""
+
+
+def volumes(rules: str) -> tuple[dict[str, Any], dict[str, trimesh.Trimesh]]:
+    """The line of a lot whose lowest level is what these rules make, and its solids by LoD."""
+    derived = _core.derive_lots(
+        _core.GrammarRules([("a.cga", rules)]), [SQUARE], [0], attributes=[{}], edits=[[]]
+    )
+    assert derived.fault(0) is None
+    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, derived)
+    feature = json.loads(feature_line("a", {}, texts) or "")
+    points = np.array(feature["vertices"]) / 1000
+    found = {}
+    for geometry in feature["CityObjects"]["a"]["geometry"][1:]:
+        assert geometry["type"] == "Solid"
+        (shell,) = geometry["boundaries"]
+        assert all(len(face) == 1 for face in shell)
+        triangles = [
+            (ring[0], ring[k], ring[k + 1]) for (ring,) in shell for k in range(1, len(ring) - 1)
+        ]
+        found[geometry["lod"]] = trimesh.Trimesh(points, triangles, process=False)
+    return feature, found
+
+
+def test_volumes_are_closed_solids() -> None:
+    """A house of 4 m by 5 m, 3 m high, under a roof of 45 degrees: 2 m more."""
+    feature, solids = volumes(HOUSE)
+    assert sorted(solids) == ["1.2", "2.2"]
+    assert all(solid.is_watertight and solid.is_winding_consistent for solid in solids.values())
+    assert np.isclose(solids["1.2"].volume, 4 * 5 * 5)
+    assert np.isclose(solids["2.2"].volume, 4 * 5 * 3 + 4 * 2 / 2 * 5)
+    vertices = [tuple(vertex) for vertex in feature["vertices"]]
+    assert len(set(vertices)) == len(vertices)
+    for geometry in feature["CityObjects"]["a"]["geometry"][1:]:
+        kinds = [surface["type"] for surface in geometry["semantics"]["surfaces"]]
+        (values,) = geometry["semantics"]["values"]
+        normals = solids[geometry["lod"]]
+        assert len(values) == len(geometry["boundaries"][0])
+        assert [kinds[value] for value in values].count("GroundSurface") == 1
+        assert normals.volume > 0
+
+
+def test_what_has_no_ground_has_no_volume() -> None:
+    """Two walls enclose nothing."""
+    walls = "Lot --> extrude(3) comp(f) { front : W. | back : W. | all : NIL }"
+    _, solids = volumes(walls)
+    assert solids == {}
+
+
+def test_forms_are_those_of_the_building() -> None:
+    derived = _core.derive_lots(
+        _core.GrammarRules([("a.cga", BOX)]), [SQUARE], [0], attributes=[{}], edits=[[]]
+    )
+    texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, derived)
+    assert forms_of(texts) == ["Solid 3"]

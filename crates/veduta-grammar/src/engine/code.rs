@@ -23,6 +23,8 @@ pub struct Code {
     pub start: Option<usize>,
     /// Whether a rule asks about other shapes.
     pub asks: bool,
+    /// Whether one asks about shapes of other lots.
+    pub asks_beside: bool,
     /// Whether a rule trims shapes.
     pub trims: bool,
     /// The texts of all symbols.

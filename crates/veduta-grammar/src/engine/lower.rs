@@ -53,6 +53,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             instances: &instances,
             instance,
             asks: false,
+            asks_beside: false,
             trims: false,
             diagnostics: vec![Vec::new(); program.units.len()],
         };
@@ -60,6 +61,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
         lowering.definitions(&checked.definitions[unit].values, &mut lowered.code);
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
         lowered.code.asks |= lowering.asks;
+        lowered.code.asks_beside |= lowering.asks_beside;
         lowered.code.trims |= lowering.trims;
         for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
             let new = new.into_iter().filter(|one| !all.contains(one));
@@ -158,6 +160,8 @@ pub(super) struct Lowering<'a> {
     pub numbers: &'a Numbers,
     /// Whether a rule of the file asks about other shapes.
     pub asks: bool,
+    /// Whether one asks about shapes of other lots.
+    pub asks_beside: bool,
     pub trims: bool,
     checked: &'a Checked,
     instances: &'a [Instance],

@@ -122,6 +122,7 @@ impl Lowering<'_> {
         match Query::named(self.text(name)) {
             Some(query) => {
                 self.asks |= query.is_about_others();
+                self.asks_beside |= query.is_about_others() && !is_within(&args);
                 ExprKind::Query { query, args }
             }
             None => self.not_yet(name),
@@ -143,5 +144,13 @@ impl Lowering<'_> {
     fn unresolved(&mut self, span: Span, message: impl Into<String>) -> ExprKind {
         self.fault(span, message);
         ExprKind::Number(0.0)
+    }
+}
+
+/// Whether the first argument of a question says that it is about the same lot.
+fn is_within(args: &[Expr]) -> bool {
+    match args.first().map(|first| &first.kind) {
+        Some(ExprKind::Word(word) | ExprKind::Text(word)) => word.as_ref() == "intra",
+        _ => false,
     }
 }

@@ -50,7 +50,7 @@ pub use fault::Fault;
 pub use limits::Limits;
 pub use lot::lot_form;
 pub use lower::{lower, lower_in_style, Lowered};
-pub use occluders::Occluder;
+pub use occluders::{Neighbour, Occluder};
 pub use operations::names as operation_names;
 pub use overrides::{Edit, Edited, Overrides};
 pub use pack::{from_place, pack, to_place, Packed};

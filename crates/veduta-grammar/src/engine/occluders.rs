@@ -76,6 +76,77 @@ pub struct Occluder {
     pub high: DVec3,
 }
 
+/// What [`occluders`](super::occluders) gave for a start shape, seen from another one.
+#[derive(Debug, Clone)]
+pub struct Neighbour {
+    shapes: Arc<Vec<Occluder>>,
+    /// From the frame that the shapes are in to that of the start shape beside it (m).
+    offset: DVec3,
+    /// The box around all of them, in that frame.
+    low: DVec3,
+    high: DVec3,
+}
+
+impl Neighbour {
+    pub fn new(shapes: Arc<Vec<Occluder>>, offset: DVec3) -> Self {
+        let low = shapes
+            .iter()
+            .fold(DVec3::INFINITY, |low, one| low.min(one.low));
+        let high = shapes
+            .iter()
+            .fold(DVec3::NEG_INFINITY, |high, one| high.max(one.high));
+        Self {
+            low: low + offset,
+            high: high + offset,
+            shapes,
+            offset,
+        }
+    }
+
+    /// How many shapes it has.
+    pub fn count(&self) -> usize {
+        self.shapes.len()
+    }
+
+    /// Its shapes.
+    pub(super) fn around(&self) -> impl Iterator<Item = Around<'_>> {
+        let shapes = self.shapes.iter();
+        shapes.map(|shape| Around {
+            shape,
+            offset: self.offset,
+        })
+    }
+
+    /// Whether the box around its shapes comes near another.
+    pub(super) fn reaches(&self, low: DVec3, high: DVec3, near: f64) -> bool {
+        low.cmple(self.high + near).all() && self.low.cmple(high + near).all()
+    }
+}
+
+/// A shape that stands around another, and how far the frame that it is in lies off (m).
+#[derive(Clone, Copy)]
+pub(super) struct Around<'a> {
+    pub shape: &'a Occluder,
+    pub offset: DVec3,
+}
+
+impl<'a> From<&'a Occluder> for Around<'a> {
+    fn from(shape: &'a Occluder) -> Self {
+        let offset = DVec3::ZERO;
+        Self { shape, offset }
+    }
+}
+
+impl Around<'_> {
+    pub fn low(&self) -> DVec3 {
+        self.shape.low + self.offset
+    }
+
+    pub fn high(&self) -> DVec3 {
+        self.shape.high + self.offset
+    }
+}
+
 impl Run<'_> {
     pub(super) fn enter(&mut self) {
         if let Some(trail) = &mut self.trail {

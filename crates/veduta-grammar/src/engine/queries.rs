@@ -6,13 +6,13 @@
 //! to, and those that `label` names.
 
 use glam::DVec3;
-use veduta_geometry::solid::{relation, Relation};
+use veduta_geometry::solid::{relation, Mesh, Relation};
 
 use crate::shape::box_distance;
 use crate::Span;
 
 use super::fault::Fault;
-use super::occluders::Occluder;
+use super::occluders::{Around, Neighbour};
 use super::run::Run;
 use super::state::State;
 use super::value::Value;
@@ -109,27 +109,44 @@ impl Run<'_> {
             text.map_err(|why| Fault::at(span, why))
         };
         let (target, label) = (text(0)?, text(1)?);
-        let others = self.options.neighbours.iter().map(|one| one.len());
+        let others = self.options.neighbours.iter().map(Neighbour::count);
         self.take(self.around.len() + others.sum::<usize>(), span)?;
         let own = self.around.iter().filter(|_| target != "inter");
-        let others = self.options.neighbours.iter().flat_map(|one| one.iter());
-        let others = others.filter(|_| target != "intra");
-        let is_meant = |one: &&Occluder| label.is_empty() || one.label.as_deref() == Some(&label);
+        let beside = self.options.neighbours.iter();
+        let beside = beside.filter(|_| target != "intra");
+        let is_meant = |one: &Around<'_>| {
+            let name = one.shape.label.as_deref();
+            label.is_empty() || name == Some(&label)
+        };
         match query {
             Query::Inside | Query::Overlaps | Query::Touches => {
-                let own = own.filter(|one| !self.is_kin(one));
+                let mesh = state.form.world_mesh();
+                let Some((low, high)) = mesh.bounds().filter(|_| !mesh.is_empty()) else {
+                    return Ok(query.nothing());
+                };
+                let near = NOTHING * low.distance(high);
+                let own = own.filter(|one| !self.is_kin(one)).map(Around::from);
+                let beside = beside.filter(|one| one.reaches(low, high, near));
+                let others = beside.flat_map(Neighbour::around);
                 let all = own.chain(others).filter(is_meant);
-                self.occluded(query, all, state, span)
+                let closed = state.form.geometry.is_solid();
+                self.occluded(query, all, &mesh, closed, span)
             }
             _ if label.is_empty() => Ok(query.nothing()),
             Query::TreeKey => Ok(query.nothing()),
-            Query::Count => Ok(Value::Number(
-                own.chain(others).filter(is_meant).count() as f64
-            )),
+            Query::Count => {
+                let all = own.map(Around::from);
+                let all = all.chain(beside.flat_map(Neighbour::around));
+                Ok(Value::Number(all.filter(is_meant).count() as f64))
+            }
             Query::Distance => {
-                let all = own.chain(others).filter(is_meant);
-                let scope = &state.form.scope;
-                let far = all.map(|one| box_distance(scope, &one.scope));
+                let all = own.map(Around::from);
+                let all = all.chain(beside.flat_map(Neighbour::around));
+                let far = all.filter(is_meant).map(|one| {
+                    let mut scope = state.form.scope;
+                    scope.origin -= one.offset;
+                    box_distance(&scope, &one.shape.scope)
+                });
                 Ok(Value::Number(far.fold(f64::INFINITY, f64::min)))
             }
             Query::Rank => {
@@ -143,9 +160,11 @@ impl Run<'_> {
                         format!("`{order}` is no order: world.highest, area.largest, ..."),
                     )
                 })?;
-                let all = own.chain(others).filter(is_meant);
-                let before = all.filter(|one| {
-                    let there = ordered(&order, one.low, one.high, || one.mesh.area());
+                let all = own.map(Around::from);
+                let all = all.chain(beside.flat_map(Neighbour::around));
+                let before = all.filter(is_meant).filter(|one| {
+                    let area = || one.shape.mesh.area();
+                    let there = ordered(&order, one.low(), one.high(), area);
                     there.is_some_and(|there| there > here + NOTHING * here.abs())
                 });
                 Ok(Value::Number(before.count() as f64))
@@ -156,22 +175,24 @@ impl Run<'_> {
     fn occluded<'o>(
         &self,
         query: Query,
-        occluders: impl Iterator<Item = &'o Occluder>,
-        state: &State,
+        occluders: impl Iterator<Item = Around<'o>>,
+        mesh: &Mesh,
+        closed: bool,
         span: Span,
     ) -> Result<Value, Fault> {
-        let mesh = state.form.world_mesh();
-        let Some((low, high)) = mesh.bounds().filter(|_| !mesh.is_empty()) else {
-            return Ok(query.nothing());
-        };
-        let closed = state.form.geometry.is_solid();
+        let (low, high) = mesh.bounds().unwrap_or_default();
         let near = NOTHING * low.distance(high);
-        for one in occluders.filter(|one| one.closed) {
-            if low.cmpgt(one.high + near).any() || one.low.cmpgt(high + near).any() {
+        for one in occluders.filter(|one| one.shape.closed) {
+            if low.cmpgt(one.high() + near).any() || one.low().cmpgt(high + near).any() {
                 continue;
             }
             self.check_time(span)?;
-            let found = relation(&mesh, &one.mesh, self.budget());
+            let found = if one.offset == DVec3::ZERO {
+                relation(mesh, &one.shape.mesh, self.budget())
+            } else {
+                let moved = mesh.clone().mapped(|point| point - one.offset);
+                relation(&moved, &one.shape.mesh, self.budget())
+            };
             let found = found.map_err(|error| self.failed(span, error))?;
             if query.holds(&found, closed) {
                 return Ok(Value::Bool(true));

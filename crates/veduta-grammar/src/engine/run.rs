@@ -15,7 +15,7 @@ use super::fault::Fault;
 use super::frame::{Fate, Frame};
 use super::globals::Global;
 use super::limits::Limits;
-use super::occluders::{Occluder, Trail};
+use super::occluders::{Neighbour, Occluder, Trail};
 use super::overrides::{Edit, Edited, Overrides};
 use super::random::Stream;
 use super::state::State;
@@ -38,8 +38,8 @@ pub struct Options {
     /// Textures of known sizes by name: metres to the right and up, all above 0. They lie in
     /// metres where no rule says how they lie.
     pub textures: Arc<HashMap<Arc<str>, [f64; 2]>>,
-    /// What stands around the start shape: what [`occluders`] gives for each of its neighbours.
-    pub neighbours: Vec<Arc<Vec<Occluder>>>,
+    /// What stands around the start shape.
+    pub neighbours: Vec<Neighbour>,
 }
 
 /// A derivation at work.
@@ -99,7 +99,7 @@ pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Resu
     Ok(run.tree)
 }
 
-/// What a start shape puts in the way of others: see [`Options::neighbours`].
+/// What a start shape puts in the way of others, for [`Neighbour`]: the first of the two passes.
 pub fn occluders(
     code: &Code,
     rule: usize,
