@@ -146,6 +146,10 @@ pub fn boolean_within(
             return Ok(found);
         }
     }
+    // A mesh that overlaps itself has more volume than it fills: there, closed has to do.
+    if first.mesh.is_closed() {
+        return Ok(first);
+    }
     Err(BooleanError::Unclear)
 }
 
