@@ -189,6 +189,8 @@ struct Plan {
     first: u64,
     count: u64,
     told: bool,
+    /// `FUZZ_STEPS`: steps of work in place of seconds, on a machine that is busy.
+    steps: Option<u64>,
 }
 
 impl Plan {
@@ -201,19 +203,25 @@ impl Plan {
             first: told("FUZZ_FIRST").unwrap_or(if count.is_some() { anywhere } else { 0 }),
             count: count.unwrap_or(PROGRAMS),
             told: count.is_some(),
+            steps: told("FUZZ_STEPS"),
         }
     }
 
     /// So many steps are some tenths of a second. The clock stops none of the programs of each run:
     /// how fast a machine is, makes no difference.
     fn limits(&self) -> Limits {
+        let by_time = self.told && self.steps.is_none();
         Limits {
             depth: 20,
             shapes: 1_000,
             faces: 2_000,
             parts: 100,
-            seconds: if self.told { 2.0 } else { 3_600.0 },
-            work: if self.told { u64::MAX } else { 20_000_000 },
+            seconds: if by_time { 2.0 } else { 3_600.0 },
+            work: if by_time {
+                u64::MAX
+            } else {
+                self.steps.unwrap_or(20_000_000)
+            },
             memory: 256 << 20,
         }
     }
@@ -314,7 +322,8 @@ fn busy_seconds() -> f64 {
 fn nothing_breaks() {
     let plan = Plan::of_environment();
     let next = AtomicU64::new(0);
-    let found: Mutex<(BTreeMap<String, u64>, Vec<(f64, u64)>)> = Mutex::default();
+    // How many programs came to what, with the number of one; and how long each took.
+    let found: Mutex<(BTreeMap<String, (u64, u64)>, Vec<(f64, u64)>)> = Mutex::default();
     let work = || loop {
         let index = next.fetch_add(1, Ordering::Relaxed);
         if index >= plan.count {
@@ -323,7 +332,8 @@ fn nothing_breaks() {
         let number = plan.first.wrapping_add(index);
         let (outcome, seconds) = check_one(number, &plan);
         let mut found = found.lock().unwrap();
-        *found.0.entry(outcome).or_default() += 1;
+        let known = found.0.entry(outcome).or_default();
+        *known = (known.0 + 1, number);
         found.1.push((seconds, number));
     };
     std::thread::scope(|scope| {
@@ -339,7 +349,7 @@ fn nothing_breaks() {
         );
     }
     // Most programs that are made must be of use for this.
-    let derived = outcomes.get("derived").copied().unwrap_or(0);
+    let derived = outcomes.get("derived").map_or(0, |known| known.0);
     assert!(
         derived * 3 > plan.count || plan.count < 100,
         "{outcomes:#?}"

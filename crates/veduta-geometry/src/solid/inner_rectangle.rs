@@ -69,12 +69,16 @@ fn gaps(rings: &[Vec<[f64; 2]>], left: f64, right: f64) -> Vec<[f64; 2]> {
 /// What two lists of gaps in rising order have in common.
 fn common(one: &[[f64; 2]], other: &[[f64; 2]]) -> Vec<[f64; 2]> {
     let mut found = Vec::new();
-    for a in one {
-        for b in other {
-            let gap = [a[0].max(b[0]), a[1].min(b[1])];
-            if gap[1] > gap[0] {
-                found.push(gap);
-            }
+    let (mut ones, mut others) = (one.iter().peekable(), other.iter().peekable());
+    while let (Some(a), Some(b)) = (ones.peek(), others.peek()) {
+        let gap = [a[0].max(b[0]), a[1].min(b[1])];
+        if gap[1] > gap[0] {
+            found.push(gap);
+        }
+        if a[1] < b[1] {
+            ones.next();
+        } else {
+            others.next();
         }
     }
     found

@@ -48,6 +48,8 @@ impl Form {
             size: without_dust(high - low),
         };
         let unit = mesh.mapped(|point| over(point - low, scope.size));
+        // What is flat encloses nothing, and its cuts would have no faces.
+        let solid = solid && scope.size.cmpgt(DVec3::ZERO).all();
         Self {
             scope,
             geometry: Geometry::of(unit, solid),

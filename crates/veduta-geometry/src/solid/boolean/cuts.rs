@@ -7,7 +7,7 @@ use glam::{DVec2, DVec3};
 use super::super::mesh::Mesh;
 use super::super::weld::Places;
 use super::flat::{distance, Polygon};
-use super::{MOST_PAIRS, NEAR};
+use super::{extent, MOST_PAIRS};
 use crate::{Budget, Spent};
 
 pub type Segment = (u32, u32);
@@ -30,10 +30,9 @@ pub struct Cuts {
 }
 
 impl Cuts {
-    pub fn new(a: &Mesh, b: &Mesh) -> Self {
-        let bounds = |mesh: &Mesh| mesh.bounds().unwrap_or_default();
-        let ((low_a, high_a), (low_b, high_b)) = (bounds(a), bounds(b));
-        let near = NEAR * low_a.min(low_b).distance(high_a.max(high_b));
+    /// `share` of the extent of both is how far places may lie apart and still be one.
+    pub fn new(a: &Mesh, b: &Mesh, share: f64) -> Self {
+        let near = share * extent(a, b);
         let mut cuts = Self {
             points: Vec::new(),
             polygons: [Vec::new(), Vec::new()],

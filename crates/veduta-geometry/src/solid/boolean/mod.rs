@@ -13,13 +13,25 @@ mod regions;
 mod result;
 mod sides;
 
+use glam::DVec3;
+
 use super::mesh::Mesh;
 use crate::{Budget, Spent, Unlimited};
 use cuts::Cuts;
 use flat::Polygon;
 
 /// How far places may lie apart and still be one, as a share of the extent of both meshes.
-pub const NEAR: f64 = 1e-9;
+const NEAR: f64 = 1e-9;
+
+/// How near that is taken to be where closed meshes gave an open one: in turn.
+const OTHERS_NEAR: [f64; 3] = [1e-8, 1e-7, 1e-10];
+
+/// How far the second mesh is moved, where none of these gave a closed one: in turn, as shares of
+/// the extent. Faces that were neither one nor apart are apart then.
+const MOVES: [f64; 4] = [6.4e-8, 2.6e-7, 1e-6, 4e-6];
+
+/// The share of the volume of both meshes that may be rounding.
+const VOLUME: f64 = 1e-5;
 
 /// The most pairs of faces that are looked at, and of cuts within one face.
 const MOST_PAIRS: usize = 100_000_000;
@@ -67,13 +79,13 @@ pub(super) struct Region {
 
 /// Two meshes cut along each other: their common points, and the regions of each.
 pub(super) struct Overlay {
-    pub points: Vec<glam::DVec3>,
+    pub points: Vec<DVec3>,
     pub regions: [Vec<Region>; 2],
     /// The normals of the faces of each.
-    pub normals: [Vec<glam::DVec3>; 2],
+    pub normals: [Vec<DVec3>; 2],
 }
 
-fn overlay(a: &Mesh, b: &Mesh, budget: &dyn Budget) -> Result<Overlay, BooleanError> {
+fn overlay(a: &Mesh, b: &Mesh, near: f64, budget: &dyn Budget) -> Result<Overlay, BooleanError> {
     let too_many = BooleanError::TooManyFaces {
         a: a.face_count(),
         b: b.face_count(),
@@ -81,7 +93,7 @@ fn overlay(a: &Mesh, b: &Mesh, budget: &dyn Budget) -> Result<Overlay, BooleanEr
     if a.face_count().saturating_mul(b.face_count()) > MOST_PAIRS {
         return Err(too_many);
     }
-    let mut cuts = Cuts::new(a, b);
+    let mut cuts = Cuts::new(a, b, near);
     cuts.meet(budget)?;
     if !cuts.divide(budget)? {
         return Err(too_many);
@@ -111,11 +123,57 @@ pub fn boolean_within(
     budget: &dyn Budget,
 ) -> Result<Combined, BooleanError> {
     let closed = [a.is_closed(), b.is_closed()];
-    let combined = result::of(&overlay(a, b, budget)?, operation, closed);
-    if closed == [true; 2] && !combined.mesh.is_empty() && !combined.mesh.is_closed() {
-        return Err(BooleanError::Unclear);
+    let made = |b: &Mesh, near: f64| -> Result<Combined, BooleanError> {
+        let overlay = overlay(a, b, near, budget)?;
+        Ok(result::of(&overlay, operation, closed))
+    };
+    let first = made(b, NEAR)?;
+    if closed != [true; 2] || is_sound(a, b, operation, &first.mesh) {
+        return Ok(first);
     }
-    Ok(combined)
+    for near in OTHERS_NEAR {
+        let found = made(b, near)?;
+        if is_sound(a, b, operation, &found.mesh) {
+            return Ok(found);
+        }
+    }
+    for (share, turn) in MOVES.into_iter().zip(0u8..) {
+        let angle = 1.0 + 2.4 * f64::from(turn);
+        let direction = DVec3::new(angle.cos(), angle.sin(), 0.6180);
+        let by = share * extent(a, b) * direction;
+        let found = made(&b.clone().mapped(|point| point + by), NEAR)?;
+        if is_sound(a, b, operation, &found.mesh) {
+            return Ok(found);
+        }
+    }
+    // A mesh that overlaps itself has more volume than it fills: there, closed has to do.
+    if first.mesh.is_closed() {
+        return Ok(first);
+    }
+    Err(BooleanError::Unclear)
+}
+
+/// How large two meshes are together.
+fn extent(a: &Mesh, b: &Mesh) -> f64 {
+    let [(low_a, high_a), (low_b, high_b)] = [a, b].map(|mesh| mesh.bounds().unwrap_or_default());
+    low_a.min(low_b).distance(high_a.max(high_b))
+}
+
+/// Whether what closed meshes gave is closed, and has a volume that it can have. Meshes whose faces
+/// look inwards have no volume to tell from.
+fn is_sound(a: &Mesh, b: &Mesh, operation: Boolean, made: &Mesh) -> bool {
+    if !made.is_empty() && !made.is_closed() {
+        return false;
+    }
+    let [first, second, volume] = [a, b, made].map(Mesh::volume);
+    let near = VOLUME * (first + second);
+    let (least, most) = match operation {
+        Boolean::Union => (first.max(second), first + second),
+        Boolean::Subtract => (first - second, first),
+        Boolean::Intersect => (0.0, first.min(second)),
+    };
+    let told = first > 0.0 && second > 0.0;
+    !told || (least - near..=most + near).contains(&volume)
 }
 
 /// What [`boolean`] makes.
@@ -138,7 +196,7 @@ pub struct Relation {
 
 /// How two meshes lie to each other.
 pub fn relation(a: &Mesh, b: &Mesh, budget: &dyn Budget) -> Result<Relation, BooleanError> {
-    let overlay = overlay(a, b, budget)?;
+    let overlay = overlay(a, b, NEAR, budget)?;
     let shares = |regions: &[Region]| {
         let mut sums = [0.0; 4];
         for region in regions {

@@ -109,6 +109,9 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         .globals
         .iter()
         .position(|global| global.name == *name);
+    if matches!(value, Value::Number(number) if number.is_nan()) && attribute.is_none() {
+        return Err(Fault::at(expr.span, "a number is needed, not NaN"));
+    }
     let look = Arc::make_mut(&mut frame.state.look);
     let channel = value.number().unwrap_or_default().clamp(0.0, 1.0) as f32;
     match (name.as_ref(), attribute) {
