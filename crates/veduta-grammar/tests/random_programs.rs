@@ -110,6 +110,7 @@ const OPERATIONS: &[&str] = &[
     "scatter(surface, #, gaussian, front, '#) { @ }",
     "scatter(scope, #, uniform) { @ }",
     "set(material.color.r, #)",
+    "setMaterial([\"color.r\", \"0.5\", \"roughness\", #])",
     "setPivot(yzx, 3)",
     "setback(#) { front : @ | all = @ | remainder : @ }",
     "setback(comp(fe) { front : # | left : # }) { side : @ | remainder = @ }",

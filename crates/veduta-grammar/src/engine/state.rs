@@ -24,6 +24,8 @@ pub struct Look {
     /// What a surface is in the model: `wall`, `window`, `door`, `roof`, ...; empty where the
     /// rules do not say it.
     pub class: Arc<str>,
+    /// Properties that rules can read and models do not show, by their full names.
+    pub kept: BTreeMap<&'static str, Value>,
 }
 
 impl Default for Look {
@@ -33,6 +35,7 @@ impl Default for Look {
             opacity: 1.0,
             texture: None,
             class: "".into(),
+            kept: BTreeMap::new(),
         }
     }
 }

@@ -7,10 +7,11 @@ use super::super::code::{Arg, Operation};
 use super::super::colours::parsed;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::materials;
 use super::super::run::Run;
 use super::super::state::Look;
 use super::super::value::Value;
-use super::{number, word};
+use super::{number, value, word};
 
 /// `NIL`: the shape is gone.
 pub fn nothing(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -89,31 +90,11 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         .globals
         .iter()
         .position(|global| global.name == *name);
-    let look = Arc::make_mut(&mut frame.state.look);
-    let channel = value.number().unwrap_or_default().clamp(0.0, 1.0) as f32;
     match (name.as_ref(), attribute) {
         (_, Some(index)) => {
             let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
             set.get_or_insert_with(BTreeMap::new).insert(index, value);
             frame.state.set = set.map(Arc::new);
-        }
-        ("material.color.r", _) => look.colour[0] = channel,
-        ("material.color.g", _) => look.colour[1] = channel,
-        ("material.color.b", _) => look.colour[2] = channel,
-        ("material.color.rgb", _) => {
-            let text = value.to_string();
-            let Some((colour, _)) = parsed(&text) else {
-                return Err(Fault::at(
-                    expr.span,
-                    format!("`{text}` is no colour: #rrggbb"),
-                ));
-            };
-            look.colour = colour;
-        }
-        ("material.color.a" | "material.opacity", _) => look.opacity = channel,
-        ("material.colormap", _) => {
-            let path = value.to_string();
-            look.texture = (!path.is_empty()).then(|| path.into());
         }
         ("trim.horizontal", _) => {
             frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
@@ -121,11 +102,36 @@ pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
         ("trim.vertical", _) => {
             frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
         }
-        ("material.name", _) => look.class = value.to_string().into(),
-        (other, _) => {
-            let message = format!("`{other}` is neither an attribute nor a property of materials");
-            return Err(Fault::at(op.span, message));
+        (property, _) => {
+            let look = Arc::make_mut(&mut frame.state.look);
+            materials::set(look, property, &value)
+                .map_err(|message| Fault::at(expr.span, message))?;
         }
+    }
+    frame.changed();
+    Ok(())
+}
+
+/// `setMaterial(array)`: properties of the material, each a name without `material.` and its
+/// value after it.
+pub fn set_material(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let given = value(run, op, 0, frame)?;
+    let Value::Array(array) = &given else {
+        let message = format!(
+            "an array of names and values is needed, not {}",
+            given.kind()
+        );
+        return Err(Fault::at(op.span, message));
+    };
+    let pairs = array.values.chunks_exact(2);
+    if let [alone] = pairs.remainder() {
+        let message = format!("`{alone}` has no value after it");
+        return Err(Fault::at(op.span, message));
+    }
+    let look = Arc::make_mut(&mut frame.state.look);
+    for pair in pairs {
+        let name = format!("{}{}", materials::PREFIX, pair[0]);
+        materials::set(look, &name, &pair[1]).map_err(|message| Fault::at(op.span, message))?;
     }
     frame.changed();
     Ok(())

@@ -116,6 +116,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("scaleUV", textures::scale, 3, 3),
     ("scatter", scattering::scatter, 3, 5),
     ("set", appearance::set, 2, 2),
+    ("setMaterial", appearance::set_material, 1, 1),
     ("setPivot", pivots::set_pivot, 2, 2),
     ("setback", setbacks::setback, 1, 1),
     ("setbackPerEdge", setbacks::per_edge, 1, 1),
