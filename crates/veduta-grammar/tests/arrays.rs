@@ -1,5 +1,7 @@
 //! Arrays, strings and materials in expressions: the examples of the reference, and hand-worked truth.
 
+#![allow(clippy::unwrap_used)] // helpers of tests
+
 mod support;
 
 use support::{fault, said};
