@@ -74,6 +74,7 @@ impl Lowering<'_> {
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
         let args = call.args();
         self.trims |= id.trims();
+        self.asks |= id.asks();
         let (fewest, most) = id.arguments();
         if args.len() < fewest || args.len() > most {
             let name = self.text(call.name);

@@ -184,6 +184,15 @@ impl Run<'_> {
         }
     }
 
+    /// The shapes that `label` gave this name in the first pass of this derivation, and in those of its
+    /// neighbours, but those that the current shape came from.
+    pub(super) fn labelled<'o>(&'o self, label: &'o str) -> impl Iterator<Item = &'o Occluder> {
+        let own = self.around.iter().filter(|one| !self.came_from(one));
+        let others = self.options.neighbours.iter().flat_map(|one| one.iter());
+        own.chain(others)
+            .filter(move |one| one.label.as_deref() == Some(label))
+    }
+
     fn asset_info(&self, args: &[Value], span: Span) -> Result<Value, Fault> {
         let (name, what) = (args[0].to_string(), args[1].to_string());
         let asset = self.options.assets.get(name.as_str());

@@ -1,6 +1,5 @@
 //! What a shape looks like, and what it is.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::code::{Arg, Operation};
@@ -71,43 +70,6 @@ pub fn reset_material(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Resu
         class,
         ..Look::default()
     };
-    frame.changed();
-    Ok(())
-}
-
-/// `set(name, value)`: a material's property, an attribute of the rule file for this shape and its
-/// children; `material.name` says what the surface is in the model.
-pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let Arg::Word(name) = &op.args[0] else {
-        return Err(Fault::at(op.span, "the name of an attribute is needed"));
-    };
-    let Arg::Value(_, expr) = &op.args[1] else {
-        return Err(Fault::at(op.span, "a value is needed"));
-    };
-    let value = run.evaluate(expr, frame)?;
-    let attribute = run
-        .code
-        .globals
-        .iter()
-        .position(|global| global.name == *name);
-    match (name.as_ref(), attribute) {
-        (_, Some(index)) => {
-            let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
-            set.get_or_insert_with(BTreeMap::new).insert(index, value);
-            frame.state.set = set.map(Arc::new);
-        }
-        ("trim.horizontal", _) => {
-            frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
-        }
-        ("trim.vertical", _) => {
-            frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
-        }
-        (property, _) => {
-            let look = Arc::make_mut(&mut frame.state.look);
-            materials::set(look, property, &value)
-                .map_err(|message| Fault::at(expr.span, message))?;
-        }
-    }
     frame.changed();
     Ok(())
 }
