@@ -128,6 +128,8 @@ const OPERATIONS: &[&str] = &[
     "split(z, noAdjust) { { ~# : @ }* }",
     "split(u) { ~# : @ | # : @ }",
     "split(v, unitSpace, 0) { # : @ }*",
+    "splitAndSetbackPerimeter(#) { ~# : # : @ | # : # : @ } { remainder : @ }",
+    "splitAndSetbackPerimeter('#, #, comp(fe) { front : true }) { ~# : # : @ }* { remainder = @ }",
     "splitArea(x) { # : @ | { ~# : @ }* }",
     "splitArea(y) { '0.3 : @ | ~1 : @ }",
     "subtract(swap) { r(#, #, #) primitiveCube() }",

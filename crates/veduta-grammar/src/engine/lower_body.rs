@@ -81,7 +81,7 @@ impl Lowering<'_> {
             let message = format!("`{name}` with {} arguments does not derive yet", args.len());
             self.fault(call.span, message);
         }
-        let (cells, repeat) = match &call.block {
+        let (mut cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
             Some(Block::Body { body, .. }) => (vec![self.whole(body)], false),
             Some(Block::Operands { first, second, .. }) => {
@@ -89,6 +89,9 @@ impl Lowering<'_> {
             }
             None => (Vec::new(), false),
         };
+        if let Some(Block::Cells { cells: rest, .. }) = &call.rest {
+            cells.extend(self.cells(rest));
+        }
         // `set` is about an attribute, not about its value.
         let named = self.text(call.name) == "set";
         let mut lowered = Vec::with_capacity(args.len());
@@ -118,6 +121,7 @@ impl Lowering<'_> {
     fn whole(&mut self, body: &ast::Body) -> Cell {
         Cell::Part {
             selector: Selector::Word("all".into()),
+            depth: None,
             combined: false,
             body: self.body(body),
         }
@@ -132,11 +136,13 @@ impl Lowering<'_> {
             ast::Cell::Repeat { cells, .. } => Cell::Repeat(self.cells(cells)),
             ast::Cell::Part {
                 selector,
+                depth,
                 combined,
                 body,
                 ..
             } => Cell::Part {
                 selector: self.selector(selector),
+                depth: depth.as_ref().map(|depth| self.expr(depth)),
                 combined: *combined,
                 body: self.body(body),
             },

@@ -12,6 +12,7 @@ mod inner_rectangles;
 mod meshes;
 mod modifying;
 mod offsets;
+mod perimeter;
 mod pivots;
 mod primitives;
 mod reshaping;
@@ -129,6 +130,12 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("shapeU", wings::u, 3, 3),
     ("snap", snapping::snap, 2, 3),
     ("split", dividing::split, 1, 3),
+    (
+        "splitAndSetbackPerimeter",
+        perimeter::split_and_set_back,
+        1,
+        3,
+    ),
     ("splitArea", dividing::split_area, 1, 2),
     ("subtract", inlining::subtract, 0, 1),
     ("t", transform::move_scope, 3, 3),
