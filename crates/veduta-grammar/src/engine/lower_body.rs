@@ -92,12 +92,10 @@ impl Lowering<'_> {
         if let Some(Block::Cells { cells: rest, .. }) = &call.rest {
             cells.extend(self.cells(rest));
         }
-        // `set` is about an attribute, not about its value.
-        let named = self.text(call.name) == "set";
         let mut lowered = Vec::with_capacity(args.len());
         for (index, arg) in args.iter().enumerate() {
             lowered.push(match (&arg.kind, self.word(arg)) {
-                (ExprKind::Name(name), _) if named && index == 0 => {
+                (ExprKind::Name(name), _) if id.attribute_argument() == Some(index) => {
                     let attribute = self.attribute_name(*name);
                     Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
                 }

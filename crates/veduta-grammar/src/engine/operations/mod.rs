@@ -169,6 +169,11 @@ impl OperationId {
         }
     }
 
+    /// Which argument is an attribute itself, not its value.
+    pub fn attribute_argument(self) -> Option<usize> {
+        (TABLE[self.0].0 == "set").then_some(0)
+    }
+
     /// Whether it has to do with other shapes.
     pub fn asks(self) -> bool {
         TABLE[self.0].0 == "snap"
