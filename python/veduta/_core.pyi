@@ -22,16 +22,42 @@ class MissingAsset:
 class ChainFault(ValueError): ...
 class ChainSizeError(ChainFault): ...
 class ChainLabelsError(ChainFault): ...
+
 def skyline_chain(unary: _Array2[np.float32], slope: float, jump: float) -> list[int]:
     """One row per image column that minimises unary plus truncated linear costs, exactly."""
-def floor_chain(distance: _Array2[np.float32], scales: Sequence[tuple[Sequence[int], float, _Array1[np.float64], _Array1[np.float64], _Array1[np.float64]]], similarity: float, height_change: float, max_floors: int) -> list[list[tuple[float, list[int]] | None]]:
+
+def floor_chain(
+    distance: _Array2[np.float32],
+    scales: Sequence[
+        tuple[Sequence[int], float, _Array1[np.float64], _Array1[np.float64], _Array1[np.float64]]
+    ],
+    similarity: float,
+    height_change: float,
+    max_floors: int,
+) -> list[list[tuple[float, list[int]] | None]]:
     """The best chain of floors for every scale `(heights, neutral, eaves, boundary, ground)` and every count."""
-def column_chain(distance: _Array2[np.float32], evidence: _Array1[np.float64], jamb: _Array1[np.float64], widths: Sequence[int], *, step: int, gap_min: int, gap_max: int, jamb_weight: float, similarity: float, width_change: float, gap_symmetry: float, neutral: float) -> tuple[float, list[tuple[int, int]]]:
+
+def column_chain(
+    distance: _Array2[np.float32],
+    evidence: _Array1[np.float64],
+    jamb: _Array1[np.float64],
+    widths: Sequence[int],
+    *,
+    step: int,
+    gap_min: int,
+    gap_max: int,
+    jamb_weight: float,
+    similarity: float,
+    width_change: float,
+    gap_symmetry: float,
+    neutral: float,
+) -> tuple[float, list[tuple[int, int]]]:
     """The best chain of window stripes: its energy and `(position, width)` of each."""
 
 # compress.rs
 def compress_attributes(data: bytes, stride: int) -> bytes:
     """A column as EXT_meshopt_compression has it, mode ATTRIBUTES; `stride` in bytes."""
+
 def compress_indices(data: bytes, stride: int) -> bytes:
     """The same for whole numbers of `stride` bytes (2 or 4), mode INDICES."""
 
@@ -40,8 +66,42 @@ class Derivation:
     """A derivation that stays: shapes are named by their number in the tree, which a later
     `rederive` may change.
     """
-    def __new__(cls, rules: GrammarRules, lot: Sequence[Sequence[tuple[float, float, float]]], seed: int, *, start: str | None = None, attributes: dict[str, bool | float | str] | None = None, edits: Sequence[tuple[Sequence[int], str | None, bool, Sequence[int | None], Sequence[tuple[str, bool | float | str]]]] | None = None, seconds: float = 60.0, shapes: int = 5_000_000) -> Derivation: ...
-    def rederive(self, path: Sequence[int], edits: Sequence[tuple[Sequence[int], str | None, bool, Sequence[int | None], Sequence[tuple[str, bool | float | str]]]]) -> bool:
+    def __new__(
+        cls,
+        rules: GrammarRules,
+        lot: Sequence[Sequence[tuple[float, float, float]]],
+        seed: int,
+        *,
+        start: str | None = None,
+        attributes: dict[str, bool | float | str] | None = None,
+        edits: Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+        | None = None,
+        around: Surroundings | None = None,
+        beside: Sequence[tuple[int, tuple[float, float, float]]] | None = None,
+        seconds: float = 60.0,
+        shapes: int = 5_000_000,
+    ) -> Derivation: ...
+    def rederive(
+        self,
+        path: Sequence[int],
+        edits: Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ],
+    ) -> bool:
         """Derives the shape at `path` anew with these edits of the whole tree, and leaves the rest.
         False where there is no such shape.
         """
@@ -79,7 +139,9 @@ class Derivation:
         """Size of its scope (m): along x and y of its face, and z out of it."""
     def origin_m(self, shape: int) -> list[float]:
         """Where its scope begins (m), in the frame of places: x east, y north, z up."""
-    def polygons(self, shape: int) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64]]:
+    def polygons(
+        self, shape: int
+    ) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64]]:
         """The polygons of one shape, in the frame of places: corners (n, 3) in metres, the first
         corner of each ring and the first ring of each polygon, each with the end.
         """
@@ -158,29 +220,77 @@ class DerivedLots:
         """The columns of a lot."""
     def messages(self, lot: int) -> list[str]:
         """What the rules said of a lot."""
-    def extent(self, lot: int) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None:
+    def extent(
+        self, lot: int
+    ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None:
         """Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets
         there are; None where nothing is left.
         """
-    def colour(self, lot: int, kind: str, textures: Sequence[tuple[str, tuple[float, float, float]]] = Vec :: new ()) -> tuple[float, float, float] | None:
+    def colour(
+        self, lot: int, kind: str, textures: Sequence[tuple[str, tuple[float, float, float]]] = ...
+    ) -> tuple[float, float, float] | None:
         """The sRGB colour that most leaves of a class have, with the mean colours of textures; None
         where there is no such class.
         """
-    def city(self, lot: int, place: tuple[float, float, float], classes: Sequence[str], kinds: Sequence[str]) -> tuple[str, list[tuple[int, str, str]], str]:
+    def city(
+        self,
+        lot: int,
+        place: tuple[float, float, float],
+        classes: Sequence[str],
+        kinds: Sequence[str],
+        volumes: DerivedLots | None = None,
+    ) -> tuple[str, list[tuple[int, str, str]], str]:
         """Geometry, installations (class, rule, geometry) and vertices (mm) of a lot at its place, as
         texts of CityJSON; `kinds` has the semantic surface of each class, "" for installations.
+        `volumes`: the same lots at their lowest level of detail, whose closed volumes become further
+        geometries of LoD 1.2 and 2.2.
         """
-    def tile(self, lots: Sequence[int], places: Sequence[tuple[float, float, float]], classes: Sequence[str], provenances: Sequence[str], textures: Sequence[tuple[str, tuple[float, float, float]]] = Vec :: new (), *, mapped: bool = false) -> TileBuffers:
+    def tile(
+        self,
+        lots: Sequence[int],
+        places: Sequence[tuple[float, float, float]],
+        classes: Sequence[str],
+        provenances: Sequence[str],
+        textures: Sequence[tuple[str, tuple[float, float, float]]] = ...,
+        *,
+        mapped: bool = False,
+    ) -> TileBuffers:
         """The buffers of a tile with these lots, each at its place (m, z up); `classes` and
         `provenances` are those that are known, the last of them for all others. `textures` have
         their mean colours (sRGB); a tile that is not `mapped` has these instead.
         """
-def derive_lots(rules: GrammarRules, lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]], seeds: Sequence[int], *, start: str | None = None, attributes: Sequence[dict[str, bool | float | str]], edits: Sequence[Sequence[tuple[Sequence[int], str | None, bool, Sequence[int | None], Sequence[tuple[str, bool | float | str]]]]], seconds: float = 60.0, shapes: int = 5_000_000) -> DerivedLots:
-    """Derives lots as `GrammarRules.derive` does."""
+
+def derive_lots(
+    rules: GrammarRules,
+    lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+    seeds: Sequence[int],
+    *,
+    start: str | None = None,
+    attributes: Sequence[dict[str, bool | float | str]],
+    edits: Sequence[
+        Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+    ],
+    around: Surroundings | None = None,
+    beside: Sequence[Sequence[tuple[int, tuple[float, float, float]]]] | None = None,
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> DerivedLots:
+    """Derives lots as `GrammarRules.derive` does. `beside`: per lot, which lots of `around` stand beside
+    it, and how far their frames lie from its own (m, z up).
+    """
 
 # grammar.rs
 class GrammarFault(ValueError): ...
 class AssetWanted(GrammarFault): ...
+
 class GrammarRules:
     """Checked rule files, ready to derive."""
     def __new__(cls, files: Sequence[tuple[str, str]], style: str | None = None) -> GrammarRules:
@@ -198,20 +308,65 @@ class GrammarRules:
     def attributes(self) -> list[tuple[str, str]]:
         """The attributes, with what each is where its value says so: `number`, `text`, `bool`, or ""."""
     @property
+    def asks_beside(self) -> bool:
+        """Whether they ask about shapes of other lots."""
+    @property
     def asset_names(self) -> tuple[list[str], bool]:
         """The names of assets that stand in the rules, and whether there are others that are computed."""
-    def add_asset(self, name: str, points: _Array2[np.float64], corners: _Array1[np.uint32], offsets: _Array1[np.int64], box_m: _Array2[np.float64], face_slot: _Array1[np.int32] | None = None, slots: Sequence[tuple[tuple[float, float, float] | None, tuple[float, float, float]]] | None = None) -> None:
+    def add_asset(
+        self,
+        name: str,
+        points: _Array2[np.float64],
+        corners: _Array1[np.uint32],
+        offsets: _Array1[np.int64],
+        box_m: _Array2[np.float64],
+        face_slot: _Array1[np.int32] | None = None,
+        slots: Sequence[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
+        | None = None,
+    ) -> None:
         """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
         face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
         `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
         face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
         the shape is white.
         """
-    def derive(self, lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]], seeds: Sequence[int], *, start: str | None = None, attributes: Sequence[dict[str, bool | float | str]] | None = None, edits: Sequence[Sequence[tuple[Sequence[int], str | None, bool, Sequence[int | None], Sequence[tuple[str, bool | float | str]]]]] | None = None, seconds: float = 60.0, shapes: int = 5_000_000) -> list[DerivedLot | MissingAsset | str]:
+    def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None:
+        """Makes textures known that cover so many metres to the right and up: they lie in metres where
+        no rule says how they lie, and a name of a built-in one that is not among them is a fault.
+        """
+    def derive(
+        self,
+        lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+        seeds: Sequence[int],
+        *,
+        start: str | None = None,
+        attributes: Sequence[dict[str, bool | float | str]] | None = None,
+        edits: Sequence[
+            Sequence[
+                tuple[
+                    Sequence[int],
+                    str | None,
+                    bool,
+                    Sequence[int | None],
+                    Sequence[tuple[str, bool | float | str]],
+                ]
+            ]
+        ]
+        | None = None,
+        seconds: float = 60.0,
+        shapes: int = 5_000_000,
+    ) -> list[DerivedLot | MissingAsset | str]:
         """Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
         attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
         """
-    def pace(self, lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]], seeds: Sequence[int], cores: int, *, start: str | None = None) -> tuple[int, int, float]:
+    def pace(
+        self,
+        lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+        seeds: Sequence[int],
+        cores: int,
+        *,
+        start: str | None = None,
+    ) -> tuple[int, int, float]:
         """Derives and packs the lots on so many cores, and keeps nothing: how many leaves and polygons
         there were, and the seconds that it took. For benchmarks.
         """
@@ -225,20 +380,58 @@ class RepeatedVertexError(PolygonFault): ...
 class NoAreaError(PolygonFault): ...
 class NotPlanarError(PolygonFault): ...
 class SelfCrossingError(PolygonFault): ...
-def triangulate_polygons(positions_m: _Array2[np.float64], ring_offsets: _Array1[np.int64], polygon_offsets: _Array1[np.int64], tolerance_m: float) -> tuple[_Array2[np.uint32], _Array1[np.uint32], _Array2[np.float64], _Array1[np.float64]]:
+
+def triangulate_polygons(
+    positions_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
+    tolerance_m: float,
+) -> tuple[_Array2[np.uint32], _Array1[np.uint32], _Array2[np.float64], _Array1[np.float64]]:
     """Triangles, the polygon of each triangle, unit normals and areas (m2) of columnar polygons."""
-def dissolve_polygons(positions_m: _Array2[np.float64], uv: _Array2[np.float64], ring_offsets: _Array1[np.int64], polygon_offsets: _Array1[np.int64], group: _Array1[np.uint32], solid: _Array1[np.uint32], near_m: float) -> tuple[_Array2[np.float64], _Array2[np.float64], _Array1[np.int64], _Array1[np.int64], _Array1[np.uint32]]:
+
+def dissolve_polygons(
+    positions_m: _Array2[np.float64],
+    uv: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
+    group: _Array1[np.uint32],
+    solid: _Array1[np.uint32],
+    near_m: float,
+) -> tuple[
+    _Array2[np.float64],
+    _Array2[np.float64],
+    _Array1[np.int64],
+    _Array1[np.int64],
+    _Array1[np.uint32],
+]:
     """Polygons of one group that touch in one plane as one: positions, texture coordinates, offsets of
     rings and polygons, and the group of each. Polygons of one solid share their corners.
     """
-def sound_polygons(positions_m: _Array2[np.float64], ring_offsets: _Array1[np.int64], polygon_offsets: _Array1[np.int64], tolerance_m: float) -> _Array1[np.bool_]:
+
+def sound_polygons(
+    positions_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    polygon_offsets: _Array1[np.int64],
+    tolerance_m: float,
+) -> _Array1[np.bool_]:
     """Which of columnar polygons `triangulate_polygons` takes."""
 
 # roofs.rs
 class RoofFault(ValueError): ...
+
 def roof_types() -> list[str]:
     """The names of the types of roof."""
-def roof_solid(kind: str, points_m: _Array2[np.float64], ring_offsets: _Array1[np.int64], slope: float, *, overhang_m: float = 0.0, gable_overhang_m: float = 0.0, numbers: dict[str, float] | None = None) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64], _Array1[np.uint32]]:
+
+def roof_solid(
+    kind: str,
+    points_m: _Array2[np.float64],
+    ring_offsets: _Array1[np.int64],
+    slope: float,
+    *,
+    overhang_m: float = 0.0,
+    gable_overhang_m: float = 0.0,
+    numbers: dict[str, float] | None = None,
+) -> tuple[_Array2[np.float64], _Array1[np.int64], _Array1[np.int64], _Array1[np.uint32]]:
     """The closed solid between a polygon (x, y in metres; rings by their offsets, the outline first)
     and a roof over it: points, the first corner of each ring, the first ring of each face (both with
     the end), and the point of each corner. `slope` is a tangent.
@@ -249,11 +442,45 @@ def grammar_imports(main: str, name: str, text: str) -> list[str]:
     """The names of the files that the file `name` imports; `main` is the first file of the program.
     What lies outside of its folder is left out, and reported when the program is checked.
     """
+
 def grammar_check(files: Sequence[tuple[str, str]]) -> tuple[str, int, int, str]: ...
 def grammar_format(name: str, text: str) -> str:
     """The text of a rule file in the house style; GrammarFault where it does not parse."""
+
 def grammar_operations() -> list[str]:
     """The names of the operations that derive."""
+
+# surroundings.rs
+class Surroundings:
+    """The shapes that lots put in the way of others: those that the first of the two passes makes."""
+    def __len__(self) -> int: ...
+    def missing_asset(self, lot: int) -> str | None:
+        """The asset that a lot's rules want and that is not known; None where nothing is wanted."""
+
+def derive_surroundings(
+    rules: GrammarRules,
+    lots: Sequence[Sequence[Sequence[tuple[float, float, float]]]],
+    seeds: Sequence[int],
+    *,
+    start: str | None = None,
+    attributes: Sequence[dict[str, bool | float | str]],
+    edits: Sequence[
+        Sequence[
+            tuple[
+                Sequence[int],
+                str | None,
+                bool,
+                Sequence[int | None],
+                Sequence[tuple[str, bool | float | str]],
+            ]
+        ]
+    ],
+    seconds: float = 60.0,
+    shapes: int = 5_000_000,
+) -> Surroundings:
+    """Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
+    nothing there.
+    """
 
 # tiles.rs
 class TileBuffers:
@@ -294,7 +521,9 @@ class TileBuffers:
         coordinates two u16 or empty.
         """
     @property
-    def repeated(self) -> list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes, bytes]]:
+    def repeated(
+        self,
+    ) -> list[tuple[int, bytes, bytes, list[int], list[int], bytes, bytes, bytes, bytes, bytes]]:
         """Positions are four i16, indices u16, translations three f32, rotations four i16, features
         u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty, texture
         coordinates two u16 or empty.

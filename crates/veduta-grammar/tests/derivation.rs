@@ -248,7 +248,7 @@ fn faults_say_what_is_wrong() {
             .contains("functions call one another")
     );
     assert!(fault("Lot --> s([1, 2], 1, 1)").contains("a number is needed, not an array"));
-    assert!(fault("Lot --> print([1, 2][5])").contains("in an array of 2"));
+    assert!(fault("Lot --> print([1, 2][\"a\"])").contains("an index is a number"));
     assert!(fault("Lot --> s(1 / 0, 1, 1)").contains("a finite number"));
 }
 
@@ -267,8 +267,8 @@ fn what_does_not_derive_yet_is_said_before_anything_is_derived() {
         ["`reduceGeometry` does not derive yet"]
     );
     assert_eq!(
-        wrong("Lot --> s(material.shininess, 1, 1)"),
-        ["`material.shininess` does not derive yet"]
+        wrong("Lot --> s(material.bumpmap.su, 1, 1)"),
+        ["`material.bumpmap.su` does not derive yet"]
     );
     assert_eq!(wrong("Lot --> s(abs(1), 1, 1)"), [""; 0]);
 }

@@ -148,7 +148,6 @@ fn points_on_shapes() {
     let mean = places(&front).iter().map(|p| p.z).sum::<f64>() / 300.0;
     // Half a bell of 0.6 m: its mean is 0.6 sqrt(2 / pi) from the front.
     assert!((6.0 - mean - 0.479).abs() < 0.15, "{mean}");
-    assert!(fault("Lot --> scatter(volume, 3, uniform) { X. }").contains("surface or scope"));
     assert!(fault("Lot --> scatter(scope, 1e9, uniform) { X. }").contains("points"));
     assert_eq!(
         tree("Lot --> scatter(scope, -3, uniform) { X. }")

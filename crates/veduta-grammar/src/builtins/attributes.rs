@@ -47,7 +47,14 @@ pub fn is_attribute(name: &str) -> bool {
 
 /// Whether `set` may change an attribute of the current shape.
 pub fn is_settable(name: &str) -> bool {
-    let read_only = ["comp.", "split.", "initialShape.", "scope.elevation"];
+    let read_only = [
+        "comp.",
+        "split.",
+        "initialShape.",
+        "scope.elevation",
+        "pivot.",
+        "seedian",
+    ];
     !read_only.iter().any(|start| name.starts_with(start))
 }
 

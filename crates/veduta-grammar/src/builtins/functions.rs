@@ -27,6 +27,7 @@ const fn of(name: &'static str, count: u8) -> Function {
 }
 
 const TARGETS: Words = &["intra", "inter", "all"];
+const MATERIALS: &[Words] = &[&["used", "shape", "geometry"], &["changed", "all"]];
 const OCCLUSION: &[Words] = &[TARGETS];
 const RANKS: &[Words] = &[
     TARGETS,
@@ -93,7 +94,7 @@ pub const FUNCTIONS: &[Function] = &[
     of("geometry.volume", 0),
     takes("isTagged", 1, 2, SUBCOMPONENTS),
     // Material
-    takes("getMaterial", 0, 1, &[]), of("readMaterial", 1),
+    takes("getMaterial", 2, 2, MATERIALS), of("readMaterial", 1),
     // Files
     of("fileExists", 1), of("fileSearch", 1), of("filesSearch", 1), of("readTextFile", 1),
     of("readFloatTable", 1), of("readStringTable", 1),

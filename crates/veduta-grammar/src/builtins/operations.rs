@@ -207,6 +207,7 @@ pub const OPERATIONS: &[Operation] = &[
     // Flow, context, attributes
     plain("NIL", &[0], &[]),
     plain("label", &[1], &[]),
+    plain("snap", &[2, 3], &[AXIS_SETS]),
     plain("set", &[2], &[]),
     plain("color", &[1, 3, 4], &[]),
     plain("setMaterial", &[1], &[]),

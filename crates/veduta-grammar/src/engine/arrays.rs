@@ -1,8 +1,9 @@
 //! Functions of arrays.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
-use super::functions::{array, number, Function};
+use super::functions::{array, number, text, Function};
 use super::value::{Array, Value};
 
 /// Names, functions, and the fewest and most arguments.
@@ -14,6 +15,7 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
         ("floatArray", Of(empty), 0, 0),
         ("setElems", Of(set_elements), 3, 4),
         ("sortIndices", Of(sort_indices), 1, 1),
+        ("sortRowIndices", Of(sort_row_indices), 1, 1),
         ("stringArray", Of(empty), 0, 0),
         ("transpose", Of(transpose), 1, 1),
     ]
@@ -23,8 +25,14 @@ fn empty(_: &[Value]) -> Result<Value, String> {
     Ok(Value::list(Vec::new()))
 }
 
-/// `findFirst(array, value)`: its number, row by row; -1 where it is not there.
+/// `findFirst(array, value)`: its number, row by row; `findFirst(text, part)`: the place of the
+/// first. -1 where it is not there.
 fn find_first(args: &[Value]) -> Result<Value, String> {
+    if let Value::Text(all) = &args[0] {
+        let place = all.find(text(args, 1)?);
+        let characters = |at: usize| all[..at].chars().count() as f64;
+        return Ok(Value::Number(place.map_or(-1.0, characters)));
+    }
     let place = array(args)?.values.iter().position(|one| *one == args[1]);
     Ok(Value::Number(place.map_or(-1.0, |place| place as f64)))
 }
@@ -58,15 +66,37 @@ fn set_elements(args: &[Value]) -> Result<Value, String> {
 fn sort_indices(args: &[Value]) -> Result<Value, String> {
     let values = &array(args)?.values;
     let mut order: Vec<usize> = (0..values.len()).collect();
-    order.sort_by(|&a, &b| match (&values[a], &values[b]) {
+    order.sort_by(|&a, &b| compared(&values[a], &values[b]));
+    let numbers = order.into_iter().map(|at| Value::Number(at as f64));
+    Ok(Value::list(numbers.collect()))
+}
+
+/// `sortRowIndices(array)`: the numbers of its rows, in the order of their first elements, where
+/// these are alike of their second ones, and so on.
+fn sort_row_indices(args: &[Value]) -> Result<Value, String> {
+    let given = array(args)?;
+    let columns = given.columns;
+    let row = |at: usize| &given.values[at * columns..(at + 1) * columns];
+    let mut order: Vec<usize> = (0..given.rows()).collect();
+    order.sort_by(|&a, &b| {
+        let pairs = row(a).iter().zip(row(b));
+        pairs.fold(Ordering::Equal, |so_far, (a, b)| {
+            so_far.then_with(|| compared(a, b))
+        })
+    });
+    let numbers = order.into_iter().map(|at| Value::Number(at as f64));
+    Ok(Value::list(numbers.collect()))
+}
+
+/// The order of two values: of strings by their letters, of others as numbers.
+fn compared(a: &Value, b: &Value) -> Ordering {
+    match (a, b) {
         (Value::Text(a), Value::Text(b)) => a.cmp(b),
         (a, b) => {
             let number = |value: &Value| value.number().unwrap_or(f64::NAN);
             number(a).total_cmp(&number(b))
         }
-    });
-    let numbers = order.into_iter().map(|at| Value::Number(at as f64));
-    Ok(Value::list(numbers.collect()))
+    }
 }
 
 /// `transpose(array)`: rows as columns.

@@ -210,6 +210,8 @@ pub enum Sizing {
 pub enum Cell {
     Part {
         selector: Selector,
+        /// The second size of a cell of `splitAndSetbackPerimeter`.
+        depth: Option<Expr>,
         /// `=`: all that is selected becomes one shape.
         combined: bool,
         body: Body,

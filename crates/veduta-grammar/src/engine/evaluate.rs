@@ -8,6 +8,7 @@ use super::code::{Choice, Expr, ExprKind};
 use super::draws::Draws;
 use super::fault::Fault;
 use super::functions::Function;
+use super::indexing::{beside, indexed};
 use super::operators::{binary, unary};
 use super::random::Stream;
 use super::run::Run;
@@ -245,28 +246,38 @@ impl Run<'_> {
     ) -> Result<Value, Fault> {
         let mut array = Array::default();
         for row in rows {
-            let before = array.values.len();
+            let mut parts = Vec::with_capacity(row.len());
+            let mut count = array.values.len();
             for element in row {
-                self.push_element(element, &mut array.values, scene)?;
+                let part = self.part(element, scene)?;
+                count += part.values.len();
+                if count > MAX_ELEMENTS {
+                    let message = format!("an array of more than {MAX_ELEMENTS} elements");
+                    return Err(Fault::at(element.span, message));
+                }
+                parts.push(part);
             }
-            let columns = array.values.len() - before;
-            if before > 0 && columns != array.columns {
-                let message = format!("a row has {columns} elements, the first {}", array.columns);
+            let row = beside(parts).map_err(|message| Fault::at(expr.span, message))?;
+            if row.values.is_empty() {
+                continue;
+            }
+            if !array.values.is_empty() && row.columns != array.columns {
+                let message = format!(
+                    "a row has {} elements, the first {}",
+                    row.columns, array.columns
+                );
                 return Err(Fault::at(expr.span, message));
             }
-            array.columns = columns;
+            array.columns = row.columns;
+            array.values.extend(row.values);
         }
         self.take(array.values.len(), expr.span)?;
         Ok(Value::Array(Arc::new(array)))
     }
 
-    fn push_element(
-        &mut self,
-        element: &Expr,
-        values: &mut Vec<Value>,
-        scene: &mut Scene<'_>,
-    ) -> Result<(), Fault> {
-        if let ExprKind::Range { from, step, to } = &element.kind {
+    /// What stands between commas in an array: a value, a range, or an array.
+    fn part(&mut self, element: &Expr, scene: &mut Scene<'_>) -> Result<Array, Fault> {
+        let values = if let ExprKind::Range { from, step, to } = &element.kind {
             let (from, to) = (self.number(from, scene)?, self.number(to, scene)?);
             let step = match step {
                 Some(step) => self.number(step, scene)?,
@@ -280,19 +291,17 @@ impl Run<'_> {
                 ));
             }
             let numbers = (0..count.max(0.0) as usize).map(|k| from + step * k as f64);
-            values.extend(numbers.map(Value::Number));
+            numbers.map(Value::Number).collect()
         } else {
-            let value = self.value(element, scene)?;
-            if let Value::Array(_) = value {
-                return Err(Fault::at(element.span, "an array in an array"));
+            match self.value(element, scene)? {
+                Value::Array(array) => return Ok(Array::clone(&array)),
+                value => vec![value],
             }
-            values.push(value);
-        }
-        if values.len() > MAX_ELEMENTS {
-            let message = format!("an array of more than {MAX_ELEMENTS} elements");
-            return Err(Fault::at(element.span, message));
-        }
-        Ok(())
+        };
+        Ok(Array {
+            columns: values.len(),
+            values,
+        })
     }
 
     fn element(
@@ -307,24 +316,8 @@ impl Run<'_> {
             let message = format!("an array is needed before `[`, not {}", value.kind());
             return Err(Fault::at(expr.span, message));
         };
-        let mut places = Vec::with_capacity(indices.len());
-        for index in indices {
-            places.push(self.number(index, scene)?);
-        }
-        let flat = match places[..] {
-            [index] => index,
-            [row, column] if column >= 0.0 && column < array.columns as f64 => {
-                row.floor() * array.columns as f64 + column.floor()
-            }
-            _ => -1.0,
-        };
-        let found = (flat >= 0.0)
-            .then(|| array.values.get(flat as usize))
-            .flatten();
-        found.cloned().ok_or_else(|| {
-            let message = format!("index {places:?} in an array of {}", array.values.len());
-            Fault::at(expr.span, message)
-        })
+        let indices = self.values(indices, scene)?;
+        indexed(&array, &indices).map_err(|message| Fault::at(expr.span, message))
     }
 }
 

@@ -1,7 +1,7 @@
 //! The functions of the language that need no shape. Angles are in degrees.
 
 use super::value::{Array, Value, MAX_ELEMENTS};
-use super::{arrays, colours, lists};
+use super::{arrays, colours, lists, strings};
 
 /// A built-in function.
 #[derive(Debug, Clone, Copy)]
@@ -78,7 +78,7 @@ const TABLE: &[(&str, Function, usize, usize)] = {
 };
 
 fn table() -> impl Iterator<Item = &'static (&'static str, Function, usize, usize)> {
-    let more = [lists::TABLE, arrays::TABLE, colours::TABLE];
+    let more = [lists::TABLE, arrays::TABLE, colours::TABLE, strings::TABLE];
     TABLE.iter().chain(more.into_iter().flatten())
 }
 

@@ -7,9 +7,6 @@ use super::value::{Value, MAX_ELEMENTS};
 pub const TABLE: &[(&str, Function, usize, usize)] = {
     use Function::Of;
     &[
-        ("fileBasename", Of(file_stem), 1, 1),
-        ("fileName", Of(file_name), 1, 1),
-        ("findLast", Of(find_last), 2, 2),
         ("listAdd", Of(add), 2, 2),
         ("listClean", Of(clean), 1, 1),
         ("listCount", Of(count), 2, 2),
@@ -25,7 +22,6 @@ pub const TABLE: &[(&str, Function, usize, usize)] = {
         ("listSize", Of(size), 1, 1),
         ("listTerminate", Of(terminate), 1, 1),
         ("listToArray", Of(to_array), 1, 1),
-        ("splitString", Of(split), 2, 2),
     ]
 };
 
@@ -164,37 +160,4 @@ pub fn random(args: &[Value], chance: f64) -> Result<Value, String> {
     let all = elements(args, 0)?;
     let at = (chance * all.len() as f64) as usize;
     Ok(Value::text(all.get(at).unwrap_or(&"")))
-}
-
-/// `splitString(text, between)`: an array.
-fn split(args: &[Value]) -> Result<Value, String> {
-    let (all, between) = (text(args, 0)?, text(args, 1)?);
-    let parts = if between.is_empty() {
-        vec![Value::text(all)]
-    } else {
-        all.split(between).map(Value::text).collect()
-    };
-    Ok(Value::list(parts))
-}
-
-/// `findLast(text, part)`: the place of the last; -1 where there is none.
-fn find_last(args: &[Value]) -> Result<Value, String> {
-    let all = text(args, 0)?;
-    let place = all.rfind(text(args, 1)?);
-    let characters = |at: usize| all[..at].chars().count() as f64;
-    Ok(Value::Number(place.map_or(-1.0, characters)))
-}
-
-/// `fileName(path)`: what follows the last slash.
-fn file_name(args: &[Value]) -> Result<Value, String> {
-    let path = text(args, 0)?;
-    Ok(Value::text(path.rsplit(['/', '\\']).next().unwrap_or(path)))
-}
-
-/// `fileBasename(path)`: the name of the file without what follows its last dot.
-fn file_stem(args: &[Value]) -> Result<Value, String> {
-    let name = file_name(args)?.to_string();
-    Ok(Value::text(
-        name.rsplit_once('.').map_or(&name, |(stem, _)| stem),
-    ))
 }

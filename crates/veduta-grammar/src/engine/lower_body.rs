@@ -74,13 +74,14 @@ impl Lowering<'_> {
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
         let args = call.args();
         self.trims |= id.trims();
+        self.asks |= id.asks();
         let (fewest, most) = id.arguments();
         if args.len() < fewest || args.len() > most {
             let name = self.text(call.name);
             let message = format!("`{name}` with {} arguments does not derive yet", args.len());
             self.fault(call.span, message);
         }
-        let (cells, repeat) = match &call.block {
+        let (mut cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
             Some(Block::Body { body, .. }) => (vec![self.whole(body)], false),
             Some(Block::Operands { first, second, .. }) => {
@@ -88,12 +89,13 @@ impl Lowering<'_> {
             }
             None => (Vec::new(), false),
         };
-        // `set` is about an attribute, not about its value.
-        let named = self.text(call.name) == "set";
+        if let Some(Block::Cells { cells: rest, .. }) = &call.rest {
+            cells.extend(self.cells(rest));
+        }
         let mut lowered = Vec::with_capacity(args.len());
         for (index, arg) in args.iter().enumerate() {
             lowered.push(match (&arg.kind, self.word(arg)) {
-                (ExprKind::Name(name), _) if named && index == 0 => {
+                (ExprKind::Name(name), _) if id.attribute_argument() == Some(index) => {
                     let attribute = self.attribute_name(*name);
                     Arg::Word(attribute.unwrap_or_else(|| self.shared(*name)))
                 }
@@ -117,6 +119,7 @@ impl Lowering<'_> {
     fn whole(&mut self, body: &ast::Body) -> Cell {
         Cell::Part {
             selector: Selector::Word("all".into()),
+            depth: None,
             combined: false,
             body: self.body(body),
         }
@@ -131,11 +134,13 @@ impl Lowering<'_> {
             ast::Cell::Repeat { cells, .. } => Cell::Repeat(self.cells(cells)),
             ast::Cell::Part {
                 selector,
+                depth,
                 combined,
                 body,
                 ..
             } => Cell::Part {
                 selector: self.selector(selector),
+                depth: depth.as_ref().map(|depth| self.expr(depth)),
                 combined: *combined,
                 body: self.body(body),
             },

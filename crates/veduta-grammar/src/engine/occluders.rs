@@ -198,4 +198,10 @@ impl Run<'_> {
         let (own, other) = (&trail.places, &other.trail);
         own.starts_with(other) || other.starts_with(own)
     }
+
+    /// Whether the current shape came from another, or is it.
+    pub(super) fn came_from(&self, other: &Occluder) -> bool {
+        let trail = self.trail.as_ref();
+        trail.is_some_and(|trail| trail.places.starts_with(&other.trail))
+    }
 }

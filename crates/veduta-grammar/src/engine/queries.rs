@@ -5,17 +5,21 @@
 //! that the first made: closed leaves, closed shapes that `comp`, `offset` or a setback was applied
 //! to, and those that `label` names.
 
+use std::sync::Arc;
+
 use glam::DVec3;
 use veduta_geometry::solid::{relation, Mesh, Relation};
 
 use crate::shape::box_distance;
 use crate::Span;
 
+use super::converting::convert;
 use super::fault::Fault;
+use super::materials;
 use super::occluders::{Around, Neighbour};
 use super::run::Run;
 use super::state::State;
-use super::value::Value;
+use super::value::{Array, Value};
 
 /// A question about other shapes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -35,11 +39,20 @@ pub enum Query {
     TreeKey,
     /// `contextCompare(target, label, world.highest | area.largest | ...)`: how many come before it.
     Rank,
+    /// `assetInfo(name, sx | sy | sz | tx | ty | tz)`: size and lowest place of an asset (m).
+    AssetInfo,
+    /// `convert(...)`: see [`convert`].
+    Convert,
+    /// `getMaterial(used | shape | geometry, changed | all)`: names and values, a row of each.
+    Material,
 }
 
 const TABLE: &[(&str, Query)] = &[
+    ("assetInfo", Query::AssetInfo),
     ("contextCompare", Query::Rank),
     ("contextCount", Query::Count),
+    ("convert", Query::Convert),
+    ("getMaterial", Query::Material),
     ("getTreeKey", Query::TreeKey),
     ("inside", Query::Inside),
     ("minimumDistance", Query::Distance),
@@ -63,7 +76,10 @@ impl Query {
 
     /// Whether the answer has to do with other shapes.
     pub fn is_about_others(self) -> bool {
-        self != Self::TreeKey
+        !matches!(
+            self,
+            Self::TreeKey | Self::AssetInfo | Self::Convert | Self::Material
+        )
     }
 
     /// The answer where there is nothing.
@@ -73,6 +89,7 @@ impl Query {
             Self::Distance => Value::Number(f64::INFINITY),
             Self::Count | Self::Rank => Value::Number(0.0),
             Self::TreeKey => Value::text("0;"),
+            Self::AssetInfo | Self::Convert | Self::Material => Value::list(Vec::new()),
         }
     }
 
@@ -96,10 +113,27 @@ impl Run<'_> {
         state: &State,
         span: Span,
     ) -> Result<Value, Fault> {
-        if query == Query::TreeKey {
-            let path = self.tree.path(self.at);
-            let all = path.iter().map(|place| format!("{place};"));
-            return Ok(Value::text(&format!("0;{}", all.collect::<String>())));
+        match query {
+            Query::TreeKey => {
+                let path = self.tree.path(self.at);
+                let all = path.iter().map(|place| format!("{place};"));
+                return Ok(Value::text(&format!("0;{}", all.collect::<String>())));
+            }
+            Query::AssetInfo => return self.asset_info(args, span),
+            Query::Convert => {
+                return convert(args, state, self.first())
+                    .map_err(|message| Fault::at(span, message));
+            }
+            Query::Material => {
+                let wanted = args.get(1).map(ToString::to_string);
+                let pairs = materials::pairs(&state.look, wanted.as_deref() == Some("all"));
+                let values = pairs.iter().flatten().map(|text| Value::text(text));
+                return Ok(Value::Array(Arc::new(Array {
+                    columns: 2,
+                    values: values.collect(),
+                })));
+            }
+            _ => {}
         }
         if self.recorded.is_some() {
             return Ok(query.nothing());
@@ -132,8 +166,10 @@ impl Run<'_> {
                 let closed = state.form.geometry.is_solid();
                 self.occluded(query, all, &mesh, closed, span)
             }
+            Query::TreeKey | Query::AssetInfo | Query::Convert | Query::Material => {
+                Ok(query.nothing())
+            }
             _ if label.is_empty() => Ok(query.nothing()),
-            Query::TreeKey => Ok(query.nothing()),
             Query::Count => {
                 let all = own.map(Around::from);
                 let all = all.chain(beside.flat_map(Neighbour::around));
@@ -170,6 +206,29 @@ impl Run<'_> {
                 Ok(Value::Number(before.count() as f64))
             }
         }
+    }
+
+    /// The shapes that `label` gave this name in the first pass of this derivation, and in those of its
+    /// neighbours, but those that the current shape came from.
+    pub(super) fn labelled<'o>(&'o self, label: &'o str) -> impl Iterator<Item = Around<'o>> {
+        let own = self.around.iter().filter(|one| !self.came_from(one));
+        let others = self.options.neighbours.iter().flat_map(Neighbour::around);
+        own.map(Around::from)
+            .chain(others)
+            .filter(move |one| one.shape.label.as_deref() == Some(label))
+    }
+
+    fn asset_info(&self, args: &[Value], span: Span) -> Result<Value, Fault> {
+        let (name, what) = (args[0].to_string(), args[1].to_string());
+        let asset = self.options.assets.get(name.as_str());
+        let asset = asset.ok_or_else(|| Fault::missing(span, name.as_str().into()))?;
+        let (low, size) = asset.bounds();
+        let (kind, axis) = what.split_at_checked(1).unwrap_or_default();
+        let axis = "xyz".find(axis).unwrap_or(0);
+        Ok(Value::Number(match kind {
+            "s" => size[axis],
+            _ => low[axis],
+        }))
     }
 
     fn occluded<'o>(

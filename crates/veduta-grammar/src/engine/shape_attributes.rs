@@ -4,6 +4,7 @@ use std::f64::consts::PI;
 
 use glam::{DMat3, DVec3, EulerRot};
 
+use super::materials;
 use super::state::State;
 use super::tree::Node;
 use super::value::Value;
@@ -21,11 +22,7 @@ pub enum ShapeAttribute {
     CompIndex,
     CompTotal,
     CompSelector,
-    Colour(usize),
-    Opacity,
-    ColourText,
-    MaterialName,
-    Texture,
+    Material(&'static str),
     Seed,
     Elevation,
     PivotPlace(usize),
@@ -38,7 +35,7 @@ pub enum ShapeAttribute {
 }
 
 /// All shape attributes by their names.
-const TABLE: [(&str, ShapeAttribute); 39] = {
+const TABLE: [(&str, ShapeAttribute); 32] = {
     use ShapeAttribute as A;
     [
         ("scope.sx", A::ScopeSize(0)),
@@ -55,13 +52,6 @@ const TABLE: [(&str, ShapeAttribute); 39] = {
         ("comp.index", A::CompIndex),
         ("comp.total", A::CompTotal),
         ("comp.sel", A::CompSelector),
-        ("material.color.r", A::Colour(0)),
-        ("material.color.g", A::Colour(1)),
-        ("material.color.b", A::Colour(2)),
-        ("material.opacity", A::Opacity),
-        ("material.colormap", A::Texture),
-        ("material.color.rgb", A::ColourText),
-        ("material.name", A::MaterialName),
         ("seedian", A::Seed),
         ("scope.elevation", A::Elevation),
         ("pivot.px", A::PivotPlace(0)),
@@ -86,12 +76,17 @@ const TABLE: [(&str, ShapeAttribute); 39] = {
 impl ShapeAttribute {
     pub fn named(name: &str) -> Option<Self> {
         let found = TABLE.iter().find(|(known, _)| *known == name);
-        found.map(|(_, attribute)| *attribute)
+        let found = found.map(|(_, attribute)| *attribute);
+        found.or_else(|| {
+            materials::names()
+                .find(|known| *known == name)
+                .map(Self::Material)
+        })
     }
 
     /// All names of attributes that derive.
     pub fn names() -> impl Iterator<Item = &'static str> {
-        TABLE.iter().map(|entry| entry.0)
+        TABLE.iter().map(|entry| entry.0).chain(materials::names())
     }
 
     /// The attribute of a shape now; `first` is the start shape.
@@ -111,17 +106,9 @@ impl ShapeAttribute {
             Self::CompIndex => Value::Number(state.comp.index as f64),
             Self::CompTotal => Value::Number(state.comp.total as f64),
             Self::CompSelector => Value::Text(state.selector.clone()),
-            Self::Colour(channel) => Value::Number(f64::from(state.look.colour[channel])),
-            Self::Opacity => Value::Number(f64::from(state.look.opacity)),
-            Self::ColourText => {
-                let [r, g, b] = state.look.colour.map(|c| (c * 255.0).round() as u8);
-                Value::text(&format!("#{r:02x}{g:02x}{b:02x}"))
+            Self::Material(name) => {
+                materials::get(&state.look, name).unwrap_or_else(|| Value::text(""))
             }
-            Self::MaterialName => Value::Text(state.look.class.clone()),
-            Self::Texture => match &state.look.texture {
-                Some(path) => Value::Text(path.clone()),
-                None => Value::text(""),
-            },
             Self::Seed => Value::Number(f64::from(state.seed)),
             Self::Elevation => Value::Number(scope.origin.y),
             Self::PivotPlace(axis) => Value::Number(pivot(state).0[axis]),

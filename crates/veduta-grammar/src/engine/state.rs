@@ -26,6 +26,8 @@ pub struct Look {
     /// What a surface is in the model: `wall`, `window`, `door`, `roof`, ...; empty where the
     /// rules do not say it.
     pub class: Arc<str>,
+    /// Properties that rules can read and models do not show, by their full names.
+    pub kept: BTreeMap<&'static str, Value>,
 }
 
 impl Default for Look {
@@ -36,6 +38,7 @@ impl Default for Look {
             texture: None,
             tile: None,
             class: "".into(),
+            kept: BTreeMap::new(),
         }
     }
 }

@@ -91,6 +91,11 @@ impl Asset {
         })
     }
 
+    /// The lower corner of its box, and its size (m), in its own frame.
+    pub fn bounds(&self) -> (DVec3, DVec3) {
+        (self.low, self.size)
+    }
+
     pub fn slots(&self) -> &[Slot] {
         &self.slots
     }

@@ -49,7 +49,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         .sum();
     let most = run.options.limits.faces as f64;
     let faces = tiles * tile.face_count() as f64;
-    if !(faces <= most) {
+    if faces.is_nan() || faces > most {
         let message = format!(
             "an asset of {} faces laid {tiles} times comes to more than {most} faces",
             tile.face_count()

@@ -1,20 +1,16 @@
 //! What a shape looks like, and what it is.
 
-use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use super::super::code::{Arg, Operation};
 use super::super::colours::parsed;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::materials;
 use super::super::run::Run;
 use super::super::state::Look;
 use super::super::value::Value;
-use super::{number, word};
-use crate::suggest::{closest, did_you_mean};
-
-/// What names of built-in textures begin with.
-const BUILT_IN: &str = "builtin/textures/";
+use super::{number, value, word};
 
 /// `NIL`: the shape is gone.
 pub fn nothing(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), Fault> {
@@ -59,26 +55,13 @@ pub fn colour(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 /// `texture(path)`; the empty string takes it away.
 pub fn texture(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let path = word(run, op, 0, frame)?;
-    let tile = tile_of(run, op, &path)?;
+    let tile = materials::tile_of(&run.options.textures, &path);
+    let tile = tile.map_err(|message| Fault::at(op.span, message))?;
     let look = Arc::make_mut(&mut frame.state.look);
     look.texture = (!path.is_empty()).then_some(path);
     look.tile = tile;
     frame.changed();
     Ok(())
-}
-
-/// The size of a texture, where it is known; a fault where a built-in one is named that is not
-/// there.
-fn tile_of(run: &Run<'_>, op: &Operation, path: &str) -> Result<Option<[f64; 2]>, Fault> {
-    let known = &run.options.textures;
-    let found = known.get(path).copied();
-    if found.is_some() || known.is_empty() || !path.starts_with(BUILT_IN) {
-        return Ok(found);
-    }
-    let near = closest(path, known.keys().map(AsRef::as_ref));
-    let hint = did_you_mean(near).map_or_else(String::new, |hint| format!(": {hint}"));
-    let message = format!("`{path}` is no texture that is built in{hint}");
-    Err(Fault::at(op.span, message))
 }
 
 /// `resetMaterial()`, `resetMaterial(shape | geometry | all)`: white and opaque without a texture,
@@ -94,62 +77,27 @@ pub fn reset_material(_: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Resu
     Ok(())
 }
 
-/// `set(name, value)`: a material's property, an attribute of the rule file for this shape and its
-/// children; `material.name` says what the surface is in the model.
-pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
-    let Arg::Word(name) = &op.args[0] else {
-        return Err(Fault::at(op.span, "the name of an attribute is needed"));
+/// `setMaterial(array)`: properties of the material, each a name without `material.` and its
+/// value after it.
+pub fn set_material(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let given = value(run, op, 0, frame)?;
+    let Value::Array(array) = &given else {
+        let message = format!(
+            "an array of names and values is needed, not {}",
+            given.kind()
+        );
+        return Err(Fault::at(op.span, message));
     };
-    let Arg::Value(_, expr) = &op.args[1] else {
-        return Err(Fault::at(op.span, "a value is needed"));
-    };
-    let value = run.evaluate(expr, frame)?;
-    let attribute = run
-        .code
-        .globals
-        .iter()
-        .position(|global| global.name == *name);
-    if matches!(value, Value::Number(number) if number.is_nan()) && attribute.is_none() {
-        return Err(Fault::at(expr.span, "a number is needed, not NaN"));
+    let pairs = array.values.chunks_exact(2);
+    if let [alone] = pairs.remainder() {
+        let message = format!("`{alone}` has no value after it");
+        return Err(Fault::at(op.span, message));
     }
     let look = Arc::make_mut(&mut frame.state.look);
-    let channel = value.number().unwrap_or_default().clamp(0.0, 1.0) as f32;
-    match (name.as_ref(), attribute) {
-        (_, Some(index)) => {
-            let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
-            set.get_or_insert_with(BTreeMap::new).insert(index, value);
-            frame.state.set = set.map(Arc::new);
-        }
-        ("material.color.r", _) => look.colour[0] = channel,
-        ("material.color.g", _) => look.colour[1] = channel,
-        ("material.color.b", _) => look.colour[2] = channel,
-        ("material.color.rgb", _) => {
-            let text = value.to_string();
-            let Some((colour, _)) = parsed(&text) else {
-                return Err(Fault::at(
-                    expr.span,
-                    format!("`{text}` is no colour: #rrggbb"),
-                ));
-            };
-            look.colour = colour;
-        }
-        ("material.color.a" | "material.opacity", _) => look.opacity = channel,
-        ("material.colormap", _) => {
-            let path = value.to_string();
-            look.tile = tile_of(run, op, &path)?;
-            look.texture = (!path.is_empty()).then(|| path.into());
-        }
-        ("trim.horizontal", _) => {
-            frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
-        }
-        ("trim.vertical", _) => {
-            frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
-        }
-        ("material.name", _) => look.class = value.to_string().into(),
-        (other, _) => {
-            let message = format!("`{other}` is neither an attribute nor a property of materials");
-            return Err(Fault::at(op.span, message));
-        }
+    for pair in pairs {
+        let name = format!("{}{}", materials::PREFIX, pair[0]);
+        materials::set(look, &name, &pair[1], &run.options.textures)
+            .map_err(|message| Fault::at(op.span, message))?;
     }
     frame.changed();
     Ok(())

@@ -29,6 +29,7 @@ const KEEPS_WHOLE: &[&str] = &[
     "set",
     "setMaterial",
     "setPivot",
+    "snap",
     "t",
     "tag",
     "translate",

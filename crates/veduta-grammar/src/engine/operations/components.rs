@@ -41,6 +41,7 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
             selector,
             combined,
             body,
+            ..
         } = cell
         else {
             return Err(Fault::at(op.span, "components do not repeat"));

@@ -12,6 +12,7 @@ mod inner_rectangles;
 mod meshes;
 mod modifying;
 mod offsets;
+mod perimeter;
 mod pivots;
 mod primitives;
 mod reshaping;
@@ -20,6 +21,8 @@ mod roofs;
 mod scattering;
 mod scopes;
 mod setbacks;
+mod setting;
+mod snapping;
 mod solids;
 mod speech;
 mod standing;
@@ -115,16 +118,24 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("s", transform::resize, 3, 3),
     ("scaleUV", textures::scale, 3, 3),
     ("scatter", scattering::scatter, 3, 5),
-    ("set", appearance::set, 2, 2),
+    ("set", setting::set, 2, 2),
+    ("setMaterial", appearance::set_material, 1, 1),
     ("setPivot", pivots::set_pivot, 2, 2),
-    ("setback", setbacks::setback, 1, 1),
-    ("setbackPerEdge", setbacks::per_edge, 1, 1),
+    ("setback", setbacks::setback, 1, 2),
+    ("setbackPerEdge", setbacks::per_edge, 1, 2),
     ("setbackToArea", setbacks::to_area, 1, 3),
     ("setupProjection", textures::set_up, 4, 7),
     ("shapeL", wings::l, 2, 2),
     ("shapeO", wings::o, 4, 4),
     ("shapeU", wings::u, 3, 3),
+    ("snap", snapping::snap, 2, 3),
     ("split", dividing::split, 1, 3),
+    (
+        "splitAndSetbackPerimeter",
+        perimeter::split_and_set_back,
+        1,
+        3,
+    ),
     ("splitArea", dividing::split_area, 1, 2),
     ("subtract", inlining::subtract, 0, 1),
     ("t", transform::move_scope, 3, 3),
@@ -156,6 +167,16 @@ impl OperationId {
             "insertAlongUV" => Some(1),
             _ => None,
         }
+    }
+
+    /// Which argument is an attribute itself, not its value.
+    pub fn attribute_argument(self) -> Option<usize> {
+        (TABLE[self.0].0 == "set").then_some(0)
+    }
+
+    /// Whether it has to do with other shapes.
+    pub fn asks(self) -> bool {
+        TABLE[self.0].0 == "snap"
     }
 
     /// The fewest and most arguments.

@@ -42,6 +42,7 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             selector,
             combined: false,
             body,
+            ..
         } = cell
         else {
             return Err(Fault::at(op.span, "`modify` takes `:` after a selector"));

@@ -17,13 +17,13 @@ const TRIES: usize = 200;
 /// The spread where none is given, as a share of the scope's size.
 const SPREAD: f64 = 0.16;
 
-/// `scatter(surface | scope, count, uniform) { operations }`, `scatter(domain, count, gaussian,
+/// `scatter(surface | volume | scope, count, uniform) { operations }`, `scatter(domain, count, gaussian,
 /// center | front | ..., spread)`: points on the faces or in the scope, each a shape without size
 /// or geometry. On faces y of its scope is along the normal. `spread` is the standard deviation in
 /// metres, or after `'` in shares of the scope's size along each axis ('0.16 where none is given);
 /// `gaussian` draws a place again that lies outside of the scope, or on faces as the bell curve says.
 ///
-/// `volume` does not derive. The points depend on the seed, and on nothing beside the shape.
+/// `volume` is within the surface of a closed shape, and for others what `surface` is. The points depend on the seed, and on nothing beside the shape.
 pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let domain = word(run, op, 0, frame)?;
     let count = number(run, op, 1, frame)?.round().max(0.0);
@@ -35,18 +35,31 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
         "uniform" => None,
         _ => Some(Bell::of(run, op, frame)?),
     };
-    let surface = match domain.as_ref() {
-        "scope" => None,
-        "surface" => Some(Surface::of(op, &frame.state.form)?),
+    let closed = frame.state.form.geometry.is_solid();
+    let (surface, room) = match domain.as_ref() {
+        "scope" => (None, None),
+        "volume" if closed => (None, Some(Room::of(op, &frame.state.form)?)),
+        "surface" | "volume" => (Some(Surface::of(op, &frame.state.form)?), None),
         other => {
-            let message = format!("`{other}` does not derive: surface or scope");
+            let message = format!("`{other}` is no place for points: surface, volume or scope");
             return Err(Fault::at(op.span, message));
         }
     };
     run.take(STEPS_PER_POINT * count as usize, op.span)?;
     let mut scopes = Vec::with_capacity(count as usize);
     for _ in 0..count as usize {
+        run.check_time(op.span)?;
         scopes.push(match &surface {
+            None if room.is_some() => {
+                let found = (0..TRIES).find_map(|_| {
+                    let place = in_scope(&scope, bell.as_ref(), &mut frame.stream);
+                    let is_within = room.as_ref().is_some_and(|room| room.holds(place.origin));
+                    is_within.then_some(place)
+                });
+                // So thin a shape has no room for the point.
+                let Some(place) = found else { continue };
+                place
+            }
             Some(surface) if surface.sums.is_empty() => break,
             Some(surface) => surface.point(&scope, bell.as_ref(), &mut frame.stream),
             None => in_scope(&scope, bell.as_ref(), &mut frame.stream),
@@ -114,6 +127,45 @@ impl Bell {
     fn chance(&self, unit: DVec3) -> f64 {
         let away = crate::shape::over(unit - self.middle, self.spread);
         (-0.5 * away.length_squared()).exp()
+    }
+}
+
+/// What lies within a closed surface.
+struct Room {
+    triangles: Vec<[DVec3; 3]>,
+}
+
+impl Room {
+    fn of(op: &Operation, form: &Form) -> Result<Self, Fault> {
+        let mesh = form.world_mesh();
+        let mut all = Vec::new();
+        for face in mesh.faces() {
+            let found = triangles(&mesh, face).map_err(|error| {
+                Fault::at(op.span, format!("a face cannot be divided: {error}"))
+            })?;
+            all.extend(
+                found
+                    .into_iter()
+                    .map(|t| t.map(|point| mesh.points[point as usize])),
+            );
+        }
+        Ok(Self { triangles: all })
+    }
+
+    /// Whether the surface goes round a place: by the solid angles of its triangles (van Oosterom
+    /// and Strackee 1983).
+    fn holds(&self, place: DVec3) -> bool {
+        let angle: f64 = self
+            .triangles
+            .iter()
+            .map(|corners| {
+                let [a, b, c] = corners.map(|corner| corner - place);
+                let (la, lb, lc) = (a.length(), b.length(), c.length());
+                let across = la * lb * lc + a.dot(b) * lc + b.dot(c) * la + c.dot(a) * lb;
+                2.0 * a.dot(b.cross(c)).atan2(across)
+            })
+            .sum();
+        angle.abs() > std::f64::consts::TAU
     }
 }
 

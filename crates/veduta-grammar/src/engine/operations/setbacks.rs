@@ -257,6 +257,7 @@ pub fn run_pieces(
             selector,
             combined,
             body,
+            ..
         } = cell
         else {
             return Err(Fault::at(op.span, "these cells do not repeat"));
@@ -271,7 +272,7 @@ pub fn run_pieces(
 }
 
 /// Faces as a shape each, or as one.
-fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
+pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
     if faces.is_empty() {
         return Vec::new();
     }

@@ -92,7 +92,7 @@ pub fn center(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
 }
 
 /// Moves the scope with what is in it; textures that lie on the shape go with it.
-fn place(frame: &mut Frame, scope: Scope) {
+pub fn place(frame: &mut Frame, scope: Scope) {
     let before = std::mem::replace(&mut frame.state.form.scope, scope);
     frame
         .state

@@ -1,0 +1,90 @@
+//! `set`: attributes of the rule file and of the shape.
+
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
+use glam::{DMat3, DVec3, EulerRot};
+
+use super::super::code::{Arg, Operation};
+use super::super::fault::Fault;
+use super::super::frame::Frame;
+use super::super::materials;
+use super::super::run::Run;
+use super::super::value::Value;
+use super::transform::place;
+use crate::shape::Scope;
+
+/// `set(name, value)`: a material's property, the place, turn or size of the scope, or an attribute of
+/// the rule file for this shape and its children; `material.name` says what the surface is in the
+/// model.
+pub fn set(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let Arg::Word(name) = &op.args[0] else {
+        return Err(Fault::at(op.span, "the name of an attribute is needed"));
+    };
+    let Arg::Value(_, expr) = &op.args[1] else {
+        return Err(Fault::at(op.span, "a value is needed"));
+    };
+    let value = run.evaluate(expr, frame)?;
+    let attribute = run
+        .code
+        .globals
+        .iter()
+        .position(|global| global.name == *name);
+    match (name.as_ref(), attribute) {
+        (_, Some(index)) => {
+            let mut set = frame.state.set.take().map(Arc::unwrap_or_clone);
+            set.get_or_insert_with(BTreeMap::new).insert(index, value);
+            frame.state.set = set.map(Arc::new);
+        }
+        ("trim.horizontal", _) => {
+            frame.state.extra_mut().trims_level = value.truth().unwrap_or(false);
+        }
+        ("trim.vertical", _) => {
+            frame.state.extra_mut().keeps_steep = !value.truth().unwrap_or(true);
+        }
+        (scope, _) if scope.starts_with("scope.") => {
+            set_scope(scope, &value, frame).map_err(|message| Fault::at(expr.span, message))?
+        }
+        (property, _) => {
+            let look = Arc::make_mut(&mut frame.state.look);
+            materials::set(look, property, &value, &run.options.textures)
+                .map_err(|message| Fault::at(expr.span, message))?;
+        }
+    }
+    frame.changed();
+    Ok(())
+}
+
+/// `scope.tx`, `scope.rx`, `scope.sx` and their like: what is in the scope goes with it. Places and
+/// turns are about the pivot.
+fn set_scope(name: &str, value: &Value, frame: &mut Frame) -> Result<(), String> {
+    let number = value.number().filter(|number| number.is_finite());
+    let number = number.ok_or_else(|| format!("`{name}` is a finite number, not `{value}`"))?;
+    let known = |text: &str| ["x", "y", "z"].iter().position(|one| *one == text);
+    let parts = name
+        .strip_prefix("scope.")
+        .and_then(|rest| rest.split_at_checked(1));
+    let Some((kind, axis)) = parts.and_then(|(kind, axis)| Some((kind, known(axis)?))) else {
+        return Err(format!("`{name}` cannot be set"));
+    };
+    let mut scope: Scope = frame.state.form.scope;
+    let pivot = frame.state.extra.as_ref().and_then(|extra| extra.pivot);
+    let (origin, axes) = pivot.unwrap_or((DVec3::ZERO, DMat3::IDENTITY));
+    match kind {
+        "s" => scope.size[axis] = number.max(0.0),
+        "t" => {
+            let mut local = axes.transpose() * (scope.origin - origin);
+            local[axis] = number;
+            scope.origin = origin + axes * local;
+        }
+        _ => {
+            let (x, y, z) = (axes.transpose() * scope.axes).to_euler(EulerRot::XYZ);
+            let mut turns = [x, y, z];
+            turns[axis] = number.to_radians();
+            let [x, y, z] = turns;
+            scope.axes = axes * DMat3::from_euler(EulerRot::XYZ, x, y, z);
+        }
+    }
+    place(frame, scope);
+    Ok(())
+}
