@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from PIL import Image
 from sample_document import element, sample_document, sample_photo
 
 from veduta.facade.document import FacadeDocument
@@ -27,8 +28,11 @@ CJVAL_COMMAND = "cargo install cjval --features build-binary --root build/cjval"
 GLTF_COMMAND = "npm ci --prefix studio"
 _SCRIPT = """
 const validator = require(process.argv[1] + '/gltf-validator');
-const bytes = new Uint8Array(require('fs').readFileSync(process.argv[2]));
-validator.validateBytes(bytes).then((report) => console.log(JSON.stringify(report.issues)));
+const { dirname, join } = require('path');
+const read = (path) => new Uint8Array(require('fs').readFileSync(path));
+const beside = async (uri) => read(join(dirname(process.argv[2]), decodeURIComponent(uri)));
+const asked = validator.validateBytes(read(process.argv[2]), { externalResourceFunction: beside });
+asked.then((report) => console.log(JSON.stringify(report.issues)));
 """
 
 
@@ -118,6 +122,38 @@ def test_a_style_is_textured_and_valid(tmp_path: Path) -> None:
     stones = [g for g in part.instances.groups if textured[list(g.materials)].any()]
     assert stones
     assert all(part.instances.meshes[group.mesh].uv is not None for group in stones)
+
+
+def test_tiles_with_pictures_and_ground_are_valid(tmp_path: Path) -> None:
+    rules = tmp_path / "rules.cga"
+    rules.write_text(
+        "attr LOD = 2\n"
+        "Lot --> extrude(6) comp(f) { side : Front | top : Roof | bottom : NIL }\n"
+        'Front --> setupProjection(0, scope.xy, 2, 2) texture("wall.png") projectUV(0) Bays\n'
+        "Bays --> split(x) { { ~2 : split(y) { { ~3 : Bay }* } }* }\n"
+        'Bay --> set(material.name, "wall") split(x) { ~1 : Wall. | 1 : Window | ~1 : Wall. }\n'
+        'Window --> set(material.name, "window") set(material.opacity, 0.5) Pane.\n'
+        'Roof --> set(material.name, "roof") texture("wall.png") Tiles.\n'
+    )
+    Image.fromarray(np.full((8, 8, 3), 99, np.uint8)).save(tmp_path / "wall.png")
+    features = []
+    for number in range(70):
+        x, z = 20.0 * number, 0.3 * number
+        ring = [[x, 0, z], [x + 15, 0, z], [x + 15, 12, z], [x, 12, z], [x, 0, z]]
+        shape = {"type": "Polygon", "coordinates": [ring]}
+        features.append({"type": "Feature", "id": number, "geometry": shape, "properties": {}})
+    lots, out = tmp_path / "lots.geojson", tmp_path / "out"
+    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    run_derive(str(rules), lots, out, GrammarOptions(), Progress(quiet=True), jobs=1)
+    tiles = [*out.glob("parts/00/tiles/*.glb"), *out.glob("ground/00.glb")]
+    assert len(tiles) >= 4
+    for tile in tiles:
+        issues = validate_gltf(tile)
+        assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    (picture,) = (out / "textures").iterdir()
+    picture.write_bytes(b"no picture")
+    told = [validate_gltf(tile) for tile in tiles]
+    assert sum(issues["numErrors"] + issues["numWarnings"] for issues in told) > 0
 
 
 def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:

@@ -201,11 +201,14 @@ fn millimetres(size_m: f64) -> u16 {
     }
 }
 
+/// Class and provenance, colour with opacity, texture.
+type MaterialKey = ((u8, u8), [u8; 4], Option<u32>);
+
 /// Looks that are told apart: of another class, provenance or texture, or of another colour of 8 bits.
 #[derive(Default)]
 struct Materials {
     rows: Vec<MaterialRow>,
-    known: HashMap<((u8, u8), [u8; 4], Option<u32>), u32>,
+    known: HashMap<MaterialKey, u32>,
 }
 
 impl Materials {

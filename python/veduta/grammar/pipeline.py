@@ -15,13 +15,15 @@ import numpy as np
 from pydantic import JsonValue
 
 from veduta.formats.cityjson_text import header, write_joined, write_sequence
+from veduta.formats.ground_glb import ground_glb
 from veduta.formats.place_json import write_place
-from veduta.formats.tiles import write_tileset
+from veduta.formats.tiles import Box, union, write_tileset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
+from veduta.grammar.ground import ground_of, is_level
 from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions
@@ -48,6 +50,7 @@ MOST_BLOCKS = 48
 SEQUENCE = 1000
 """More lots than these are CityJSONSeq, which is read a line at a time."""
 TILESET = "tileset.json"
+GROUND = "ground"
 CITY = f"{PRIVATE}/city"
 """Where lines of CityJSON wait for those of the other blocks."""
 LASTING = {"input"}
@@ -184,6 +187,11 @@ def is_separate(options: GrammarOptions, lots: Lots) -> bool:
     return options.output.separate or len(lots.lots) <= FEW
 
 
+def is_streamed(options: GrammarOptions, lots: Lots) -> bool:
+    """Whether the place is shown by its tiles."""
+    return not is_separate(options, lots) or len(lots.lots) > FEW
+
+
 def _city_path(out: Path, block: Block) -> Path:
     """A block's lines of CityJSON, until all are there."""
     return out / CITY / f"{block.name.rpartition('/')[2]}.jsonl"
@@ -299,6 +307,8 @@ def _write_call(
     whole = result.built
     work = folder.work_folder(CALL)
     result.notes.append(placed_how(lots))
+    if is_streamed(options, lots) and not is_level(lots.lots):
+        result.notes.append("the ground between the lots is invented, from their heights")
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
         rules_name, options, whole, result.failures, result.notes, result.steps
@@ -327,8 +337,9 @@ def _write_town(
     whole: Whole,
 ) -> None:
     """The files that hold all blocks together."""
-    streamed = not is_separate(options, lots) or len(lots.lots) > FEW
-    write_tileset(town_of(lots, blocks, whole), work / TILESET)
+    streamed = is_streamed(options, lots)
+    grounds = _write_ground(work, blocks) if streamed else {}
+    write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
     write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
     if not options.output.city:
         return
@@ -350,3 +361,17 @@ def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> No
     for file, data in picture_files(read_textures(chosen), list(chosen)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)
+
+
+def _write_ground(work: Path, blocks: Sequence[Block]) -> dict[str, tuple[str, Box]]:
+    """The ground of each block, seen from its origin: its file and the box around it."""
+    found = {}
+    origins = {block.name: block.origin_m for block in blocks}
+    for name, ground in ground_of(blocks).items():
+        file = f"{GROUND}/{name.rpartition('/')[2]}.glb"
+        points = ground.points_m - origins[name]
+        (work / file).parent.mkdir(exist_ok=True)
+        (work / file).write_bytes(ground_glb(points, ground.triangles))
+        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        found[name] = (file, union([((low[0], low[1], low[2]), (high[0], high[1], high[2]))]))
+    return found

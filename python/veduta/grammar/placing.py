@@ -41,8 +41,14 @@ def block_origin(lots: Sequence[Lot]) -> tuple[float, float, float]:
     return (x, y, float(np.floor(anchors[:, 2].min())))
 
 
-def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
-    """The tree over the tiles of all blocks, on the Earth where the place has a known CRS."""
+def town_of(
+    lots: Lots, blocks: Sequence[Block], whole: Whole, grounds: Mapping[str, tuple[str, Box]]
+) -> Tile:
+    """The tree over the tiles of all blocks, on the Earth where the place has a known CRS.
+
+    grounds: of the blocks that have some, the file of their ground and the box around it, seen from
+    the block's origin.
+    """
     origin = {block.name: block.origin_m for block in blocks}
     grid = _grid(lots)
     ground = None if grid is None else _on_earth(grid, lots, (0.0, 0.0, 0.0))
@@ -60,6 +66,10 @@ def town_of(lots: Lots, blocks: Sequence[Block], whole: Whole) -> Tile:
         content = f"{name}/tiles/tileset.json"
         tiles.append(Tile((low, high), BOXES_ERROR_M, content, (), local, own))
         boxes.append(_moved((low, high), local))
+        if name in grounds:
+            content, around = grounds[name]
+            tiles.append(Tile(around, 0.0, content, (), local, own))
+            boxes.append(_moved(around, local))
     box = union(boxes)
     size = float(np.linalg.norm(np.array(box[1]) - np.array(box[0])))
     return Tile(box, max(4 * BOXES_ERROR_M, size / 4), None, tuple(tiles), ground, (0.0, 0.0, 0.0))

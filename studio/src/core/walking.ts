@@ -167,10 +167,16 @@ function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Movi
     const size = push === null ? 0 : length(push);
     if (push === null || size < TOUCH_M) break;
     const normal = scale(push, 1 / size);
-    feet = add(feet, push);
-    velocity = withoutInto(velocity, normal);
-    if (normal[2] >= STANDABLE) grounded = true;
-    else blocked = true;
+    if (normal[2] >= STANDABLE) {
+      // Straight up: whoever is pushed away from a slope slides down it for ever.
+      feet = add(feet, [0, 0, size / normal[2]]);
+      velocity = withoutInto(velocity, [0, 0, 1]);
+      grounded = true;
+    } else {
+      feet = add(feet, push);
+      velocity = withoutInto(velocity, normal);
+      blocked = true;
+    }
   }
   return withinReach(onPlane({ feet, velocity, grounded, blocked }), options);
 }

@@ -2,55 +2,105 @@
  * Opens a town that is streamed, at $VEDUTA_TOWN_URL: `tests/integration/test_streamed_town.py` derives
  * one and serves it with `veduta view`.
  */
+import type { Page } from "playwright-core";
 import { describe, expect, it } from "vitest";
 import { launch, MISSING } from "./chromium.ts";
 import { open, picked, project, settled, stateOf, walkState } from "./page.ts";
 
 const url = process.env.VEDUTA_TOWN_URL;
+/** Rules of the test town make panes where everything is shown, and plain windows before. */
+const PANE = "Pane";
+const PATIENCE_MS = 120_000;
+
+/** What is nearer than this is on this side of the first row (m). */
+const ACROSS_M = 30;
+const NEAR_M = 12;
+
+/** A point of the picture where such a surface is seen; the picture's middle first. */
+async function seen(page: Page, kind: string, rule: string | null): Promise<[number, number, number] | null> {
+  return await page.evaluate(
+    ([wanted, made, most]) => {
+      for (let away = 0; away < 300; away += 10) {
+        for (const y of [330 - away, 330 + away]) {
+          for (let x = 290; x < 1260; x += 8) {
+            const hit = window.veduta?.under(x, y);
+            if (hit === null || hit === undefined || hit.distance_m > most) continue;
+            if (hit.feature.class !== wanted || (made !== null && hit.feature.name !== made)) continue;
+            return [...hit.point] as [number, number, number];
+          }
+        }
+      }
+      return null;
+    },
+    [kind, rule, rule === null ? ACROSS_M : NEAR_M] as const,
+  );
+}
+
+async function waitFor<T>(page: Page, look: () => Promise<T | null>): Promise<T> {
+  const end = performance.now() + PATIENCE_MS;
+  for (;;) {
+    const found = await look();
+    if (found !== null) return found;
+    if (performance.now() > end) throw new Error("it does not come into view");
+    await page.waitForTimeout(400);
+  }
+}
 
 describe.skipIf(MISSING !== null || url === undefined)("a town of tiles", () => {
   it("is fetched where the person stands, can be asked and stops a walker", async () => {
     const browser = await launch();
     try {
-      const { page, complaints } = await open(browser, url ?? "");
+      const { page, complaints } = await open(browser, url ?? "", { viewport: { width: 1280, height: 720 } });
+      const fetched = new Set<string>();
+      page.on("response", (answer) => fetched.add(new URL(answer.url()).pathname));
       expect(await stateOf(page)).toBe("ready");
       expect(await page.evaluate(() => window.veduta?.stats().tiles)).toBeGreaterThan(0);
       await page.keyboard.press("2");
       await settled(page);
-      const find = async (): Promise<{ x: number; y: number; z: number } | null> =>
-        await page.evaluate(() => {
-          for (let y = 60; y < 620; y += 6) {
-            for (let x = 290; x < 1260; x += 6) {
-              const hit = window.veduta?.under(x, y);
-              if (hit?.feature.class === "window") {
-                const [px, py, pz] = hit.point;
-                return { x: px, y: py, z: pz };
-              }
-            }
-          }
-          return null;
-        });
-      let seen = await find();
-      for (let wait = 0; seen === null && wait < 40; wait += 1) {
-        await page.waitForTimeout(500);
-        seen = await find();
-      }
-      expect(seen).not.toBeNull();
-      if (seen === null) return;
-      const at = await project(page, [seen.x, seen.y, seen.z]);
+
+      // Across the street: the plain level.
+      const window_ = await waitFor(page, () => seen(page, "window", null));
+      const at = await project(page, window_);
       await page.mouse.click(at.x, at.y);
       const chosen = await picked(page);
       expect(chosen?.class).toBe("window");
       expect(chosen?.part).toMatch(/^house \d+$/);
       expect(chosen?.width_m).toBeCloseTo(1, 2);
+      await page.keyboard.press("Escape");
+
+      // To the wall: on the way the full level comes.
       await page.keyboard.down("w");
-      await page.waitForFunction(() => window.veduta?.walk().blocked === true, undefined, { timeout: 120_000 });
+      await page.waitForFunction(() => window.veduta?.walk().blocked === true, undefined, { timeout: PATIENCE_MS });
       await page.keyboard.up("w");
       // The front stands at y = 0 of the southern row; the body has a radius of 0.3 m.
       expect((await walkState(page)).feet[1]).toBeLessThan(-0.25);
+      expect((await walkState(page)).feet[1]).toBeGreaterThan(-1);
+      await waitFor(page, () => Promise.resolve([...fetched].some((path) => path.endsWith("-full.glb")) || null));
+
+      // Along it, as far as a window of the full level is seen: recessed by 0.2 m, known as the rules say.
+      await page.keyboard.down("s");
+      await page.waitForFunction(() => (window.veduta?.walk().feet[1] ?? 0) < -4, undefined, { timeout: PATIENCE_MS });
+      await page.keyboard.up("s");
+      const pane = await waitFor(page, () => seen(page, "window", PANE));
+      expect(pane[1]).toBeCloseTo(0.2, 2);
+      const there = await project(page, pane);
+      await page.mouse.click(there.x, there.y);
+      const near = await picked(page);
+      expect(near).toMatchObject({ class: "window", name: PANE, provenance: "inferred" });
+      expect(near?.width_m).toBeCloseTo(1, 2);
+      expect(near?.height_m).toBeCloseTo(1.5, 2);
+      const panel = page.locator("veduta-feature-panel");
+      expect(await panel.locator("[data-field=provenance]").textContent()).toBe("Inferred");
+      expect(await page.locator("veduta-layers button[data-class=window] .count").textContent()).not.toBe("0");
+
+      // The picture of the walls is there once, however many tiles have it.
+      const pictures = await page.evaluate(() =>
+        performance.getEntriesByType("resource").filter(({ name }) => name.includes("/textures/")),
+      );
+      expect(pictures).toHaveLength(1);
       expect(complaints).toEqual([]);
     } finally {
       await browser.close();
     }
-  }, 240_000);
+  }, 400_000);
 });

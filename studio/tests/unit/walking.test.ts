@@ -144,3 +144,34 @@ describe("walls", () => {
     expect(end.feet[1]).toBeCloseTo(1 - RADIUS, 9);
   });
 });
+
+/** Ground that rises to the north by `rise` in a metre, above z = 0. */
+function slope(rise: number): Obstacles {
+  const normal = scale([0, -rise, 1], 1 / Math.hypot(rise, 1));
+  return {
+    pushOut: (feet, body) => {
+      // The sphere at the body's lower end against the plane z = rise y.
+      const depth = body.radius_m - dot(normal, add(feet, [0, 0, body.radius_m]));
+      return depth > 0 ? scale(normal, depth) : null;
+    },
+  };
+}
+
+describe("slopes", () => {
+  it.each([0.1, 0.4, 0.9])("of %f carry whoever stands on them, without sliding", (rise) => {
+    const start = standing([0, 10, 10 * rise + 2.5], NORTH, DEFAULT_WALK);
+    const landed = walked(start, STILL, 3, 1 / 60, slope(rise));
+    expect(landed.grounded).toBe(true);
+    const later = walked(landed, STILL, 20, 1 / 60, slope(rise));
+    expect(later.feet[1]).toBeCloseTo(10, 6);
+    expect(later.feet[2]).toBeCloseTo(landed.feet[2], 3);
+    expect(Math.hypot(...later.velocity)).toBeLessThan(1e-6);
+  });
+
+  it("are climbed at the speed on the map", () => {
+    const start = walked(standing([0, 10, 4.5], NORTH, DEFAULT_WALK), STILL, 3, 1 / 60, slope(0.2));
+    const up = walked(start, AHEAD, 5, 1 / 60, slope(0.2));
+    expect(up.feet[1] - 10).toBeCloseTo(SPEED * (5 - TAU), 2);
+    expect(up.feet[2] - start.feet[2]).toBeCloseTo(0.2 * (up.feet[1] - 10), 2);
+  });
+});

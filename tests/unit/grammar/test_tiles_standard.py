@@ -55,6 +55,7 @@ def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
         x, y = ORIGIN[0] + 14.0 * (number % 30), ORIGIN[1] + 25.0 * (number // 30)
         ring = [[x, y], [x + 12, y + 1], [x + 11, y + 11], [x - 1, y + 10], [x, y]]
         shape = {"type": "Polygon", "coordinates": [ring]}
+        shape["coordinates"] = [[[*point, 0.1 * (number % 7)] for point in ring]]
         features.append({"type": "Feature", "id": str(number), "geometry": shape, "properties": {}})
     crs = {"type": "name", "properties": {"name": "EPSG:28992"}}
     lots = folder / "lots.geojson"
@@ -63,6 +64,7 @@ def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
     result = run_derive(rules, lots, out, GrammarOptions(), Progress(quiet=True), jobs=1)
     assert result.built.count == 150
     assert any("RD New" in note for note in result.notes)
+    assert any("ground between the lots is invented" in note for note in result.notes)
     return out
 
 
@@ -72,7 +74,7 @@ def tilesets(town: Path) -> dict[str, dict[str, Any]]:
 
 
 def glbs(town: Path) -> list[Path]:
-    return sorted(town.glob("parts/*/tiles/*.glb"))
+    return sorted([*town.glob("parts/*/tiles/*.glb"), *town.glob("ground/*.glb")])
 
 
 def opened(path: Path) -> tuple[dict[str, Any], bytes]:
