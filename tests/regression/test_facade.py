@@ -14,6 +14,12 @@ from facade_measures import Matches, accuracy, class_table, confusion, match
 from facade_reading import Reading, read_facades
 from facade_truth import WINDOW, Labelled, artdeco, components, ecp, true_storeys
 
+from veduta.facade.analyse import analyse
+from veduta.facade.document import Source
+from veduta.facade.options import FacadeOptions, RectifyOptions
+from veduta.facade.rectify import rectify
+from veduta.imaging.read import read_image
+
 pytestmark = pytest.mark.regression
 
 
@@ -54,6 +60,7 @@ def test_ecp_facades_are_read(veduta_data: Path) -> None:
     right = sum(n == true_storeys(e.labels) for n, e in zip(storeys, examples, strict=True))
     assert right >= 17
     assert all(4 <= n <= 8 for n in storeys)
+    assert sum(r.document is not None and r.document.storeys_doubtful for r in readings) <= 4
     _every_large_class_is_seen(examples, readings)
 
 
@@ -78,3 +85,19 @@ def test_the_true_storeys(veduta_data: Path) -> None:
     val = ecp(_folder(veduta_data, "facades/ecp"), "val")
     other = {e.name: true_storeys(e.labels) for e in val if true_storeys(e.labels) != 6}
     assert other == {"monge_91": 5}  # counted in the pictures
+
+
+@pytest.mark.slow
+def test_close_views_are_told_as_doubtful(veduta_data: Path) -> None:
+    """Street photos that show parts of facades: there are too few storeys to be sure of any."""
+    photos = "facades/street-cc0/images"
+    paths = sorted((_folder(veduta_data, photos) / photos).glob("*.jpg"))[1::2]
+    assert len(paths) == 10
+    doubtful = 0
+    for path in paths:
+        photo = read_image(path)
+        height, width = photo.pixels.shape[:2]
+        source = Source(image=path.name, sha256=photo.sha256, width_px=width, height_px=height)
+        document, _ = analyse(rectify(photo, RectifyOptions()), source, FacadeOptions())
+        doubtful += document.storeys_doubtful
+    assert doubtful >= 8
