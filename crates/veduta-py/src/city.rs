@@ -219,6 +219,10 @@ fn volumes(
     let mut own = Grid::default();
     let faces = faces(lot, place, &mut own)?;
     let all: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
+    if !all.is_empty() && is_closed(&all) {
+        let faces = faces.iter().map(|face| volume_face(lot, face, kinds, code));
+        return Ok(vec![solid("2.2", faces.collect(), &own.vertices, grid)]);
+    }
     let top = own.vertices.iter().map(|vertex| vertex[2]).max();
     let (Some(foot), Some(top)) = (ground(&all, &own.vertices), top) else {
         return Ok(Vec::new());
@@ -232,12 +236,8 @@ fn volumes(
     };
     let block = block(&foot, top, raised);
     let mut roofed: Vec<VolumeFace> = vec![(foot, "GroundSurface")];
-    roofed.extend(faces.into_iter().map(|face| {
-        let kind = &kinds[usize::from(code(&lot.surfaces.class[face.feature]))];
-        let known = ["RoofSurface", "GroundSurface"];
-        let kind = known.into_iter().find(|known| known == kind);
-        (face.rings, kind.unwrap_or("WallSurface"))
-    }));
+    let walls_and_roofs = faces.iter();
+    roofed.extend(walls_and_roofs.map(|face| volume_face(lot, face, kinds, code)));
     let mut found = Vec::new();
     for (lod, faces) in [("1.2", block), ("2.2", roofed)] {
         let rings: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.0).collect();
@@ -246,6 +246,19 @@ fn volumes(
         }
     }
     Ok(found)
+}
+
+/// A face of a volume: what is neither roof nor ground is wall.
+fn volume_face(
+    lot: &Derived,
+    face: &Face,
+    kinds: &[String],
+    code: &impl Fn(&str) -> u8,
+) -> VolumeFace {
+    let kind = &kinds[usize::from(code(&lot.surfaces.class[face.feature]))];
+    let known = ["RoofSurface", "GroundSurface"];
+    let kind = known.into_iter().find(|known| known == kind);
+    (face.rings.clone(), kind.unwrap_or("WallSurface"))
 }
 
 /// A Solid whose surfaces are one of each kind.

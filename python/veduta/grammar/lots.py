@@ -99,6 +99,8 @@ def _outlines_of(
     """What the file has, whatever its format, and its EPSG code."""
     if is_package(path):
         return package_outlines(path, options.layer, MAX_LOTS)
+    if path.suffix.lower() == ".gpkg" and path.is_file():
+        raise InputError(path, "is no GeoPackage, though its name says so", "Save it anew as one.")
     if options.layer is not None:
         raise InputError(f"--layer {options.layer}", f"but {path} has no layers", "Leave it out.")
     if path.suffix.lower() == ".obj":

@@ -154,4 +154,4 @@ def test_forms_are_those_of_the_building() -> None:
         _core.GrammarRules([("a.cga", BOX)]), [SQUARE], [0], attributes=[{}], edits=[[]]
     )
     texts = derived.city(0, (0.0, 0.0, 0.0), CLASSES, KINDS, derived)
-    assert forms_of(texts) == ["Solid 3"]
+    assert forms_of(texts) == ["Solid 3", "Solid 2.2"]

@@ -155,3 +155,13 @@ def test_bytes_that_are_no_geometry_are_refused(content: bytes, start: bytes) ->
         return
     for rings in polygons or []:
         assert all(isinstance(ring, np.ndarray) and ring.shape[1] == 3 for ring in rings)
+
+
+def test_a_file_that_is_named_like_a_package_and_is_none(tmp_path: Path) -> None:
+    path = tmp_path / "lots.gpkg"
+    path.write_bytes(b"\xb0\x00 no database")
+    with pytest.raises(InputError, match="is no GeoPackage"):
+        read_lots(path)
+    path.unlink()
+    with pytest.raises(InputError, match="does not exist"):
+        read_lots(path)
