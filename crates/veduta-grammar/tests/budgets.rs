@@ -53,7 +53,7 @@ fn work_within_one_operation_is_bounded() {
         "Lot --> primitiveSphere(90, 90) subtract { r(9, 8, 7) s('0.9, '0.9, '0.9) X. } Y.",
         "Lot --> primitiveCylinder(900) split(y) { ~1 : X. | { ~0.002 : X. }* }",
         "Lot --> primitiveSphere(90, 90) splitArea(x) { { 0.05 : X. }* }",
-        "Lot --> A A  A --> primitiveSphere(90, 90) t(rand(1), 0, 0) case inside(all) : X. else : Y.",
+        "Lot --> A A  A --> primitiveSphere(90, 90) t(rand(1), 0, 0) B  B --> case inside(all) : X. else : Y.",
         "Lot --> scatter(surface, 9999, uniform) { [ X. ] scatter(scope, 9999, uniform) { Y. } }",
     ];
     for text in programs {
