@@ -6,6 +6,8 @@ pairs whose faces lie on each other, or nearly.
 
 from __future__ import annotations
 
+import importlib
+import importlib.util
 import json
 import os
 import subprocess
@@ -26,8 +28,7 @@ NEAR = 1e-4
 
 def solid(mesh: dict[str, Any]) -> Any:
     """A mesh of polygons with holes as a manifold."""
-    import manifold3d
-
+    manifold3d = importlib.import_module("manifold3d")
     rings = [ring for face in mesh["faces"] for ring in face]
     points = np.asarray(mesh["points"], dtype=np.float64)
     centre = points.mean(axis=0)
@@ -36,9 +37,7 @@ def solid(mesh: dict[str, Any]) -> Any:
     face_offsets = np.cumsum([0] + [len(face) for face in mesh["faces"]])
     found = triangulate_polygons(points[corners] - centre, ring_offsets, face_offsets, 1e-6)
     triangles = corners[np.asarray(found[0])]
-    made = manifold3d.Mesh64(
-        vert_properties=points - centre, tri_verts=triangles.astype(np.uint64)
-    )
+    made = manifold3d.Mesh64(vert_properties=points - centre, tri_verts=triangles.astype(np.uint64))
     return manifold3d.Manifold(made).translate(tuple(centre))
 
 
@@ -75,9 +74,7 @@ def written(folder: Path) -> Path:
 
 
 if __name__ == "__main__":
-    try:
-        import manifold3d  # noqa: F401
-    except ImportError:
+    if importlib.util.find_spec("manifold3d") is None:
         print("skipped: `pip install manifold3d` for a second opinion on booleans")
         sys.exit(0)
     with tempfile.TemporaryDirectory() as folder:

@@ -323,13 +323,15 @@ fn busy_seconds() -> f64 {
     )
 }
 
+/// How many programs came to what, with the number of one.
+type Outcomes = BTreeMap<String, (u64, u64)>;
+
 /// Thousands of programs, on two threads: each tells nothing but its number where it fails.
 #[test]
 fn nothing_breaks() {
     let plan = Plan::of_environment();
     let next = AtomicU64::new(0);
-    // How many programs came to what, with the number of one; and how long each took.
-    let found: Mutex<(BTreeMap<String, (u64, u64)>, Vec<(f64, u64)>)> = Mutex::default();
+    let found: Mutex<(Outcomes, Vec<(f64, u64)>)> = Mutex::default();
     let work = || loop {
         let index = next.fetch_add(1, Ordering::Relaxed);
         if index >= plan.count {
