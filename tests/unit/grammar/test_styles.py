@@ -136,7 +136,7 @@ def test_the_height_of_a_lot_is_kept_to(style: str, height_m: float) -> None:
 @pytest.mark.parametrize("style", style_names())
 @pytest.mark.parametrize("height_m", [3.0, 4.5, 6.5, 8.5])
 def test_low_and_narrow_lots_are_houses(style: str, height_m: float) -> None:
-    """The buildings of old towns: a few metres wide and high, with a door that a person fits through."""
+    """As in old towns: a few metres wide and high, with a door that a person fits through."""
     for width_m in (2.2, 4.0, 8.0):
         lot = [ring((0, 0), (width_m, 0), (width_m, 9), (0, 9))]
         (part,) = derive(style, [lot], height=height_m, LOD=1.0)
