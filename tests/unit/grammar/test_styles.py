@@ -136,6 +136,19 @@ def test_the_height_of_a_lot_is_kept_to(style: str, height_m: float) -> None:
 
 
 @pytest.mark.parametrize("style", style_names())
+@pytest.mark.parametrize("height_m", [3.0, 4.5, 6.5, 8.5])
+def test_low_and_narrow_lots_are_houses(style: str, height_m: float) -> None:
+    """As in old towns: a few metres wide and high, with a door that a person fits through."""
+    for width_m in (2.2, 4.0, 8.0):
+        lot = [ring((0, 0), (width_m, 0), (width_m, 9), (0, 9))]
+        (part,) = derive(style, [lot], height=height_m, LOD=1.0)
+        assert {"wall", "roof", "door", "window"} <= classes(part), width_m
+        assert part.notes == ()
+        assert 1.7 < top_of(part, "door") < height_m
+        assert top_of(part, "window") < height_m
+
+
+@pytest.mark.parametrize("style", style_names())
 def test_the_same_seed_gives_the_same_building(style: str) -> None:
     rules = rules_of(style)
     first, again, other = rules.derive([LOTS["garden"]] * 3, [7, 7, 8])

@@ -9,7 +9,9 @@ from veduta.grammar.assets.looks import STONE
 from veduta.grammar.assets.modelling import Model, arc
 
 RISE_M, WIDE_M = 0.34, 1.6
-SECTION = [(0.0, 0.0), (0.06, 0.0), (0.1, 0.04), (0.22, 0.05), (0.26, 0.09), (0.28, 0.14), (0.0, 0.14)]  # fmt: skip
+SECTION = [
+    (0.0, 0.0), (0.06, 0.0), (0.1, 0.04), (0.22, 0.05), (0.26, 0.09), (0.28, 0.14), (0.0, 0.14),
+]  # fmt: skip
 """z and y (m) of the ledge below the curve."""
 
 
