@@ -24,8 +24,8 @@ from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
 from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
-from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
 from veduta.grammar.rules import style_names
+from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
