@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -41,7 +41,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "5"
+VERSION = "6"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
@@ -330,7 +330,7 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     whole, lots, options = result.built, call.lots, call.options
     work = folder.work_folder(CALL)
     result.notes.append(placed_how(lots))
-    if is_streamed(options, lots) and not is_level(lots.lots):
+    if not is_level(lots.lots):
         result.notes.append("the ground between the lots is invented, from their heights")
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
@@ -353,12 +353,12 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     """The files that hold all blocks together."""
     lots, blocks = call.lots, call.blocks
     streamed = is_streamed(call.options, lots)
-    grounds = _write_ground(work, blocks) if streamed else {}
+    done = {name for name, _ in whole.blocks}
+    grounds = _write_ground(work, blocks, done)
     write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
     write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
     if not call.options.output.city:
         return
-    done = {name for name, _ in whole.blocks}
     pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
     name = _city_name(lots)
     if _has_city(folder, call) and not all(piece.exists() for piece in pieces):
@@ -378,11 +378,15 @@ def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> No
         (work / file).write_bytes(data)
 
 
-def _write_ground(work: Path, blocks: Sequence[Block]) -> dict[str, tuple[str, Box]]:
-    """The ground of each block, seen from its origin: its file and the box around it."""
+def _write_ground(
+    work: Path, blocks: Sequence[Block], done: Collection[str]
+) -> dict[str, tuple[str, Box]]:
+    """The ground of each block that is done, seen from its origin: its file and box."""
     found = {}
     origins = {block.name: block.origin_m for block in blocks}
     for name, ground in ground_of(blocks).items():
+        if name not in done:
+            continue
         file = f"{GROUND}/{name.rpartition('/')[2]}.glb"
         points = ground.points_m - origins[name]
         (work / file).parent.mkdir(exist_ok=True)
