@@ -31,7 +31,7 @@ from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
-from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.textures import find_textures, read_textures, textures_digests, with_builtin
 from veduta.grammar.tile_pictures import picture_files
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
@@ -372,7 +372,7 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
 def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
     """The pictures that tiles show, once for all of them."""
     shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
-    chosen = {name: path for name, path in textures.items() if name in shown}
+    chosen = {name: path for name, path in with_builtin(textures).items() if name in shown}
     for file, data in picture_files(read_textures(chosen), list(chosen)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)

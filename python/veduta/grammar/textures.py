@@ -26,7 +26,7 @@ MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
 """Of one picture: 67 megapixels."""
 _NAMED = re.compile(
-    rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+    rf'"({PREFIX}[^"\n\0]{{1,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
 
 
@@ -81,6 +81,11 @@ def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
         if len(found) > MAX_TEXTURES:
             raise InputError(rules, f"names more than {MAX_TEXTURES} pictures", "Use fewer.")
     return found
+
+
+def with_builtin(files: Mapping[str, str]) -> dict[str, str]:
+    """The pictures of `find_textures`, and all built-in ones: rules may compute their names."""
+    return {name: name for name in sizes_m()} | dict(files)
 
 
 def texture_faults(texts: Iterable[str]) -> list[str]:
