@@ -34,8 +34,8 @@ HELP = f"""usage: veduta grammar check RULES
   sample    Show what the rules can make: random derivations in a picture
   tree      Show how a building is derived: its shapes, their choices and paths
 
-RULES is a rule file (.cga), or the name of a style that Veduta brings along (haussmann,
-victorian, ...: see docs/styles.md).
+RULES is a rule file (.cga) or, but for `format`, the name of a style that Veduta brings along
+(haussmann, victorian, ...: see docs/styles.md).
 `veduta grammar ACTION --help` explains the options of an action."""
 
 

@@ -26,6 +26,8 @@ EQUATORIAL_RADIUS_M = 6_378_137.0
 FLATTENING = 1 / 298.257223563
 _STEP_M = 10.0
 _WORLD = "EPSG:4326"
+_MIRRORED = ["south", "west"]
+"""Axes to the right and up of grids on which a map lies mirrored, such as Krovak's first one."""
 
 network.set_network_enabled(active=False)  # type: ignore[attr-defined]  # it is public
 
@@ -46,7 +48,8 @@ class Grid:
 def grid_of_crs(crs: str | None) -> Grid | None:
     """The grid of a code such as `EPSG:28992`, or the plane one of a compound CRS.
 
-    None for other kinds of CRS, for feet, and where no way to WGS 84 is known.
+    None for other kinds of CRS, for feet, for axes to the south and the west (a map of them is
+    mirrored), and where no way to WGS 84 is known.
     """
     if re.fullmatch(r"EPSG:\d{4,6}", crs or "") is None:
         return None
@@ -56,6 +59,8 @@ def grid_of_crs(crs: str | None) -> Grid | None:
             known = known.sub_crs_list[0]
         units = {axis.unit_name for axis in known.axis_info}
         if not known.is_projected or units != {"metre"}:
+            return None
+        if [axis.direction for axis in known.axis_info[:2]] == _MIRRORED:
             return None
         way = pyproj.Transformer.from_crs(known, _WORLD, always_xy=True, allow_ballpark=False)
     except pyproj.exceptions.ProjError:

@@ -330,10 +330,14 @@ def derive(
 ) -> Derivation:
     """The building on a lot: rings of (n, 2) or (n, 3) metres, the outline first.
 
-    InputError where the rules fail, or there is no such start rule. Edits that cannot be done are
-    in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more than `shapes`.
-    surroundings: what stands beside the lot, and how far off; `inter` asks about it.
+    InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot
+    be done are in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more
+    than `shapes`. surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
+    for name in attributes or ():
+        if name not in rules.attributes:
+            known = ", ".join(list(rules.attributes)[:12])
+            raise InputError(name, f"is no attribute of {rules.path.name}", f"It has: {known}.")
     rings = [_ring(ring) for ring in lot]
     around, beside = surroundings or (None, None)
 

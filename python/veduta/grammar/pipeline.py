@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -31,7 +31,7 @@ from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
-from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.textures import find_textures, read_textures, textures_digests, with_builtin
 from veduta.grammar.tile_pictures import picture_files
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
@@ -41,7 +41,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "5"
+VERSION = "6"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
@@ -97,63 +97,95 @@ def run_derive(
     """Build every lot in OUT, by the rules of `run.outputs`."""
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
-        rules = read_rules(find_rules(rules_name))
-        compiled = compile_rules(rules, options.derive.style)
-        options = check_options(compiled, rules.path, options)
-        assets = Library(rules.path.parent).digest(compiled)
-        files = tuple(rules.texts)
-        textures = find_textures(rules.path, [text for _, text in files])
-        read_textures(textures)
-        lots = _lots(lots_path, options)
-        if edits_path is not None:
-            lots = edited_lots(lots, edits_path, read_edits(edits_path))
-    blocks = _blocks(lots, ask_beside=compiled.asks_beside)
-    pictures: JsonValue = textures_digests(textures)
-    source = rules_name if lots_path is None else str(lots_path)
-    keys = {
-        block.name: _key("block", options, [files_digest(files), assets, pictures, _told(block)])
-        for block in blocks
-    }
-    origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
-    failed: JsonValue = [failure.model_dump() for failure in lots.failures]
-    known: dict[str, JsonValue] = dict(keys)
-    key = _key("call", options, [known, origin, failed, source])
-    with open_out(out, COMMAND, key, force=force) as folder:
+        call = _call(rules_name, lots_path, edits_path, options)
+    lots = call.lots
+    with open_out(out, COMMAND, call.key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
-        needs_lines = options.output.city and not _has_city(folder, key, lots)
-        waiting = [
-            b
-            for b in blocks
-            if not folder.is_current(b.name, keys[b.name])
-            or (needs_lines and not _city_path(out, b).exists())
-        ]
         if result.up_to_date:
-            waiting = []
             shutil.rmtree(out / CITY, ignore_errors=True)
-        jobs_to_do = [
-            Job(
-                b,
-                files,
-                options,
-                source,
-                rules.path.parent,
-                out,
-                folder.work_path(b.name),
-                is_separate(options, lots),
-                _city_path(out, b) if options.output.city else None,
-                textures,
-            )
-            for b in waiting
-        ]
+        waiting = [] if result.up_to_date else _waiting(call, folder)
         with timed_step(steps, "build"):
-            _process(jobs_to_do, folder, keys, result, progress, jobs)
-        _collect(folder, blocks, lots, result)
+            _process(
+                [call.job(b, folder) for b in waiting], folder, call.keys, result, progress, jobs
+            )
+        _collect(folder, call.blocks, lots, result)
         if not result.up_to_date:
-            _write_call(folder, key, lots, blocks, options, rules_name, textures, result)
+            _write_call(folder, call, result)
         result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
+
+
+@dataclass(frozen=True)
+class _Call:
+    """What a call is given, read and checked, and the keys of what is to be made of it.
+
+    source: what failures name. folder: where the rules lie. keys: of the blocks. key: of all.
+    """
+
+    rules_name: str
+    source: str
+    folder: Path
+    files: tuple[tuple[str, str], ...]
+    options: GrammarOptions
+    textures: Mapping[str, str]
+    lots: Lots
+    blocks: list[Block]
+    keys: dict[str, str]
+    key: str
+
+    def job(self, block: Block, folder: OutFolder) -> Job:
+        """The work on a block."""
+        return Job(
+            block,
+            self.files,
+            self.options,
+            self.source,
+            self.folder,
+            folder.path,
+            folder.work_path(block.name),
+            is_separate(self.options, self.lots),
+            _city_path(folder.path, block) if self.options.output.city else None,
+            self.textures,
+        )
+
+
+def _call(
+    rules_name: str, lots_path: Path | None, edits_path: Path | None, options: GrammarOptions
+) -> _Call:
+    """Read and check all that is given; InputError names what is wrong."""
+    rules = read_rules(find_rules(rules_name))
+    compiled = compile_rules(rules, options.derive.style)
+    options = check_options(compiled, rules.path, options)
+    assets = Library(rules.path.parent).digest(compiled)
+    files = tuple(rules.texts)
+    textures = find_textures(rules.path, [text for _, text in files])
+    read_textures(textures)
+    lots = _lots(lots_path, options)
+    if edits_path is not None:
+        lots = edited_lots(lots, edits_path, read_edits(edits_path))
+    blocks = _blocks(lots, ask_beside=compiled.asks_beside)
+    source = rules_name if lots_path is None else str(lots_path)
+    made_of: list[JsonValue] = [files_digest(files), assets, textures_digests(textures)]
+    keys = {block.name: _key("block", options, [*made_of, _told(block)]) for block in blocks}
+    origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
+    failed: JsonValue = [failure.model_dump() for failure in lots.failures]
+    key = _key("call", options, [dict(keys), origin, failed, source])
+    return _Call(
+        *(rules_name, source, rules.path.parent, files, options), textures, lots, blocks, keys, key
+    )
+
+
+def _waiting(call: _Call, folder: OutFolder) -> list[Block]:
+    """The blocks that are not there, or whose lines of CityJSON are wanted and are not there."""
+    needs_lines = call.options.output.city and not _has_city(folder, call)
+    return [
+        block
+        for block in call.blocks
+        if not folder.is_current(block.name, call.keys[block.name])
+        or (needs_lines and not _city_path(folder.path, block).exists())
+    ]
 
 
 def _lots(path: Path | None, options: GrammarOptions) -> Lots:
@@ -201,9 +233,9 @@ def _city_name(lots: Lots) -> str:
     return "city.city.jsonl" if len(lots.lots) > SEQUENCE else "city.city.json"
 
 
-def _has_city(folder: OutFolder, key: str, lots: Lots) -> bool:
+def _has_city(folder: OutFolder, call: _Call) -> bool:
     """Whether the CityJSON of this very call is there: its lines need not be made again."""
-    return folder.is_done(CALL, key) and (folder.path / _city_name(lots)).exists()
+    return folder.is_done(CALL, call.key) and (folder.path / _city_name(call.lots)).exists()
 
 
 def files_digest(files: Sequence[tuple[str, str]]) -> str:
@@ -293,63 +325,46 @@ def _add_step(steps: list[StepRecord], step: StepRecord) -> None:
     steps.append(step)
 
 
-def _write_call(
-    folder: OutFolder,
-    key: str,
-    lots: Lots,
-    blocks: list[Block],
-    options: GrammarOptions,
-    rules_name: str,
-    textures: Mapping[str, str],
-    result: DeriveResult,
-) -> None:
+def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """The place of all that is done, and the report of the call."""
-    whole = result.built
+    whole, lots, options = result.built, call.lots, call.options
     work = folder.work_folder(CALL)
     result.notes.append(placed_how(lots))
-    if is_streamed(options, lots) and not is_level(lots.lots):
+    if not is_level(lots.lots):
         result.notes.append("the ground between the lots is invented, from their heights")
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
-        rules_name, options, whole, result.failures, result.notes, result.steps
+        call.rules_name, options, whole, result.failures, result.notes, result.steps
     )
     with writing_to(folder.path):
         if whole.count:
             with timed_step(result.steps, "join"):
-                _write_town(folder, key, work, lots, blocks, options, Path(rules_name).stem, whole)
-                _write_pictures(work, textures, whole)
+                _write_town(folder, call, work, whole)
+                _write_pictures(work, call.textures, whole)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
-    folder.publish(CALL, key, work)
+    folder.publish(CALL, call.key, work)
     if all(failure.kind in LASTING for failure in result.failures):
         shutil.rmtree(folder.path / CITY, ignore_errors=True)
         folder.finish()
 
 
-def _write_town(
-    folder: OutFolder,
-    key: str,
-    work: Path,
-    lots: Lots,
-    blocks: list[Block],
-    options: GrammarOptions,
-    title: str,
-    whole: Whole,
-) -> None:
+def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> None:
     """The files that hold all blocks together."""
-    streamed = is_streamed(options, lots)
-    grounds = _write_ground(work, blocks) if streamed else {}
+    lots, blocks = call.lots, call.blocks
+    streamed = is_streamed(call.options, lots)
+    done = {name for name, _ in whole.blocks}
+    grounds = _write_ground(work, blocks, done)
     write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
     write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
-    if not options.output.city:
+    if not call.options.output.city:
         return
-    done = {name for name, _ in whole.blocks}
     pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
     name = _city_name(lots)
-    if _has_city(folder, key, lots) and not all(piece.exists() for piece in pieces):
+    if _has_city(folder, call) and not all(piece.exists() for piece in pieces):
         same_file(folder.path / name, work / name)
         return
-    first = header(title, lots.crs, lots.origin_m)
+    first = header(Path(call.rules_name).stem, lots.crs, lots.origin_m)
     write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
     write(work / name, first, pieces)
 
@@ -357,17 +372,21 @@ def _write_town(
 def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
     """The pictures that tiles show, once for all of them."""
     shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
-    chosen = {name: path for name, path in textures.items() if name in shown}
+    chosen = {name: path for name, path in with_builtin(textures).items() if name in shown}
     for file, data in picture_files(read_textures(chosen), list(chosen)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)
 
 
-def _write_ground(work: Path, blocks: Sequence[Block]) -> dict[str, tuple[str, Box]]:
-    """The ground of each block, seen from its origin: its file and the box around it."""
+def _write_ground(
+    work: Path, blocks: Sequence[Block], done: Collection[str]
+) -> dict[str, tuple[str, Box]]:
+    """The ground of each block that is done, seen from its origin: its file and box."""
     found = {}
     origins = {block.name: block.origin_m for block in blocks}
     for name, ground in ground_of(blocks).items():
+        if name not in done:
+            continue
         file = f"{GROUND}/{name.rpartition('/')[2]}.glb"
         points = ground.points_m - origins[name]
         (work / file).parent.mkdir(exist_ok=True)

@@ -7,32 +7,27 @@ mask beside it, `NAME.invented.png`, in which white says what nobody has photogr
 
 from __future__ import annotations
 
-import io
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
-from pathlib import Path, PurePosixPath
+from pathlib import Path
 
 import numpy as np
-from PIL import Image
 from pydantic import JsonValue
 
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.imaging.read import read_image
-from veduta.place.material import Colour, Texture
+from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 
 MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
 """Of one picture: 67 megapixels."""
-JPEG_QUALITY = 85
 _NAMED = re.compile(
-    rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+    rf'"({PREFIX}[^"\n\0]{{1,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
-_SHOWN_AS_THEY_ARE = (".jpg", ".jpeg", ".png")
-"""Files of these kinds can stand in a glTF model as they are."""
 
 
 class Textures(Mapping[str, Texture]):
@@ -88,6 +83,11 @@ def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
     return found
 
 
+def with_builtin(files: Mapping[str, str]) -> dict[str, str]:
+    """The pictures of `find_textures`, and all built-in ones: rules may compute their names."""
+    return {name: name for name in sizes_m()} | dict(files)
+
+
 def texture_faults(texts: Iterable[str]) -> list[str]:
     """What is wrong with the built-in textures that the texts name."""
     told = []
@@ -123,29 +123,6 @@ def read_textures(files: Mapping[str, str]) -> Textures:
         if not is_builtin(path):
             _ = textures[name]
     return textures
-
-
-def encoded(path: str) -> tuple[bytes, str]:
-    """The content of a picture of `find_textures` as a file, and the file's suffix: .jpg or .png.
-
-    InputError where it cannot be read.
-    """
-    if not is_builtin(path) and path.lower().endswith(_SHOWN_AS_THEY_ARE):
-        _ = _read(path, *_changed(path))
-        suffix = PurePosixPath(path).suffix.lower()
-        return Path(path).read_bytes(), ".png" if suffix == ".png" else ".jpg"
-    texture = Textures({path: path})[path]
-    memory = io.BytesIO()
-    Image.fromarray(texture.pixels).save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    return memory.getvalue(), ".jpg"
-
-
-def mean_of(path: str) -> Colour:
-    """The mean colour (sRGB, 0..1) of a picture of `find_textures`: what it is from afar."""
-    if is_builtin(path):
-        return mean_colour(path)
-    red, green, blue = (_read(path, *_changed(path)).pixels.mean(axis=(0, 1)) / 255.0).tolist()
-    return red, green, blue
 
 
 @lru_cache(maxsize=64)

@@ -11,6 +11,8 @@ from dataclasses import dataclass
 import numpy as np
 from PIL import Image
 
+from veduta.grammar.surfaces.catalogue import mean_colour as known_mean
+from veduta.grammar.surfaces.catalogue import sizes_m
 from veduta.place.material import Colour, Texture
 
 FOLDER = "textures"
@@ -39,9 +41,17 @@ class TilePicture:
 
 
 def tile_pictures(textures: Mapping[str, Texture]) -> list[TilePicture]:
-    """The pictures by the names that rules have for them; files depend on the name alone."""
+    """The pictures by the names that rules have for them; files depend on the name alone.
+
+    Of those that Veduta brings along the mean is known: they are not painted for it.
+    """
     return [
-        TilePicture(name, _file(name), mean_colour(texture)) for name, texture in textures.items()
+        TilePicture(
+            name,
+            _file(name),
+            known_mean(name) if name in sizes_m() else mean_colour(textures[name]),
+        )
+        for name in textures
     ]
 
 

@@ -40,8 +40,8 @@ def test_projections_in_metres_and_no_others() -> None:
     assert grid(32631).name == "WGS 84 / UTM zone 31N"
     assert grid(7415).name == "Amersfoort / RD New"  # with heights above NAP
     assert grid(28992).accuracy_m == pytest.approx(1.0)
-    # Longitude and latitude, US feet, no code, no known code, a file name.
-    for other in ("EPSG:4326", "EPSG:2263", None, "EPSG:999999", "lots.prj"):
+    # Longitude and latitude, US feet, no code, no known code, a file name, mirrored.
+    for other in ("EPSG:4326", "EPSG:2263", None, "EPSG:999999", "lots.prj", "EPSG:2065"):
         assert grid_of_crs(other) is None
 
 

@@ -166,6 +166,8 @@ def test_bad_use_is_told(rules: grammar.Rules) -> None:
         grammar.derive(rules, [[(0, 0), (1, 0), (2, 0)]])
     with pytest.raises(InputError, match="two or three finite numbers"):
         grammar.derive(rules, [[(0, 0), (1, float("nan")), (2, 0)]])
+    with pytest.raises(InputError, match="tal: is no attribute of house"):
+        grammar.derive(rules, LOT, attributes={"tal": 4})
     with pytest.raises(InputError, match="there is no rule"):
         grammar.derive(rules, LOT, start="Roof")
     with pytest.raises(InputError, match="neither a file nor a style"):

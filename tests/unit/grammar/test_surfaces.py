@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from veduta.grammar import tile_pictures
 from veduta.grammar.surfaces.bonds import random_lengths, running
 from veduta.grammar.surfaces.canvas import MOST_PX, Canvas
 from veduta.grammar.surfaces.catalogue import (
@@ -18,7 +19,7 @@ from veduta.grammar.surfaces.catalogue import (
     sizes_m,
     texture_names,
 )
-from veduta.grammar.textures import encoded
+from veduta.grammar.textures import Textures
 from veduta.run.errors import InputError
 
 Pixels = NDArray[np.uint8]
@@ -39,9 +40,10 @@ def test_a_texture_is_what_the_catalogue_says(name: str) -> None:
     assert max(picture.shape[:2]) == MOST_PX
     # Pixels are square, so that nothing is stretched where it lies in metres.
     assert picture.shape[1] / width == pytest.approx(picture.shape[0] / height, rel=3e-3)
-    np.testing.assert_allclose(picture.mean(axis=(0, 1)) / 255, mean_colour(name), atol=0.008)
-    content, suffix = encoded(name)
-    assert suffix == ".jpg"
+    textures = Textures({})
+    light = tile_pictures.mean_colour(textures[name])
+    np.testing.assert_allclose(light, mean_colour(name), atol=0.008)
+    [content] = tile_pictures.picture_files(textures, [name]).values()
     assert len(content) < 180_000
 
 

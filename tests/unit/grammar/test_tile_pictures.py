@@ -195,6 +195,23 @@ def test_all_tiles_share_one_file(town: Path) -> None:
     assert f"textures/{picture.name}" in contents(town)
 
 
+def test_tiles_show_built_in_textures_whose_names_are_computed(tmp_path: Path) -> None:
+    rules = tmp_path / "rules.cga"
+    rules.write_text(
+        'attr kind = "brick"\n'
+        "Lot --> extrude(6) comp(f) { side : Wall | all : NIL }\n"
+        "Wall --> setupProjection(0, scope.xy, 1, 1) "
+        'texture("builtin/textures/" + kind) projectUV(0)'
+    )
+    out = tmp_path / "out"
+    run_derive(str(rules), None, out, GrammarOptions(), Progress(quiet=True), jobs=1)
+    (picture,) = (out / "textures").iterdir()
+    (tile,) = out.glob("parts/*/tiles/*-full.glb")
+    (image,) = document(tile)["images"]
+    assert (tile.parent / image["uri"]).resolve() == picture.resolve()
+    assert picture.name.startswith("brick-")
+
+
 def test_a_picture_that_leads_out_is_refused(town: Path, tmp_path: Path) -> None:
     other = tmp_path / "other"
     shutil.copytree(town, other)

@@ -133,3 +133,25 @@ def test_cityjson_has_all_buildings(town: Path) -> None:
     assert set(kinds) == {"WallSurface", "RoofSurface", "Window"}
     low = np.array(city["vertices"]).min(axis=0) * 0.001 + city["transform"]["translate"]
     assert low == pytest.approx([*ORIGIN, 0.0])
+
+
+def test_a_few_lots_at_different_heights_have_ground_between_them(tmp_path: Path) -> None:
+    """Also where each building has a file of its own."""
+    features = []
+    for number, z in enumerate((0.0, 8.0)):
+        x = 14.0 * number
+        ring = [[x, 0, z], [x + 12, 0, z], [x + 12, 10, z], [x, 10, z], [x, 0, z]]
+        shape = {"type": "Polygon", "coordinates": [ring]}
+        features.append({"type": "Feature", "geometry": shape, "properties": {}})
+    lots = tmp_path / "lots.geojson"
+    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    (tmp_path / "rules.cga").write_text(RULES)
+    out = tmp_path / "out"
+    options, quiet = GrammarOptions(), Progress(quiet=True)
+    result = run_derive(str(tmp_path / "rules.cga"), lots, out, options, quiet, jobs=1)
+    assert result.exit_code == 0
+    children = json.loads((out / "tileset.json").read_text())["root"]["children"]
+    shown = {child["content"]["uri"] for child in children}
+    assert shown == {"parts/00/tiles/tileset.json", "ground/00.glb"}
+    assert (out / "ground/00.glb").stat().st_size > 0
+    assert any("invented" in note for note in result.notes)

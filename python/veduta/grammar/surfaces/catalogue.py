@@ -20,7 +20,10 @@ PREFIX = "builtin/textures/"
 
 @dataclass(frozen=True)
 class Surface:
-    """How a texture is made, the metres that it covers to the right and up, its mean (sRGB)."""
+    """How a texture is made, the metres that it covers to the right and up, its mean (sRGB).
+
+    The mean is that of the light, which is what the texture looks like from afar.
+    """
 
     paint: Callable[[Canvas], Image]
     size_m: tuple[float, float]
@@ -34,32 +37,32 @@ class Surface:
 
 SURFACES: dict[str, Surface] = {
     "ashlar": Surface(stone.ashlar, (2.88, 2.88), (0.91, 0.91, 0.90)),
-    "rusticated": Surface(stone.rusticated, (3.2, 3.22), (0.89, 0.88, 0.87)),
+    "rusticated": Surface(stone.rusticated, (3.2, 3.22), (0.90, 0.89, 0.89)),
     "stone": Surface(stone.smooth, (1.6, 1.6), (0.94, 0.93, 0.92)),
-    "brick": Surface(brick.stretcher, (2.25, 2.25), (0.86, 0.86, 0.86)),
-    "brick-flemish": Surface(brick.flemish, (2.3625, 2.25), (0.86, 0.86, 0.86)),
-    "brick-red": Surface(brick.red, (2.3625, 2.25), (0.60, 0.36, 0.29)),
-    "brick-yellow": Surface(brick.yellow, (2.3625, 2.25), (0.70, 0.62, 0.48)),
-    "brick-brown": Surface(brick.brown, (2.25, 2.25), (0.45, 0.36, 0.31)),
+    "brick": Surface(brick.stretcher, (2.25, 2.25), (0.87, 0.87, 0.87)),
+    "brick-flemish": Surface(brick.flemish, (2.3625, 2.25), (0.87, 0.87, 0.87)),
+    "brick-red": Surface(brick.red, (2.3625, 2.25), (0.62, 0.39, 0.33)),
+    "brick-yellow": Surface(brick.yellow, (2.3625, 2.25), (0.72, 0.64, 0.49)),
+    "brick-brown": Surface(brick.brown, (2.25, 2.25), (0.46, 0.38, 0.34)),
     "plaster": Surface(coats.plaster, (3.0, 3.0), (0.93, 0.93, 0.93)),
-    "roughcast": Surface(coats.roughcast, (2.0, 2.0), (0.88, 0.88, 0.88)),
+    "roughcast": Surface(coats.roughcast, (2.0, 2.0), (0.90, 0.90, 0.89)),
     "concrete": Surface(coats.concrete, (3.0, 3.0), (0.92, 0.92, 0.91)),
-    "concrete-boards": Surface(coats.boarded, (2.4, 2.4), (0.88, 0.88, 0.87)),
-    "concrete-panels": Surface(coats.panels, (4.8, 5.6), (0.90, 0.90, 0.90)),
-    "slate": Surface(roofing.slate, (2.64, 2.7), (0.83, 0.84, 0.84)),
-    "clay-tile": Surface(roofing.clay_tile, (2.55, 2.4), (0.83, 0.83, 0.82)),
-    "pantile": Surface(roofing.pantile, (2.64, 2.97), (0.81, 0.80, 0.79)),
-    "concrete-tile": Surface(roofing.concrete_tile, (3.0, 3.1), (0.82, 0.82, 0.82)),
-    "zinc": Surface(roofing.zinc, (3.0, 4.0), (0.87, 0.88, 0.89)),
-    "gravel": Surface(roofing.gravel, (1.6, 1.6), (0.80, 0.80, 0.79)),
+    "concrete-boards": Surface(coats.boarded, (2.4, 2.4), (0.89, 0.89, 0.88)),
+    "concrete-panels": Surface(coats.panels, (4.8, 5.6), (0.90, 0.91, 0.91)),
+    "slate": Surface(roofing.slate, (2.64, 2.7), (0.85, 0.86, 0.86)),
+    "clay-tile": Surface(roofing.clay_tile, (2.55, 2.4), (0.86, 0.86, 0.85)),
+    "pantile": Surface(roofing.pantile, (2.64, 2.97), (0.83, 0.82, 0.81)),
+    "concrete-tile": Surface(roofing.concrete_tile, (3.0, 3.1), (0.84, 0.84, 0.84)),
+    "zinc": Surface(roofing.zinc, (3.0, 4.0), (0.88, 0.89, 0.90)),
+    "gravel": Surface(roofing.gravel, (1.6, 1.6), (0.83, 0.83, 0.83)),
     "felt": Surface(roofing.felt, (3.0, 3.0), (0.86, 0.86, 0.86)),
-    "siding": Surface(wood.siding, (2.4, 2.4), (0.91, 0.91, 0.91)),
-    "boards": Surface(wood.boards, (2.24, 2.24), (0.87, 0.86, 0.85)),
-    "shingles": Surface(wood.shingles, (1.96, 1.96), (0.83, 0.82, 0.81)),
-    "wood": Surface(wood.planed, (1.2, 1.2), (0.93, 0.92, 0.91)),
-    "cobbles": Surface(ground.cobbles, (2.13, 2.13), (0.72, 0.72, 0.72)),
-    "paving": Surface(ground.paving, (2.4, 2.4), (0.87, 0.86, 0.85)),
-    "asphalt": Surface(ground.asphalt, (2.0, 2.0), (0.78, 0.78, 0.78)),
+    "siding": Surface(wood.siding, (2.4, 2.4), (0.93, 0.93, 0.92)),
+    "boards": Surface(wood.boards, (2.24, 2.24), (0.89, 0.88, 0.86)),
+    "shingles": Surface(wood.shingles, (1.96, 1.96), (0.85, 0.85, 0.83)),
+    "wood": Surface(wood.planed, (1.2, 1.2), (0.93, 0.92, 0.92)),
+    "cobbles": Surface(ground.cobbles, (2.13, 2.13), (0.77, 0.77, 0.77)),
+    "paving": Surface(ground.paving, (2.4, 2.4), (0.88, 0.87, 0.86)),
+    "asphalt": Surface(ground.asphalt, (2.0, 2.0), (0.81, 0.81, 0.81)),
 }
 
 
