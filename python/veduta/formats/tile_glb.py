@@ -294,7 +294,7 @@ def _feature_id(count: int) -> dict[str, Any]:
     return {"featureCount": count, "attribute": 0, "propertyTable": 0}
 
 
-Look = tuple[int, int, tuple[float, float, float], float, int | None]
+Look = tuple[int, int, Sequence[float], float, int | None]
 
 
 def _material(row: Look, shown: Sequence[int], step: float) -> dict[str, Any]:

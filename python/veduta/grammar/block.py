@@ -21,7 +21,7 @@ from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
 from veduta.grammar.textures import read_textures
-from veduta.grammar.tile_pictures import tile_pictures
+from veduta.grammar.tile_pictures import tile_pictures, with_assets
 from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
@@ -116,7 +116,7 @@ def run_block(job: Job) -> BlockResult:
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
-    result = BlockResult(Town(folder, tile_pictures(read_textures(job.textures))))
+    result = BlockResult(Town(folder, tile_pictures(with_assets(job.textures))))
     middles = np.array([_middle(lot) for lot in job.block.lots])
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)

@@ -32,7 +32,7 @@ from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
-from veduta.grammar.tile_pictures import picture_files
+from veduta.grammar.tile_pictures import picture_files, with_assets
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
@@ -41,7 +41,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "5"
+VERSION = "6"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
@@ -357,8 +357,7 @@ def _write_town(
 def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
     """The pictures that tiles show, once for all of them."""
     shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
-    chosen = {name: path for name, path in textures.items() if name in shown}
-    for file, data in picture_files(read_textures(chosen), list(chosen)).items():
+    for file, data in picture_files(with_assets(textures), sorted(shown)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)
 
