@@ -321,14 +321,20 @@ class GrammarRules:
         offsets: _Array1[np.int64],
         box_m: _Array2[np.float64],
         face_slot: _Array1[np.int32] | None = None,
-        slots: Sequence[tuple[tuple[float, float, float] | None, tuple[float, float, float]]]
+        slots: Sequence[
+            tuple[
+                tuple[float, float, float] | None,
+                tuple[float, float, float],
+                tuple[str, tuple[float, float]] | None,
+            ]
+        ]
         | None = None,
     ) -> None:
         """Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
         face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
         `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
         face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
-        the shape is white.
+        the shape is white, and the texture with its size in metres, or None.
         """
     def add_textures(self, sizes_m: dict[str, tuple[float, float]]) -> None:
         """Makes textures known that cover so many metres to the right and up: they lie in metres where

@@ -11,9 +11,9 @@ use veduta_grammar::shape::{Asset, Slot};
 pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 /// The metres that textures of a known size cover to the right and up.
 pub type Textures = HashMap<Arc<str>, [f64; 2]>;
-/// The colour (sRGB) of each slot or None for that of the shape, and the colour where the shape has
-/// none.
-pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3])>;
+/// The colour (sRGB) of each slot or None for that of the shape, the colour where the shape has none,
+/// and the texture with the metres that it covers to the right and up.
+pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3], Option<(String, [f64; 2])>)>;
 
 /// An asset of these columns; None where they do not fit together.
 pub fn asset_of(
@@ -35,9 +35,11 @@ pub fn asset_of(
     };
     let of_face = of_face.as_slice().ok()?.iter();
     let of_face: Option<Vec<u32>> = of_face.map(|&slot| u32::try_from(slot).ok()).collect();
-    let slots = slots
-        .into_iter()
-        .map(|(colour, fallback)| Slot { colour, fallback });
+    let slots = slots.into_iter().map(|(colour, fallback, texture)| Slot {
+        colour,
+        fallback,
+        texture: texture.map(|(name, size_m)| (name.into(), size_m)),
+    });
     asset.with_slots(of_face?, slots.collect())
 }
 

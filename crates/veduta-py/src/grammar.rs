@@ -100,7 +100,7 @@ impl GrammarRules {
     /// face, counter-clockwise seen from outside. `offsets`: (f + 1,) the first corner of each face.
     /// `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
     /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
-    /// the shape is white.
+    /// the shape is white, and the texture with its size in metres, or None.
     #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None))]
     #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(

@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use veduta_geometry::{triangulate_sound, PolygonSet};
 use veduta_grammar::engine::{Look, Packed};
-use veduta_grammar::shape::Asset;
+use veduta_grammar::shape::{Asset, AssetFaces, Slot};
 use veduta_tiles::Standing;
 
 use crate::derived_lot::Derived;
@@ -17,27 +17,27 @@ pub const WARP_M: f64 = 5e-3;
 #[derive(Default)]
 pub struct Stands {
     /// By the asset and the materials of its slots.
-    known: HashMap<(*const Asset, Vec<u32>), usize>,
-    found: Vec<(Arc<Asset>, Vec<u32>, Standing)>,
+    known: HashMap<(*const Asset, Vec<(u32, bool)>), usize>,
+    found: Vec<(Arc<Asset>, Vec<(u32, bool)>, Standing)>,
 }
 
 impl Stands {
     /// Adds the assets of a lot that stands at `offset` and whose surfaces count from `first`.
-    /// `material` is the number of a leaf's look in a colour.
+    /// `material` is the number of a slot's look in that of a leaf, and whether it shows a texture.
     pub fn add(
         &mut self,
         lot: &Derived,
         offset: [f64; 3],
         first: u32,
-        mut material: impl FnMut(usize, &Look, [f32; 3]) -> u32,
+        mut material: impl FnMut(usize, &Look, &Slot) -> (u32, bool),
     ) {
         let packed = &lot.packed;
         for (row, &leaf) in packed.instance_feature.iter().enumerate() {
             let asset = &packed.assets[packed.instance_asset[row] as usize];
             let look = &packed.looks[packed.feature_look[leaf as usize] as usize];
             let slots = asset.slots().iter();
-            let materials: Vec<u32> = slots
-                .map(|slot| material(leaf as usize, look, slot.colour_in(look.colour)))
+            let materials: Vec<(u32, bool)> = slots
+                .map(|slot| material(leaf as usize, look, slot))
                 .collect();
             let key = (Arc::as_ptr(asset), materials);
             let next = self.found.len();
@@ -69,15 +69,46 @@ impl Stands {
             );
             let cut = triangulate_sound(&set.map_err(|error| error.to_string())?, WARP_M);
             let of_face = cut.triangle_polygon.iter();
-            made.material = of_face
-                .map(|&face| materials[faces.slot[face as usize] as usize])
-                .collect();
+            let of_triangle: Vec<usize> = of_face.map(|&face| face as usize).collect();
+            let look_of = |face: usize| materials[faces.slot[face] as usize];
+            made.material = of_triangle.iter().map(|&face| look_of(face).0).collect();
+            if materials.iter().any(|(_, shows)| *shows) {
+                let each = of_triangle.iter().zip(&cut.triangles);
+                made.uv = each
+                    .map(|(&face, triangle)| {
+                        let slot = &asset.slots()[faces.slot[face] as usize];
+                        let (_, size_m) = slot.texture.as_ref().filter(|_| look_of(face).1)?;
+                        let normal = cut.normals[face];
+                        Some(triangle.map(|v| boxed(&faces, v as usize, normal, *size_m)))
+                    })
+                    .collect();
+            }
             made.triangles = cut.triangles;
             made.points = faces.positions;
             Ok(made)
         })
         .collect()
     }
+}
+
+/// Where a corner of a face lies on a texture of this size (m): seen from the side of a box that the
+/// face looks to most. As `boxed` of `veduta.grammar.assets.asset` has it, but from the lower left.
+fn boxed(faces: &AssetFaces, vertex: usize, normal: [f64; 3], size_m: [f64; 2]) -> [f32; 2] {
+    // z up: to the asset's own frame, which has y up.
+    let own = |[x, y, z]: [f64; 3]| [x, z, -y];
+    let ([x, y, z], normal) = (own(faces.positions[vertex]), own(normal));
+    let longest = |a: usize, b: usize| {
+        if normal[b].abs() > normal[a].abs() {
+            b
+        } else {
+            a
+        }
+    };
+    let axis = longest(longest(0, 1), 2);
+    let sign = if normal[axis] < 0.0 { -1.0 } else { 1.0 };
+    let to_right = [-z * sign, x, x * sign][axis];
+    let upward = [y, -z * sign, y][axis];
+    [(to_right / size_m[0]) as f32, (upward / size_m[1]) as f32]
 }
 
 /// The box around all polygons and assets (m); `low` is above `high` where there is nothing.

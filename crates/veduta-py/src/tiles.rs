@@ -38,18 +38,20 @@ pub struct Textures {
 impl Textures {
     /// The colour and the texture of a look; a texture that nobody knows is not there.
     pub fn seen(&self, look: &Look) -> ([f32; 3], Option<u32>) {
-        let known = look.texture.as_ref().and_then(|name| {
-            let place = self
-                .named
-                .iter()
-                .position(|(own, _)| own == name.as_ref())?;
+        self.seen_as(look.colour, look.texture.as_deref())
+    }
+
+    /// The same of a colour and the name of a texture.
+    pub fn seen_as(&self, colour: [f32; 3], texture: Option<&str>) -> ([f32; 3], Option<u32>) {
+        let known = texture.and_then(|name| {
+            let place = self.named.iter().position(|(own, _)| own == name)?;
             Some((place as u32, self.named[place].1))
         });
         match known {
-            Some((number, _)) if self.shown => (look.colour, Some(number)),
+            Some((number, _)) if self.shown => (colour, Some(number)),
             // A product of sRGB values is nearly that of light.
-            Some((_, mean)) => ([0, 1, 2].map(|k| look.colour[k] * mean[k]), None),
-            None => (look.colour, None),
+            Some((_, mean)) => ([0, 1, 2].map(|k| colour[k] * mean[k]), None),
+            None => (colour, None),
         }
     }
 }
@@ -142,9 +144,12 @@ pub fn tile(
             .iter()
             .map(|&l| material(l))
             .collect();
-        stands.add(lot, places[number], first, |leaf, look, colour| {
+        stands.add(lot, places[number], first, |leaf, look, slot| {
             let kind = (code(&look.class), told_of(leaf));
-            materials.number(kind, colour, look.opacity, None)
+            let name = slot.texture.as_ref().map(|(name, _)| name.as_ref());
+            let (colour, texture) = textures.seen_as(slot.colour_in(look.colour), name);
+            let number = materials.number(kind, colour, look.opacity, texture);
+            (number, texture.is_some())
         });
         let leaves = &lot.packed.polygon_feature;
         let of = |column: &[u32]| leaves.iter().map(|&leaf| column[leaf as usize]).collect();

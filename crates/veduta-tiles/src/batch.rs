@@ -50,7 +50,7 @@ pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch,
         made.dropped += building.feature.len() - sound;
     }
     let pieces = pieces(buildings, &cuts, |building| building.piece);
-    let uv_steps = steps(buildings, &pieces);
+    let uv_steps = steps(buildings, &pieces, standing);
     let (repeated, rest) = take_repeats(buildings, &cuts, &uv_steps, pieces);
     let rest = split(buildings, rest);
     let (more, rest) = take_repeats(buildings, &cuts, &uv_steps, rest);
@@ -58,7 +58,11 @@ pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch,
     made.repeated.extend(more);
     let mut alone = Vec::new();
     for one in standing {
-        match one.is_worth_sharing().then(|| one.repeated()).flatten() {
+        match one
+            .is_worth_sharing()
+            .then(|| one.repeated(&uv_steps))
+            .flatten()
+        {
             Some(shared) => made.repeated.extend(shared),
             None => alone.push(one),
         }

@@ -74,7 +74,7 @@ pub(crate) fn merge(
                 let corners = triangle.map(|vertex| {
                     let vertex = vertex as usize;
                     let point = DVec3::from_array(building.positions[vertex]) + offset;
-                    let uv = mapping.as_ref().map(|m| m.at(building, vertex));
+                    let uv = mapping.as_ref().map(|m| m.at(building.uv[vertex]));
                     (grid.place(point), uv)
                 });
                 meshes.push(look, corners);
@@ -82,13 +82,15 @@ pub(crate) fn merge(
         }
     }
     for one in alone {
+        let mappings = one.mappings(uv_steps);
         for (place, &feature) in one.places.iter().zip(&one.feature) {
-            for (triangle, &material) in one.triangles.iter().zip(&one.material) {
-                let point = |vertex: u32| one.at(place, one.points[vertex as usize]);
-                meshes.push(
-                    (material, feature),
-                    triangle.map(|v| (grid.place(point(v)), None)),
-                );
+            for (number, triangle) in one.triangles.iter().enumerate() {
+                let uv = one.steps_at(number, &mappings);
+                let corners = std::array::from_fn(|k| {
+                    let point = one.points[triangle[k] as usize];
+                    (grid.place(one.at(place, point)), uv[k])
+                });
+                meshes.push((one.material[number], feature), corners);
             }
         }
     }

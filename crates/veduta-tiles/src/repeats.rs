@@ -121,7 +121,7 @@ fn described(
     }
     if let Some(mapping) = Mapping::of(building, &piece.polygons, uv_steps) {
         let vertices = piece.polygons.iter().flat_map(|&p| building.vertices(p));
-        key.extend(vertices.flat_map(|v| mapping.at(building, v).map(i32::from)));
+        key.extend(vertices.flat_map(|v| mapping.at(building.uv[v]).map(i32::from)));
     }
     Some((motion, key))
 }
@@ -153,7 +153,7 @@ fn repeated(
             for k in 0..3 {
                 let vertex = triangle[k] as usize;
                 let local = motion.local(DVec3::from_array(building.positions[vertex]) + offset);
-                let uv = mapping.as_ref().map(|m| m.at(building, vertex));
+                let uv = mapping.as_ref().map(|m| m.at(building.uv[vertex]));
                 let next = u16::try_from(known.len()).ok()?;
                 corners[k] = *known.entry((local, uv)).or_insert(next);
                 places[k] = local;

@@ -4,6 +4,7 @@ use std::collections::{BTreeMap, HashMap};
 
 use glam::{DMat3, DQuat, DVec3};
 
+use crate::mapping::Mapping;
 use crate::merge::y_up;
 use crate::piece::STEP_M;
 use crate::repeats::{Repeated, INSTANCE, MESH, TRIANGLE, VERTEX};
@@ -16,6 +17,9 @@ pub struct Standing {
     pub triangles: Vec<[u32; 3]>,
     /// The material of each triangle.
     pub material: Vec<u32>,
+    /// Texture coordinates of each triangle's corners, from the lower left; None without a texture.
+    /// It may be empty where no triangle has one.
+    pub uv: Vec<Option<[[f32; 2]; 3]>>,
     /// 3 x 4 by rows, from the mesh's frame to the tile's (m, z up): a stretch along the mesh's
     /// axes, a turn, a move.
     pub places: Vec<[f64; 12]>,
@@ -42,39 +46,76 @@ impl Standing {
         self.places.len() * alone > alone + self.places.len() * (INSTANCE + STRETCH) + meshes
     }
 
-    fn by_material(&self) -> BTreeMap<u32, Vec<[u32; 3]>> {
-        let mut found: BTreeMap<u32, Vec<[u32; 3]>> = BTreeMap::new();
-        for (triangle, material) in self.triangles.iter().zip(&self.material) {
-            found.entry(*material).or_default().push(*triangle);
+    fn by_material(&self) -> BTreeMap<u32, Vec<usize>> {
+        let mut found: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+        for (triangle, material) in self.material.iter().enumerate() {
+            found.entry(*material).or_default().push(triangle);
         }
         found
     }
 
+    /// The texture coordinates of the triangles of each material that has a texture.
+    pub(crate) fn mapped(&self) -> BTreeMap<u32, Vec<[f32; 2]>> {
+        let mut found: BTreeMap<u32, Vec<[f32; 2]>> = BTreeMap::new();
+        for (uv, material) in self.uv.iter().zip(&self.material) {
+            if let Some(uv) = uv {
+                found.entry(*material).or_default().extend(uv);
+            }
+        }
+        found
+    }
+
+    /// How each material lies on its texture.
+    pub(crate) fn mappings(&self, steps: &BTreeMap<u32, f64>) -> BTreeMap<u32, Mapping> {
+        let each = self.mapped().into_iter();
+        each.filter_map(|(material, uv)| {
+            let step = *steps.get(&material)?;
+            Some((material, Mapping::over(uv.into_iter(), step)))
+        })
+        .collect()
+    }
+
+    /// The texture coordinates of a triangle's corners, in steps.
+    pub(crate) fn steps_at(
+        &self,
+        triangle: usize,
+        mappings: &BTreeMap<u32, Mapping>,
+    ) -> [Option<[u16; 2]>; 3] {
+        let mapping = mappings.get(&self.material[triangle]);
+        let uv = self.uv.get(triangle).copied().flatten();
+        let at = |k: usize| Some(mapping?.at(uv?[k]));
+        [at(0), at(1), at(2)]
+    }
+
     /// A mesh for each material, all with the same instances; None where one has too many vertices.
-    pub(crate) fn repeated(&self) -> Option<Vec<Repeated>> {
+    pub(crate) fn repeated(&self, uv_steps: &BTreeMap<u32, f64>) -> Option<Vec<Repeated>> {
         let points: Vec<DVec3> = self.points.iter().map(|&point| point.into()).collect();
         let low = points.iter().fold(DVec3::INFINITY, |a, &b| a.min(b));
         let high = points.iter().fold(DVec3::NEG_INFINITY, |a, &b| a.max(b));
         let (middle, half) = ((low + high) / 2.0, (high - low) / 2.0);
         let step = DVec3::select(half.cmpgt(DVec3::ZERO), half / REACH, DVec3::splat(STEP_M));
         let placed = self.placed(middle, step);
+        let mappings = self.mappings(uv_steps);
         let mut found = Vec::new();
         for (material, triangles) in self.by_material() {
             let mut made = Repeated {
                 material,
                 ..placed.clone()
             };
-            let mut known: HashMap<[i16; 3], u16> = HashMap::new();
+            let mut known: HashMap<([i16; 3], Option<[u16; 2]>), u16> = HashMap::new();
             for triangle in triangles {
                 let mut corners = [0; 3];
-                for (corner, vertex) in corners.iter_mut().zip(triangle) {
+                let uvs = self.steps_at(triangle, &mappings);
+                let vertices = self.triangles[triangle].into_iter().zip(uvs);
+                for (corner, (vertex, uv)) in corners.iter_mut().zip(vertices) {
                     let steps = (points[vertex as usize] - middle) / step;
                     let local = steps.to_array().map(|c| c.round() as i16);
                     let next = u16::try_from(known.len()).ok()?;
-                    *corner = *known.entry(local).or_insert(next);
+                    *corner = *known.entry((local, uv)).or_insert(next);
                     if *corner == next {
                         let [x, y, z] = local;
                         made.positions.extend([x, z, -y, 0]);
+                        made.uv.extend(uv.into_iter().flatten());
                     }
                 }
                 let [a, b, c] = corners;

@@ -34,6 +34,7 @@ fn standing(places: Vec<[f64; 12]>) -> Standing {
         material: material.to_vec(),
         places,
         feature,
+        ..Standing::default()
     }
 }
 

@@ -116,8 +116,7 @@ def run_block(job: Job) -> BlockResult:
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
-    pictures = tile_pictures(read_textures(with_builtin(job.textures)))
-    result = BlockResult(Town(folder, pictures))
+    result = BlockResult(Town(folder, tile_pictures(with_builtin(job.textures))))
     middles = np.array([_middle(lot) for lot in job.block.lots])
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)

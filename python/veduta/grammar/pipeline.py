@@ -372,8 +372,7 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
 def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
     """The pictures that tiles show, once for all of them."""
     shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
-    chosen = {name: path for name, path in with_builtin(textures).items() if name in shown}
-    for file, data in picture_files(read_textures(chosen), list(chosen)).items():
+    for file, data in picture_files(with_builtin(textures), sorted(shown)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)
 

@@ -7,6 +7,7 @@ mask beside it, `NAME.invented.png`, in which white says what nobody has photogr
 
 from __future__ import annotations
 
+import io
 import os
 import re
 from collections.abc import Iterable, Iterator, Mapping, Sequence
@@ -14,19 +15,24 @@ from functools import lru_cache
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
 from pydantic import JsonValue
 
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.imaging.read import read_image
-from veduta.place.material import Texture
+from veduta.place.material import Colour, Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 
 MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
 """Of one picture: 67 megapixels."""
+JPEG_QUALITY = 85
+_SAMPLES = 512
+"""Rows and columns that a mean colour is taken of."""
 _NAMED = re.compile(
-    rf'"({PREFIX}[^"\n\0]{{1,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+    rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
 
 
@@ -123,6 +129,42 @@ def read_textures(files: Mapping[str, str]) -> Textures:
         if not is_builtin(path):
             _ = textures[name]
     return textures
+
+
+def as_jpeg(path: str, most_px: int | None = None) -> bytes:
+    """A picture of `find_textures` as JPEG, made smaller where a side has more than `most_px`.
+
+    InputError where it cannot be read.
+    """
+    image = Image.fromarray(Textures({path: path})[path].pixels)
+    if most_px is not None:
+        image.thumbnail((most_px, most_px), Image.Resampling.LANCZOS)
+    memory = io.BytesIO()
+    image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
+    return memory.getvalue()
+
+
+def mean_of(path: str) -> Colour:
+    """The mean colour (sRGB, 0..1) of a picture of `find_textures`: what it is from afar."""
+    if is_builtin(path):
+        return mean_colour(path)
+    return _mean_read(path, *_changed(path))
+
+
+def mean_light(pixels: NDArray[np.uint8]) -> Colour:
+    """The sRGB colour of the mean light of (h, w, 3) sRGB pixels (IEC 61966-2-1)."""
+    rows, columns = (-(-size // _SAMPLES) for size in pixels.shape[:2])
+    some = pixels[::rows, ::columns].reshape(-1, 3) / 255.0
+    light = np.where(some <= 0.04045, some / 12.92, ((some + 0.055) / 1.055) ** 2.4).mean(axis=0)
+    told = np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
+    red, green, blue = told.tolist()
+    return red, green, blue
+
+
+@lru_cache(maxsize=MAX_TEXTURES)
+def _mean_read(path: str, written: int, mask_written: int) -> Colour:
+    """Taken once in each process, unless the picture changes."""
+    return mean_light(_read(path, written, mask_written).pixels)
 
 
 @lru_cache(maxsize=64)

@@ -20,9 +20,10 @@ from veduta.grammar.levels import FULL
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
-from veduta.grammar.tile_pictures import MAX_SIDE, mean_colour, picture_files, tile_pictures
+from veduta.grammar.surfaces.catalogue import mean_colour
+from veduta.grammar.textures import find_textures, mean_light, with_builtin
+from veduta.grammar.tile_pictures import MAX_SIDE, picture_files, tile_pictures
 from veduta.grammar.town import CLASSES, PROVENANCES
-from veduta.place.material import Texture
 from veduta.place.semantics import SemanticClass
 from veduta.run.progress import Progress
 
@@ -39,10 +40,6 @@ Plain --> set(material.name, "wall") color("#ffffff") texture("nowhere.png") Sid
 Roof --> set(material.name, "roof") color("#808080") texture("brick.png") Tiles.
 """
 PIXELS = np.full((8, 8, 3), (200, 100, 50), dtype=np.uint8)
-
-
-def texture(pixels: NDArray[np.uint8] = PIXELS) -> Texture:
-    return Texture(pixels, np.zeros(pixels.shape[:2], dtype=np.bool_))
 
 
 def lots_of(count: int) -> _core.DerivedLots:
@@ -131,12 +128,14 @@ def test_means_are_of_light() -> None:
     """Half black and half white reflect half of the light: sRGB 188 (IEC 61966-2-1)."""
     board = np.zeros((600, 1200, 3), dtype=np.uint8)
     board[:, 600:] = 255
-    assert [round(255 * channel) for channel in mean_colour(texture(board))] == [188] * 3
+    assert [round(255 * channel) for channel in mean_light(board)] == [188] * 3
 
 
-def test_files_are_small_and_have_names_of_their_own() -> None:
-    wide = texture(np.zeros((100, 4000, 3), dtype=np.uint8))
-    names = {"a/wall.jpg": wide, "b/wall.jpg": texture(), "\u00e9/..\u00e8": texture()}
+def test_files_are_small_and_have_names_of_their_own(tmp_path: Path) -> None:
+    for name, pixels in (("a", np.zeros((100, 4000, 3), dtype=np.uint8)), ("b", PIXELS)):
+        Image.fromarray(pixels).save(tmp_path / f"{name}.png")
+    wide, small = str(tmp_path / "a.png"), str(tmp_path / "b.png")
+    names = {"a/wall.jpg": wide, "b/wall.jpg": small, "\u00e9/..\u00e8": small}
     files = picture_files(names, list(names))
     assert len(files) == 3
     assert [picture.file for picture in tile_pictures(names)] == list(files)
@@ -145,6 +144,14 @@ def test_files_are_small_and_have_names_of_their_own() -> None:
 
     sizes = [Image.open(io.BytesIO(data)).size for data in files.values()]
     assert sizes[:2] == [(MAX_SIDE, round(MAX_SIDE / 40)), (8, 8)]
+
+
+def test_built_in_pictures_are_not_painted_for_their_means(tmp_path: Path) -> None:
+    text = 'Lot --> texture("builtin/textures/slate") Roof.'
+    files = with_builtin(find_textures(tmp_path / "rules.cga", [text]))
+    means = {picture.name: picture.mean for picture in tile_pictures(files)}
+    assert {"builtin/textures/slate", "builtin/textures/stone"} <= means.keys()
+    assert all(mean == mean_colour(name) for name, mean in means.items())
 
 
 @pytest.fixture(scope="module")

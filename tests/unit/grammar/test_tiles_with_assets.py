@@ -155,6 +155,47 @@ def test_slots_must_fit_the_faces() -> None:
     asset = Library(Path())["builtin/window-casement"]
     faces = (asset.points_m, asset.corners, asset.offsets, asset.box_m)
     with pytest.raises(ValueError, match="no faces of points"):
-        rules.add_asset("one", *faces, asset.face_slot, [(None, (1.0, 1.0, 1.0))])
+        rules.add_asset("one", *faces, asset.face_slot, [(None, (1.0, 1.0, 1.0), None)])
     with pytest.raises(ValueError, match="no faces of points"):
-        rules.add_asset("one", *faces, asset.face_slot[1:], [(None, (1.0, 1.0, 1.0))] * 3)
+        rules.add_asset("one", *faces, asset.face_slot[1:], [(None, (1.0, 1.0, 1.0), None)] * 3)
+
+
+DOORS = """
+Lot --> extrude(world.up, 3) comp(f) { front : split(x) { { 1.5 : Door }* } | all : NIL }
+Door --> set(material.name, "door") color("#304050") s(1, 2.2, 0) i("builtin/door-single@0")
+"""
+
+
+@pytest.mark.parametrize("front_m", [1.5, 150.0])
+def test_textures_of_assets_lie_in_tiles_as_in_models(front_m: float) -> None:
+    """One door is merged, a hundred share a mesh; each place has the model's coordinates."""
+    by = deriver((("rules.cga", DOORS),), Path(), GrammarOptions())
+    outline = np.array([[0.0, 0.0], [front_m, 0.0], [front_m, 5.0], [0.0, 5.0]])
+    lots = by.together([Lot("street", "street", (outline,), (0.0, 0.0, 0.0), {})], FULL)
+    name, mean = "builtin/textures/wood", (0.5, 0.5, 0.5)
+    place = [(0.0, 0.0, 0.0)]
+    near = lots.tile([0], place, CLASSES, PROVENANCES, [(name, mean)], mapped=True)
+    (wood,) = [n for n, row in enumerate(near.materials) if row[4] == 0]
+    assert near.materials[wood][2] == pytest.approx((0x30 / 255, 0x40 / 255, 0x50 / 255))
+    far = lots.tile([0], place, CLASSES, PROVENANCES, [(name, mean)])
+    assert not far.uv_steps
+    assert (24, 32, 40) in {tuple(round(255 * c) for c in row[2]) for row in far.materials}
+
+    mesh = Library(Path())["builtin/door-single@0"].shared_mesh
+    assert mesh.uv is not None
+    merged = [(one[1], one[6]) for one in near.merged if one[0] == wood]
+    shared = [(one[1], one[9]) for one in near.repeated if one[0] == wood]
+    assert (len(merged), len(shared)) == ((1, 0) if front_m < 2 else (0, 1))
+    positions, uvs = (merged + shared)[0]
+    at = np.frombuffer(positions, "<i2" if shared else "<u2").reshape(-1, 4)[:, :3].astype(float)
+    at = np.stack([at[:, 0], -at[:, 2], at[:, 1]], axis=1)
+    uv = np.frombuffer(uvs, "<u2").reshape(-1, 2) * near.uv_steps[wood]
+    own = mesh.positions_m[mesh.indices[mesh.slot == mesh.slots.index("leaf")]].reshape(-1, 3)
+    # Both fill their boxes: of the leaf alone, which is not stretched on its own.
+    at, own = ((one - one.min(axis=0)) / np.ptp(one, axis=0) for one in (at, own))
+    known = mesh.uv[mesh.indices[mesh.slot == mesh.slots.index("leaf")]].reshape(-1, 2)
+    off = np.abs(at[:, None] - own[None]).max(axis=2) < 1e-3
+    assert off.any(axis=1).all()
+    turn = uv[:, None] - known[None]
+    agrees = np.abs(turn - np.round(turn)).max(axis=2) < 2e-3
+    assert (off & agrees).any(axis=1).all()

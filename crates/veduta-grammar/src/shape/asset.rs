@@ -21,12 +21,15 @@ pub struct Asset {
 }
 
 /// A part of an asset that looks alike: a frame, a pane.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, PartialEq)]
 pub struct Slot {
     /// sRGB, 0 to 1; None for that of the shape that the asset is put into.
     pub colour: Option<[f32; 3]>,
     /// The colour where a shape has none of its own.
     pub fallback: [f32; 3],
+    /// A texture's name, and the metres that it covers to the right and up. It lies in metres, seen
+    /// from the side of a box that a face looks to most.
+    pub texture: Option<(Arc<str>, [f64; 2])>,
 }
 
 /// The colour of a shape that none was given to.
@@ -76,6 +79,7 @@ impl Asset {
             slots: vec![Slot {
                 colour: None,
                 fallback: WHITE,
+                texture: None,
             }],
         })
     }

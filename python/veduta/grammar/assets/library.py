@@ -9,9 +9,10 @@ from pathlib import Path
 
 from veduta import _core
 from veduta.formats.obj_read import LARGEST_BYTES
-from veduta.grammar.assets.asset import Asset
+from veduta.grammar.assets.asset import Asset, Slot
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
+from veduta.grammar.surfaces.catalogue import PREFIX as TEXTURES
 from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
 from veduta.run.errors import InputError
 
@@ -36,7 +37,7 @@ class Library:
     def add_to(self, rules: _core.GrammarRules, name: str) -> None:
         """Hand an asset to the engine; InputError where there is none."""
         asset = self[name]
-        slots = [(slot.colour, slot.fallback) for slot in asset.slots]
+        slots = [(slot.colour, slot.fallback, textured(slot)) for slot in asset.slots]
         faces = (asset.points_m, asset.corners, asset.offsets)
         rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots)
 
@@ -88,6 +89,13 @@ class Library:
         if not name.lower().endswith(SUFFIXES):
             raise InputError(name, "is no OBJ or GLB file", f"Built-in assets begin with {PREFIX}")
         return read_asset(name, self.folder)
+
+
+def textured(slot: Slot) -> tuple[str, tuple[float, float]] | None:
+    """The texture of a slot by its name in rule files, with its size (m); None without one."""
+    name = f"{TEXTURES}{slot.texture}"
+    size = sizes_m().get(name)
+    return None if size is None else (name, size)
 
 
 def _files_below(folder: Path) -> list[Path]:

@@ -17,3 +17,5 @@ TILE = Slot("tile", (0.5, 0.36, 0.31), roughness=0.85, texture="clay-tile")
 CHEEK = Slot("cheek", roughness=0.8, fallback=(0.43, 0.46, 0.49))
 BRICK = Slot("brick", roughness=0.95, fallback=(0.69, 0.52, 0.42), texture="brick")
 POT = Slot("pot", (0.62, 0.42, 0.33), roughness=0.85)
+
+ALL = (FRAME, PANE, LEAF, BRASS, STEEL, IRON, GLASS, STONE, ZINC, TILE, CHEEK, BRICK, POT)
