@@ -6,6 +6,7 @@ use veduta_geometry::solid::{laid_together, patches, Mesh, Rise};
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::limits::Limit;
 use super::super::run::Run;
 use super::assets::asset;
 use super::textures::current;
@@ -54,7 +55,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             "an asset of {} faces laid {tiles} times comes to more than {most} faces",
             tile.face_count()
         );
-        return Err(Fault::at(op.span, message));
+        return Err(Fault::over(Limit::Faces, op.span, message));
     }
     let mut parts = Vec::new();
     for patch in &found {

@@ -181,7 +181,7 @@ fn sections_of<'o>(
     }
     let most = run.options.limits.parts.min(MOST_SECTIONS);
     let found = cells(&pattern, outline.length, most)
-        .map_err(|many| Fault::at(op.span, many.to_string()))?;
+        .map_err(|many| run.too_many_parts(most, op.span, &many))?;
     let mut written = Vec::new();
     in_order(&op.cells, &mut written);
     let total = found.len();
