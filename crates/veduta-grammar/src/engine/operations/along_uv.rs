@@ -18,6 +18,9 @@ const MIDDLE: f64 = 0.5;
 /// Cosine below which the height lies in a face.
 const ALONG: f64 = 1e-9;
 
+/// Each corner is bent, cut at the patch's edges and joined with those beside it.
+const STEPS_PER_CORNER: usize = 16;
+
 /// `insertAlongUV(layer, name, height)`, `insertAlongUV(layer, name, height, scope.y |
 /// vertex.normal, alignPosition | keepPosition)`: the asset over the faces, once for each unit of
 /// u and v, its x along u and its z against v. Its y comes to `height` (m), along the scope's y or
@@ -64,7 +67,10 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             run.check_time(op.span)?;
             for along in 0..count[0] as usize {
                 let at = [first[0] + along as f64, first[1] + across as f64];
-                parts.push(patch.lay(&tile, solid, at));
+                run.take(STEPS_PER_CORNER * tile.corner_count(), op.span)?;
+                let laid = patch.lay(&tile, solid, at);
+                run.hold(laid.byte_count(), op.span)?;
+                parts.push(laid);
             }
         }
     }
