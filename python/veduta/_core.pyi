@@ -86,8 +86,7 @@ class Derivation:
         | None = None,
         around: Surroundings | None = None,
         beside: Sequence[tuple[int, tuple[float, float, float]]] | None = None,
-        seconds: float = 60.0,
-        shapes: int = 5_000_000,
+        limits: GrammarLimits | None = None,
     ) -> Derivation: ...
     def rederive(
         self,
@@ -220,6 +219,8 @@ class DerivedLots:
         """The columns of a lot."""
     def messages(self, lot: int) -> list[str]:
         """What the rules said of a lot."""
+    def reports(self, lot: int) -> list[tuple[str, bool | float | str]]:
+        """What the rules reported of a lot by its key: the sum of numbers, of all else the last."""
     def extent(
         self, lot: int
     ) -> tuple[tuple[float, float, float], tuple[float, float, float], int] | None:
@@ -280,8 +281,7 @@ def derive_lots(
     ],
     around: Surroundings | None = None,
     beside: Sequence[Sequence[tuple[int, tuple[float, float, float]]]] | None = None,
-    seconds: float = 60.0,
-    shapes: int = 5_000_000,
+    limits: GrammarLimits | None = None,
 ) -> DerivedLots:
     """Derives lots as `GrammarRules.derive` does. `beside`: per lot, which lots of `around` stand beside
     it, and how far their frames lie from its own (m, z up).
@@ -359,8 +359,7 @@ class GrammarRules:
             ]
         ]
         | None = None,
-        seconds: float = 60.0,
-        shapes: int = 5_000_000,
+        limits: GrammarLimits | None = None,
     ) -> list[DerivedLot | MissingAsset | str]:
         """Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
         attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
@@ -376,6 +375,22 @@ class GrammarRules:
         """Derives and packs the lots on so many cores, and keeps nothing: how many leaves and polygons
         there were, and the seconds that it took. For benchmarks.
         """
+
+# limits.rs
+class GrammarLimits:
+    """What a derivation may cost before it is stopped; see `veduta.grammar.LimitOptions`."""
+    def __new__(
+        cls,
+        *,
+        depth: int,
+        shapes: int,
+        faces: int,
+        parts: int,
+        seconds: float,
+        work: int,
+        memory: int,
+    ) -> GrammarLimits:
+        """`memory`: bytes. `work`: steps, each looking at one pair of faces, edges or corners."""
 
 # polygons.rs
 class PolygonFault(ValueError): ...
@@ -481,8 +496,7 @@ def derive_surroundings(
             ]
         ]
     ],
-    seconds: float = 60.0,
-    shapes: int = 5_000_000,
+    limits: GrammarLimits | None = None,
 ) -> Surroundings:
     """Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
     nothing there.

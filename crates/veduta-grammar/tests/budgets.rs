@@ -65,6 +65,8 @@ fn work_within_one_operation_is_bounded() {
 #[test]
 fn work_on_outlines_is_bounded() {
     for operation in [
+        "convexify()",
+        "splitAndSetbackPerimeter(0) { ~100 : 2 : X. }* { remainder : Y. }",
         "roofHip(40)",
         "roofGable(40)",
         "roofDutch(40, 0.5)",
@@ -114,6 +116,7 @@ fn strings_are_bounded() {
         let told = found.contains("a string of") || found.contains("bytes");
         assert!(told, "{found}\n{value}");
     }
+    assert!(fault("Lot --> print(comp(f) { all : [1, 2] }) X.").contains("an array in an array"));
 }
 
 /// As much again for each part that is derived anew, and no more.

@@ -8,12 +8,13 @@ use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::exceptions::PyIndexError;
 use pyo3::prelude::*;
 use veduta_grammar::engine::{
-    derive, lot_form, rederive, to_place, Edit, Limits, Node, Options, Overrides, State, Tree,
+    derive, lot_form, rederive, to_place, Edit, Node, Options, Overrides, State, Tree,
 };
 
 use crate::derived_lot::{derived_of, lot_to_python, rows, DerivedLot};
 use crate::given::{values, Given, GivenBack};
 use crate::grammar::{GrammarFault, GrammarRules, Rings};
+use crate::limits::{limits_of, GrammarLimits};
 use crate::surroundings::{neighbours, Beside, Surroundings};
 
 /// Path, name or None, whether to delete, alternatives or None for those to draw, and values.
@@ -68,7 +69,7 @@ type Polygons = (Py<PyArray2<f64>>, Py<PyArray1<i64>>, Py<PyArray1<i64>>);
 #[pymethods]
 impl Derivation {
     #[new]
-    #[pyo3(signature = (rules, lot, seed, *, start=None, attributes=None, edits=None, around=None, beside=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (rules, lot, seed, *, start=None, attributes=None, edits=None, around=None, beside=None, limits=None))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn new(
         py: Python<'_>,
@@ -80,18 +81,13 @@ impl Derivation {
         edits: Option<Vec<GivenEdit>>,
         around: Option<&Surroundings>,
         beside: Option<Beside>,
-        seconds: f64,
-        shapes: usize,
+        limits: Option<&GrammarLimits>,
     ) -> PyResult<Self> {
         let beside = beside.map(|one| vec![one]);
         let neighbours = neighbours(around, beside, 1)?.pop().unwrap_or_default();
         let options = Options {
             seed,
-            limits: Limits {
-                seconds,
-                shapes,
-                ..Limits::default()
-            },
+            limits: limits_of(limits),
             attributes: values(attributes.unwrap_or_default()),
             overrides: overrides_of(edits.unwrap_or_default()),
             assets: rules.get().known_assets(),

@@ -1,11 +1,12 @@
 //! What was derived of one lot, for Python: columns.
 
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use numpy::ndarray::Array2;
 use numpy::{IntoPyArray, PyArray1, PyArray2};
 use pyo3::prelude::*;
-use veduta_grammar::engine::{pack, pieces, surfaces, Code, Packed, Surfaces, Tree};
+use veduta_grammar::engine::{pack, pieces, surfaces, Code, Packed, Surfaces, Tree, Value};
 use veduta_grammar::shape::Asset;
 
 use crate::assets::MissingAsset;
@@ -24,6 +25,7 @@ pub struct Derived {
     pub names: Vec<String>,
     pub log_prior: f64,
     pub messages: Vec<String>,
+    pub reports: Vec<(Arc<str>, Value)>,
     pub edit_faults: Vec<(Vec<u32>, String)>,
 }
 
@@ -39,8 +41,27 @@ pub fn derived_of(tree: &Tree, code: &Code) -> Derived {
         surfaces,
         log_prior: tree.log_prior,
         messages: tree.messages.clone(),
+        reports: reports_by_key(&tree.reports),
         edit_faults: edit_faults(tree),
     }
+}
+
+/// What was reported under each key, in the order of their first values: the sum of numbers, of all
+/// else the last.
+fn reports_by_key(reports: &[(Arc<str>, Value)]) -> Vec<(Arc<str>, Value)> {
+    let mut found: Vec<(Arc<str>, Value)> = Vec::new();
+    let mut places = HashMap::new();
+    for (key, value) in reports {
+        let place = *places.entry(key).or_insert(found.len());
+        match found.get_mut(place) {
+            None => found.push((key.clone(), value.clone())),
+            Some((_, sum)) => match (&mut *sum, value) {
+                (Value::Number(sum), Value::Number(more)) => *sum += more,
+                (last, value) => *last = value.clone(),
+            },
+        }
+    }
+    found
 }
 
 /// The columns of one lot.

@@ -8,8 +8,9 @@ use pyo3::prelude::*;
 use crate::city::city;
 use crate::derivation::GivenEdit;
 use crate::derived_lot::{lot_to_python, Derived, DerivedLot};
-use crate::given::Given;
-use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
+use crate::given::{Given, GivenBack};
+use crate::grammar::{Failed, GrammarRules, Rings};
+use crate::limits::{limits_of, GrammarLimits};
 use crate::standing::box_of;
 use crate::surroundings::{neighbours, Beside, Surroundings};
 use crate::tiles::{tile, Codes, Textures, TileBuffers};
@@ -23,7 +24,7 @@ pub struct DerivedLots {
 /// Derives lots as `GrammarRules.derive` does. `beside`: per lot, which lots of `around` stand beside
 /// it, and how far their frames lie from its own (m, z up).
 #[pyfunction]
-#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, around=None, beside=None, seconds=60.0, shapes=5_000_000))]
+#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, around=None, beside=None, limits=None))]
 #[allow(clippy::too_many_arguments)] // as Python calls it: with names
 fn derive_lots(
     py: Python<'_>,
@@ -35,11 +36,10 @@ fn derive_lots(
     edits: Vec<Vec<GivenEdit>>,
     around: Option<&Surroundings>,
     beside: Option<Vec<Beside>>,
-    seconds: f64,
-    shapes: usize,
+    limits: Option<&GrammarLimits>,
 ) -> PyResult<DerivedLots> {
     let rule = rules.start_rule(start)?;
-    let limits = limits_of(seconds, shapes);
+    let limits = limits_of(limits);
     let mut options = rules.options_of(&seeds, attributes, edits, limits)?;
     let beside = neighbours(around, beside, lots.len())?;
     for (options, beside) in options.iter_mut().zip(beside) {
@@ -103,6 +103,16 @@ impl DerivedLots {
         Ok(found
             .map(|derived| derived.messages.clone())
             .unwrap_or_default())
+    }
+
+    /// What the rules reported of a lot by its key: the sum of numbers, of all else the last.
+    fn reports(&self, lot: usize) -> PyResult<Vec<(String, GivenBack)>> {
+        let found = self.lot(lot)?.as_ref();
+        let all = found.map(|derived| derived.reports.as_slice());
+        let all = all.unwrap_or_default().iter();
+        Ok(all
+            .map(|(key, value)| (key.to_string(), value.into()))
+            .collect())
     }
 
     /// Lower and upper corner (m, z up) about the lot's anchor, and how many polygons and assets

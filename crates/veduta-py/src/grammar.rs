@@ -18,6 +18,7 @@ use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset, Textures};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
+use crate::limits::{limits_of, option_of, GrammarLimits};
 use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
 
@@ -139,7 +140,7 @@ impl GrammarRules {
 
     /// Derives each lot (rings of x, y, z in metres, the outline first) with the seed and the
     /// attributes beside it. Per lot: the columns of its leaves, or the text of why there are none.
-    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, seconds=60.0, shapes=5_000_000))]
+    #[pyo3(signature = (lots, seeds, *, start=None, attributes=None, edits=None, limits=None))]
     #[allow(clippy::too_many_arguments)] // as Python calls it: with names
     fn derive<'py>(
         &self,
@@ -149,8 +150,7 @@ impl GrammarRules {
         start: Option<&str>,
         attributes: Option<Vec<HashMap<String, Given>>>,
         edits: Option<Vec<Vec<GivenEdit>>>,
-        seconds: f64,
-        shapes: usize,
+        limits: Option<&GrammarLimits>,
     ) -> PyResult<Vec<Outcome<'py>>> {
         let rule = self.start_rule(start)?;
         let given = attributes.unwrap_or_else(|| lots.iter().map(|_| HashMap::new()).collect());
@@ -158,7 +158,7 @@ impl GrammarRules {
         if seeds.len() != lots.len() {
             return Err(PyValueError::new_err(WANTED));
         }
-        let options = self.options_of(&seeds, given, edits, limits_of(seconds, shapes))?;
+        let options = self.options_of(&seeds, given, edits, limits_of(limits))?;
         let found = py.detach(|| self.all(&lots, &options, rule));
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
@@ -194,14 +194,6 @@ fn kind(expr: &Expr) -> &'static str {
 pub struct Failed {
     pub why: String,
     pub missing_asset: Option<String>,
-}
-
-pub fn limits_of(seconds: f64, shapes: usize) -> Limits {
-    Limits {
-        seconds,
-        shapes,
-        ..Limits::default()
-    }
 }
 
 fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
@@ -310,12 +302,16 @@ impl GrammarRules {
         }
     }
 
-    /// A fault with its place in the file.
+    /// A fault with its place in the file, and the option that would allow more.
     pub fn told(&self, fault: &Fault) -> String {
         let source = &self.sources[fault.unit.unwrap_or(0)];
         let place = source.position(fault.span.start);
         let (name, message) = (source.name(), &fault.message);
-        format!("{name}:{}:{}: {message}", place.line, place.column)
+        let told = format!("{name}:{}:{}: {message}", place.line, place.column);
+        match fault.over {
+            Some(limit) => format!("{told}; {} allows more", option_of(limit)),
+            None => told,
+        }
     }
 
     /// A fault as Python has it: with the name of the asset where one is wanted.

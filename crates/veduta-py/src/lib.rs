@@ -12,6 +12,7 @@ mod derived_lots;
 mod flat;
 mod given;
 mod grammar;
+mod limits;
 mod pace;
 mod polygons;
 mod roofs;
@@ -27,6 +28,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     chain::register(m)?;
     compress::register(m)?;
     grammar::register(m)?;
+    limits::register(m)?;
     derivation::register(m)?;
     roofs::register(m)?;
     rules::register(m)?;

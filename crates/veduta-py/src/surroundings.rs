@@ -11,7 +11,8 @@ use veduta_grammar::engine::{from_place, occluders, Neighbour, Occluder};
 use crate::derivation::GivenEdit;
 use crate::derived_lots::AT_ONCE;
 use crate::given::Given;
-use crate::grammar::{limits_of, Failed, GrammarRules, Rings};
+use crate::grammar::{Failed, GrammarRules, Rings};
+use crate::limits::{limits_of, GrammarLimits};
 
 /// Numbers of lots in `Surroundings`, and how far their frames lie from that of the lot beside them
 /// (m, z up).
@@ -26,7 +27,7 @@ pub struct Surroundings {
 /// Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
 /// nothing there.
 #[pyfunction]
-#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, seconds=60.0, shapes=5_000_000))]
+#[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, limits=None))]
 #[allow(clippy::too_many_arguments)] // as Python calls it: with names
 fn derive_surroundings(
     py: Python<'_>,
@@ -36,11 +37,10 @@ fn derive_surroundings(
     start: Option<&str>,
     attributes: Vec<HashMap<String, Given>>,
     edits: Vec<Vec<GivenEdit>>,
-    seconds: f64,
-    shapes: usize,
+    limits: Option<&GrammarLimits>,
 ) -> PyResult<Surroundings> {
     let rule = rules.start_rule(start)?;
-    let options = rules.options_of(&seeds, attributes, edits, limits_of(seconds, shapes))?;
+    let options = rules.options_of(&seeds, attributes, edits, limits_of(limits))?;
     let mut found = Vec::with_capacity(lots.len());
     for (lots, options) in lots.chunks(AT_ONCE).zip(options.chunks(AT_ONCE)) {
         found.extend(py.detach(|| {

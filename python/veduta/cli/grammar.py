@@ -16,7 +16,10 @@ MAX_FAILURES = 20
 HELP = f"""usage: veduta grammar check RULES
        veduta grammar format RULES... [--write]
        veduta grammar derive RULES -o OUT [--lots LOTS] [--attr NAME=VALUE] [--edits FILE]
-                             [--seed INT] [--start TEXT] [--style TEXT] [--seconds FLOAT]
+                             [--seed INT] [--start TEXT] [--style TEXT]
+                             [--seconds FLOAT] [--max-depth INT] [--max-shapes INT]
+                             [--max-faces INT] [--max-parts INT] [--max-work INT]
+                             [--max-memory INT]
                              [--layer TEXT] [--up y|z] [--terrain PATH] [--ground lowest|mean]
                              [--separate] [--no-city] [--force] [--jobs N] [--quiet]
        veduta grammar sample RULES -o SHEET [--count N] [--lots LOTS] [--lot ID]
@@ -118,6 +121,7 @@ def _derive(arguments: list[str]) -> int:
     require_jobs(call.jobs)
     options = GrammarOptions(
         derive=call.derive,
+        limits=call.limits,
         lots=call.read,
         output=call.output,
         attributes=read_attributes(call.attr),

@@ -9,7 +9,13 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.grammar.options import DeriveOptions, LotOptions, OutputOptions, SampleOptions
+from veduta.grammar.options import (
+    DeriveOptions,
+    LimitOptions,
+    LotOptions,
+    OutputOptions,
+    SampleOptions,
+)
 
 Rules = Annotated[
     tyro.conf.Positional[str],
@@ -135,6 +141,7 @@ class DeriveCall:
     attr: Attr = ()
     edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    limits: LimitOptions = field(default_factory=LimitOptions)
     read: LotOptions = field(default_factory=LotOptions)
     output: OutputOptions = field(default_factory=OutputOptions)
     force: Force = False
@@ -159,6 +166,7 @@ class SampleCall:
     lot: LotName = None
     attr: Attr = ()
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    limits: LimitOptions = field(default_factory=LimitOptions)
     read: LotOptions = field(default_factory=LotOptions)
     sheet: SampleOptions = field(default_factory=SampleOptions)
     quiet: Quiet = False
@@ -183,4 +191,5 @@ class TreeCall:
     attr: Attr = ()
     edits: Edits = None
     derive: DeriveOptions = field(default_factory=DeriveOptions)
+    limits: LimitOptions = field(default_factory=LimitOptions)
     read: LotOptions = field(default_factory=LotOptions)

@@ -32,7 +32,9 @@ def sample(arguments: list[str]) -> int:
         )
     rules = parse_rules(call.rules, style=call.derive.style)
     given = read_attributes(call.attr)
-    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
+    options = GrammarOptions(
+        derive=call.derive, limits=call.limits, lots=call.read, attributes=given
+    )
     options = check_options(rules.core, rules.path, options)
     lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
     samples = draw_samples(rules, lot, options, call.count, beside)
@@ -70,7 +72,9 @@ def tree(arguments: list[str]) -> int:
         raise InputError("--at", str(fault), "Take one from the tree, or / for all.") from fault
     rules = parse_rules(call.rules, style=call.derive.style)
     given = read_attributes(call.attr)
-    options = GrammarOptions(derive=call.derive, lots=call.read, attributes=given)
+    options = GrammarOptions(
+        derive=call.derive, limits=call.limits, lots=call.read, attributes=given
+    )
     options = check_options(rules.core, rules.path, options)
     lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
     edits = edits_of(call.edits, lot.id)

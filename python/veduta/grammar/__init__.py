@@ -18,11 +18,13 @@ from veduta.grammar.derivation import (
     rederive,
 )
 from veduta.grammar.edits import Edit, edits_text, read_edits
+from veduta.grammar.options import LimitOptions
 
 __all__ = [
     "Choice",
     "Derivation",
     "Edit",
+    "LimitOptions",
     "Polygons",
     "Rules",
     "Shape",

@@ -20,6 +20,7 @@ from veduta.grammar.levels import FULL, PLAIN, VOLUME
 from veduta.grammar.lots import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
+from veduta.grammar.reported import FILE, Values, as_attributes, as_json, sums_of, table, values_of
 from veduta.grammar.textures import read_textures, with_builtin
 from veduta.grammar.tile_pictures import tile_pictures
 from veduta.grammar.town import Built, Town, built_of, prisms
@@ -80,6 +81,7 @@ class BlockResult:
     tile: Tile | None = None
     rows: list[dict[str, Any]] = field(default_factory=list)
     city: list[str] = field(default_factory=list)
+    reported: list[tuple[str, str, Values]] = field(default_factory=list)
     failures: list[Failure] = field(default_factory=list)
     notes: Counter[str] = field(default_factory=Counter)
     forms: Counter[str] = field(default_factory=Counter)
@@ -98,6 +100,8 @@ class BlockResult:
             "pictures": sorted(town.shown),
             "notes": dict(self.notes.most_common(50)),
             "forms": dict(sorted(self.forms.items())),
+            "tabled": any(values for _, _, values in self.reported),
+            "reports": as_json(sums_of(values for _, _, values in self.reported)),
             "front": front and _bounds_row(front),
             "box": self.tile and [list(corner) for corner in self.tile.box],
             "leaves": [
@@ -120,8 +124,11 @@ def run_block(job: Job) -> BlockResult:
     middles = np.array([_middle(lot) for lot in job.block.lots])
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
+    reported = table(result.reported)
     with timed_step(result.steps, "write"), writing_to(job.out):
         result.tile = result.town.finish()
+        if reported is not None:
+            write_bytes(job.work / FILE, reported)
         if job.city is not None:
             job.city.parent.mkdir(parents=True, exist_ok=True)
             write_bytes(job.city, "".join(f"{line}\n" for line in result.city).encode())
@@ -174,6 +181,7 @@ def _leaf(
         is_solid = job.city is not None and by.levels.marked
         volumes = by.together(sound, VOLUME) if is_solid else None
     rows, built = [], []
+    reported: dict[str, Values] = {}
     for row, lot in enumerate(sound):
         fault = by.fault(full, row, lot)
         one = None if fault else built_of(full, row, lot, job.block.origin_m, result.town.pictures)
@@ -181,14 +189,16 @@ def _leaf(
             _fail(job, lot, fault or NOTHING, result)
             continue
         result.notes.update(dict.fromkeys(full.messages(row)[:20], 1))
+        reported[lot.id] = values_of(full.reports(row))
         rows.append(row)
         built.append(one)
     with timed_step(result.steps, "write"), writing_to(job.out):
         if job.city is not None:
-            _city([plain, full] if plain else [full], volumes, rows, built, result)
+            _city([plain, full] if plain else [full], volumes, rows, built, reported, result)
         tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)
     if job.separate:
         built = _models(job, by, built, (full, rows), result)
+    result.reported += [(one.lot.id, one.lot.name, reported[one.lot.id]) for one in built]
     result.town.built += built
     result.town.polygons += sum(one.polygons for one in built)
     return tile
@@ -217,6 +227,7 @@ def _city(
     volumes: _core.DerivedLots | None,
     rows: Sequence[int],
     built: Sequence[Built],
+    reported: Mapping[str, Values],
     result: BlockResult,
 ) -> None:
     """The lines of the buildings, of the first level that has something of each.
@@ -227,6 +238,7 @@ def _city(
         derived = next(level for level in levels if level.extent(row) is not None)
         geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, volumes)
         about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
+        about |= as_attributes(reported[one.lot.id], about)
         line = feature_line(one.lot.id, about, geometry)
         result.city += [line] if line else []
         result.forms.update(forms_of(geometry))

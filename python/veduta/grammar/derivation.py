@@ -24,6 +24,7 @@ from numpy.typing import ArrayLike, NDArray
 from veduta import _core
 from veduta.grammar.assets.library import Library
 from veduta.grammar.edits import Edit, path_text
+from veduta.grammar.options import LimitOptions
 from veduta.grammar.outline import Attribute
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import Textures, find_textures, read_textures
@@ -31,8 +32,6 @@ from veduta.run.errors import InputError, VedutaError
 
 T = TypeVar("T")
 Surroundings = tuple[_core.Surroundings, list[tuple[int, tuple[float, float, float]]]]
-SECONDS = 60.0
-MAX_SHAPES = 5_000_000
 
 
 class StaleShapeError(VedutaError):
@@ -325,14 +324,14 @@ def derive(
     attributes: Mapping[str, Attribute] | None = None,
     edits: Sequence[Edit] = (),
     surroundings: Surroundings | None = None,
-    seconds: float = SECONDS,
-    shapes: int = MAX_SHAPES,
+    limits: LimitOptions | None = None,
 ) -> Derivation:
     """The building on a lot: rings of (n, 2) or (n, 3) metres, the outline first.
 
-    InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot
-    be done are in `Derivation.edit_faults`. It takes no longer than `seconds` and makes no more
-    than `shapes`. surroundings: what stands beside the lot, and how far off; `inter` asks about it.
+    InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot be done are
+    in `Derivation.edit_faults`. limits: what it may cost, and again each shape that is made
+    anew by `rederive`; the fault names the option that allows more.
+    surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
     for name in attributes or ():
         if name not in rules.attributes:
@@ -351,8 +350,7 @@ def derive(
             edits=[edit.core for edit in edits],
             around=around,
             beside=beside,
-            seconds=seconds,
-            shapes=shapes,
+            limits=(limits or LimitOptions()).core,
         )
 
     try:

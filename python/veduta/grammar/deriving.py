@@ -18,8 +18,6 @@ from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError
 
 Vector = tuple[float, float, float]
-MAX_SHAPES = 500_000
-"""Of one lot's tree; it bounds memory to some hundred megabytes."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +52,7 @@ class Deriver:
                 edits=[[edit.core for edit in lot.edits] for lot in lots],
                 around=around,
                 beside=rows,
-                seconds=self.options.derive.seconds,
-                shapes=MAX_SHAPES,
+                limits=self.options.limits.core,
             )
             if not self._add_missing(made):
                 return made
@@ -93,8 +90,7 @@ class Deriver:
                 start=self.options.derive.start,
                 attributes=self._given(sound, level),
                 edits=[[edit.core for edit in lot.edits] for lot in sound],
-                seconds=self.options.derive.seconds,
-                shapes=MAX_SHAPES,
+                limits=self.options.limits.core,
             )
             if not self._add_missing(around):
                 return around, rows

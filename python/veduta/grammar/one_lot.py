@@ -77,7 +77,7 @@ def derive_lot(
         attributes=given,
         edits=edits,
         surroundings=(around, rows[0]) if around and rows else None,
-        seconds=options.derive.seconds,
+        limits=options.limits,
     )
     fault = fault_told(edits, made.edit_faults)
     if fault is not None:

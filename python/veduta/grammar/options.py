@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from veduta import _core
 from veduta.run.options import Options
 
 MAX_SEED = 2**53 - 1
@@ -25,9 +26,47 @@ class DeriveOptions(Options):
     style: str | None = Field(
         default=None, description="style of the rule file to derive in; `Default` if not given"
     )
+
+
+class LimitOptions(Options):
+    """What the derivation of one lot may cost; a lot that needs more fails, and says of what."""
+
     seconds: Annotated[float, Field(gt=0.0, le=3600.0)] = Field(
         default=20.0, description="longest time for one lot (s); a lot that takes longer fails"
     )
+    max_depth: Annotated[int, Field(ge=1, le=1_000_000)] = Field(
+        default=1_000, description="rules applied one within another"
+    )
+    max_shapes: Annotated[int, Field(ge=1, le=100_000_000)] = Field(
+        default=500_000, description="shapes of one lot, those that become others counted too"
+    )
+    max_faces: Annotated[int, Field(ge=1, le=100_000_000)] = Field(
+        default=1_000_000, description="faces of one shape"
+    )
+    max_parts: Annotated[int, Field(ge=1, le=10_000_000)] = Field(
+        default=100_000, description="parts of one split, points of one scatter"
+    )
+    max_work: Annotated[int, Field(ge=1, le=10**15)] = Field(
+        default=30_000_000_000,
+        description="steps of work for one lot: looks at a pair of faces, edges or corners;"
+        " other than the time, they are the same on each machine",
+    )
+    max_memory: Annotated[int, Field(ge=1, le=2**20)] = Field(
+        default=4096, description="faces, values and messages of one lot (MiB)"
+    )
+
+    @property
+    def core(self) -> _core.GrammarLimits:
+        """As the engine takes them."""
+        return _core.GrammarLimits(
+            depth=self.max_depth,
+            shapes=self.max_shapes,
+            faces=self.max_faces,
+            parts=self.max_parts,
+            seconds=self.seconds,
+            work=self.max_work,
+            memory=self.max_memory * 2**20,
+        )
 
 
 class LotOptions(Options):
@@ -91,6 +130,7 @@ class GrammarOptions(Options):
     """All options of the verb that change its result."""
 
     derive: DeriveOptions = DeriveOptions()
+    limits: LimitOptions = LimitOptions()
     lots: LotOptions = LotOptions()
     output: OutputOptions = OutputOptions()
     attributes: AttributeOptions = AttributeOptions()

@@ -30,6 +30,8 @@ from veduta.grammar.options import GrammarOptions
 from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
 from veduta.grammar.quadtree import squares
 from veduta.grammar.report import Whole, derive_report
+from veduta.grammar.reported import FILE as REPORTS
+from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.textures import find_textures, read_textures, textures_digests, with_builtin
 from veduta.grammar.tile_pictures import picture_files
@@ -341,6 +343,7 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
             with timed_step(result.steps, "join"):
                 _write_town(folder, call, work, whole)
                 _write_pictures(work, call.textures, whole)
+                write_reports(work / REPORTS, _tables(folder.path, whole))
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, call.key, work)
@@ -375,6 +378,11 @@ def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> No
     for file, data in picture_files(with_builtin(textures), sorted(shown)).items():
         (work / file).parent.mkdir(exist_ok=True)
         (work / file).write_bytes(data)
+
+
+def _tables(out: Path, whole: Whole) -> list[Path]:
+    """The tables of what rules reported, of the blocks that have one."""
+    return [out / name / REPORTS for name, summary in whole.blocks if summary["tabled"]]
 
 
 def _write_ground(

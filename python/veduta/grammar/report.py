@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.reported import FILE, Sum, as_json, joined
 from veduta.run.page import Bars, Page, Table, render
 from veduta.run.report import Failure, Report, StepRecord
 
@@ -71,11 +72,9 @@ def derive_report(
         title=rules,
         summary=summary_line(found),
         facts=[(name, f"{found[name]:,}") for name in ("lots", "built", "surfaces", "triangles")],
-        tables=[_classes(found), *_forms(found), *([_table(whole.rows)] if whole.rows else [])]
-        if whole.count
-        else [],
+        tables=_tables(whole, found) if whole.count else [],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in steps])],
-        files=FILES if whole.count else (),
+        files=files_of(whole),
     )
     return report, render(report, page)
 
@@ -90,7 +89,20 @@ def measures(whole: Whole, total: int) -> dict[str, Any]:
         "triangles": whole.triangles,
         "classes": dict(sorted(whole.classes.items())),
         "city": dict(sorted(whole.forms.items())),
+        "reports": as_json(reported(whole)),
     }
+
+
+def reported(whole: Whole) -> dict[str, Sum]:
+    """What the rules reported, of all buildings."""
+    return joined(summary["reports"] for _, summary in whole.blocks)
+
+
+def files_of(whole: Whole) -> tuple[tuple[str, str], ...]:
+    """The files that the page names."""
+    tabled = any(summary["tabled"] for _, summary in whole.blocks)
+    more = ((FILE, "what the rules reported of each building"),) if tabled else ()
+    return FILES + more if whole.count else ()
 
 
 def summary_line(found: Mapping[str, Any]) -> str:
@@ -112,6 +124,11 @@ def _notes(whole: Whole) -> list[str]:
     return told[:50]
 
 
+def _tables(whole: Whole, found: Mapping[str, Any]) -> list[Table]:
+    lots = [_table(whole.rows)] if whole.rows else []
+    return [_classes(found), *_forms(found), *_reports(whole), *lots]
+
+
 def _classes(found: Mapping[str, Any]) -> Table:
     rows = [[name, count] for name, count in found["classes"].items()]
     note = "All of it is invented: a rule file is no record of what stands there."
@@ -124,6 +141,21 @@ def _forms(found: Mapping[str, Any]) -> list[Table]:
     note = "A Solid is closed, which was checked; a MultiSurface has gaps or surfaces that overlap."
     columns = ("geometry", "level of detail", "buildings")
     return [Table("CityJSON", columns, rows, note=note)] if rows else []
+
+
+def _reports(whole: Whole) -> list[Table]:
+    """What the rules reported in numbers, where they did."""
+    rows: list[list[float | str | None]] = [
+        [key, one.buildings, *(_rounded(n) for n in (one.total, one.least, one.most))]
+        for key, one in reported(whole).items()
+    ]
+    note = f"The sum of each building is in {FILE}."
+    columns = ("key", "buildings", "sum", "least of a building", "most of a building")
+    return [Table("Reported by the rules", columns, rows, note=note)] if rows else []
+
+
+def _rounded(number: float) -> float:
+    return float(f"{number:.6g}")
 
 
 def _table(lots: Sequence[Mapping[str, Any]]) -> Table:

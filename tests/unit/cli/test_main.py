@@ -162,13 +162,20 @@ def test_the_help_of_grammar_names_every_option() -> None:
 
     from veduta.cli.grammar import HELP
     from veduta.cli.grammar_call import DeriveCall, FormatCall, SampleCall, TreeCall
-    from veduta.grammar.options import DeriveOptions, LotOptions, OutputOptions, SampleOptions
+    from veduta.grammar.options import (
+        DeriveOptions,
+        LimitOptions,
+        LotOptions,
+        OutputOptions,
+        SampleOptions,
+    )
+    from veduta.run.options import flag
 
     calls = (DeriveCall, FormatCall, SampleCall, TreeCall)
     names = {field.name for call in calls for field in fields(call)}
-    names -= {"rules", "derive", "read", "output", "sheet", "out"}
-    for options in (DeriveOptions, LotOptions, OutputOptions, SampleOptions):
+    names -= {"rules", "derive", "limits", "read", "output", "sheet", "out"}
+    for options in (DeriveOptions, LimitOptions, LotOptions, OutputOptions, SampleOptions):
         names |= set(options.model_fields)
-    named = {name for name in names if f"--{name}" in HELP or f"--no-{name}" in HELP}
+    named = {name for name in names if flag(name) in HELP or f"--no-{name}" in HELP}
     missing = names - named
     assert missing == set()

@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import math
+from pathlib import Path
 
 import numpy as np
 import pytest
 import trimesh
 
 from veduta.grammar.assets.asset import CREASE_RAD, Asset, Slot, corner_normals
-from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
+from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described, parts_of
+from veduta.grammar.assets.library import Library
 from veduta.grammar.assets.modelling import Model, arc, rectangle
+from veduta.run.errors import InputError
 
 
 def model() -> Model:
@@ -127,3 +130,32 @@ def test_levels_that_there_are_not() -> None:
     assert builtin("builtin/window-casement@") is not None
     assert builtin("builtin/nothing") is None
     assert builtin("window-casement") is None
+
+
+@pytest.mark.parametrize("name", [name for name in builtin_names() if "dormer" in name])
+@pytest.mark.parametrize("level", range(LEVELS))
+def test_the_parts_of_a_dormer_are_the_whole(name: str, level: int) -> None:
+    whole = builtin(f"{name}@{level}")
+    assert whole is not None
+    found = []
+    for part in parts_of(name):
+        own = builtin(f"{name}:{part}@{level}")
+        assert own is not None
+        np.testing.assert_array_equal(own.box_m, whole.box_m)
+        found += faces_of(own)
+    assert sorted(found) == sorted(faces_of(whole))
+
+
+def faces_of(asset: Asset) -> list[tuple[str, tuple[tuple[float, ...], ...]]]:
+    """The slot and the corners of each face."""
+    ends = zip(asset.offsets, asset.offsets[1:], strict=False)
+    rings = [asset.points_m[asset.corners[a:b]].tolist() for a, b in ends]
+    names = [asset.slots[slot].name for slot in asset.face_slot.tolist()]
+    return [(name, tuple(map(tuple, ring))) for name, ring in zip(names, rings, strict=True)]
+
+
+def test_a_part_that_is_none_is_told() -> None:
+    assert builtin("builtin/dormer-arched:door@1") is None
+    assert builtin("builtin/window-casement:pane") is None
+    with pytest.raises(InputError, match="dormer-arched:window"):
+        Library(Path())["builtin/dormer-arched:door@1"]

@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use super::limits::Limit;
 use crate::Span;
 
 /// A fault at a place in a rule file.
@@ -13,6 +14,8 @@ pub struct Fault {
     pub message: String,
     /// The asset that is wanted and not there: with it, the derivation may be tried again.
     pub missing_asset: Option<Arc<str>>,
+    /// The limit that was reached: with a higher one, the derivation may go on.
+    pub over: Option<Limit>,
 }
 
 impl Fault {
@@ -22,6 +25,15 @@ impl Fault {
             span,
             message: message.into(),
             missing_asset: None,
+            over: None,
+        }
+    }
+
+    /// A limit is reached.
+    pub fn over(limit: Limit, span: Span, message: impl Into<String>) -> Self {
+        Self {
+            over: Some(limit),
+            ..Self::at(span, message)
         }
     }
 

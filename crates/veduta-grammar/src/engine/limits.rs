@@ -21,6 +21,18 @@ pub struct Limits {
     pub memory: u64,
 }
 
+/// What a derivation had too much of.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Limit {
+    Depth,
+    Shapes,
+    Faces,
+    Parts,
+    Seconds,
+    Work,
+    Memory,
+}
+
 impl Default for Limits {
     fn default() -> Self {
         Self {

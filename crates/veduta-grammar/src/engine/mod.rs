@@ -51,7 +51,7 @@ pub use asset_names::{asset_names, AssetNames};
 pub use code::{Code, Expr, ExprKind};
 pub use draws::Taken;
 pub use fault::Fault;
-pub use limits::Limits;
+pub use limits::{Limit, Limits};
 pub use lot::lot_form;
 pub use lower::{lower, lower_in_style, Lowered};
 pub use occluders::{Neighbour, Occluder};

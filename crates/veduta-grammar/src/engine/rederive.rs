@@ -6,6 +6,7 @@ use std::ops::Range;
 use super::clock::Clock;
 use super::code::Code;
 use super::fault::Fault;
+use super::limits::Limit;
 use super::overrides::Edited;
 use super::random::Stream;
 use super::run::{derive, Options, Run, Waiting};
@@ -39,10 +40,8 @@ pub fn rederive(
     let count = kept + derived.nodes.len() - (own.len() + 1);
     if count > options.limits.shapes {
         let most = options.limits.shapes;
-        return Err(Fault::at(
-            Span::default(),
-            format!("more than {most} shapes"),
-        ));
+        let message = format!("more than {most} shapes");
+        return Err(Fault::over(Limit::Shapes, Span::default(), message));
     }
     tree.put(root, &own, derived);
     options.overrides.report_missed(tree, &own);

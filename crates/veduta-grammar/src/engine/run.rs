@@ -14,7 +14,7 @@ use super::draws::{Draws, LogSum};
 use super::fault::Fault;
 use super::frame::{Fate, Frame};
 use super::globals::Global;
-use super::limits::Limits;
+use super::limits::{Limit, Limits};
 use super::occluders::{Neighbour, Occluder, Trail};
 use super::overrides::{Edit, Edited, Overrides};
 use super::random::Stream;
@@ -316,24 +316,30 @@ impl<'a> Run<'a> {
             None => Ok(()),
             Some(Over::Time) => {
                 let limit = self.options.limits.seconds;
-                let message = format!(
-                    "takes longer than {limit} s: make fewer or simpler shapes, or allow more time"
-                );
-                Err(Fault::at(span, message))
+                let message = format!("takes longer than {limit} s: make fewer or simpler shapes");
+                Err(Fault::over(Limit::Seconds, span, message))
             }
             Some(Over::Work) => {
                 let limit = self.options.limits.work;
                 let message =
                     format!("takes more than {limit} steps of work: make fewer or simpler shapes");
-                Err(Fault::at(span, message))
+                Err(Fault::over(Limit::Work, span, message))
             }
             Some(Over::Memory) => {
                 let limit = self.options.limits.memory >> 20;
                 let message =
                     format!("takes more than {limit} MiB of memory: make fewer or simpler shapes");
-                Err(Fault::at(span, message))
+                Err(Fault::over(Limit::Memory, span, message))
             }
         }
+    }
+
+    /// The fault of more than `most` parts: of the limit, or of less than that.
+    pub(super) fn too_many_parts(&self, most: usize, span: Span, told: &impl ToString) -> Fault {
+        if most < self.options.limits.parts {
+            return Fault::at(span, told.to_string());
+        }
+        Fault::over(Limit::Parts, span, told.to_string())
     }
 
     /// Takes steps from the limit, before they are done.

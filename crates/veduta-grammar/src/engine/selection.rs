@@ -11,6 +11,7 @@ use crate::Span;
 use super::code::{Expr, ExprKind, Selector};
 use super::evaluate::Scene;
 use super::fault::Fault;
+use super::limits::Limit;
 use super::run::Run;
 use super::state::{Place, State};
 use super::value::Value;
@@ -179,7 +180,7 @@ impl Run<'_> {
         let choosing = Choosing::of(&scene.state.form, kind, self);
         if choosing.found.len() > self.options.limits.parts {
             let message = format!("an array of {} elements", choosing.found.len());
-            return Err(Fault::at(span, message));
+            return Err(Fault::over(Limit::Parts, span, message));
         }
         let selectors = cells.iter().map(|(selector, _)| selector);
         let chosen = self.chosen(selectors, &choosing, span, scene)?;

@@ -9,6 +9,7 @@ use super::draws::LogSum;
 use super::evaluate::alternative;
 use super::fault::Fault;
 use super::frame::{Fate, Frame};
+use super::limits::Limit;
 use super::occluders::Trail;
 use super::overrides::Edited;
 use super::run::{Run, Waiting};
@@ -95,7 +96,7 @@ impl Run<'_> {
         let depth = frame.depth + 1;
         if depth > self.options.limits.depth {
             let message = format!("rules apply one within another over {} deep", depth - 1);
-            return Err(Fault::at(span, message));
+            return Err(Fault::over(Limit::Depth, span, message));
         }
         let name = self.code.rules[rule].name.clone();
         let stream = frame.origin.child(frame.children);
@@ -148,7 +149,8 @@ impl Run<'_> {
         }
         let count = self.tree.nodes.len();
         if self.made >= self.options.limits.shapes {
-            return Err(Fault::at(span, format!("more than {} shapes", self.made)));
+            let message = format!("more than {} shapes", self.made);
+            return Err(Fault::over(Limit::Shapes, span, message));
         }
         self.made += 1;
         self.take(STEPS_PER_SHAPE, span)?;

@@ -6,6 +6,7 @@ a shape is flat, the plane z = 0 of the asset lies in it.
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from functools import cached_property
 
@@ -64,6 +65,25 @@ class Asset:
         if self.given_box_m is not None:
             return self.given_box_m
         return np.stack([self.points_m.min(axis=0), self.points_m.max(axis=0)])
+
+    def part(self, name: str, slots: Collection[str]) -> Asset:
+        """The faces of these slots alone, which fill a scope as the whole does: the box stays."""
+        chosen = [number for number, slot in enumerate(self.slots) if slot.name in slots]
+        faces = np.flatnonzero(np.isin(self.face_slot, chosen))
+        sizes = np.diff(self.offsets)[faces]
+        own = [self.corners[a:b] for a, b in zip(self.offsets, self.offsets[1:], strict=False)]
+        used, corners = np.unique(
+            np.concatenate([own[face] for face in faces.tolist()]), return_inverse=True
+        )
+        return Asset(
+            name=name,
+            points_m=self.points_m[used],
+            corners=corners.reshape(-1).astype(np.uint32),
+            offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
+            face_slot=np.searchsorted(chosen, self.face_slot[faces]).astype(np.int32),
+            slots=tuple(self.slots[number] for number in chosen),
+            given_box_m=self.box_m,
+        )
 
     @cached_property
     def triangles(self) -> tuple[NDArray[np.uint32], NDArray[np.int64], NDArray[np.float64]]:

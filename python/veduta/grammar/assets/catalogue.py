@@ -1,7 +1,8 @@
 """The built-in assets by name: `builtin/window-casement@1`.
 
 `@0` is the finest level of detail and what a name without a level means; `@1` is for across the
-street, `@2` for afar.
+street, `@2` for afar. `builtin/dormer-arched:window@1` is a part of an asset that is more than one
+thing.
 """
 
 from __future__ import annotations
@@ -58,6 +59,15 @@ MAKERS: dict[str, Maker] = {
     "chimney-pot": roofs.one_pot,
 }
 
+DORMER = {"wall": ("stone", "cheek"), "window": ("frame", "pane"), "roof": ("zinc", "tile")}
+PARTS = {name: DORMER for name in MAKERS if name.startswith("dormer-")}
+"""By its surface class, the slots of each part of assets that are more than one thing."""
+
+
+def parts_of(name: str) -> list[str]:
+    """What may follow an asset's name after a colon."""
+    return list(PARTS.get(name.removeprefix(PREFIX), ()))
+
 
 def builtin_names() -> list[str]:
     """All names, without levels."""
@@ -73,10 +83,14 @@ def described(name: str) -> str:
 @functools.lru_cache(maxsize=512)
 def builtin(name: str) -> Asset | None:
     """The asset of this name; None where there is none."""
-    plain, _, level = name.removeprefix(PREFIX).partition("@")
+    word, _, level = name.removeprefix(PREFIX).partition("@")
+    plain, colon, part = word.partition(":")
     maker = MAKERS.get(plain)
     if not name.startswith(PREFIX) or maker is None or level not in ("", "0", "1", "2"):
         return None
+    if colon:
+        whole, slots = builtin(name.replace(f":{part}", "", 1)), PARTS.get(plain, {}).get(part)
+        return None if whole is None or slots is None else whole.part(name, slots)
     finest = maker(name, 0)
     if level in ("", "0"):
         return finest

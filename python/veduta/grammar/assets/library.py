@@ -10,7 +10,7 @@ from pathlib import Path
 from veduta import _core
 from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset, Slot
-from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names
+from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names, parts_of
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
 from veduta.grammar.surfaces.catalogue import PREFIX as TEXTURES
 from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
@@ -83,6 +83,12 @@ class Library:
         if asset is not None:
             return asset
         if name.startswith(PREFIX):
+            plain = name.partition(":")[0]
+            if parts := parts_of(plain):
+                parts_told = ", ".join(f"`{plain}:{part}`" for part in parts)
+                raise InputError(
+                    name, "is no part of it that Veduta brings along", f"There are {parts_told}."
+                )
             near = difflib.get_close_matches(name, builtin_names(), n=1, cutoff=0.5)
             hint = f"Did you mean `{near[0]}`?" if near else "docs/assets.md lists those there are."
             raise InputError(name, "is no asset that Veduta brings along", hint)

@@ -6,6 +6,7 @@ use veduta_geometry::solid::{laid_together, patches, Mesh, Rise};
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::limits::Limit;
 use super::super::run::Run;
 use super::assets::asset;
 use super::textures::current;
@@ -16,6 +17,9 @@ use crate::shape::{Form, Instance};
 const MIDDLE: f64 = 0.5;
 /// Cosine below which the height lies in a face.
 const ALONG: f64 = 1e-9;
+
+/// Each corner is bent, cut at the patch's edges and joined with those beside it.
+const STEPS_PER_CORNER: usize = 16;
 
 /// `insertAlongUV(layer, name, height)`, `insertAlongUV(layer, name, height, scope.y |
 /// vertex.normal, alignPosition | keepPosition)`: the asset over the faces, once for each unit of
@@ -54,7 +58,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             "an asset of {} faces laid {tiles} times comes to more than {most} faces",
             tile.face_count()
         );
-        return Err(Fault::at(op.span, message));
+        return Err(Fault::over(Limit::Faces, op.span, message));
     }
     let mut parts = Vec::new();
     for patch in &found {
@@ -63,7 +67,10 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             run.check_time(op.span)?;
             for along in 0..count[0] as usize {
                 let at = [first[0] + along as f64, first[1] + across as f64];
-                parts.push(patch.lay(&tile, solid, at));
+                run.take(STEPS_PER_CORNER * tile.corner_count(), op.span)?;
+                let laid = patch.lay(&tile, solid, at);
+                run.hold(laid.byte_count(), op.span)?;
+                parts.push(laid);
             }
         }
     }

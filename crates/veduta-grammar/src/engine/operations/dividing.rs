@@ -6,6 +6,7 @@ use veduta_geometry::Spent;
 use super::super::code::{Body, Cell, Operation, Selector, Sizing};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::limits::Limit;
 use super::super::run::Run;
 use super::super::state::{Place, State};
 use super::{axes, dividing_textures, word};
@@ -28,7 +29,7 @@ pub fn split(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     let whole = frame.state.clone();
     let most = run.options.limits.parts;
     let found = cells(&patterns, whole.form.scope.size[axis], most)
-        .map_err(|many| Fault::at(op.span, many.to_string()))?;
+        .map_err(|many| Fault::over(Limit::Parts, op.span, many.to_string()))?;
     run_parts(run, op, (axis, adjust), &found, &bodies, whole, frame)
 }
 
@@ -86,7 +87,7 @@ pub fn split_area(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     }
     let most = run.options.limits.parts.min(MOST_PARTS_BY_AREA);
     let mut found =
-        cells(&patterns, area, most).map_err(|many| Fault::at(op.span, many.to_string()))?;
+        cells(&patterns, area, most).map_err(|many| run.too_many_parts(most, op.span, &many))?;
     let places = AreaAlong::of(&whole.form, axis);
     let mut start = 0.0;
     for cell in &mut found {

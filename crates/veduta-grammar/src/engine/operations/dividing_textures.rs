@@ -6,6 +6,7 @@ use veduta_geometry::solid::{cut, Mesh};
 use super::super::code::{Body, Operation};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::limits::Limit;
 use super::super::run::Run;
 use super::super::state::Place;
 use super::super::texture_map::{map_of, TextureMap};
@@ -48,7 +49,7 @@ pub fn split(
         patterns = vec![Pattern::Repeat(patterns)];
     }
     let found = cells(&patterns, length, run.options.limits.parts)
-        .map_err(|many| Fault::at(op.span, many.to_string()))?;
+        .map_err(|many| Fault::over(Limit::Parts, op.span, many.to_string()))?;
     dividing::check_cuts(op, &flat, found.len())?;
     let solid = whole.form.geometry.is_solid();
     let near = 1e-9 * (high - low).max_element();

@@ -54,6 +54,8 @@ pub fn convexify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
             pieces.push_face(&[face.outline()]);
             continue;
         }
+        let corners = face.edges().count();
+        run.take(corners.saturating_mul(corners), op.span)?;
         let triangles = triangles(&mesh, face)
             .map_err(|error| Fault::at(op.span, format!("a face cannot be divided: {error}")))?;
         for piece in convex_pieces(&mesh.points, triangles, normal, inwards) {

@@ -39,6 +39,7 @@ use std::sync::Arc;
 use super::code::{Arg, Operation, Sizing};
 use super::fault::Fault;
 use super::frame::Frame;
+use super::limits::Limit;
 use super::run::Run;
 use super::value::Value;
 use crate::shape::Geometry;
@@ -239,7 +240,7 @@ fn check_faces(run: &Run<'_>, operation: &Operation, faces: usize) -> Result<(),
     let most = run.options.limits.faces;
     if faces > most {
         let message = format!("a shape of {faces} faces; {most} are the most");
-        return Err(Fault::at(operation.span, message));
+        return Err(Fault::over(Limit::Faces, operation.span, message));
     }
     Ok(())
 }

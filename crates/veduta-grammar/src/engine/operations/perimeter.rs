@@ -1,7 +1,7 @@
 //! `splitAndSetbackPerimeter`: strips of different depths around a face.
 
 use glam::{DMat3, DVec3};
-use veduta_geometry::solid::{boolean, cut, inset, joined, merged, Boolean, Mesh};
+use veduta_geometry::solid::{boolean_within, cut, inset_within, joined, merged, Boolean, Mesh};
 
 use super::super::code::{Body, Cell, Expr, Operation, Selector};
 use super::super::fault::Fault;
@@ -181,7 +181,7 @@ fn sections_of<'o>(
     }
     let most = run.options.limits.parts.min(MOST_SECTIONS);
     let found = cells(&pattern, outline.length, most)
-        .map_err(|many| Fault::at(op.span, many.to_string()))?;
+        .map_err(|many| run.too_many_parts(most, op.span, &many))?;
     let mut written = Vec::new();
     in_order(&op.cells, &mut written);
     let total = found.len();
@@ -243,14 +243,14 @@ fn divided(
         if section.depth == 0.0 || rest.is_empty() {
             continue;
         }
-        let strip = strip(op, mesh, outline, section)?;
+        let strip = strip(run, op, mesh, outline, section)?;
         if strip.is_empty() {
             continue;
         }
         // What is left has no part in deeper strips.
         let of = |operation| {
-            let found = boolean(&rest, &strip, operation);
-            found.map_err(|error| Fault::at(op.span, error.to_string()))
+            let found = boolean_within(&rest, &strip, operation, run.budget());
+            found.map_err(|error| run.failed(op.span, error))
         };
         let (own, left) = (of(Boolean::Intersect)?.mesh, of(Boolean::Subtract)?.mesh);
         sections[at].strip = own;
@@ -261,6 +261,7 @@ fn divided(
 
 /// The strip along a section, whatever else lies there.
 fn strip(
+    run: &Run<'_>,
     op: &Operation,
     mesh: &Mesh,
     outline: &Outline,
@@ -272,8 +273,8 @@ fn strip(
     for &(place, ..) in &parts {
         distances[outline.edges[place].0] = section.depth;
     }
-    let pieces = inset(mesh, face, &distances)
-        .map_err(|error| Fault::at(op.span, format!("no setback here: {error}")))?;
+    let pieces = inset_within(mesh, face, &distances, run.budget())
+        .map_err(|error| run.failed(op.span, format!("no setback here: {error}")))?;
     let near = TOLERANCE * outline.length;
     let mut found: Vec<Mesh> = Vec::new();
     for (place, from, to) in parts {
@@ -283,6 +284,7 @@ fn strip(
             .filter(|(_, of)| **of == Some(edge as u32))
             .map(|(at, _)| at);
         let mut piece = pieces.mesh.of_faces(own);
+        run.take(pieces.mesh.corner_count(), op.span)?;
         let (y, z) = along.any_orthonormal_pair();
         let axes = DMat3::from_cols(along, y, z);
         let local = |point: DVec3| axes.transpose() * (point - start);

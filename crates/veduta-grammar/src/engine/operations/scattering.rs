@@ -5,6 +5,7 @@ use glam::{DMat3, DVec3};
 use super::super::code::{Arg, Cell, Operation, Sizing};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::limits::Limit;
 use super::super::random::Stream;
 use super::super::run::Run;
 use super::super::state::Place;
@@ -28,7 +29,11 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let domain = word(run, op, 0, frame)?;
     let count = number(run, op, 1, frame)?.round().max(0.0);
     if count > run.options.limits.parts as f64 {
-        return Err(Fault::at(op.span, format!("{count} points")));
+        return Err(Fault::over(
+            Limit::Parts,
+            op.span,
+            format!("{count} points"),
+        ));
     }
     let scope = frame.state.form.scope;
     let bell = match word(run, op, 2, frame)?.as_ref() {
