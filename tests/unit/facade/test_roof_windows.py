@@ -80,3 +80,41 @@ def test_no_window_fits_a_low_roof() -> None:
     floors = Floors([EAVES, EAVES + STOREY], float(STOREY), 0.0, {}, 0)
     low = skyline_at(EAVES - 15)
     assert find_roof_windows(evidence, low, floors, Columns([], 0.0, {}, 0)) == []
+
+
+LOW_RIDGE, DORMER_TOP = 62, 32
+
+
+def find_above_ridge(panes: list[bool], tops: list[int]) -> list[Box]:
+    """Dormers that stand higher than the ridge, with sky beside; some with panes as grey as slate.
+
+    `tops` are the rows at which their roofs begin.
+    """
+    pixels = draw_roof([d for d, bright in zip(DORMERS, panes, strict=True) if bright])
+    rows = np.full(WIDTH, LOW_RIDGE)
+    for (x, w), top in zip(DORMERS, tops, strict=True):
+        rows[x - 5 : x + w + 5] = top
+    above = np.arange(len(pixels))[:, None] < rows
+    pixels[above] = (180, 205, 235)
+    evidence = gather(pixels, np.ones(pixels.shape[:2], bool))
+    floors = Floors([EAVES, EAVES + STOREY, EAVES + 2 * STOREY], float(STOREY), 0.0, {}, 0)
+    columns = Columns(list(DORMERS), 0.0, {}, 0)
+    return find_roof_windows(evidence, Skyline(rows, LOW_RIDGE), floors, columns)
+
+
+def test_dormers_that_stand_above_a_low_ridge_are_found() -> None:
+    boxes = find_above_ridge([True] * 3, [DORMER_TOP] * 3)
+    assert len(boxes) == 3
+    for box, (x, w) in zip(boxes, DORMERS, strict=True):
+        assert overlap(box, x, w) > 0.6
+
+
+def test_a_dormer_with_panes_like_slate_is_told_by_its_outline_and_less_sure() -> None:
+    boxes = find_above_ridge([True, False, True], [DORMER_TOP] * 3)
+    assert len(boxes) == 3
+    assert boxes[1].score < min(boxes[0].score, boxes[2].score)
+
+
+def test_what_ends_at_another_height_is_no_dormer() -> None:
+    boxes = find_above_ridge([True, False, True], [DORMER_TOP, DORMER_TOP - 8, DORMER_TOP])
+    assert len(boxes) == 2
