@@ -28,7 +28,7 @@ _NARROWEST = 0.2
 _OTHER_WALL, _OTHER_ROOF = 15.0, 0.033
 _SURELY_OTHER_WALL = 25.0
 # Where the roof line lies on one level up to a column and on another from there, less is enough if
-# the wall changes from top to bottom: the lower quartile of its bands' chroma steps (on 70 pictures
+# the wall changes from top to bottom: the lower quartile of its bands' chroma steps (on 80 pictures
 # of single facades at most 6.7 where the levels are so far apart), and how far apart the levels
 # are, as a share of the height.
 _OTHER_ALL_DOWN, _OTHER_LEVEL = 8.0, 0.06
