@@ -56,14 +56,11 @@ def band_of_windows(
     mask = np.zeros(rows[1] - rows[0], bool)
     mask[t:b] = True
     refined = refine_sides(stripes, scores.window, evidence.gx[part], [mask] * len(stripes), storey)
-    # What no photo shows (the sky beside a dormer) says nothing of the surface beside a window.
-    seen = evidence.valid[part][t:b].sum(0)
-    band = scores.window[t:b].sum(0) / np.maximum(seen, 1)
+    band = scores.window[t:b].mean(0)
     reach = max(1, int(_BESIDE * storey))
     found = []
     for x, w in refined:
         sure = float(band[x : x + w].mean())
-        sides = slice(max(0, x - reach), x), slice(x + w, x + w + reach)
-        beside = [band[s][seen[s] > 0].mean() for s in sides if seen[s].any()]
+        beside = [v.mean() for v in (band[max(0, x - reach) : x], band[x + w :][:reach]) if v.size]
         found.append(Candidate(x, w, t, b, sure, sure - float(np.mean(beside or [sure]))))
     return found
