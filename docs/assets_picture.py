@@ -14,6 +14,8 @@ from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.assets.catalogue import builtin, builtin_names
+from veduta.grammar.surfaces.catalogue import PREFIX
+from veduta.grammar.textures import Textures
 from veduta.place.builder import PartBuilder
 from veduta.place.instances import InstanceGroup, Instances
 from veduta.place.manifest import Bounds, Place, PlacePart, Start
@@ -52,7 +54,8 @@ def sheet(level: int = 0) -> Part:
 
 def _look(asset: Asset, slot: int) -> Material:
     own = asset.slots[slot]
-    return Material(own.name, own.colour or own.fallback, own.roughness, own.metalness)
+    texture = None if own.texture is None else Textures({})[f"{PREFIX}{own.texture}"]
+    return Material(own.name, own.colour or own.fallback, own.roughness, own.metalness, texture)
 
 
 def _place(asset: Asset, column: int, row: int) -> np.ndarray:

@@ -15,7 +15,7 @@ from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES, painted
 IMAGES = Path(__file__).parent / "images"
 COLUMNS, WALL_M, PX_PER_M = 6, (3.0, 2.2), 92
 GAP_PX, TEXT_PX = 14, 17
-MAX_BYTES = 400_000
+MAX_BYTES = 300_000
 COLOURS = {
     "ashlar": "#e6dcc4",
     "rusticated": "#e0d6be",
