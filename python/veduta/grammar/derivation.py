@@ -328,9 +328,9 @@ def derive(
 ) -> Derivation:
     """The building on a lot: rings of (n, 2) or (n, 3) metres, the outline first.
 
-    InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot be done are
-    in `Derivation.edit_faults`. limits: what it may cost, and again each shape that is made
-    anew by `rederive`; the fault names the option that allows more.
+    InputError where the rules fail, or there is no such start rule or attribute. Edits that cannot
+    be done are in `Derivation.edit_faults`. limits: what it may cost, and again each shape that is
+    made anew by `rederive`; the fault names the option that allows more.
     surroundings: what stands beside the lot, and how far off; `inter` asks about it.
     """
     for name in attributes or ():

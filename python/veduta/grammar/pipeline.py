@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import shutil
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
@@ -15,15 +15,15 @@ import numpy as np
 from pydantic import JsonValue
 
 from veduta.formats.cityjson_text import header, write_joined, write_sequence
-from veduta.formats.ground_glb import ground_glb
 from veduta.formats.place_json import write_place
-from veduta.formats.tiles import Box, union, write_tileset
+from veduta.formats.tiles import write_tileset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Block, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
-from veduta.grammar.ground import ground_of, is_level
+from veduta.grammar.ground import is_level
+from veduta.grammar.joining import tables, write_ground, write_pictures
 from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions
@@ -33,8 +33,7 @@ from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
-from veduta.grammar.textures import find_textures, read_textures, textures_digests, with_builtin
-from veduta.grammar.tile_pictures import picture_files
+from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
@@ -52,7 +51,6 @@ MOST_BLOCKS = 48
 SEQUENCE = 1000
 """More lots than these are CityJSONSeq, which is read a line at a time."""
 TILESET = "tileset.json"
-GROUND = "ground"
 CITY = f"{PRIVATE}/city"
 """Where lines of CityJSON wait for those of the other blocks."""
 LASTING = {"input"}
@@ -342,8 +340,8 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         if whole.count:
             with timed_step(result.steps, "join"):
                 _write_town(folder, call, work, whole)
-                _write_pictures(work, call.textures, whole)
-                write_reports(work / REPORTS, _tables(folder.path, whole))
+                write_pictures(work, call.textures, whole)
+                write_reports(work / REPORTS, tables(folder.path, whole))
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, call.key, work)
@@ -357,7 +355,7 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     lots, blocks = call.lots, call.blocks
     streamed = is_streamed(call.options, lots)
     done = {name for name, _ in whole.blocks}
-    grounds = _write_ground(work, blocks, done)
+    grounds = write_ground(work, blocks, done)
     write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
     write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
     if not call.options.output.city:
@@ -370,34 +368,3 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     first = header(Path(call.rules_name).stem, lots.crs, lots.origin_m)
     write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
     write(work / name, first, pieces)
-
-
-def _write_pictures(work: Path, textures: Mapping[str, str], whole: Whole) -> None:
-    """The pictures that tiles show, once for all of them."""
-    shown = {name for _, summary in whole.blocks for name in summary["pictures"]}
-    for file, data in picture_files(with_builtin(textures), sorted(shown)).items():
-        (work / file).parent.mkdir(exist_ok=True)
-        (work / file).write_bytes(data)
-
-
-def _tables(out: Path, whole: Whole) -> list[Path]:
-    """The tables of what rules reported, of the blocks that have one."""
-    return [out / name / REPORTS for name, summary in whole.blocks if summary["tabled"]]
-
-
-def _write_ground(
-    work: Path, blocks: Sequence[Block], done: Collection[str]
-) -> dict[str, tuple[str, Box]]:
-    """The ground of each block that is done, seen from its origin: its file and box."""
-    found = {}
-    origins = {block.name: block.origin_m for block in blocks}
-    for name, ground in ground_of(blocks).items():
-        if name not in done:
-            continue
-        file = f"{GROUND}/{name.rpartition('/')[2]}.glb"
-        points = ground.points_m - origins[name]
-        (work / file).parent.mkdir(exist_ok=True)
-        (work / file).write_bytes(ground_glb(points, ground.triangles))
-        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-        found[name] = (file, union([((low[0], low[1], low[2]), (high[0], high[1], high[2]))]))
-    return found
