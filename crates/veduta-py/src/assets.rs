@@ -13,7 +13,8 @@ pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 pub type Textures = HashMap<Arc<str>, [f64; 2]>;
 /// The colour (sRGB) of each slot or None for that of the shape, the colour where the shape has none,
 /// and the texture with the metres that it covers to the right and up.
-pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3], Option<(String, [f64; 2])>)>;
+pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3], Option<GivenTexture>)>;
+pub type GivenTexture = (String, [f64; 2]);
 
 /// An asset of these columns; None where they do not fit together.
 pub fn asset_of(

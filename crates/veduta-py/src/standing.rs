@@ -13,12 +13,15 @@ use crate::derived_lot::Derived;
 /// Faces of swept curves are a little warped (m).
 pub const WARP_M: f64 = 5e-3;
 
+/// The material of a slot, and whether it shows the slot's texture.
+type SlotLook = (u32, bool);
+
 /// The assets so far: each once in each look.
 #[derive(Default)]
 pub struct Stands {
     /// By the asset and the materials of its slots.
-    known: HashMap<(*const Asset, Vec<(u32, bool)>), usize>,
-    found: Vec<(Arc<Asset>, Vec<(u32, bool)>, Standing)>,
+    known: HashMap<(*const Asset, Vec<SlotLook>), usize>,
+    found: Vec<(Arc<Asset>, Vec<SlotLook>, Standing)>,
 }
 
 impl Stands {
@@ -29,14 +32,14 @@ impl Stands {
         lot: &Derived,
         offset: [f64; 3],
         first: u32,
-        mut material: impl FnMut(usize, &Look, &Slot) -> (u32, bool),
+        mut material: impl FnMut(usize, &Look, &Slot) -> SlotLook,
     ) {
         let packed = &lot.packed;
         for (row, &leaf) in packed.instance_feature.iter().enumerate() {
             let asset = &packed.assets[packed.instance_asset[row] as usize];
             let look = &packed.looks[packed.feature_look[leaf as usize] as usize];
             let slots = asset.slots().iter();
-            let materials: Vec<(u32, bool)> = slots
+            let materials: Vec<SlotLook> = slots
                 .map(|slot| material(leaf as usize, look, slot))
                 .collect();
             let key = (Arc::as_ptr(asset), materials);
