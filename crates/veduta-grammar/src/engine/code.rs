@@ -219,6 +219,21 @@ pub enum Cell {
     Repeat(Vec<Cell>),
 }
 
+impl Cell {
+    /// Selector, whether all becomes one shape, and body; None of cells that repeat.
+    pub fn part(&self) -> Option<(&Selector, bool, &Body)> {
+        match self {
+            Self::Part {
+                selector,
+                combined,
+                body,
+                ..
+            } => Some((selector, *combined, body)),
+            Self::Repeat(_) => None,
+        }
+    }
+}
+
 #[derive(Debug, Clone)]
 pub enum Selector {
     Word(Arc<str>),

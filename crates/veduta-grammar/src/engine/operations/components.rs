@@ -37,22 +37,16 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
     };
     let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
     for (cell, picked) in op.cells.iter().zip(chosen) {
-        let Cell::Part {
-            selector,
-            combined,
-            body,
-            ..
-        } = cell
-        else {
+        let Some((selector, combined, body)) = cell.part() else {
             return Err(Fault::at(op.span, "components do not repeat"));
         };
-        let shapes = if *combined {
+        let shapes = if combined {
             combine(&whole, &picked, &choosing.found)
         } else {
             let form = |&at: &usize| (choosing.found[at].form.clone(), choosing.found[at].index);
             picked.iter().map(form).collect()
         };
-        if !planes.is_empty() && !*combined {
+        if !planes.is_empty() && !combined {
             for (&at, shape) in picked.iter().zip(shapes) {
                 let mut trimmed = whole.clone();
                 trimmed.extra_mut().trims = std::mem::take(&mut planes[at]);

@@ -54,17 +54,11 @@ pub fn split_and_set_back(
         run.run_cell(section.body, state, frame)?;
     }
     for cell in &op.cells {
-        let Cell::Part {
-            selector,
-            combined,
-            body,
-            ..
-        } = cell
-        else {
+        let Some((selector, combined, body)) = cell.part() else {
             continue;
         };
         if is_rest(selector) {
-            let shapes = super::setbacks::as_shapes(rest.clone(), whole.form.scope.axes, *combined);
+            let shapes = super::setbacks::as_shapes(rest.clone(), whole.form.scope.axes, combined);
             run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
         }
     }

@@ -2,7 +2,7 @@
 
 use veduta_geometry::solid::{inset_within, merged, Mesh, Pieces};
 
-use super::super::code::{Arg, Cell, Operation, Selector, Sizing};
+use super::super::code::{Arg, Operation, Selector, Sizing};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::run::Run;
@@ -253,17 +253,11 @@ pub fn run_pieces(
     let whole = frame.state.clone();
     let axes = whole.form.scope.axes;
     for (index, cell) in op.cells.iter().enumerate() {
-        let Cell::Part {
-            selector,
-            combined,
-            body,
-            ..
-        } = cell
-        else {
+        let Some((selector, combined, body)) = cell.part() else {
             return Err(Fault::at(op.span, "these cells do not repeat"));
         };
         let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
-        let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, *combined);
+        let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, combined);
         run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
     }
     frame.state = whole;
