@@ -68,7 +68,7 @@ def test_one_command_makes_a_street(tmp_path: Path) -> None:
     out = tmp_path / "street"
     done = veduta("grammar", "derive", "haussmann", "-o", out)
     assert done.returncode == 0, done.stderr
-    assert {path.name for path in out.iterdir()} == ALL_FILES
+    assert {path.name for path in out.iterdir()} == ALL_FILES | {"textures"}
     place = read_json(out / "place.json")
     assert len(place["parts"]) == 14
     for part in place["parts"]:
