@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from PIL import Image
 
 from veduta import _core
 from veduta.formats.gltf import read_glb, write_glb
+from veduta.grammar import textures
 from veduta.grammar.building import build_part
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.errors import InputError
@@ -51,6 +53,26 @@ def test_a_picture_that_is_none_is_refused(folder: Path) -> None:
     (folder / "torn.jpg").write_bytes(b"no picture")
     with pytest.raises(InputError, match=r"torn\.jpg"):
         read_textures(find_textures(folder / "a.cga", ['"torn.jpg"']))
+
+
+def test_pictures_are_kept_up_to_so_many_bytes(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each is 4 x 6 pixels of three colours and a mark: 96 bytes."""
+    names = [f"{number}.png" for number in range(4)]
+    for name in names:
+        (folder / name).write_bytes((folder / "brick.png").read_bytes())
+    files = find_textures(folder / "a.cga", [" ".join(f'"{name}"' for name in names)])
+    monkeypatch.setattr(textures, "_KEPT", OrderedDict())
+    monkeypatch.setattr(textures, "MAX_KEPT", 2 * 96)
+    shown = read_textures(files)
+    assert [Path(path).name for path, _, _ in textures._KEPT] == names[2:]
+    assert shown["2.png"] is shown["2.png"]
+    assert shown["0.png"].pixels.shape == (4, 6, 3)
+    assert [Path(path).name for path, _, _ in textures._KEPT] == ["2.png", "0.png"]
+    monkeypatch.setattr(textures, "MAX_KEPT", 1)
+    assert shown["3.png"] is shown["3.png"]
+    assert len(textures._KEPT) == 1
 
 
 def test_a_mask_beside_a_picture_marks_what_is_invented(folder: Path) -> None:
