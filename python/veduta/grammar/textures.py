@@ -39,6 +39,10 @@ _NAMED = re.compile(
     rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
 
+_SHOWN = re.compile(
+    r'//[^\n]*|#[^\n]*|/\*.*?\*/|\btexture\s*\(\s*"(?P<name>[^"\n]*)"\s*\)|"[^"\n]*"', re.DOTALL
+)
+"""Comments, other strings, and `texture` with a name that is not computed."""
 _KEPT: OrderedDict[tuple[str, int, int], Texture] = OrderedDict()
 _LOCK = Lock()
 
@@ -109,6 +113,21 @@ def texture_faults(texts: Iterable[str]) -> list[str]:
             _ = is_builtin(name) and mean_colour(name)
         except InputError as error:
             told.append(str(error))
+    return told
+
+
+def missing_textures(rules: Path, files: Iterable[tuple[str, str]]) -> list[str]:
+    """Where the files, by name and text, write `texture` with a picture that is not there."""
+    files = list(files)
+    found = find_textures(rules, [text for _, text in files])
+    told = []
+    for file, text in files:
+        for match in _SHOWN.finditer(text):
+            name = match["name"]
+            if name and not is_builtin(name) and name not in found:
+                line = text.count("\n", 0, match.start()) + 1
+                why = f"no picture `{name}` lies in the folder of {rules.name} or below it"
+                told.append(f"{file}:{line}: {why}")
     return told
 
 

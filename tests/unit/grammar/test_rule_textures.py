@@ -13,7 +13,12 @@ from veduta import _core
 from veduta.formats.gltf import read_glb, write_glb
 from veduta.grammar import textures
 from veduta.grammar.building import build_part
-from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.textures import (
+    find_textures,
+    missing_textures,
+    read_textures,
+    textures_digests,
+)
 from veduta.run.errors import InputError
 
 SQUARE = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 6.0, 0.0), (0.0, 6.0, 0.0)]]
@@ -39,6 +44,22 @@ def test_pictures_below_the_folder_are_found(folder: Path) -> None:
     names = ["brick.png", "deep/stone.png", "../outside.png", "link.png", outside, "none.png"]
     texts = [f'const a = "{name}"' for name in names]
     assert list(find_textures(folder / "a.cga", texts)) == ["brick.png", "deep/stone.png"]
+
+
+def test_pictures_that_are_not_there_are_told_with_their_line(folder: Path) -> None:
+    text = """// texture("a.png")
+/* texture("b.png")
+*/ # texture("c.png")
+Lot --> texture("brick.png") print("texture(") texture("") texture("builtin/textures/brick")
+  texture( "none.png" ) texture("d" + ".png") X
+X --> texture("deep/stone.png") texture("no picture")
+"""
+    told = missing_textures(folder / "a.cga", [("a.cga", text)])
+    where = "lies in the folder of a.cga or below it"
+    assert told == [
+        f"a.cga:5: no picture `none.png` {where}",
+        f"a.cga:6: no picture `no picture` {where}",
+    ]
 
 
 def test_too_many_pictures_are_refused(folder: Path) -> None:
