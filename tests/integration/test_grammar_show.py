@@ -101,6 +101,28 @@ def test_edits_change_one_lot_and_no_other(tmp_path: Path, rules: Path, lots: Pa
     assert "[2 of 2: 50 %]" in told.stdout
 
 
+def test_a_tree_sees_the_edits_of_the_lots_beside_it(tmp_path: Path) -> None:
+    """The wall to the neighbour is hidden by it, unless an edit makes it lower than that wall."""
+    rules, lots, edits = (tmp_path / name for name in ("a.cga", "lots.geojson", "edits.txt"))
+    rules.write_text(
+        """attr height = 6
+        Lot --> extrude(height) comp(f) { side : Wall }
+        Wall --> case inside(inter) : Party. else : Free."""
+    )
+    features = []
+    for number in range(2):
+        x = 12.0 * number
+        ring = [[x, 0.0], [x + 12, 0.0], [x + 12, 9.0], [x, 9.0], [x, 0.0]]
+        shape = {"type": "Polygon", "coordinates": [ring]}
+        features.append({"type": "Feature", "id": f"house-{number}", "geometry": shape})
+    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    edits.write_text("house-1 /:Lot height = 2\n")
+    call = ["grammar", "tree", rules, "--lots", lots, "--lot", "house-0"]
+    plain = veduta(*call)
+    assert plain.stdout.count(":Party") == 1, plain.stdout + plain.stderr
+    assert veduta(*call, "--edits", edits).stdout.count(":Party") == 0
+
+
 def test_edits_that_cannot_be_done_are_told(tmp_path: Path, rules: Path, lots: Path) -> None:
     edits = tmp_path / "edits.txt"
     edits.write_text("house-0 /0/77:Bay delete\nhouse-2 /0/0:Door delete\n")

@@ -55,6 +55,7 @@ fn work_within_one_operation_is_bounded() {
         "Lot --> primitiveSphere(90, 90) splitArea(x) { { 0.05 : X. }* }",
         "Lot --> A A  A --> primitiveSphere(90, 90) t(rand(1), 0, 0) B  B --> case inside(all) : X. else : Y.",
         "Lot --> scatter(surface, 9999, uniform) { [ X. ] scatter(scope, 9999, uniform) { Y. } }",
+        "Lot --> primitiveSphere(90, 90) scatter(volume, 999, uniform) { X. }",
     ];
     for text in programs {
         let found = fault(text);

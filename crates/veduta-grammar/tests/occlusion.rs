@@ -104,6 +104,26 @@ fn neighbours_are_asked_for_by_inter() {
 }
 
 #[test]
+fn what_stands_beside_depends_on_work_and_not_on_time() {
+    let rules = code("Lot --> [ scatter(scope, 9, uniform) { X. } ] extrude(3) Y.");
+    let start = rules.start.unwrap();
+    let lot = || {
+        let scope = Scope::of_size(DVec3::new(10.0, 0.0, 6.0));
+        let geometry = Geometry::Rectangle(1);
+        State::new(Form { scope, geometry }, 0)
+    };
+    let mut options = Options::default();
+    options.limits.seconds = 0.0;
+    assert!(derive(&rules, start, lot(), &options).is_err());
+    let found = occluders(&rules, start, lot(), &options).unwrap();
+    let whole = occluders(&rules, start, lot(), &Options::default()).unwrap();
+    assert_eq!(found.len(), whole.len());
+    assert!(!found.is_empty());
+    options.limits.work = 0;
+    assert!(occluders(&rules, start, lot(), &options).is_err());
+}
+
+#[test]
 fn a_neighbour_may_be_in_a_frame_of_its_own() {
     // The same house, 10 m to the right: as a shape that stands there, or seen from there.
     let rules = code(

@@ -25,7 +25,7 @@ pub struct Surroundings {
 }
 
 /// Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
-/// nothing there.
+/// nothing there; that it takes long is no fault here.
 #[pyfunction]
 #[pyo3(signature = (rules, lots, seeds, *, start=None, attributes, edits, limits=None))]
 #[allow(clippy::too_many_arguments)] // as Python calls it: with names

@@ -66,7 +66,7 @@ def _check(arguments: list[str]) -> int:
     from veduta.cli.grammar_call import CheckCall
     from veduta.grammar.assets.library import Library
     from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
-    from veduta.grammar.textures import texture_faults
+    from veduta.grammar.textures import missing_textures, texture_faults
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
@@ -74,14 +74,18 @@ def _check(arguments: list[str]) -> int:
     verdict = check_rules(rules)
     print(verdict.told, end="")
     faults: list[str] = []
+    missing: list[str] = []
     if not verdict.errors and not verdict.underived:
         faults = Library(rules.path.parent).faults(compile_rules(rules))
         faults += texture_faults(text for _, text in rules.files)
         print("".join(f"error: {fault}\n" for fault in faults), end="")
+        missing = [] if faults else missing_textures(rules.path, rules.files)
+        print("".join(f"warning: {told}\n" for told in missing), end="")
     if verdict.underived:
         print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
     errors = verdict.errors + len(faults)
-    print(f"{call.rules}: {counted(errors, 'error')}, {counted(verdict.warnings, 'warning')}")
+    warnings = verdict.warnings + len(missing)
+    print(f"{call.rules}: {counted(errors, 'error')}, {counted(warnings, 'warning')}")
     return 2 if errors else 0
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from veduta.run.errors import InputError
@@ -53,7 +54,7 @@ def tree(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import TreeCall
     from veduta.grammar.derivation import parse as parse_rules
-    from veduta.grammar.edits import EditFault, edits_of, parse_path
+    from veduta.grammar.edits import EditFault, parse_path, read_edits
     from veduta.grammar.given import check_options, read_attributes
     from veduta.grammar.one_lot import derive_lot, find_lot
     from veduta.grammar.options import GrammarOptions
@@ -76,9 +77,11 @@ def tree(arguments: list[str]) -> int:
         derive=call.derive, limits=call.limits, lots=call.read, attributes=given
     )
     options = check_options(rules.core, rules.path, options)
+    edits = {} if call.edits is None else read_edits(call.edits)
     lot, beside = find_lot(call.lots, call.lot, call.read, call.derive.seed)
-    edits = edits_of(call.edits, lot.id)
-    derivation = derive_lot(rules, lot, options, call.derive.seed, edits, beside)
+    beside = tuple(replace(other, edits=edits.get(other.id, ())) for other in beside)
+    own = edits.get(lot.id, ())
+    derivation = derive_lot(rules, lot, options, call.derive.seed, own, beside)
     start = derivation.shape(path)
     if start is None:
         raise InputError(

@@ -232,11 +232,13 @@ def _city(
 ) -> None:
     """The lines of the buildings, of the first level that has something of each.
 
-    With `volumes`, the lots at their lowest level, closed volumes stand beside it.
+    With `volumes`, the lots at their lowest level, closed volumes stand beside it; not of lots with
+    edits, which have but one level.
     """
     for row, one in zip(rows, built, strict=True):
         derived = next(level for level in levels if level.extent(row) is not None)
-        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, volumes)
+        closed = None if one.lot.edits else volumes
+        geometry = derived.city(row, one.lot.anchor_m, CLASSES, KINDS, closed)
         about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
         about |= as_attributes(reported[one.lot.id], about)
         line = feature_line(one.lot.id, about, geometry)

@@ -204,8 +204,3 @@ def _text(path: Path) -> str:
         raise InputError(path, told, "Check its permissions.") from error
     except UnicodeDecodeError as error:
         raise InputError(path, "is not text in UTF-8", "Save it as UTF-8.") from error
-
-
-def edits_of(path: Path | None, lot: str) -> tuple[Edit, ...]:
-    """The edits of one lot; none where no file is given."""
-    return read_edits(path).get(lot, ()) if path is not None else ()

@@ -329,7 +329,7 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """The place of all that is done, and the report of the call."""
     whole, lots, options = result.built, call.lots, call.options
     work = folder.work_folder(CALL)
-    result.notes.append(placed_how(lots))
+    result.notes.append(placed_how(lots, call.blocks))
     if not is_level(lots.lots):
         result.notes.append("the ground between the lots is invented, from their heights")
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]

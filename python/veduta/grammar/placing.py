@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.tiles import Box, Tile, union
-from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs, lonlat_of
+from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
 from veduta.grammar.block import Block
 from veduta.grammar.levels import BOXES_ERROR_M
 from veduta.grammar.lots import Lot, Lots
@@ -50,7 +50,7 @@ def town_of(
     the block's origin.
     """
     origin = {block.name: block.origin_m for block in blocks}
-    grid = _grid(lots)
+    grid = _grid(lots, blocks)
     ground = None if grid is None else _on_earth(grid, lots, (0.0, 0.0, 0.0))
     tiles = []
     boxes = []
@@ -75,9 +75,9 @@ def town_of(
     return Tile(box, max(4 * BOXES_ERROR_M, size / 4), None, tuple(tiles), ground, (0.0, 0.0, 0.0))
 
 
-def placed_how(lots: Lots) -> str:
+def placed_how(lots: Lots, blocks: Sequence[Block]) -> str:
     """Where on the Earth the tiles of lots stand, in words."""
-    grid = _grid(lots)
+    grid = _grid(lots, blocks)
     if grid is not None:
         within = "" if grid.accuracy_m is None else f", known to {max(grid.accuracy_m, 0.1):g} m"
         return f"the tiles stand on the Earth by {grid.name}{within}"
@@ -90,13 +90,17 @@ def placed_how(lots: Lots) -> str:
     return f"{what}: the tiles stand in metres of their own, not on the Earth"
 
 
-def _grid(lots: Lots) -> Grid | None:
-    """The projection of the lots; None where it is not known, or ends before them."""
+def _grid(lots: Lots, blocks: Sequence[Block]) -> Grid | None:
+    """The projection of the lots; None where it is not known, or ends before one of the blocks."""
     grid = grid_of_crs(lots.crs)
+    if grid is None:
+        return None
     try:
-        return grid if grid and len(lonlat_of(grid, np.array([lots.origin_m[:2]]))) else None
+        for place_m in ((0.0, 0.0, 0.0), *(block.origin_m for block in blocks)):
+            _on_earth(grid, lots, place_m)
     except ValueError:
         return None
+    return grid
 
 
 def _on_earth(grid: Grid, lots: Lots, place_m: tuple[float, float, float]) -> NDArray[np.float64]:

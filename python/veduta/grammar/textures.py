@@ -10,9 +10,11 @@ from __future__ import annotations
 import io
 import os
 import re
+from collections import OrderedDict
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from functools import lru_cache
 from pathlib import Path
+from threading import Lock
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,12 +30,21 @@ from veduta.run.errors import InputError
 MAX_TEXTURES = 256
 MAX_PIXELS = 2**26
 """Of one picture: 67 megapixels."""
+MAX_KEPT = 2**28
+"""Bytes of the pictures that a process keeps, if they are several."""
 JPEG_QUALITY = 85
 _SAMPLES = 512
 """Rows and columns that a mean colour is taken of."""
 _NAMED = re.compile(
     rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
+
+_SHOWN = re.compile(
+    r'//[^\n]*|#[^\n]*|/\*.*?\*/|\btexture\s*\(\s*"(?P<name>[^"\n]*)"\s*\)|"[^"\n]*"', re.DOTALL
+)
+"""Comments, other strings, and `texture` with a name that is not computed."""
+_KEPT: OrderedDict[tuple[str, int, int], Texture] = OrderedDict()
+_LOCK = Lock()
 
 
 class Textures(Mapping[str, Texture]):
@@ -102,6 +113,21 @@ def texture_faults(texts: Iterable[str]) -> list[str]:
             _ = is_builtin(name) and mean_colour(name)
         except InputError as error:
             told.append(str(error))
+    return told
+
+
+def missing_textures(rules: Path, files: Iterable[tuple[str, str]]) -> list[str]:
+    """Where the files, by name and text, write `texture` with a picture that is not there."""
+    files = list(files)
+    found = find_textures(rules, [text for _, text in files])
+    told = []
+    for file, text in files:
+        for match in _SHOWN.finditer(text):
+            name = match["name"]
+            if name and not is_builtin(name) and name not in found:
+                line = text.count("\n", 0, match.start()) + 1
+                why = f"no picture `{name}` lies in the folder of {rules.name} or below it"
+                told.append(f"{file}:{line}: {why}")
     return told
 
 
@@ -180,9 +206,30 @@ def _changed(path: str) -> tuple[int, int]:
     return os.stat(path).st_mtime_ns, mask.stat().st_mtime_ns if mask.is_file() else 0
 
 
-@lru_cache(maxsize=16)
-def _read(path: str, _written: int, _mask_written: int) -> Texture:
-    """Read once in each process, unless it changes."""
+def _read(path: str, written: int, mask_written: int) -> Texture:
+    """Read once in each process, unless it changes, or many others are read after it.
+
+    The last one is kept however large it is, others while all take no more than MAX_KEPT.
+    """
+    key = (path, written, mask_written)
+    with _LOCK:
+        known = _KEPT.get(key)
+        if known is not None:
+            _KEPT.move_to_end(key)
+            return known
+    texture = _read_anew(path)
+    with _LOCK:
+        _KEPT[key] = texture
+        while len(_KEPT) > 1 and sum(map(_bytes_of, _KEPT.values())) > MAX_KEPT:
+            _KEPT.popitem(last=False)
+    return texture
+
+
+def _bytes_of(texture: Texture) -> int:
+    return texture.pixels.nbytes + texture.invented.nbytes
+
+
+def _read_anew(path: str) -> Texture:
     pixels = read_image(Path(path)).pixels
     height, width = pixels.shape[:2]
     if height * width > MAX_PIXELS:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import OrderedDict
 from pathlib import Path
 
 import numpy as np
@@ -10,8 +11,14 @@ from PIL import Image
 
 from veduta import _core
 from veduta.formats.gltf import read_glb, write_glb
+from veduta.grammar import textures
 from veduta.grammar.building import build_part
-from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.textures import (
+    find_textures,
+    missing_textures,
+    read_textures,
+    textures_digests,
+)
 from veduta.run.errors import InputError
 
 SQUARE = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 6.0, 0.0), (0.0, 6.0, 0.0)]]
@@ -39,6 +46,22 @@ def test_pictures_below_the_folder_are_found(folder: Path) -> None:
     assert list(find_textures(folder / "a.cga", texts)) == ["brick.png", "deep/stone.png"]
 
 
+def test_pictures_that_are_not_there_are_told_with_their_line(folder: Path) -> None:
+    text = """// texture("a.png")
+/* texture("b.png")
+*/ # texture("c.png")
+Lot --> texture("brick.png") print("texture(") texture("") texture("builtin/textures/brick")
+  texture( "none.png" ) texture("d" + ".png") X
+X --> texture("deep/stone.png") texture("no picture")
+"""
+    told = missing_textures(folder / "a.cga", [("a.cga", text)])
+    where = "lies in the folder of a.cga or below it"
+    assert told == [
+        f"a.cga:5: no picture `none.png` {where}",
+        f"a.cga:6: no picture `no picture` {where}",
+    ]
+
+
 def test_too_many_pictures_are_refused(folder: Path) -> None:
     for number in range(257):
         (folder / f"{number}.png").touch()
@@ -51,6 +74,26 @@ def test_a_picture_that_is_none_is_refused(folder: Path) -> None:
     (folder / "torn.jpg").write_bytes(b"no picture")
     with pytest.raises(InputError, match=r"torn\.jpg"):
         read_textures(find_textures(folder / "a.cga", ['"torn.jpg"']))
+
+
+def test_pictures_are_kept_up_to_so_many_bytes(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Each is 4 x 6 pixels of three colours and a mark: 96 bytes."""
+    names = [f"{number}.png" for number in range(4)]
+    for name in names:
+        (folder / name).write_bytes((folder / "brick.png").read_bytes())
+    files = find_textures(folder / "a.cga", [" ".join(f'"{name}"' for name in names)])
+    monkeypatch.setattr(textures, "_KEPT", OrderedDict())
+    monkeypatch.setattr(textures, "MAX_KEPT", 2 * 96)
+    shown = read_textures(files)
+    assert [Path(path).name for path, _, _ in textures._KEPT] == names[2:]
+    assert shown["2.png"] is shown["2.png"]
+    assert shown["0.png"].pixels.shape == (4, 6, 3)
+    assert [Path(path).name for path, _, _ in textures._KEPT] == ["2.png", "0.png"]
+    monkeypatch.setattr(textures, "MAX_KEPT", 1)
+    assert shown["3.png"] is shown["3.png"]
+    assert len(textures._KEPT) == 1
 
 
 def test_a_mask_beside_a_picture_marks_what_is_invented(folder: Path) -> None:

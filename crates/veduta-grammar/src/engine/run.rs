@@ -100,18 +100,20 @@ pub fn derive(code: &Code, rule: usize, start: State, options: &Options) -> Resu
 }
 
 /// What a start shape puts in the way of others, for [`Neighbour`]: the first of the two passes.
+///
+/// No clock stops it, but the other limits do: what stands beside a lot must not depend on how busy
+/// the machine is.
 pub fn occluders(
     code: &Code,
     rule: usize,
     start: State,
     options: &Options,
 ) -> Result<Vec<Occluder>, Fault> {
-    let mut run = Run::new(
-        code,
-        options,
-        Tree::default(),
-        Clock::starting(options.limits),
-    );
+    let limits = Limits {
+        seconds: f64::INFINITY,
+        ..options.limits
+    };
+    let mut run = Run::new(code, options, Tree::default(), Clock::starting(limits));
     run.trail = Some(Trail::default());
     run.recorded = Some(Vec::new());
     run.all(rule, start)?;

@@ -54,20 +54,17 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let mut scopes = Vec::with_capacity(count as usize);
     for _ in 0..count as usize {
         run.check_time(op.span)?;
-        scopes.push(match &surface {
-            None if room.is_some() => {
-                let found = (0..TRIES).find_map(|_| {
-                    let place = in_scope(&scope, bell.as_ref(), &mut frame.stream);
-                    let is_within = room.as_ref().is_some_and(|room| room.holds(place.origin));
-                    is_within.then_some(place)
-                });
-                // So thin a shape has no room for the point.
-                let Some(place) = found else { continue };
-                place
+        scopes.push(match (&surface, &room) {
+            (None, Some(room)) => {
+                match room.point(run, op, &scope, bell.as_ref(), &mut frame.stream)? {
+                    Some(place) => place,
+                    // So thin a shape has no room for the point.
+                    None => continue,
+                }
             }
-            Some(surface) if surface.sums.is_empty() => break,
-            Some(surface) => surface.point(&scope, bell.as_ref(), &mut frame.stream),
-            None => in_scope(&scope, bell.as_ref(), &mut frame.stream),
+            (Some(surface), _) if surface.sums.is_empty() => break,
+            (Some(surface), _) => surface.point(&scope, bell.as_ref(), &mut frame.stream),
+            (None, None) => in_scope(&scope, bell.as_ref(), &mut frame.stream),
         });
     }
     let whole = frame.state.clone();
@@ -89,6 +86,8 @@ pub fn scatter(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
 
 /// What a point costs, in steps of work.
 const STEPS_PER_POINT: usize = 256;
+/// What the solid angle of a triangle costs, in steps of work.
+const STEPS_PER_TRIANGLE: usize = 8;
 
 /// A bell curve in shares of the scope's size.
 struct Bell {
@@ -155,6 +154,25 @@ impl Room {
             );
         }
         Ok(Self { triangles: all })
+    }
+
+    /// A place in it; None where none of those drawn is. Each costs a look at all triangles.
+    fn point(
+        &self,
+        run: &Run<'_>,
+        op: &Operation,
+        scope: &Scope,
+        bell: Option<&Bell>,
+        stream: &mut Stream,
+    ) -> Result<Option<Scope>, Fault> {
+        for _ in 0..TRIES {
+            run.take(STEPS_PER_TRIANGLE * self.triangles.len(), op.span)?;
+            let place = in_scope(scope, bell, stream);
+            if self.holds(place.origin) {
+                return Ok(Some(place));
+            }
+        }
+        Ok(None)
     }
 
     /// Whether the surface goes round a place: by the solid angles of its triangles (van Oosterom
