@@ -1,7 +1,7 @@
 """Towns of synthetic lots: time, memory and size by their number.
 
-    python benchmarks/grammar_scale.py                   # 10 to 10,000 lots, kept in results/
-    python benchmarks/grammar_scale.py 100000 -o OUT     # any numbers, only printed
+    python benchmarks/grammar_scale.py                   # 10 to 100,000 lots, kept in results/
+    python benchmarks/grammar_scale.py 10000 -o OUT      # any numbers, only printed
 
 Derives the style `haussmann` with tiles and without CityJSON, one process for each core. Memory is
 the proportional set size of all processes together. With -o the town of the last number stays, and
@@ -26,7 +26,7 @@ from record import Value, keep_or_print
 
 from veduta.synthetic.lots import street_of_lots
 
-COUNTS = (10, 100, 1000, 10_000)
+COUNTS = (10, 100, 1000, 10_000, 100_000)
 IN_STREET = 40
 STREET_M, BLOCK_M = 340.0, 75.0
 """From the beginning of one street to the next in its line, and between lines."""
