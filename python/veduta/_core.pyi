@@ -499,7 +499,7 @@ def derive_surroundings(
     limits: GrammarLimits | None = None,
 ) -> Surroundings:
     """Derives what lots put in the way of others, as `derive_lots` derives them. A lot that fails puts
-    nothing there.
+    nothing there; that it takes long is no fault here.
     """
 
 # tiles.rs
