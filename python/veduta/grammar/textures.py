@@ -36,7 +36,7 @@ JPEG_QUALITY = 85
 _SAMPLES = 512
 """Rows and columns that a mean colour is taken of."""
 _NAMED = re.compile(
-    rf'"({PREFIX}[^"\n\0]{{0,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+    rf'"({PREFIX}[^"\n\0]{{1,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
 )
 
 _SHOWN = re.compile(

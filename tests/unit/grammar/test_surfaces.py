@@ -8,7 +8,6 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from veduta.grammar import tile_pictures
 from veduta.grammar.surfaces.bonds import random_lengths, running
 from veduta.grammar.surfaces.canvas import MOST_PX, Canvas
 from veduta.grammar.surfaces.catalogue import (
@@ -19,7 +18,8 @@ from veduta.grammar.surfaces.catalogue import (
     sizes_m,
     texture_names,
 )
-from veduta.grammar.textures import Textures
+from veduta.grammar.textures import Textures, mean_light
+from veduta.grammar.tile_pictures import picture_files
 from veduta.run.errors import InputError
 
 Pixels = NDArray[np.uint8]
@@ -40,10 +40,9 @@ def test_a_texture_is_what_the_catalogue_says(name: str) -> None:
     assert max(picture.shape[:2]) == MOST_PX
     # Pixels are square, so that nothing is stretched where it lies in metres.
     assert picture.shape[1] / width == pytest.approx(picture.shape[0] / height, rel=3e-3)
-    textures = Textures({})
-    light = tile_pictures.mean_colour(textures[name])
+    light = mean_light(Textures({})[name].pixels)
     np.testing.assert_allclose(light, mean_colour(name), atol=0.008)
-    [content] = tile_pictures.picture_files(textures, [name]).values()
+    [content] = picture_files({name: name}, [name]).values()
     assert len(content) < 180_000
 
 
