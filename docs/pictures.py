@@ -6,6 +6,7 @@ No photo of anybody goes into them: the street is designed and rendered by `vedu
 from __future__ import annotations
 
 import argparse
+import io
 import os
 import re
 import shutil
@@ -104,6 +105,16 @@ def _strip(pictures: Sequence[Image.Image], height_px: int) -> Image.Image:
         strip.paste(image, (x, 0))
         x += image.width + GAP_PX
     return strip
+
+
+def small_jpeg(image: Image.Image, most_bytes: int) -> bytes:
+    """The content of a JPEG file, at the best quality that keeps it small."""
+    for quality in (88, 82, 75, 68, 60):
+        buffer = io.BytesIO()
+        image.save(buffer, "JPEG", quality=quality, optimize=True, progressive=True)
+        if buffer.tell() < most_bytes:
+            break
+    return buffer.getvalue()
 
 
 def save(image: Image.Image, name: str) -> None:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import argparse
-import io
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from pictures import small_jpeg
 from PIL import Image
 
 from veduta import _core
@@ -61,7 +61,7 @@ def main() -> None:
     parser.add_argument("styles", nargs="*", help="styles to render; all where none is named")
     for style in parser.parse_args().styles or style_names():
         path = IMAGES / f"style-{style}.jpg"
-        path.write_bytes(_jpeg(_picture(style, SCENES[style])))
+        path.write_bytes(small_jpeg(_picture(style, SCENES[style]), MAX_BYTES))
         print(f"{path.name}: {path.stat().st_size} bytes")
 
 
@@ -95,16 +95,6 @@ def _ground() -> Part:
 
 def _rectangle(left: float, low: float, right: float, high: float, z: float) -> list[Point]:
     return [(left, low, z), (right, low, z), (right, high, z), (left, high, z)]
-
-
-def _jpeg(image: Image.Image) -> bytes:
-    """At the best quality that keeps the file small."""
-    for quality in (88, 82, 75, 68, 60):
-        buffer = io.BytesIO()
-        image.save(buffer, "JPEG", quality=quality, optimize=True, progressive=True)
-        if buffer.tell() < MAX_BYTES:
-            break
-    return buffer.getvalue()
 
 
 if __name__ == "__main__":

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import io
 from pathlib import Path
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from pictures import small_jpeg
 from PIL import Image, ImageDraw, ImageFont
 
 from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES, painted
@@ -59,7 +59,7 @@ def main() -> None:
         sheet.paste(Image.fromarray(_wall(name, (width, height))), (x, y))
         pen.text((x, y + height + 2), name, (38, 40, 44), font)
     path = IMAGES / "textures.jpg"
-    path.write_bytes(_jpeg(sheet))
+    path.write_bytes(small_jpeg(sheet, MAX_BYTES))
     print(f"{path.name}: {path.stat().st_size} bytes")
 
 
@@ -74,16 +74,6 @@ def _wall(name: str, size_px: tuple[int, int]) -> NDArray[np.uint8]:
     colour = np.array([int(text[at : at + 2], 16) for at in (1, 3, 5)]) / 255.0
     linear = (wall / 255.0) ** 2.2 * colour**2.2
     return np.asarray(np.rint(255.0 * linear ** (1 / 2.2)), np.uint8)
-
-
-def _jpeg(image: Image.Image) -> bytes:
-    """At the best quality that keeps the file small."""
-    for quality in (88, 82, 75, 68, 60):
-        buffer = io.BytesIO()
-        image.save(buffer, "JPEG", quality=quality, optimize=True, progressive=True)
-        if buffer.tell() < MAX_BYTES:
-            break
-    return buffer.getvalue()
 
 
 if __name__ == "__main__":
