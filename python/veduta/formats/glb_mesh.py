@@ -10,6 +10,7 @@ import numpy as np
 import trimesh
 
 from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, ReadMesh
+from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -67,6 +68,5 @@ def _material(piece: trimesh.Trimesh) -> tuple[str, Colour | None]:
     if factor is None:
         return name, None
     linear = np.asarray(factor, dtype=np.float64)[:3] / 255.0
-    srgb = np.where(linear <= 0.0031308, 12.92 * linear, 1.055 * linear ** (1 / 2.4) - 0.055)
-    red, green, blue = np.clip(srgb, 0.0, 1.0).round(4).tolist()
+    red, green, blue = np.clip(srgb_of_linear(linear), 0.0, 1.0).round(4).tolist()
     return name, (red, green, blue)

@@ -23,6 +23,7 @@ from pydantic import JsonValue
 
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
 from veduta.imaging.read import read_image
+from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour, Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
@@ -88,7 +89,7 @@ def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
     """
     folder = os.path.realpath(rules.parent)
     found: dict[str, str] = {}
-    for name in dict.fromkeys(name for text in texts for name in _NAMED.findall(text)):
+    for name in _named(texts):
         path = os.path.realpath(os.path.join(folder, name))
         if is_builtin(name):
             mean_colour(name)
@@ -100,6 +101,11 @@ def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
     return found
 
 
+def _named(texts: Iterable[str]) -> Iterable[str]:
+    """What the texts name as pictures, each once."""
+    return dict.fromkeys(name for text in texts for name in _NAMED.findall(text))
+
+
 def with_builtin(files: Mapping[str, str]) -> dict[str, str]:
     """The pictures of `find_textures`, and all built-in ones: rules may compute their names."""
     return {name: name for name in sizes_m()} | dict(files)
@@ -108,7 +114,7 @@ def with_builtin(files: Mapping[str, str]) -> dict[str, str]:
 def texture_faults(texts: Iterable[str]) -> list[str]:
     """What is wrong with the built-in textures that the texts name."""
     told = []
-    for name in dict.fromkeys(name for text in texts for name in _NAMED.findall(text)):
+    for name in _named(texts):
         try:
             _ = is_builtin(name) and mean_colour(name)
         except InputError as error:
@@ -181,8 +187,8 @@ def mean_light(pixels: NDArray[np.uint8]) -> Colour:
     """The sRGB colour of the mean light of (h, w, 3) sRGB pixels (IEC 61966-2-1)."""
     rows, columns = (-(-size // _SAMPLES) for size in pixels.shape[:2])
     some = pixels[::rows, ::columns].reshape(-1, 3) / 255.0
-    light = np.where(some <= 0.04045, some / 12.92, ((some + 0.055) / 1.055) ** 2.4).mean(axis=0)
-    told = np.where(light <= 0.0031308, light * 12.92, 1.055 * light ** (1 / 2.4) - 0.055)
+    light = linear_of_srgb(some).mean(axis=0)
+    told = srgb_of_linear(light)
     red, green, blue = told.tolist()
     return red, green, blue
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from veduta.imaging.srgb import srgb_of_linear
 from veduta.synthetic.seeds import stream
 
 _FOCAL_LENGTH_35MM = 0xA405
@@ -47,8 +48,7 @@ def develop(radiance: NDArray[np.float32], lens: Lens, seed: int) -> NDArray[np.
     over = np.maximum(light - shoulder, 0.0)
     light = np.minimum(light, shoulder) + (1 - shoulder) * over / (over + (1 - shoulder))
     light = np.clip(light, 0.0, 1.0)
-    encoded = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
-    return np.asarray(np.rint(encoded * 255.0), np.uint8)
+    return np.asarray(np.rint(srgb_of_linear(light) * 255.0), np.uint8)
 
 
 def encode_jpeg(pixels: NDArray[np.uint8], lens: Lens, focal_mm35: float | None) -> bytes:

@@ -11,6 +11,7 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
+from veduta.imaging.srgb import linear_of_srgb
 from veduta.place.flatten import flattened
 from veduta.place.material import Material
 from veduta.place.part import Part
@@ -103,10 +104,7 @@ class RayScene:
         return albedo, mirror
 
 
-_SRGB = np.arange(256) / 255.0
-_LINEAR_OF_SRGB = np.where(
-    _SRGB <= 0.04045, _SRGB / 12.92, ((_SRGB + 0.055) / 1.055) ** 2.4
-).astype(np.float32)
+_LINEAR_OF_SRGB = linear_of_srgb(np.arange(256) / 255.0).astype(np.float32)
 
 
 def _texels(material: Material, mirror: NDArray[np.uint8] | None) -> NDArray[np.uint8]:
