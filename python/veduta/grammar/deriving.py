@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import functools
 import hashlib
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 from veduta import _core
 from veduta.grammar.assets.library import Library
@@ -18,6 +19,7 @@ from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError
 
 Vector = tuple[float, float, float]
+Made = TypeVar("Made", _core.DerivedLots, _core.Surroundings)
 
 
 @dataclass(frozen=True)
@@ -42,8 +44,8 @@ class Deriver:
         stands beside them is there at the same level.
         """
         around, rows = self.surroundings(lots, level)
-        while True:
-            made = _core.derive_lots(
+        return self._complete(
+            lambda: _core.derive_lots(
                 self.rules,
                 [rings_of(lot) for lot in lots],
                 self._seeds(lots),
@@ -54,8 +56,7 @@ class Deriver:
                 beside=rows,
                 limits=self.options.limits.core,
             )
-            if not self._add_missing(made):
-                return made
+        )
 
     def surroundings(
         self, lots: Sequence[Lot], level: float
@@ -82,8 +83,8 @@ class Deriver:
             ]
             for lot in lots
         ]
-        while True:
-            around = _core.derive_surroundings(
+        around = self._complete(
+            lambda: _core.derive_surroundings(
                 self.rules,
                 [rings_of(lot) for lot in sound],
                 self._seeds(sound),
@@ -92,8 +93,8 @@ class Deriver:
                 edits=[[edit.core for edit in lot.edits] for lot in sound],
                 limits=self.options.limits.core,
             )
-            if not self._add_missing(around):
-                return around, rows
+        )
+        return around, rows
 
     def fault(self, derived: _core.DerivedLots, row: int, lot: Lot) -> str | None:
         """Why a lot gives no building; None where it may."""
@@ -102,6 +103,13 @@ class Deriver:
             return fault_told(lot.edits, derived.edit_faults(row))
         why = self.refused.get(derived.missing_asset(row) or "")
         return f"{told} ({why})" if why else told
+
+    def _complete(self, make: Callable[[], Made]) -> Made:
+        """What `make` gives, again where lots want assets whose names only the derivation shows."""
+        while True:
+            made = make()
+            if not self._add_missing(made):
+                return made
 
     def _add_missing(self, made: _core.DerivedLots | _core.Surroundings) -> bool:
         """Make the assets known that are wanted; whether there is a new one."""

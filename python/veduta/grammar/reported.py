@@ -58,28 +58,23 @@ def as_attributes(values: Mapping[str, Attribute], taken: Iterable[str]) -> Valu
 
 def sums_of(rows: Iterable[Mapping[str, Attribute]]) -> dict[str, Sum]:
     """The numbers of each key over buildings, in the order of the keys' first values."""
-    found: dict[str, Sum] = {}
-    for row in rows:
-        for key, value in row.items():
-            if isinstance(value, float):
-                one = Sum(1, value, value, value)
-                if key in found:
-                    found[key] += one
-                elif len(found) < MAX_KEYS:
-                    found[key] = one
-    return found
+    values = (item for row in rows for item in row.items())
+    return _added((key, Sum(1, one, one, one)) for key, one in values if isinstance(one, float))
 
 
 def joined(blocks: Iterable[Mapping[str, Mapping[str, Any]]]) -> dict[str, Sum]:
     """The sums of several blocks, from `as_json`."""
+    return _added((key, Sum(**one)) for block in blocks for key, one in block.items())
+
+
+def _added(sums: Iterable[tuple[str, Sum]]) -> dict[str, Sum]:
+    """One sum for each of the first keys."""
     found: dict[str, Sum] = {}
-    for block in blocks:
-        for key, one in block.items():
-            more = Sum(**one)
-            if key in found:
-                found[key] += more
-            elif len(found) < MAX_KEYS:
-                found[key] = more
+    for key, one in sums:
+        if key in found:
+            found[key] += one
+        elif len(found) < MAX_KEYS:
+            found[key] = one
     return found
 
 
