@@ -1,7 +1,8 @@
 """Rule files: where they are, what they import, whether they can be used.
 
-A rule file is named by its path, or by a style that Veduta brings along (`haussmann`). What it
-imports is read from its own folder and the folders below, and from nowhere else.
+A rule file is named by its path, or by a style that Veduta brings along (`haussmann`, or as it is
+stored, `styles/haussmann.cga`). What it imports is read from its own folder and the folders below,
+and from nowhere else.
 """
 
 from __future__ import annotations
@@ -61,8 +62,8 @@ def find_rules(name: str) -> Path:
     if os.path.lexists(path):
         return path
     styles = style_names()
-    if name in styles:
-        return STYLES / f"{name}{SUFFIX}"
+    if name in styles or path in {Path(STYLES.name, f"{style}{SUFFIX}") for style in styles}:
+        return STYLES / f"{path.stem}{SUFFIX}"
     if path.suffix or os.path.dirname(name):
         raise InputError(name, "does not exist", "Check its name.")
     near = difflib.get_close_matches(name, styles, n=1)

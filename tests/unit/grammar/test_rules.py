@@ -78,6 +78,7 @@ def test_what_does_not_derive_is_no_error_of_the_file(tmp_path: Path) -> None:
 
 def test_a_style_needs_no_path_and_a_slip_is_helped() -> None:
     assert find_rules("haussmann").is_file()
+    assert find_rules("styles/haussmann.cga") == find_rules("haussmann")
     with pytest.raises(InputError, match="Did you mean `haussmann`"):
         find_rules("hausmann")
     with pytest.raises(InputError, match="does not exist"):
