@@ -10,6 +10,7 @@ use crate::derivation::GivenEdit;
 use crate::derived_lot::{lot_to_python, Derived, DerivedLot};
 use crate::given::{Given, GivenBack};
 use crate::grammar::{Failed, GrammarRules, Rings};
+use crate::interruptible::of_each_lot;
 use crate::limits::{limits_of, GrammarLimits};
 use crate::standing::box_of;
 use crate::surroundings::{neighbours, Beside, Surroundings};
@@ -45,16 +46,12 @@ fn derive_lots(
     for (options, beside) in options.iter_mut().zip(beside) {
         options.neighbours = beside;
     }
-    let mut found = Vec::with_capacity(lots.len());
-    for (lots, options) in lots.chunks(AT_ONCE).zip(options.chunks(AT_ONCE)) {
-        found.extend(py.detach(|| rules.all(lots, options, rule)));
-        py.check_signals()?;
-    }
-    Ok(DerivedLots { lots: found })
+    let lots = of_each_lot(py, &lots, &options, |lot, options| {
+        rules.one(lot, options, rule)
+    })?;
+    Ok(DerivedLots { lots })
 }
 
-/// Lots that are derived before Ctrl-C is heard.
-pub const AT_ONCE: usize = 4;
 /// Red, green and blue, sRGB, 0 to 1.
 type Colour = (f32, f32, f32);
 /// Lower and upper corner, and how much there is.

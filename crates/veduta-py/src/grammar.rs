@@ -7,7 +7,6 @@ use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use veduta_grammar::engine::{
     asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Limits, Options,
     State,
@@ -18,6 +17,7 @@ use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset, Textures};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
+use crate::interruptible::of_each_lot;
 use crate::limits::{limits_of, option_of, GrammarLimits};
 use crate::pace::pace;
 use crate::rules::{program_of, rendered, Files};
@@ -159,7 +159,9 @@ impl GrammarRules {
             return Err(PyValueError::new_err(WANTED));
         }
         let options = self.options_of(&seeds, given, edits, limits_of(limits))?;
-        let found = py.detach(|| self.all(&lots, &options, rule));
+        let found = of_each_lot(py, &lots, &options, |lot, options| {
+            self.one(lot, options, rule)
+        })?;
         found.into_iter().map(|one| to_python(py, one)).collect()
     }
 
@@ -269,21 +271,12 @@ impl GrammarRules {
         Ok(each.collect())
     }
 
-    /// What the rules make of each lot.
-    pub fn all(
-        &self,
-        lots: &[Rings],
-        options: &[Options],
-        rule: usize,
-    ) -> Vec<Result<Derived, Failed>> {
-        let each = lots.par_iter().zip(options);
-        each.map(|(lot, options)| {
-            let start = self.start_shape(lot, options)?;
-            let tree = derive(&self.code, rule, start, options);
-            let tree = tree.map_err(|fault| self.failed(fault))?;
-            Ok(derived_of(&tree, &self.code))
-        })
-        .collect()
+    /// What the rules make of a lot.
+    pub fn one(&self, lot: &Rings, options: &Options, rule: usize) -> Result<Derived, Failed> {
+        let start = self.start_shape(lot, options)?;
+        let tree = derive(&self.code, rule, start, options);
+        let tree = tree.map_err(|fault| self.failed(fault))?;
+        Ok(derived_of(&tree, &self.code))
     }
 
     /// The shape that a lot's derivation starts with.

@@ -12,6 +12,7 @@ mod derived_lots;
 mod flat;
 mod given;
 mod grammar;
+mod interruptible;
 mod limits;
 mod pace;
 mod polygons;

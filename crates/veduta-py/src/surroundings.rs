@@ -5,13 +5,12 @@ use std::sync::Arc;
 
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use rayon::prelude::*;
 use veduta_grammar::engine::{from_place, occluders, Neighbour, Occluder};
 
 use crate::derivation::GivenEdit;
-use crate::derived_lots::AT_ONCE;
 use crate::given::Given;
 use crate::grammar::{Failed, GrammarRules, Rings};
+use crate::interruptible::of_each_lot;
 use crate::limits::{limits_of, GrammarLimits};
 
 /// Numbers of lots in `Surroundings`, and how far their frames lie from that of the lot beside them
@@ -41,20 +40,12 @@ fn derive_surroundings(
 ) -> PyResult<Surroundings> {
     let rule = rules.start_rule(start)?;
     let options = rules.options_of(&seeds, attributes, edits, limits_of(limits))?;
-    let mut found = Vec::with_capacity(lots.len());
-    for (lots, options) in lots.chunks(AT_ONCE).zip(options.chunks(AT_ONCE)) {
-        found.extend(py.detach(|| {
-            let each = lots.par_iter().zip(options);
-            let each = each.map(|(lot, options)| {
-                let start = rules.start_shape(lot, options)?;
-                let shapes = occluders(&rules.code, rule, start, options);
-                shapes.map(Arc::new).map_err(|fault| rules.failed(fault))
-            });
-            each.collect::<Vec<_>>()
-        }));
-        py.check_signals()?;
-    }
-    Ok(Surroundings { lots: found })
+    let lots = of_each_lot(py, &lots, &options, |lot, options| {
+        let start = rules.start_shape(lot, options)?;
+        let shapes = occluders(&rules.code, rule, start, options);
+        shapes.map(Arc::new).map_err(|fault| rules.failed(fault))
+    })?;
+    Ok(Surroundings { lots })
 }
 
 #[pymethods]
