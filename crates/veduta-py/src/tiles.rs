@@ -62,10 +62,23 @@ pub struct Codes {
     pub provenances: Vec<String>,
 }
 
-fn code_of<'a>(names: &'a [String]) -> impl Fn(&str) -> u8 + 'a {
-    let known: HashMap<&str, u8> = names.iter().map(String::as_str).zip(0..).collect();
-    let other = (names.len() - 1) as u8;
-    move |name| known.get(name).copied().unwrap_or(other)
+/// The number of each name; the last is that of all others.
+struct Numbers<'a> {
+    known: HashMap<&'a str, u8>,
+    other: u8,
+}
+
+impl<'a> Numbers<'a> {
+    fn of(names: &'a [String]) -> Self {
+        Self {
+            known: names.iter().map(String::as_str).zip(0..).collect(),
+            other: (names.len() - 1) as u8,
+        }
+    }
+
+    fn of_name(&self, name: &str) -> u8 {
+        self.known.get(name).copied().unwrap_or(self.other)
+    }
 }
 
 /// The columns of the buildings that go into a tile.
@@ -93,108 +106,142 @@ pub fn tile(
     codes: &Codes,
     textures: &Textures,
 ) -> Result<TileBuffers, String> {
-    let mut surfaces = Surfaces::default();
-    let mut materials = Materials::default();
-    let mut rules = HashMap::new();
-    let code = code_of(&codes.classes);
-    let provenance = code_of(&codes.provenances);
-    let mut counts = Vec::new();
-    let mut all = Vec::new();
-    let mut stands = Stands::default();
-    for (number, lot) in lots.iter().enumerate() {
-        let first = surfaces.class.len() as u32;
-        let mut count = vec![0; codes.classes.len()];
+    let mut making = Making {
+        classes: Numbers::of(&codes.classes),
+        class_count: codes.classes.len(),
+        provenances: Numbers::of(&codes.provenances),
+        textures,
+        rules: HashMap::new(),
+        surfaces: Surfaces::default(),
+        materials: Materials::default(),
+        counts: Vec::with_capacity(lots.len()),
+        stands: Stands::default(),
+    };
+    let each = lots.iter().zip(places);
+    let columns: Vec<Columns> = each.map(|(lot, &place)| making.add(lot, place)).collect();
+    making.finish(lots, places, &columns)
+}
+
+/// A tile while lots are added to it.
+struct Making<'a> {
+    classes: Numbers<'a>,
+    class_count: usize,
+    provenances: Numbers<'a>,
+    textures: &'a Textures,
+    rules: HashMap<&'a str, usize>,
+    surfaces: Surfaces,
+    materials: Materials,
+    counts: Vec<Vec<u32>>,
+    stands: Stands,
+}
+
+impl<'a> Making<'a> {
+    /// Adds what a lot has that is not in its polygons, and gives the columns of these.
+    fn add(&mut self, lot: &'a Derived, place: [f64; 3]) -> Columns {
+        let first = self.surfaces.class.len() as u32;
+        self.add_surfaces(lot);
+        let of_feature = &lot.surfaces.of_feature;
+        let provenance = &self.surfaces.provenance[first as usize..];
+        let told: Vec<u8> = of_feature.iter().map(|&s| provenance[s as usize]).collect();
+        let material = self.polygon_materials(lot, &told);
+        self.add_assets(lot, place, first, &told);
+        let leaves = &lot.packed.polygon_feature;
+        let of = |column: &[u32]| leaves.iter().map(|&leaf| column[leaf as usize]).collect();
+        let mut feature: Vec<u32> = of(of_feature);
+        feature.iter_mut().for_each(|own| *own += first);
+        Columns {
+            feature,
+            material,
+            piece: of(&lot.pieces),
+            part: leaves.iter().map(|&leaf| leaf as u32).collect(),
+        }
+    }
+
+    fn add_surfaces(&mut self, lot: &'a Derived) {
+        let (building, surfaces) = (self.counts.len() as u16, &mut self.surfaces);
+        let mut count = vec![0; self.class_count];
         for (row, name) in lot.names.iter().enumerate() {
-            let class = code(&lot.surfaces.class[row]);
+            let class = self.classes.of_name(&lot.surfaces.class[row]);
             count[usize::from(class)] += 1;
             surfaces.class.push(class);
-            surfaces.building.push(number as u16);
-            let next = rules.len();
-            let rule = *rules.entry(name.as_str()).or_insert(next);
+            surfaces.building.push(building);
+            let next = self.rules.len();
+            let rule = *self.rules.entry(name.as_str()).or_insert(next);
+            if rule == next {
+                surfaces.rules.push(name.clone());
+            }
             surfaces.rule.push(rule.min(usize::from(u16::MAX)) as u16);
             let [width, height] = lot.surfaces.size[row];
             surfaces.width_mm.push(millimetres(width));
             surfaces.height_mm.push(millimetres(height));
         }
-        counts.push(count);
-        let told: Vec<u8> = lot
-            .surfaces
-            .provenance
-            .iter()
-            .map(|p| provenance(p))
-            .collect();
-        surfaces.provenance.extend(&told);
-        let told_of = |leaf: usize| told[lot.surfaces.of_feature[leaf] as usize];
+        self.counts.push(count);
+        let told = lot.surfaces.provenance.iter();
+        let told = told.map(|name| self.provenances.of_name(name));
+        surfaces.provenance.extend(told);
+    }
+
+    /// The number of each polygon's material; `told` is the provenance of each leaf.
+    fn polygon_materials(&mut self, lot: &Derived, told: &[u8]) -> Vec<u32> {
         let mut numbers = HashMap::new();
-        let mut material = |leaf: i32| {
-            let (look, told) = (
-                lot.packed.feature_look[leaf as usize],
-                told_of(leaf as usize),
-            );
+        let mut material = |&leaf: &i32| {
+            let leaf = leaf as usize;
+            let (look, told) = (lot.packed.feature_look[leaf], told[leaf]);
             *numbers.entry((look, told)).or_insert_with(|| {
                 let look = &lot.packed.looks[look as usize];
-                let (colour, texture) = textures.seen(look);
-                let kind = (code(&look.class), told);
-                materials.number(kind, colour, look.opacity, texture)
+                let (colour, texture) = self.textures.seen(look);
+                let kind = (self.classes.of_name(&look.class), told);
+                self.materials.number(kind, colour, look.opacity, texture)
             })
         };
-        let material: Vec<u32> = lot
-            .packed
-            .polygon_feature
-            .iter()
-            .map(|&l| material(l))
-            .collect();
-        stands.add(lot, places[number], first, |leaf, look, slot| {
-            let kind = (code(&look.class), told_of(leaf));
+        let leaves = lot.packed.polygon_feature.iter();
+        leaves.map(&mut material).collect()
+    }
+
+    /// Adds the assets that stand in a lot whose surfaces count from `first`.
+    fn add_assets(&mut self, lot: &Derived, place: [f64; 3], first: u32, told: &[u8]) {
+        self.stands.add(lot, place, first, |leaf, look, slot| {
+            let kind = (self.classes.of_name(&look.class), told[leaf]);
             let name = slot.texture.as_ref().map(|(name, _)| name.as_ref());
-            let (colour, texture) = textures.seen_as(slot.colour_in(look.colour), name);
-            let number = materials.number(kind, colour, look.opacity, texture);
+            let colour = slot.colour_in(look.colour);
+            let (colour, texture) = self.textures.seen_as(colour, name);
+            let number = self.materials.number(kind, colour, look.opacity, texture);
             (number, texture.is_some())
         });
-        let leaves = &lot.packed.polygon_feature;
-        let of = |column: &[u32]| leaves.iter().map(|&leaf| column[leaf as usize]).collect();
-        all.push(Columns {
-            feature: leaves
-                .iter()
-                .map(|&leaf| first + lot.surfaces.of_feature[leaf as usize])
-                .collect(),
-            material,
-            piece: of(&lot.pieces),
-            part: leaves.iter().map(|&leaf| leaf as u32).collect(),
-        });
     }
-    let mut named: Vec<(&str, usize)> = rules.into_iter().collect();
-    named.sort_by_key(|(_, number)| *number);
-    surfaces.rules = named
-        .into_iter()
-        .map(|(name, _)| name.to_string())
-        .collect();
-    let each = materials.rows.iter();
-    let mapped: Vec<bool> = each.map(|(.., texture)| texture.is_some()).collect();
-    let buildings: Vec<Building<'_>> = lots
-        .iter()
-        .zip(&all)
-        .zip(places)
-        .map(|((lot, columns), &offset)| Building {
-            positions: &lot.packed.positions,
-            ring_offsets: &lot.packed.ring_offsets,
-            polygon_offsets: &lot.packed.polygon_offsets,
-            feature: &columns.feature,
-            material: &columns.material,
-            piece: &columns.piece,
-            part: &columns.part,
-            uv: &lot.packed.uv,
-            mapped: &mapped,
-            offset,
+
+    fn finish(
+        self,
+        lots: &[&Derived],
+        places: &[[f64; 3]],
+        columns: &[Columns],
+    ) -> Result<TileBuffers, String> {
+        let each = self.materials.rows.iter();
+        let mapped: Vec<bool> = each.map(|(.., texture)| texture.is_some()).collect();
+        let each = lots.iter().zip(columns).zip(places);
+        let buildings: Vec<Building<'_>> = each
+            .map(|((lot, columns), &offset)| Building {
+                positions: &lot.packed.positions,
+                ring_offsets: &lot.packed.ring_offsets,
+                polygon_offsets: &lot.packed.polygon_offsets,
+                feature: &columns.feature,
+                material: &columns.material,
+                piece: &columns.piece,
+                part: &columns.part,
+                uv: &lot.packed.uv,
+                mapped: &mapped,
+                offset,
+            })
+            .collect();
+        let stands = self.stands.finish()?;
+        let batch = batch(&buildings, &stands).map_err(|error| error.to_string())?;
+        Ok(TileBuffers {
+            batch,
+            surfaces: self.surfaces,
+            materials: self.materials.rows,
+            counts: self.counts,
         })
-        .collect();
-    let batch = batch(&buildings, &stands.finish()?).map_err(|error| error.to_string())?;
-    Ok(TileBuffers {
-        batch,
-        surfaces,
-        materials: materials.rows,
-        counts,
-    })
+    }
 }
 
 fn millimetres(size_m: f64) -> u16 {
