@@ -8,15 +8,15 @@
 use std::sync::Arc;
 
 use glam::DVec3;
-use veduta_geometry::solid::{relation, Mesh, Relation};
+use veduta_geometry::solid::{relation, Relation};
 
-use crate::shape::box_distance;
+use crate::shape::{box_distance, Scope};
 use crate::Span;
 
 use super::converting::convert;
 use super::fault::Fault;
 use super::materials;
-use super::occluders::{Around, Neighbour};
+use super::occluders::{Around, Neighbour, Occluder};
 use super::run::Run;
 use super::state::State;
 use super::value::{Array, Value};
@@ -104,8 +104,21 @@ impl Query {
     }
 }
 
+/// Which shapes a question is about.
+struct Wanted {
+    target: String,
+    label: String,
+}
+
+impl Wanted {
+    /// Whether it has the label that is asked for, if any.
+    fn has(&self, one: &Around<'_>) -> bool {
+        self.label.is_empty() || one.shape.label.as_deref() == Some(&self.label)
+    }
+}
+
 impl Run<'_> {
-    /// The answer to a question about the shapes around the current one.
+    /// The answer to a question about the current shape, or about the shapes around it.
     pub(super) fn answer(
         &self,
         query: Query,
@@ -114,98 +127,61 @@ impl Run<'_> {
         span: Span,
     ) -> Result<Value, Fault> {
         match query {
-            Query::TreeKey => {
-                let path = self.tree.path(self.at);
-                let all = path.iter().map(|place| format!("{place};"));
-                return Ok(Value::text(&format!("0;{}", all.collect::<String>())));
-            }
-            Query::AssetInfo => return self.asset_info(args, span),
+            Query::TreeKey => Ok(self.tree_key()),
+            Query::AssetInfo => self.asset_info(args, span),
             Query::Convert => {
-                return convert(args, state, self.first())
-                    .map_err(|message| Fault::at(span, message));
+                convert(args, state, self.first()).map_err(|message| Fault::at(span, message))
             }
-            Query::Material => {
-                let wanted = args.get(1).map(ToString::to_string);
-                let pairs = materials::pairs(&state.look, wanted.as_deref() == Some("all"));
-                let values = pairs.iter().flatten().map(|text| Value::text(text));
-                return Ok(Value::Array(Arc::new(Array {
-                    columns: 2,
-                    values: values.collect(),
-                })));
+            Query::Material => Ok(material(args, state)),
+            _ if self.recorded.is_some() => Ok(query.nothing()),
+            Query::Inside | Query::Overlaps | Query::Touches => {
+                let wanted = self.wanted(args, span)?;
+                self.occluded(query, &wanted, state, span)
             }
-            _ => {}
+            Query::Distance | Query::Count | Query::Rank => {
+                let wanted = self.wanted(args, span)?;
+                if wanted.label.is_empty() {
+                    return Ok(query.nothing());
+                }
+                let all = self.among(&wanted, |_| true, |_| true);
+                Ok(Value::Number(match query {
+                    Query::Distance => nearest(all, &state.form.scope),
+                    Query::Rank => before(all, &argument(args, 2, span)?, state, span)? as f64,
+                    _ => all.count() as f64,
+                }))
+            }
         }
-        if self.recorded.is_some() {
-            return Ok(query.nothing());
-        }
-        let text = |index: usize| {
-            let text = args.get(index).map_or(Ok(String::new()), Value::written);
-            text.map_err(|why| Fault::at(span, why))
-        };
-        let (target, label) = (text(0)?, text(1)?);
+    }
+
+    /// Which shapes are asked for, and the work of looking at each.
+    fn wanted(&self, args: &[Value], span: Span) -> Result<Wanted, Fault> {
+        let (target, label) = (argument(args, 0, span)?, argument(args, 1, span)?);
         let others = self.options.neighbours.iter().map(Neighbour::count);
         self.take(self.around.len() + others.sum::<usize>(), span)?;
-        let own = self.around.iter().filter(|_| target != "inter");
-        let beside = self.options.neighbours.iter();
-        let beside = beside.filter(|_| target != "intra");
-        let is_meant = |one: &Around<'_>| {
-            let name = one.shape.label.as_deref();
-            label.is_empty() || name == Some(&label)
-        };
-        match query {
-            Query::Inside | Query::Overlaps | Query::Touches => {
-                let mesh = state.form.world_mesh();
-                let Some((low, high)) = mesh.bounds().filter(|_| !mesh.is_empty()) else {
-                    return Ok(query.nothing());
-                };
-                let near = NOTHING * low.distance(high);
-                let own = own.filter(|one| !self.is_kin(one)).map(Around::from);
-                let beside = beside.filter(|one| one.reaches(low, high, near));
-                let others = beside.flat_map(Neighbour::around);
-                let all = own.chain(others).filter(is_meant);
-                let closed = state.form.geometry.is_solid();
-                self.occluded(query, all, &mesh, closed, span)
-            }
-            Query::TreeKey | Query::AssetInfo | Query::Convert | Query::Material => {
-                Ok(query.nothing())
-            }
-            _ if label.is_empty() => Ok(query.nothing()),
-            Query::Count => {
-                let all = own.map(Around::from);
-                let all = all.chain(beside.flat_map(Neighbour::around));
-                Ok(Value::Number(all.filter(is_meant).count() as f64))
-            }
-            Query::Distance => {
-                let all = own.map(Around::from);
-                let all = all.chain(beside.flat_map(Neighbour::around));
-                let far = all.filter(is_meant).map(|one| {
-                    let mut scope = state.form.scope;
-                    scope.origin -= one.offset;
-                    box_distance(&scope, &one.shape.scope)
-                });
-                Ok(Value::Number(far.fold(f64::INFINITY, f64::min)))
-            }
-            Query::Rank => {
-                let order = text(2)?;
-                let mesh = state.form.world_mesh();
-                let (low, high) = mesh.bounds().unwrap_or_default();
-                let here = ordered(&order, low, high, || mesh.area());
-                let here = here.ok_or_else(|| {
-                    Fault::at(
-                        span,
-                        format!("`{order}` is no order: world.highest, area.largest, ..."),
-                    )
-                })?;
-                let all = own.map(Around::from);
-                let all = all.chain(beside.flat_map(Neighbour::around));
-                let before = all.filter(is_meant).filter(|one| {
-                    let area = || one.shape.mesh.area();
-                    let there = ordered(&order, one.low(), one.high(), area);
-                    there.is_some_and(|there| there > here + NOTHING * here.abs())
-                });
-                Ok(Value::Number(before.count() as f64))
-            }
-        }
+        Ok(Wanted { target, label })
+    }
+
+    /// The shapes that are asked for: of the derivation's own, and of its neighbours.
+    fn among<'o>(
+        &'o self,
+        wanted: &'o Wanted,
+        own: impl Fn(&Occluder) -> bool + 'o,
+        beside: impl Fn(&Neighbour) -> bool + 'o,
+    ) -> impl Iterator<Item = Around<'o>> {
+        let (has_own, has_others) = (wanted.target != "inter", wanted.target != "intra");
+        let shapes = self.around.iter();
+        let shapes = shapes.filter(move |one| has_own && own(one));
+        let others = self.options.neighbours.iter();
+        let others = others.filter(move |one| has_others && beside(one));
+        let all = shapes.map(Around::from);
+        all.chain(others.flat_map(Neighbour::around))
+            .filter(|one| wanted.has(one))
+    }
+
+    fn tree_key(&self) -> Value {
+        let path = self.tree.path(self.at);
+        let all = path.iter().map(|place| format!("{place};"));
+        Value::text(&format!("0;{}", all.collect::<String>()))
     }
 
     /// The shapes that `label` gave this name in the first pass of this derivation, and in those of its
@@ -231,23 +207,32 @@ impl Run<'_> {
         }))
     }
 
-    fn occluded<'o>(
+    /// Whether one of the closed shapes that are asked for lies as the question says.
+    fn occluded(
         &self,
         query: Query,
-        occluders: impl Iterator<Item = Around<'o>>,
-        mesh: &Mesh,
-        closed: bool,
+        wanted: &Wanted,
+        state: &State,
         span: Span,
     ) -> Result<Value, Fault> {
-        let (low, high) = mesh.bounds().unwrap_or_default();
+        let mesh = state.form.world_mesh();
+        let Some((low, high)) = mesh.bounds().filter(|_| !mesh.is_empty()) else {
+            return Ok(query.nothing());
+        };
         let near = NOTHING * low.distance(high);
+        let closed = state.form.geometry.is_solid();
+        let occluders = self.among(
+            wanted,
+            |one| !self.is_kin(one),
+            |one| one.reaches(low, high, near),
+        );
         for one in occluders.filter(|one| one.shape.closed) {
             if low.cmpgt(one.high() + near).any() || one.low().cmpgt(high + near).any() {
                 continue;
             }
             self.check_time(span)?;
             let found = if one.offset == DVec3::ZERO {
-                relation(mesh, &one.shape.mesh, self.budget())
+                relation(&mesh, &one.shape.mesh, self.budget())
             } else {
                 let moved = mesh.clone().mapped(|point| point - one.offset);
                 relation(&moved, &one.shape.mesh, self.budget())
@@ -259,6 +244,54 @@ impl Run<'_> {
         }
         Ok(Value::Bool(false))
     }
+}
+
+/// An argument as text; empty where it is not given.
+fn argument(args: &[Value], index: usize, span: Span) -> Result<String, Fault> {
+    let text = args.get(index).map_or(Ok(String::new()), Value::written);
+    text.map_err(|why| Fault::at(span, why))
+}
+
+fn material(args: &[Value], state: &State) -> Value {
+    let wanted = args.get(1).map(ToString::to_string);
+    let pairs = materials::pairs(&state.look, wanted.as_deref() == Some("all"));
+    let values = pairs.iter().flatten().map(|text| Value::text(text));
+    Value::Array(Arc::new(Array {
+        columns: 2,
+        values: values.collect(),
+    }))
+}
+
+/// How far the nearest scope is (m); infinite where there is none.
+fn nearest<'o>(all: impl Iterator<Item = Around<'o>>, scope: &Scope) -> f64 {
+    let far = all.map(|one| {
+        let mut scope = *scope;
+        scope.origin -= one.offset;
+        box_distance(&scope, &one.shape.scope)
+    });
+    far.fold(f64::INFINITY, f64::min)
+}
+
+/// How many come before the current shape in this order.
+fn before<'o>(
+    all: impl Iterator<Item = Around<'o>>,
+    order: &str,
+    state: &State,
+    span: Span,
+) -> Result<usize, Fault> {
+    let mesh = state.form.world_mesh();
+    let (low, high) = mesh.bounds().unwrap_or_default();
+    let here = ordered(order, low, high, || mesh.area());
+    let here = here.ok_or_else(|| {
+        let told = format!("`{order}` is no order: world.highest, area.largest, ...");
+        Fault::at(span, told)
+    })?;
+    let first = all.filter(|one| {
+        let area = || one.shape.mesh.area();
+        let there = ordered(order, one.low(), one.high(), area);
+        there.is_some_and(|there| there > here + NOTHING * here.abs())
+    });
+    Ok(first.count())
 }
 
 /// What shapes are ordered by, the first having the most of it; None of an unknown word.
