@@ -11,6 +11,7 @@ from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
 import tyro
 
+from veduta.cli.choices import require_choices
 from veduta.cli.numbers import require_numbers
 
 T = TypeVar("T")
@@ -33,6 +34,7 @@ def parse(
     """
     if not {"-h", "--help"} & set(arguments):
         require_numbers(call, arguments)
+        require_choices(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
     registry.primitive_rule(_optional)
     with registry:

@@ -71,7 +71,7 @@ def require_numbers(call: type[Any], arguments: Sequence[str]) -> None:
         name, equals, joined = word.partition("=")
         option = options.get(name.replace("_", "-"))
         if option is not None:
-            following = _values(arguments[place + 1 :])
+            following = values_after(arguments[place + 1 :])
             _require(option, [joined] if equals else following[: option.count])
 
 
@@ -81,7 +81,7 @@ def number_options(call: type[Any]) -> list[NumberOption]:
         return _of_model(call)
     found = []
     for name, annotation in get_type_hints(call, include_extras=True).items():
-        kind = _plain(annotation)
+        kind = plain(annotation)
         if isinstance(kind, type) and issubclass(kind, BaseModel):
             found += _of_model(kind)
         elif kind in (int, float):
@@ -111,16 +111,16 @@ def _of_model(model: type[BaseModel]) -> list[NumberOption]:
     return found
 
 
-def _plain(annotation: Any) -> Any:
+def plain(annotation: Any) -> Any:
     """The type without annotations, and without the None of an option that need not be given."""
     kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
     if get_origin(kind) not in (Union, types.UnionType):
         return kind
-    kinds = [_plain(part) for part in get_args(kind) if part is not type(None)]
+    kinds = [plain(part) for part in get_args(kind) if part is not type(None)]
     return kinds[0] if len(kinds) == 1 else kind
 
 
-def _values(words: Sequence[str]) -> list[str]:
+def values_after(words: Sequence[str]) -> list[str]:
     """The words up to the next option; a negative number is a value."""
     found = []
     for word in words:
