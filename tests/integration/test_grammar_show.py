@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 from command_line import read_json, tree, veduta
 from PIL import Image
+from rows_of_houses import write_row
 
 RULES = """
 attr height = 50% : 6 else : 9
@@ -31,14 +31,8 @@ def rules(tmp_path: Path) -> Path:
 
 @pytest.fixture
 def lots(tmp_path: Path) -> Path:
-    features = []
-    for number in range(3):
-        x = 20.0 * number
-        ring = [[x, 0.0], [x + 12, 0.0], [x + 12, 9.0], [x, 9.0], [x, 0.0]]
-        shape = {"type": "Polygon", "coordinates": [ring]}
-        features.append({"type": "Feature", "id": f"house-{number}", "geometry": shape})
     path = tmp_path / "lots.geojson"
-    path.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    write_row(path, 3)
     return path
 
 
@@ -109,13 +103,7 @@ def test_a_tree_sees_the_edits_of_the_lots_beside_it(tmp_path: Path) -> None:
         Lot --> extrude(height) comp(f) { side : Wall }
         Wall --> case inside(inter) : Party. else : Free."""
     )
-    features = []
-    for number in range(2):
-        x = 12.0 * number
-        ring = [[x, 0.0], [x + 12, 0.0], [x + 12, 9.0], [x, 9.0], [x, 0.0]]
-        shape = {"type": "Polygon", "coordinates": [ring]}
-        features.append({"type": "Feature", "id": f"house-{number}", "geometry": shape})
-    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    write_row(lots, 2, every_m=12)
     edits.write_text("house-1 /:Lot height = 2\n")
     call = ["grammar", "tree", rules, "--lots", lots, "--lot", "house-0"]
     plain = veduta(*call)

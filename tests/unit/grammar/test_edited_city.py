@@ -5,6 +5,8 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from rows_of_houses import write_row
+
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
 from veduta.run.progress import Progress
@@ -21,15 +23,9 @@ Roof --> comp(f) { bottom : NIL | all : Slope. }
 
 
 def test_a_lot_with_edits_has_its_full_detail_alone(tmp_path: Path) -> None:
-    features = []
-    for number in range(2):
-        x = 20.0 * number
-        ring = [[x, 0.0], [x + 12, 0.0], [x + 12, 9.0], [x, 9.0], [x, 0.0]]
-        shape = {"type": "Polygon", "coordinates": [ring]}
-        features.append({"type": "Feature", "id": f"house-{number}", "geometry": shape})
     rules, lots, edits = (tmp_path / name for name in ("a.cga", "lots.geojson", "edits.txt"))
     rules.write_text(RULES)
-    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    write_row(lots, 2)
     edits.write_text("house-1 /:Lot height = 9\n")
     out = tmp_path / "out"
     result = run_derive(
