@@ -149,10 +149,12 @@ def _derive(arguments: list[str]) -> int:
 
 def _tell_failures(result: DeriveResult) -> None:
     from veduta.cli.main import tell_bugs
+    from veduta.grammar.same_faults import told_once
 
-    for failure in result.failures[:MAX_FAILURES]:
+    failures = told_once(result.failures)
+    for failure in failures[:MAX_FAILURES]:
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
-    more = len(result.failures) - MAX_FAILURES
+    more = len(failures) - MAX_FAILURES
     if more > 0:
         print(f"error: {more} more: {result.out / 'report.html'}", file=sys.stderr)
     tell_bugs(result.tracebacks)

@@ -9,6 +9,7 @@ from typing import Any
 
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.reported import FILE, Sum, as_json, joined
+from veduta.grammar.same_faults import told_once
 from veduta.run.page import Bars, Page, Table, render
 from veduta.run.report import Failure, Report, StepRecord
 
@@ -66,7 +67,7 @@ def derive_report(
         steps=steps,
         measures={**found, "results": results},
         notes=[*notes, *_notes(whole)],
-        failures=list(failures),
+        failures=told_once(failures),
     )
     page = Page(
         title=rules,
