@@ -25,6 +25,12 @@ pub struct Items<'a> {
     methods: HashMap<String, Vec<(&'a str, &'a ImplItemFn)>>,
 }
 
+/// What the files declare, each with its file.
+pub fn each_item<'a>(files: &'a [(&'a str, File)]) -> impl Iterator<Item = (&'a str, &'a Item)> {
+    let own = |(name, file): &'a (&'a str, File)| file.items.iter().map(move |item| (*name, item));
+    files.iter().flat_map(own)
+}
+
 impl<'a> Items<'a> {
     pub fn of(files: &'a [(&'a str, File)]) -> Result<Self, StubError> {
         let mut found = Self {
@@ -33,10 +39,7 @@ impl<'a> Items<'a> {
             classes: Vec::new(),
             methods: HashMap::new(),
         };
-        for (file, item) in files
-            .iter()
-            .flat_map(|(f, all)| all.items.iter().map(move |i| (*f, i)))
-        {
+        for (file, item) in each_item(files) {
             match item {
                 Item::Macro(one) if one.mac.path.is_ident("create_exception") => {
                     let (name, base) = exception(&one.mac.tokens).ok_or_else(|| {

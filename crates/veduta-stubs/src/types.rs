@@ -5,7 +5,7 @@ use std::collections::{BTreeSet, HashMap};
 use quote::ToTokens;
 use syn::{Fields, File, GenericArgument, Item, PathArguments, PathSegment, Type};
 
-use crate::items::python_name;
+use crate::items::{each_item, python_name};
 
 /// Whether Python gives a value or gets it: PyO3 takes any sequence where it gives a list.
 #[derive(Clone, Copy, PartialEq)]
@@ -34,10 +34,7 @@ impl<'a> Names<'a> {
             unions: HashMap::new(),
             classes: HashMap::new(),
         };
-        for (file, item) in files
-            .iter()
-            .flat_map(|(f, all)| all.items.iter().map(move |i| (*f, i)))
-        {
+        for (file, item) in each_item(files) {
             match item {
                 Item::Type(alias) => {
                     let (name, known) = (alias.ident.to_string(), (file, &*alias.ty));
