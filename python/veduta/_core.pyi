@@ -17,6 +17,7 @@ class MissingAsset:
     @property
     def why(self) -> str:
         """What the lot's failure is where there is no such asset."""
+    def __repr__(self) -> str: ...
 
 # chain.rs
 class ChainFault(ValueError): ...
@@ -105,6 +106,7 @@ class Derivation:
         False where there is no such shape.
         """
     def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
     @property
     def log_prior(self) -> float: ...
     @property
@@ -204,11 +206,13 @@ class DerivedLot:
     @property
     def edit_faults(self) -> list[tuple[list[int], str]]:
         """Path and fault of each edit that could not be done."""
+    def __repr__(self) -> str: ...
 
 # derived_lots.rs
 class DerivedLots:
     """Lots that were derived and stay on this side: columns are made for what is asked."""
     def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
     def fault(self, lot: int) -> str | None:
         """Why a lot has no shapes; None where it has."""
     def missing_asset(self, lot: int) -> str | None:
@@ -298,6 +302,7 @@ class GrammarRules:
         import, under the names in its import statements.
         `style` is one of the main file's; `Default` where it is None.
         """
+    def __repr__(self) -> str: ...
     @property
     def styles(self) -> list[str]:
         """The styles of the main file, `Default` first."""
@@ -391,6 +396,7 @@ class GrammarLimits:
         memory: int,
     ) -> GrammarLimits:
         """`memory`: bytes. `work`: steps, each looking at one pair of faces, edges or corners."""
+    def __repr__(self) -> str: ...
 
 # polygons.rs
 class PolygonFault(ValueError): ...
@@ -475,6 +481,7 @@ def grammar_operations() -> list[str]:
 class Surroundings:
     """The shapes that lots put in the way of others: those that the first of the two passes makes."""
     def __len__(self) -> int: ...
+    def __repr__(self) -> str: ...
     def missing_asset(self, lot: int) -> str | None:
         """The asset that a lot's rules want and that is not known; None where nothing is wanted."""
 
@@ -505,6 +512,7 @@ def derive_surroundings(
 # tiles.rs
 class TileBuffers:
     """The buffers of one tile."""
+    def __repr__(self) -> str: ...
     @property
     def bounds(self) -> tuple[tuple[float, float, float], tuple[float, float, float]] | None:
         """Lower and upper corner (m, z up); None where there is nothing to draw."""

@@ -76,3 +76,10 @@ pub struct MissingAsset {
     /// What the lot's failure is where there is no such asset.
     pub why: String,
 }
+
+#[pymethods]
+impl MissingAsset {
+    fn __repr__(&self) -> String {
+        format!("MissingAsset({:?})", self.name)
+    }
+}

@@ -131,6 +131,11 @@ impl Derivation {
         self.tree.nodes.len()
     }
 
+    fn __repr__(&self) -> String {
+        let (name, shapes) = (self.rules.get().name(), self.tree.nodes.len());
+        format!("Derivation({name:?}, shapes={shapes})")
+    }
+
     #[getter]
     fn log_prior(&self) -> f64 {
         self.tree.log_prior

@@ -99,6 +99,18 @@ pub struct DerivedLot {
     edit_faults: Vec<(Vec<u32>, String)>,
 }
 
+#[pymethods]
+impl DerivedLot {
+    fn __repr__(&self, py: Python<'_>) -> PyResult<String> {
+        let surfaces = self.feature_name.len();
+        let polygons = self.polygon_feature.bind(py).len()?;
+        let assets = self.instance_feature.bind(py).len()?;
+        Ok(format!(
+            "DerivedLot(surfaces={surfaces}, polygons={polygons}, assets={assets})"
+        ))
+    }
+}
+
 /// What became of a lot: its columns, an asset that it wants, or why there is nothing.
 #[derive(IntoPyObject)]
 pub enum Outcome<'py> {

@@ -66,6 +66,11 @@ impl DerivedLots {
         self.lots.len()
     }
 
+    fn __repr__(&self) -> String {
+        let failed = self.lots.iter().filter(|lot| lot.is_err()).count();
+        format!("DerivedLots(lots={}, failed={failed})", self.lots.len())
+    }
+
     /// Why a lot has no shapes; None where it has.
     fn fault(&self, lot: usize) -> PyResult<Option<String>> {
         let failed = self.lot(lot)?.as_ref().err();

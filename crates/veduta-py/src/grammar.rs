@@ -53,6 +53,13 @@ impl GrammarRules {
             .map_err(GrammarFault::new_err)
     }
 
+    fn __repr__(&self) -> String {
+        let globals = self.code.globals.iter();
+        let (name, rules) = (self.name(), self.code.rules.len());
+        let attributes = globals.filter(|global| global.is_attribute).count();
+        format!("GrammarRules({name:?}, rules={rules}, attributes={attributes})")
+    }
+
     /// The styles of the main file, `Default` first.
     #[getter]
     fn styles(&self) -> Vec<String> {
@@ -234,6 +241,11 @@ fn style_names(program: &Program, checked: &Checked) -> Vec<String> {
 }
 
 impl GrammarRules {
+    /// The name of the main file.
+    pub fn name(&self) -> &str {
+        self.sources.first().map_or("", Source::name)
+    }
+
     pub fn start_rule(&self, name: Option<&str>) -> PyResult<usize> {
         let found = match name {
             Some(name) => self.code.rule_named(name),

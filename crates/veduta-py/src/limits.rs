@@ -34,6 +34,22 @@ impl GrammarLimits {
         };
         Self { limits }
     }
+
+    fn __repr__(&self) -> String {
+        let Limits {
+            depth,
+            shapes,
+            faces,
+            parts,
+            seconds,
+            work,
+            memory,
+        } = self.limits;
+        format!(
+            "GrammarLimits(depth={depth}, shapes={shapes}, faces={faces}, parts={parts}, \
+             seconds={seconds}, work={work}, memory={memory})"
+        )
+    }
 }
 
 /// The limits that are given, or those of the engine.

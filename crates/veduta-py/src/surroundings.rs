@@ -54,6 +54,11 @@ impl Surroundings {
         self.lots.len()
     }
 
+    fn __repr__(&self) -> String {
+        let failed = self.lots.iter().filter(|lot| lot.is_err()).count();
+        format!("Surroundings(lots={}, failed={failed})", self.lots.len())
+    }
+
     /// The asset that a lot's rules want and that is not known; None where nothing is wanted.
     fn missing_asset(&self, lot: usize) -> PyResult<Option<String>> {
         let found = self.lots.get(lot).ok_or_else(|| no_lot(lot))?;

@@ -37,6 +37,12 @@ type RepeatedMesh<'py> = (
 
 #[pymethods]
 impl TileBuffers {
+    fn __repr__(&self) -> String {
+        let (lots, surfaces) = (self.counts.len(), self.surfaces.class.len());
+        let triangles = self.batch.triangles;
+        format!("TileBuffers(lots={lots}, surfaces={surfaces}, triangles={triangles})")
+    }
+
     /// Lower and upper corner (m, z up); None where there is nothing to draw.
     #[getter]
     fn bounds(&self) -> Option<Box3> {

@@ -58,6 +58,10 @@ class Rules:
             except _core.AssetWanted as wanted:
                 self.library.add_to(self.core, str(wanted.args[1]))
 
+    def __repr__(self) -> str:
+        starts, attributes = len(self.starts), len(self.attributes)
+        return f'Rules("{self.path.name}", starts={starts}, attributes={attributes})'
+
     @property
     def starts(self) -> list[str]:
         """The rules that a derivation can start with, the one that it does start with first."""
@@ -90,6 +94,9 @@ class Polygons:
     ring_offsets: NDArray[np.int64]
     polygon_offsets: NDArray[np.int64]
 
+    def __repr__(self) -> str:
+        return f"Polygons(polygons={len(self.polygon_offsets) - 1}, corners={len(self.corners_m)})"
+
 
 class Derivation:
     """A derived building that stays, with all of its shapes; `derive` makes it."""
@@ -104,6 +111,9 @@ class Derivation:
 
     def __len__(self) -> int:
         return len(self._core)
+
+    def __repr__(self) -> str:
+        return f'Derivation("{self.rules.path.name}", shapes={len(self)})'
 
     @property
     def log_prior(self) -> float:

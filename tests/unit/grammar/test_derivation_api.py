@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from veduta import grammar
+from veduta import _core, grammar
 from veduta.grammar import Edit, Shape
 from veduta.run.errors import InputError
 
@@ -184,3 +184,41 @@ def test_styles_of_a_file(tmp_path: Path) -> None:
     assert made == {None: "Plain", "Rich": "Gold"}
     with pytest.raises(InputError, match="Did you mean `Rich`"):
         grammar.parse(path, style="Rch")
+
+
+def test_what_is_printed_says_what_it_is(rules: grammar.Rules) -> None:
+    house = grammar.derive(rules, LOT, seed=3)
+    shapes = len(list(house.shapes()))
+    columns = house.columns()
+    surfaces, polygons = len(columns.feature_name), len(columns.polygon_feature)
+    (wall,) = (shape for shape in house.shapes() if shape.path == (1,))
+    found = [
+        (rules, 'Rules("house.cga", starts=2, attributes=1)'),
+        (rules.core, f'GrammarRules("{rules.path}", rules=4, attributes=1)'),
+        (house, f'Derivation("house.cga", shapes={shapes})'),
+        (house._core, f'Derivation("{rules.path}", shapes={shapes})'),
+        (wall.polygons(), "Polygons(polygons=1, corners=4)"),
+        (columns, f"DerivedLot(surfaces={surfaces}, polygons={polygons}, assets=0)"),
+    ]
+    assert [repr(one) for one, _ in found] == [told for _, told in found]
+
+
+def test_what_lots_became_says_how_many(rules: grammar.Rules) -> None:
+    square = [[(0.0, 0.0, 0.0), (5.0, 0.0, 0.0), (5.0, 5.0, 0.0)]]
+    empty = [[(0.0, 0.0, 0.0)]]
+    given = ([square, empty, square], [1, 2, 3])
+    more = {"attributes": [{}] * 3, "edits": [[]] * 3}
+    lots = _core.derive_lots(rules.core, *given, **more)
+    assert repr(lots) == "DerivedLots(lots=3, failed=1)"
+    around = _core.derive_surroundings(rules.core, *given, **more)
+    assert repr(around) == "Surroundings(lots=3, failed=1)"
+    tile = lots.tile([0, 2], [(0.0, 0.0, 0.0)] * 2, ["wall"], ["invented"])
+    surfaces = sum(sum(counts) for counts in tile.counts)
+    told = f"TileBuffers(lots=2, surfaces={surfaces}, triangles={tile.triangles})"
+    assert repr(tile) == told
+    limits = _core.GrammarLimits(depth=1, shapes=2, faces=3, parts=4, seconds=5.5, work=6, memory=7)
+    told = "depth=1, shapes=2, faces=3, parts=4, seconds=5.5, work=6, memory=7"
+    assert repr(limits) == f"GrammarLimits({told})"
+    wanting = _core.GrammarRules([("a.cga", 'Lot --> i("no-such-asset")')])
+    (missing,) = wanting.derive([square], [0])
+    assert repr(missing) == 'MissingAsset("no-such-asset")'
