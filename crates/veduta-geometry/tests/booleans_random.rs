@@ -7,6 +7,9 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
+#[path = "support/draw.rs"]
+mod draw;
+
 use std::f64::consts::TAU;
 use std::fmt::Write;
 
@@ -15,28 +18,15 @@ use veduta_geometry::solid::{
     boolean, cone, cube, cylinder, roofed, sphere, Boolean, Gables, Mesh, RoofKind,
 };
 
+use draw::Draw;
+
 const ALL: [Boolean; 3] = [Boolean::Union, Boolean::Subtract, Boolean::Intersect];
 const PAIRS: u64 = 2_000;
 
-/// Numbers at random (SplitMix64: Steele, Lea and Flood 2014).
-struct Draw(u64);
-
 impl Draw {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, most: u64) -> u64 {
-        self.next() % most
-    }
-
     /// From -1 to 1.
     fn number(&mut self) -> f64 {
-        self.next() as f64 / u64::MAX as f64 * 2.0 - 1.0
+        self.share() * 2.0 - 1.0
     }
 
     fn vector(&mut self) -> DVec3 {
@@ -51,9 +41,9 @@ impl Draw {
     fn solid(&mut self, steps: bool) -> Mesh {
         let base = match self.below(6) {
             0 | 1 => cube(),
-            2 => cylinder(3 + self.below(9) as usize),
-            3 => cone(3 + self.below(9) as usize),
-            4 => sphere(3 + self.below(5) as usize, 2 + self.below(4) as usize),
+            2 => cylinder(3 + self.below(9)),
+            3 => cone(3 + self.below(9)),
+            4 => sphere(3 + self.below(5), 2 + self.below(4)),
             _ => {
                 let plan = [
                     (0.0, 0.0),
@@ -76,7 +66,7 @@ impl Draw {
                         even: false,
                     },
                 ];
-                roofed(&plan, &kinds[self.below(4) as usize], 0.7).unwrap()
+                roofed(&plan, &kinds[self.below(4)], 0.7).unwrap()
             }
         };
         let quarter = |v: DVec3| if steps { (4.0 * v).round() / 4.0 } else { v };

@@ -6,9 +6,14 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
+#[path = "../../veduta-geometry/tests/support/draw.rs"]
+mod draw;
+
 use std::path::Path;
 
 use veduta_grammar::{check, format, parse, print, Names, Program, Source, Span};
+
+use draw::Draw;
 
 const FILES: u64 = 6_000;
 
@@ -63,18 +68,7 @@ const WORDS: &[&str] = &[
     "a.b",
 ];
 
-/// Numbers at random (SplitMix64: Steele, Lea and Flood 2014).
-struct Draw(u64);
-
 impl Draw {
-    fn below(&mut self, most: usize) -> usize {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        ((z ^ (z >> 31)) % most as u64) as usize
-    }
-
     /// A place between characters.
     fn place(&mut self, text: &str) -> usize {
         let mut at = self.below(text.len() + 1);

@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
 
+#[path = "../../veduta-geometry/tests/support/draw.rs"]
+mod draw;
 mod programs;
 mod support;
 

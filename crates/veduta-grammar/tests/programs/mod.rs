@@ -7,6 +7,7 @@ use std::f64::consts::TAU;
 use veduta_grammar::engine::{lower, Code, State};
 use veduta_grammar::{check, Program, Source};
 
+use super::draw::Draw;
 use super::support;
 
 /// What programs are made of: operations with `#` for a number and `@` for a rule, and numbers.
@@ -81,28 +82,9 @@ fn lot(draw: &mut Draw) -> State {
     }
 }
 
-/// Numbers at random (SplitMix64: Steele, Lea and Flood 2014).
-struct Draw(u64);
-
 impl Draw {
-    fn next(&mut self) -> u64 {
-        self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
-        z ^ (z >> 31)
-    }
-
-    fn below(&mut self, most: usize) -> usize {
-        (self.next() % most as u64) as usize
-    }
-
     fn one_in(&mut self, count: usize) -> bool {
         self.below(count) == 0
-    }
-
-    fn share(&mut self) -> f64 {
-        self.next() as f64 / u64::MAX as f64
     }
 
     fn plain(&mut self) -> &'static str {
