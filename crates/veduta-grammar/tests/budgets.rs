@@ -56,6 +56,9 @@ fn work_within_one_operation_is_bounded() {
         "Lot --> A A  A --> primitiveSphere(90, 90) t(rand(1), 0, 0) B  B --> case inside(all) : X. else : Y.",
         "Lot --> scatter(surface, 9999, uniform) { [ X. ] scatter(scope, 9999, uniform) { Y. } }",
         "Lot --> primitiveSphere(90, 90) scatter(volume, 999, uniform) { X. }",
+        "Lot --> primitiveSphere(90, 90) A(9)  A(n) --> case n < 1 : X. else : cleanupGeometry(all, 0) A(n - 1)",
+        "Lot --> primitiveSphere(90, 90) innerRectangle(edge) { shape : X. }",
+        "Lot --> primitiveCylinder(999) r(90, 0, 0) comp(f) { top : trim() trim() trim() X. }",
     ];
     for text in programs {
         let found = fault(text);

@@ -24,13 +24,14 @@ pub fn inner_rectangle(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> 
     let axes = whole.form.scope.axes;
     let (mut inner, mut rest) = (Mesh::new(), Mesh::new());
     for face in mesh.faces() {
-        run.check_time(op.span)?;
         let normal = face.normal();
         let ways = if by_edge {
             long_edges(&mesh, face)
         } else {
             vec![along_scope(axes, normal)]
         };
+        let lines = LINES_BETWEEN + face.rings().map(<[u32]>::len).sum::<usize>();
+        run.take(ways.len() * lines * lines, op.span)?;
         let placed = ways
             .into_iter()
             .filter_map(|along| Placed::within(&mesh, face, along));
@@ -44,6 +45,9 @@ pub fn inner_rectangle(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> 
         None => rest.clone(),
     })
 }
+
+/// Lines across a face that are tried beside those through its corners: each with each.
+const LINES_BETWEEN: usize = 48;
 
 /// The scope's axis that lies most nearly in a face.
 fn along_scope(axes: DMat3, normal: DVec3) -> DVec3 {

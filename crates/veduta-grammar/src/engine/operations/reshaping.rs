@@ -64,6 +64,7 @@ pub fn footprint(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
         };
     }
     let extent = whole.bounds().map_or(0.0, |(low, high)| low.distance(high));
+    run.take(STEPS_PER_CORNER * whole.corner_count(), op.span)?;
     let whole = cleaned(
         &whole,
         &Cleaning {
@@ -87,6 +88,9 @@ pub fn footprint(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result
     Ok(())
 }
 
+/// What a corner of what is cleaned costs, in steps of the budget.
+const STEPS_PER_CORNER: usize = 16;
+
 /// How far points may be apart (m), edges from straight and faces from level (degrees), and how
 /// large faces may be (m2), for `cleanupGeometry` with tolerance 1.
 const WIDEST: (f64, f64, f64) = (1.0, 10.0, 1.0);
@@ -109,8 +113,10 @@ pub fn clean(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
         return Ok(());
     };
     let extent = form.scope.size.length();
+    let mesh = form.world_mesh();
+    run.take(STEPS_PER_CORNER * mesh.corner_count(), op.span)?;
     let clean = cleaned(
-        &form.world_mesh(),
+        &mesh,
         &Cleaning {
             points: takes("vertices"),
             edges: takes("edges"),

@@ -41,7 +41,7 @@ pub fn trim(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
             false => !extra.keeps_steep,
         };
         if is_on && !mesh.is_empty() {
-            run.check_time(op.span)?;
+            run.take(STEPS_PER_CORNER * mesh.corner_count(), op.span)?;
             mesh = kept(mesh, plane, solid);
         }
     }
@@ -53,6 +53,9 @@ pub fn trim(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     frame.changed();
     Ok(())
 }
+
+/// What a corner of what is cut costs, in steps of the budget.
+const STEPS_PER_CORNER: usize = 4;
 
 fn kept(mesh: Mesh, plane: &TrimPlane, solid: bool) -> Mesh {
     let (y, z) = plane.normal.any_orthonormal_pair();
