@@ -150,7 +150,7 @@ def _derive(arguments: list[str]) -> int:
 def _tell_failures(result: DeriveResult) -> None:
     from veduta.cli.main import tell_bugs
 
-    for failure in result.failures[:MAX_FAILURES]:
+    for failure in result.failures.named[:MAX_FAILURES]:
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
     more = len(result.failures) - MAX_FAILURES
     if more > 0:

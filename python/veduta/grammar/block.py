@@ -16,8 +16,9 @@ from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
+from veduta.grammar.failures import Failures
 from veduta.grammar.levels import FULL, PLAIN, VOLUME
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
 from veduta.grammar.reported import FILE, Values, as_attributes, as_json, sums_of, table, values_of
@@ -82,7 +83,7 @@ class BlockResult:
     rows: list[dict[str, Any]] = field(default_factory=list)
     city: list[str] = field(default_factory=list)
     reported: list[tuple[str, str, Values]] = field(default_factory=list)
-    failures: list[Failure] = field(default_factory=list)
+    failures: Failures = field(default_factory=Failures)
     notes: Counter[str] = field(default_factory=Counter)
     forms: Counter[str] = field(default_factory=Counter)
     steps: list[StepRecord] = field(default_factory=list)
@@ -110,6 +111,7 @@ class BlockResult:
             ],
             "lots": self.rows,
             "failures": [failure.model_dump() for failure in self.failures],
+            **({"untold": self.failures.untold} if self.failures.untold else {}),
             "steps": [asdict(step) for step in self.steps],
         }
 
@@ -206,7 +208,7 @@ def _leaf(
 
 def _fail(job: Job, lot: Lot, reason: str, result: BlockResult) -> None:
     subject = f"{job.source}: {lot.name}"
-    result.failures.append(Failure(subject=subject, kind="input", reason=reason))
+    result.failures.add(Failure(subject=subject, kind="input", reason=reason))
 
 
 def _sound(job: Job, by: Deriver, lots: Sequence[Lot], result: BlockResult) -> list[Lot]:
