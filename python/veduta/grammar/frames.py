@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import bisect
 import itertools
+import math
 import re
 from array import array
 from collections.abc import Callable, Iterable, Iterator, Sequence
@@ -18,7 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from veduta.geometry.utm import MAX_LATITUDE_DEG, MIN_LATITUDE_DEG, epsg_of, utm, zone_of
 from veduta.grammar.rings import RingFault
@@ -88,25 +89,25 @@ class Survey:
 
     def __init__(self) -> None:
         self.could_be_degrees = True
-        self.low = np.full(3, np.inf)
-        self.high = np.full(3, -np.inf)
+        self.low: tuple[float, ...] = (math.inf,) * 3
+        self.high: tuple[float, ...] = (-math.inf,) * 3
         self._sizes = array("d")
         self._zones = [_Bin() for _ in range(_ZONES)]
         self._bands = [_Bin() for _ in range(len(_BANDS) + 1)]
 
     def add(self, outline: NDArray[np.float64]) -> None:
         """Look at (n, 3) corners in the file's coordinates."""
-        low, high = outline.min(axis=0), outline.max(axis=0)
-        self.low, self.high = np.minimum(self.low, low), np.maximum(self.high, high)
-        self._sizes.append(float((high - low)[:2].max()))
-        self.could_be_degrees &= bool(
-            max(-low[0], high[0]) <= 180.0 and max(-low[1], high[1]) <= 90.0
-        )
-        if not self.could_be_degrees:
-            return
-        for x, y in outline[:, :2].tolist():
-            self._zones[int((x + 180.0) // 6)].add(x)
-            self._bands[bisect.bisect_right(_BANDS, y)].add(y)
+        x, y, z = outline.T.tolist()  # outlines are short: lists are faster than arrays
+        low = (min(x), min(y), min(z))
+        high = (max(x), max(y), max(z))
+        self._sizes.append(max(high[0] - low[0], high[1] - low[1]))
+        self.low = tuple(map(min, self.low, low))
+        self.high = tuple(map(max, self.high, high))
+        self.could_be_degrees &= max(-low[0], high[0]) <= 180.0 and max(-low[1], high[1]) <= 90.0
+        if self.could_be_degrees:
+            for longitude, latitude in zip(x, y, strict=True):
+                self._zones[int((longitude + 180.0) // 6)].add(longitude)
+                self._bands[bisect.bisect_right(_BANDS, latitude)].add(latitude)
 
     @property
     def median_size(self) -> float:
@@ -122,8 +123,8 @@ class Survey:
 @dataclass
 class _Bin:
     count: int = 0
-    least: float = np.inf
-    most: float = -np.inf
+    least: float = math.inf
+    most: float = -math.inf
 
     def add(self, value: float) -> None:
         self.count += 1
@@ -168,7 +169,7 @@ def find_frame(
             f"says EPSG:{epsg}, but its coordinates look like longitudes and latitudes",
             "Name the CRS that they are in.",
         )
-    if float(np.maximum(np.abs(survey.low), np.abs(survey.high))[:2].max()) > MAX_METRES:
+    if max(map(abs, survey.low[:2] + survey.high[:2])) > MAX_METRES:
         raise InputError(
             path, "has coordinates that are no metres on Earth", "Check its coordinates."
         )
@@ -176,7 +177,7 @@ def find_frame(
 
 
 def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64]]) -> Frame:
-    if float(survey.high[0] - survey.low[0]) > MAX_ZONE_WIDTH_DEG:
+    if survey.high[0] - survey.low[0] > MAX_ZONE_WIDTH_DEG:
         raise InputError(path, "spans more than a zone of UTM in longitude", "Cut it into several.")
     longitude, latitude = survey.middle
     if not MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG:
@@ -184,7 +185,7 @@ def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64
             path, "lies in the polar regions, where UTM ends", "Project it to metres before."
         )
     zone, south = zone_of(longitude), latitude < 0
-    low = survey.low.copy()
+    low = np.array([math.inf, math.inf, survey.low[2]])
     for group in _grouped(outlines):
         low[:2] = np.minimum(low[:2], utm(group[:, :2], zone, south=south).min(axis=0))
     code = f"EPSG:{epsg_of(zone, south=south)}"
@@ -206,7 +207,7 @@ def _projected(points: NDArray[np.float64], zone: int, south: bool) -> NDArray[n
     return metres
 
 
-def _origin(lowest: NDArray[np.float64]) -> tuple[float, float, float]:
+def _origin(lowest: ArrayLike) -> tuple[float, float, float]:
     """The lower corner of all, in whole metres: what is near it is small."""
     x, y, z = np.floor(lowest).tolist()
     return (x, y, z)

@@ -82,5 +82,7 @@ def _name(feature: dict[str, Any], attributes: dict[str, Attribute], number: int
         if isinstance(value, float) and value.is_integer():
             value = int(value)
         if isinstance(value, str | int) and not isinstance(value, bool) and str(value).strip():
-            return "".join(c for c in str(value).strip() if c.isprintable())[:_MAX_ID]
+            text = str(value).strip()
+            is_plain = text.isprintable()
+            return (text if is_plain else "".join(filter(str.isprintable, text)))[:_MAX_ID]
     return f"lot-{number}"

@@ -49,10 +49,10 @@ class SpooledLots(Sequence[Lot]):
     def append(self, lot: Lot) -> None:
         """Add a lot without edits; not after one was read."""
         x, y, _ = lot.anchor_m
-        low, high = lot.rings_m[0].min(axis=0), lot.rings_m[0].max(axis=0)
+        east, north = lot.rings_m[0].T.tolist()
         self._spool.append(_record(lot))
         self._anchors.extend(lot.anchor_m)
-        self._boxes.extend((low[0] + x, low[1] + y, high[0] + x, high[1] + y))
+        self._boxes.extend((min(east) + x, min(north) + y, max(east) + x, max(north) + y))
 
     def edit(self, edits: Mapping[str, tuple[Edit, ...]]) -> None:
         """Give lots edits, by their id."""
