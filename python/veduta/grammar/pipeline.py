@@ -273,8 +273,7 @@ def _process(
                 folder.forget(name)
             else:
                 failure = None
-                summary = outcome.value.summary(name)
-                folder.publish(name, call.keys[name], folder.work_path(name), summary)
+                folder.publish(name, call.keys[name], folder.work_path(name), outcome.value)
             progress.finished(name, failure)
 
 
