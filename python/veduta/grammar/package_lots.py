@@ -161,24 +161,27 @@ def _rows(
     listed = ", ".join(_quoted(name) for name in names)
     begin = f"FROM {_quoted(layer.table)} WHERE {row_id} > ? ORDER BY {row_id}"
     last, number = -(2**63), 0
-    while True:
-        _bound_time(base)
-        try:
-            for row in base.execute(f"SELECT {row_id}, {listed} {begin}", (last,)):
-                last, number = row[0], number + 1
-                yield row[1:]
-                if number % BLOCK_ROWS == 0:
-                    _bound_time(base)
-            return
-        except sqlite3.DataError:
-            next_row = base.execute(f"SELECT {row_id} {begin} LIMIT 1", (last,)).fetchone()
-            if next_row is None:
+    try:
+        while True:
+            _bound_time(base)
+            with contextlib.suppress(sqlite3.DataError):  # of the next row, or the one behind it
+                for row in base.execute(f"SELECT {row_id}, {listed} {begin}", (last,)):
+                    last, number = row[0], number + 1
+                    yield row[1:]
+                    if number % BLOCK_ROWS == 0:
+                        _bound_time(base)
                 return
-            last, number = next_row[0], number + 1
-            yield f"a cell is larger than {MAX_CELL_BYTES >> 20} MB"
-        except sqlite3.DatabaseError as error:
-            told = f"cannot be read after row {number} ({error})"
-            raise InputError(path, told, "Save it anew as GeoPackage.") from error
+            number += 1
+            try:
+                row = base.execute(f"SELECT {row_id}, {listed} {begin} LIMIT 1", (last,)).fetchone()
+                yield row[1:]
+            except sqlite3.DataError:
+                row = base.execute(f"SELECT {row_id} {begin} LIMIT 1", (last,)).fetchone()
+                yield f"a cell is larger than {MAX_CELL_BYTES >> 20} MB"
+            last = row[0]
+    except sqlite3.DatabaseError as error:
+        told = f"cannot be read after row {number} ({error})"
+        raise InputError(path, told, "Save it anew as GeoPackage.") from error
 
 
 def _polygons(geometry: object) -> tuple[list[Any] | None, str]:
