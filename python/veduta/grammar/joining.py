@@ -7,8 +7,7 @@ from pathlib import Path
 
 from veduta.formats.ground_glb import ground_glb
 from veduta.formats.tiles import Box, union
-from veduta.grammar.ground import ground_of, is_level
-from veduta.grammar.lot import anchors_of
+from veduta.grammar.ground_regions import grounds_of
 from veduta.grammar.report import Whole
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.squares import Squares
@@ -33,11 +32,9 @@ def tables(out: Path, whole: Whole) -> list[Path]:
 
 def write_ground(work: Path, squares: Squares, done: Collection[str]) -> dict[str, tuple[str, Box]]:
     """The ground of each block that is done, seen from its origin: its file and box."""
-    if is_level(anchors_of(squares.lots)):
-        return {}
     found = {}
     origins = {square.name: square.origin_m for square in squares.every}
-    for name, ground in ground_of(squares.block(square) for square in squares.every).items():
+    for name, ground in grounds_of(squares).items():
         if name not in done:
             continue
         file = f"{GROUND}/{name.rpartition('/')[2]}.glb"

@@ -24,7 +24,7 @@ MOST_LOTS = 4096
 """Of a block: it bounds what a process needs, and what a killed run loses."""
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Square:
     """The lots of a block by their rows among all; `name` is its path in OUT.
 
