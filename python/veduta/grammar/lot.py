@@ -54,6 +54,10 @@ class SpooledLots(Sequence[Lot]):
         self._anchors.extend(lot.anchor_m)
         self._boxes.extend((min(east) + x, min(north) + y, max(east) + x, max(north) + y))
 
+    def flush(self) -> None:
+        """Have all lots where they are read from; OSError where there is no room."""
+        self._spool.flush()
+
     def edit(self, edits: Mapping[str, tuple[Edit, ...]]) -> None:
         """Give lots edits, by their id."""
         self._edits = edits

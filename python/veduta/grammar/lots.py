@@ -53,11 +53,14 @@ from veduta.grammar.taken_names import TakenNames
 from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.outputs import writing_to
 
 MAX_BYTES = 64 * 2**20
 """Bytes of JSON that are read at once."""
 MAX_EXTENT_M = 200_000.0
 """Between the lots that are farthest from each other."""
+TELL_EACH = 100_000
+"""Polygons between two lines about how far the reading has come."""
 MOST_COMPARED = 10_000
 """Ids that are looked at for one that is written alike."""
 
@@ -82,17 +85,26 @@ class Lots:
             self.lots.close()
 
 
-def read_lots(path: Path, options: LotOptions | None = None, folder: Path | None = None) -> Lots:
+def read_lots(
+    path: Path,
+    options: LotOptions | None = None,
+    folder: Path | None = None,
+    say: Callable[[str], None] = lambda text: None,
+) -> Lots:
     """The lots in a file; InputError where it has none that can be used.
 
-    folder: has room for the lots where they are many; where temporary files lie if it is None.
+    folder: has room for the lots where they are many; where temporary files lie if it is None. say:
+    is told how far the reading of many has come.
     """
     options = options or LotOptions()
     found, survey = Found(), Survey()
-    with room_in(folder), contextlib.closing(Spool(folder)) as spool:
+    room = folder or Path(tempfile.gettempdir())
+    with writing_to(room), contextlib.closing(Spool(folder)) as spool:
         for outline in _outlines_of(path, options, found, folder):
             survey.add(outline.rings[0])
             spool.append(_record(outline))
+            if len(spool) % TELL_EACH == 0:
+                say(f"{path}: {len(spool):,} polygons read")
         if not len(spool):
             named = found.failures.named
             reason = f" ({named[0].reason})" if named else ""
@@ -101,21 +113,10 @@ def read_lots(path: Path, options: LotOptions | None = None, folder: Path | None
         terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
         stand = _Stand(frame, terrain, options.ground)
         lots = _placed(path, (_outline(record) for record in spool), stand, found, folder)
+        if len(spool) >= TELL_EACH:
+            say(f"{path}: {len(lots):,} lots")
     notes = (*found.all_notes(), *frame.notes)
     return Lots(lots, frame.crs, frame.origin_m, found.failures, notes)
-
-
-@contextlib.contextmanager
-def room_in(folder: Path | None) -> Iterator[None]:
-    """Turn what the system refuses (a full disk) into an InputError."""
-    try:
-        yield
-    except OSError as error:
-        raise InputError(
-            folder or tempfile.gettempdir(),
-            f"has no room for the lots while they are read ({error.strerror or error})",
-            "Make room there.",
-        ) from error
 
 
 def require_lots(path: Path | None, options: LotOptions | None) -> None:
@@ -219,6 +220,7 @@ def _placed(
             first_fault = first_fault or str(fault)
     if not len(lots):
         raise InputError(path, f"has no lot that can be used ({first_fault})", "Mend its polygons.")
+    lots.flush()
     extent_m = float(np.ptp(lots.anchors_m[:, :2], axis=0).max())
     if extent_m > MAX_EXTENT_M:
         raise InputError(

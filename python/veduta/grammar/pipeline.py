@@ -96,7 +96,7 @@ def run_derive(
     """Build every lot in OUT, by the rules of `run.outputs`."""
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
-        call = _call(rules_name, lots_path, edits_path, options, _room_for(out))
+        call = _call(rules_name, lots_path, edits_path, options, _room_for(out), progress)
     lots = call.lots
     with contextlib.closing(lots), open_out(out, COMMAND, call.key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
@@ -159,6 +159,7 @@ def _call(
     edits_path: Path | None,
     options: GrammarOptions,
     room: Path,
+    progress: Progress,
 ) -> _Call:
     """Read and check all that is given; InputError names what is wrong.
 
@@ -171,9 +172,10 @@ def _call(
     files = tuple(rules.texts)
     textures = find_textures(rules.path, [text for _, text in files])
     read_textures(textures)
-    lots = _lots(lots_path, options, room)
+    edits = {} if edits_path is None else read_edits(edits_path)
+    lots = _lots(lots_path, options, room, progress)
     if edits_path is not None:
-        lots = edited_lots(lots, edits_path, read_edits(edits_path))
+        lots = edited_lots(lots, edits_path, edits)
     if options.output.separate and len(lots.lots) > MOST_SEPARATE:
         told_of = f"is for up to {MOST_SEPARATE:,} lots, and here are {len(lots.lots):,}"
         raise InputError("--separate", told_of, "Leave it out: tiles have all buildings.")
@@ -204,11 +206,11 @@ def _waiting(call: _Call, folder: OutFolder) -> list[Square]:
     ]
 
 
-def _lots(path: Path | None, options: GrammarOptions, room: Path) -> Lots:
+def _lots(path: Path | None, options: GrammarOptions, room: Path, progress: Progress) -> Lots:
     require_lots(path, options.lots)
     if path is None:
         return demo_lots(DEMO_LOTS, options.derive.seed)
-    return read_lots(path, options.lots, room)
+    return read_lots(path, options.lots, room, progress.said)
 
 
 def is_separate(options: GrammarOptions, lots: Lots) -> bool:

@@ -35,6 +35,10 @@ class Spool:
         self._file.write(content)
         self._ends.append(self._ends[-1] + len(content))
 
+    def flush(self) -> None:
+        """Have all records where they are read from; OSError where there is no room."""
+        self._file.flush()
+
     def __getitem__(self, row: int) -> Record:
         start, end = self._ends[row], self._ends[row + 1]
         self._file.seek(start)
