@@ -173,7 +173,7 @@ def load_record(out: Path) -> RunRecord | None:
 def _changes(journal: Path, digest: str) -> Iterator[Change]:
     """What was changed in the record of this digest."""
     try:
-        with journal.open(encoding="utf-8") as lines:
+        with journal.open(encoding="utf-8", errors="replace") as lines:
             if lines.readline() == f"{digest}\n":
                 for line in lines:
                     if line.endswith("\n"):
