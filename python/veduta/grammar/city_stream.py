@@ -117,7 +117,8 @@ def _objects(path: Path) -> Iterator[tuple[str, Any]]:
     for name in stream.names():
         if name == "CityObjects":
             yield from _members(stream)
-        elif name == "vertices":
+            return
+        if name == "vertices":
             for _ in stream.rows():
                 pass
         else:
