@@ -9,7 +9,8 @@ import pytest
 from veduta.grammar.assets.library import Library
 from veduta.grammar.building import build_part
 from veduta.grammar.deriving import attributes_of
-from veduta.grammar.lots import Lot, read_lots
+from veduta.grammar.lot import Lot
+from veduta.grammar.lots import read_lots
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.rules import compile_rules, find_rules, read_rules, style_names
 from veduta.grammar.textures import Textures

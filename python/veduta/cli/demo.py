@@ -64,7 +64,7 @@ def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
 
 def _street(result: DemoResult) -> list[str]:
     """The lots of the street that have no building."""
-    failures = result.street.failures if result.street else []
+    failures = result.street.failures.named if result.street else []
     return [f"  not built {failure.subject}: {failure.reason}" for failure in failures]
 
 

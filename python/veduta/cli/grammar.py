@@ -151,11 +151,11 @@ def _tell_failures(result: DeriveResult) -> None:
     from veduta.cli.main import tell_bugs
     from veduta.grammar.same_faults import told_once
 
-    failures = told_once(result.failures)
+    failures = told_once(result.failures.named)
     for failure in failures[:MAX_FAILURES]:
         print(f"error: {failure.subject}: {failure.reason}", file=sys.stderr)
-    more = len(failures) - MAX_FAILURES
-    if more > 0:
+    more = max(len(failures) - MAX_FAILURES, 0) + result.failures.untold
+    if more:
         print(f"error: {more} more: {result.out / 'report.html'}", file=sys.stderr)
     tell_bugs(result.tracebacks)
 

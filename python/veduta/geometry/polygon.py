@@ -11,7 +11,8 @@ Points = NDArray[np.float64]
 def signed_area(polygon: Points) -> float:
     """Shoelace area; positive counter-clockwise where y goes up, clockwise where it goes down."""
     x, y = polygon[:, 0], polygon[:, 1]
-    return float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2.0
+    next_x, next_y = (np.concatenate([one[1:], one[:1]]) for one in (x, y))
+    return float(np.dot(x, next_y) - np.dot(y, next_x)) / 2.0
 
 
 def is_strictly_convex(polygon: Points, tolerance: float = 1e-9) -> bool:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import os
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
@@ -16,8 +17,9 @@ from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
+from veduta.grammar.failures import Failures
 from veduta.grammar.levels import FULL, PLAIN, VOLUME
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
 from veduta.grammar.reported import FILE, Values, as_attributes, as_json, sums_of, table, values_of
@@ -25,7 +27,7 @@ from veduta.grammar.textures import read_textures, with_builtin
 from veduta.grammar.tile_pictures import tile_pictures
 from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.part import Part
-from veduta.run.atomic import write_bytes
+from veduta.run.atomic import sync_file, write_bytes
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
 
@@ -80,9 +82,8 @@ class BlockResult:
     town: Town
     tile: Tile | None = None
     rows: list[dict[str, Any]] = field(default_factory=list)
-    city: list[str] = field(default_factory=list)
     reported: list[tuple[str, str, Values]] = field(default_factory=list)
-    failures: list[Failure] = field(default_factory=list)
+    failures: Failures = field(default_factory=Failures)
     notes: Counter[str] = field(default_factory=Counter)
     forms: Counter[str] = field(default_factory=Counter)
     steps: list[StepRecord] = field(default_factory=list)
@@ -110,16 +111,20 @@ class BlockResult:
             ],
             "lots": self.rows,
             "failures": [failure.model_dump() for failure in self.failures],
+            **({"untold": self.failures.untold} if self.failures.untold else {}),
             "steps": [asdict(step) for step in self.steps],
         }
 
 
-def run_block(job: Job) -> BlockResult:
-    """Derive each lot and write its tiles, its model and its line of CityJSON."""
+def run_block(job: Job) -> dict[str, Any]:
+    """Derive each lot and write its tiles, its model and its line of CityJSON; the summary."""
     by = deriver(job.files, job.folder, job.options, job.block.beside)
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
+        if job.city is not None:
+            job.city.parent.mkdir(parents=True, exist_ok=True)
+            _growing(job.city).write_bytes(b"")
     result = BlockResult(Town(folder, tile_pictures(with_builtin(job.textures))))
     middles = np.array([_middle(lot) for lot in job.block.lots])
     for number, node in enumerate(squares(middles, NODE_LOTS)):
@@ -130,9 +135,14 @@ def run_block(job: Job) -> BlockResult:
         if reported is not None:
             write_bytes(job.work / FILE, reported)
         if job.city is not None:
-            job.city.parent.mkdir(parents=True, exist_ok=True)
-            write_bytes(job.city, "".join(f"{line}\n" for line in result.city).encode())
-    return result
+            sync_file(_growing(job.city))
+            os.replace(_growing(job.city), job.city)
+    return result.summary(job.block.name)
+
+
+def _growing(path: Path) -> Path:
+    """Where lines of CityJSON are before all of the block are there."""
+    return path.with_suffix(".part")
 
 
 def _middle(lot: Lot) -> tuple[float, float]:
@@ -194,7 +204,9 @@ def _leaf(
         built.append(one)
     with timed_step(result.steps, "write"), writing_to(job.out):
         if job.city is not None:
-            _city([plain, full] if plain else [full], volumes, rows, built, reported, result)
+            levels = [plain, full] if plain else [full]
+            with _growing(job.city).open("a", encoding="utf-8", newline="\n") as lines:
+                lines.writelines(_city(levels, volumes, rows, built, reported, result))
         tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)
     if job.separate:
         built = _models(job, by, built, (full, rows), result)
@@ -206,7 +218,7 @@ def _leaf(
 
 def _fail(job: Job, lot: Lot, reason: str, result: BlockResult) -> None:
     subject = f"{job.source}: {lot.name}"
-    result.failures.append(Failure(subject=subject, kind="input", reason=reason))
+    result.failures.add(Failure(subject=subject, kind="input", reason=reason))
 
 
 def _sound(job: Job, by: Deriver, lots: Sequence[Lot], result: BlockResult) -> list[Lot]:
@@ -229,7 +241,7 @@ def _city(
     built: Sequence[Built],
     reported: Mapping[str, Values],
     result: BlockResult,
-) -> None:
+) -> Iterator[str]:
     """The lines of the buildings, of the first level that has something of each.
 
     With `volumes`, the lots at their lowest level, closed volumes stand beside it; not of lots with
@@ -242,7 +254,8 @@ def _city(
         about = one.lot.attributes | {"name": one.lot.name, "provenance": "invented"}
         about |= as_attributes(reported[one.lot.id], about)
         line = feature_line(one.lot.id, about, geometry)
-        result.city += [line] if line else []
+        if line:
+            yield f"{line}\n"
         result.forms.update(forms_of(geometry))
 
 

@@ -19,10 +19,9 @@ from numpy.typing import NDArray
 from scipy.spatial import KDTree
 
 from veduta.geometry.polygon import signed_area
-from veduta.grammar.outline import Attribute, Outline, plain_attributes
+from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
 from veduta.grammar.rings import MAX_VERTICES, RingFault
 from veduta.run.errors import InputError
-from veduta.run.report import Failure
 
 BUILDINGS = {"Building", "BuildingPart"}
 ROADS = {"Road", "TransportSquare"}
@@ -41,35 +40,45 @@ def city_epsg(document: dict[str, Any]) -> int | None:
     return int(code[1]) if code else None
 
 
-def city_outlines(path: Path, document: dict[str, Any]) -> tuple[list[Outline], list[Failure]]:
-    """The lots of all buildings, and what was wrong with those that give none."""
-    points = _vertices(path, document)
+def city_outlines(path: Path, document: dict[str, Any], found: Found) -> Outlines:
+    """The lots of all buildings; what was wrong with those that give none goes to `found`."""
+    found.epsg = city_epsg(document)
+    points = vertices_of(path, document)
     objects = document.get("CityObjects")
     if not isinstance(objects, dict):
         raise InputError(path, "has no CityObjects", "Save it as CityJSON.")
-    roads = _road_points(points, objects)
-    found: list[Outline] = []
-    failures: list[Failure] = []
+    rings = [ring for one in objects.values() for ring in road_rings(one, len(points))]
+    roads = road_corners(points[np.unique(np.concatenate(rings))] if rings else None)
     for name, city_object in objects.items():
-        if not isinstance(city_object, dict) or city_object.get("type") not in BUILDINGS:
-            continue
-        if not city_object.get("geometry"):
-            continue  # its parts have it
-        subject = f"{path}: {name}"
-        try:
-            polygons, height = _lots_of(points, city_object)
-            attributes: dict[str, Attribute] = {"height": height}
-            attributes |= plain_attributes(city_object.get("attributes"))
-            for number, rings in enumerate(polygons, 1):
-                own = name if len(polygons) == 1 else f"{name}-{number}"
-                rings = [_with_front(rings[0], roads), *rings[1:]]
-                found.append(Outline(subject, own[:200], rings, attributes))
-        except RingFault as fault:
-            failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
-    return found, failures
+        yield from building_outlines(f"{path}: {name}", name, city_object, points, roads, found)
 
 
-def _vertices(path: Path, document: dict[str, Any]) -> NDArray[np.float64]:
+def building_outlines(
+    subject: str,
+    name: str,
+    city_object: Any,
+    points: NDArray[np.float64],
+    roads: KDTree | None,
+    found: Found,
+) -> Outlines:
+    """The lots of a city object: none where it is no building, or where its parts have them."""
+    if not isinstance(city_object, dict) or city_object.get("type") not in BUILDINGS:
+        return
+    if not city_object.get("geometry"):
+        return
+    try:
+        polygons, height = _lots_of(points, city_object)
+        attributes: dict[str, Attribute] = {"height": height}
+        attributes |= plain_attributes(city_object.get("attributes"))
+        for number, rings in enumerate(polygons, 1):
+            own = name if len(polygons) == 1 else f"{name}-{number}"
+            rings = [_with_front(rings[0], roads), *rings[1:]]
+            yield Outline(subject, own[:200], rings, attributes)
+    except RingFault as fault:
+        found.fail(subject, str(fault))
+
+
+def vertices_of(path: Path, document: dict[str, Any]) -> NDArray[np.float64]:
     """(n, 3) in the file's CRS."""
     transform = document.get("transform")
     try:
@@ -233,17 +242,19 @@ def _is_in(point: NDArray[np.float64], loop: NDArray[np.float64]) -> bool:
     return bool((crosses & (x - y * (x1 - x) / rise > 0)).sum() % 2)
 
 
-def _road_points(points: NDArray[np.float64], objects: dict[str, Any]) -> KDTree | None:
-    """The corners of all roads, to look for the nearest one."""
-    found = []
-    for city_object in objects.values():
-        if isinstance(city_object, dict) and city_object.get("type") in ROADS:
-            try:
-                rings = [ring for rings, _ in _faces(city_object, len(points)) for ring in rings]
-            except (RingFault, KeyError):
-                continue  # a road that cannot be read is none to look at
-            found += rings
-    return KDTree(points[np.unique(np.concatenate(found))][:, :2]) if found else None
+def road_rings(city_object: Any, count: int) -> list[Loop]:
+    """The rings of a road among `count` vertices; none of what is no road, or cannot be read."""
+    if not isinstance(city_object, dict) or city_object.get("type") not in ROADS:
+        return []
+    try:
+        return [ring for rings, _ in _faces(city_object, count) for ring in rings]
+    except (RingFault, KeyError):
+        return []  # a road that cannot be read is none to look at
+
+
+def road_corners(corners: NDArray[np.float64] | None) -> KDTree | None:
+    """The (n, 3) corners of all roads, to look for the nearest one; None where there are none."""
+    return None if corners is None else KDTree(corners[:, :2])
 
 
 def _with_front(outline: NDArray[np.float64], roads: KDTree | None) -> NDArray[np.float64]:

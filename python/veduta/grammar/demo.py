@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from veduta.grammar.lots import Lot, Lots
+from veduta.grammar.lot import Lot
+from veduta.grammar.lots import Lots
 from veduta.synthetic.lots import street_of_lots
 
 DEMO_LOTS = 14

@@ -13,7 +13,7 @@ from veduta import _core
 from veduta.grammar.assets.library import Library
 from veduta.grammar.edits import fault_told
 from veduta.grammar.levels import FULL, Levels, levels_of
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError

@@ -8,14 +8,18 @@ in which most of the lots lie.
 
 from __future__ import annotations
 
+import bisect
+import itertools
+import math
 import re
-from collections.abc import Sequence
+from array import array
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import ArrayLike, NDArray
 
 from veduta.geometry.utm import MAX_LATITUDE_DEG, MIN_LATITUDE_DEG, epsg_of, utm, zone_of
 from veduta.grammar.rings import RingFault
@@ -27,6 +31,12 @@ TINY = 0.01
 """A lot this small is a degree's hundredth wide, or a centimetre: it is no lot in metres."""
 MAX_METRES = 1e8
 MAX_ZONE_WIDTH_DEG = 9.0
+TOGETHER = 4096
+"""Outlines that are projected at once."""
+_ZONES = 61
+"""Of six degrees each; the last is that of the longitude 180 alone."""
+_BANDS = (MIN_LATITUDE_DEG, 0.0, np.nextafter(MAX_LATITUDE_DEG, 90.0))
+"""Latitudes at which it changes what is done with them."""
 
 
 @dataclass(frozen=True)
@@ -71,48 +81,123 @@ def named_crs(path: Path, document: dict[str, Any]) -> int | None:
     return int(code[1])
 
 
-def find_frame(path: Path, epsg: int | None, outlines: Sequence[NDArray[np.float64]]) -> Frame:
-    """The frame of a file with these outlines, (n, 3) each in the file's coordinates."""
-    points = np.concatenate(outlines)
-    could_be_degrees = bool(
-        (np.abs(points[:, 0]) <= 180.0).all() and (np.abs(points[:, 1]) <= 90.0).all()
-    )
-    sizes = [float(np.ptp(outline[:, :2], axis=0).max()) for outline in outlines]
-    is_tiny = could_be_degrees and float(np.median(sizes)) < TINY
+class Survey:
+    """What the outlines of a file are together, seen one after the other.
+
+    could_be_degrees: whether all of them lie where longitudes and latitudes do.
+    """
+
+    def __init__(self) -> None:
+        self.could_be_degrees = True
+        self.low: tuple[float, ...] = (math.inf,) * 3
+        self.high: tuple[float, ...] = (-math.inf,) * 3
+        self._sizes = array("d")
+        self._zones = [_Bin() for _ in range(_ZONES)]
+        self._bands = [_Bin() for _ in range(len(_BANDS) + 1)]
+
+    def add(self, outline: NDArray[np.float64]) -> None:
+        """Look at (n, 3) corners in the file's coordinates."""
+        x, y, z = outline.T.tolist()  # outlines are short: lists are faster than arrays
+        low = (min(x), min(y), min(z))
+        high = (max(x), max(y), max(z))
+        self._sizes.append(max(high[0] - low[0], high[1] - low[1]))
+        self.low = tuple(map(min, self.low, low))
+        self.high = tuple(map(max, self.high, high))
+        self.could_be_degrees &= max(-low[0], high[0]) <= 180.0 and max(-low[1], high[1]) <= 90.0
+        if self.could_be_degrees:
+            for longitude, latitude in zip(x, y, strict=True):
+                self._zones[int((longitude + 180.0) // 6)].add(longitude)
+                self._bands[bisect.bisect_right(_BANDS, latitude)].add(latitude)
+
+    @property
+    def median_size(self) -> float:
+        """Of the longer sides of the boxes around them."""
+        return float(np.median(np.frombuffer(self._sizes)))
+
+    @property
+    def middle(self) -> tuple[float, float]:
+        """A longitude and a latitude in the same zone and band as the medians of all corners."""
+        return _middle(self._zones), _middle(self._bands)
+
+
+@dataclass
+class _Bin:
+    count: int = 0
+    least: float = math.inf
+    most: float = -math.inf
+
+    def add(self, value: float) -> None:
+        self.count += 1
+        self.least, self.most = min(self.least, value), max(self.most, value)
+
+
+def _middle(bins: Sequence[_Bin]) -> float:
+    """A value in the bin of the median: the median itself where it lies between two bins."""
+    total, passed = sum(one.count for one in bins), 0
+    for number, one in enumerate(bins):
+        passed += one.count
+        if 2 * passed == total:
+            following = next(other for other in bins[number + 1 :] if other.count)
+            return (one.most + following.least) / 2
+        if 2 * passed > total:
+            return one.least
+    raise ValueError("no corners were seen")
+
+
+def find_frame(
+    path: Path,
+    epsg: int | None,
+    survey: Survey,
+    outlines: Callable[[], Iterable[NDArray[np.float64]]],
+) -> Frame:
+    """The frame of a file with these outlines, (n, 3) each in the file's coordinates.
+
+    outlines: all of them once more; asked for where they have to be projected.
+    """
+    is_tiny = survey.could_be_degrees and survey.median_size < TINY
     if epsg in GEOGRAPHIC or (epsg is None and is_tiny):
-        if not could_be_degrees:
+        if not survey.could_be_degrees:
             raise InputError(
                 path,
                 f"says EPSG:{epsg}, but its coordinates are no longitudes and latitudes",
                 "Name the CRS that they are in.",
             )
-        return _utm_frame(path, points)
+        return _utm_frame(path, survey, outlines())
     if is_tiny:
         raise InputError(
             path,
             f"says EPSG:{epsg}, but its coordinates look like longitudes and latitudes",
             "Name the CRS that they are in.",
         )
-    if float(np.abs(points[:, :2]).max()) > MAX_METRES:
+    if max(map(abs, survey.low[:2] + survey.high[:2])) > MAX_METRES:
         raise InputError(
             path, "has coordinates that are no metres on Earth", "Check its coordinates."
         )
-    return Frame(None if epsg is None else f"EPSG:{epsg}", _origin(points))
+    return Frame(None if epsg is None else f"EPSG:{epsg}", _origin(survey.low))
 
 
-def _utm_frame(path: Path, points: NDArray[np.float64]) -> Frame:
-    if float(np.ptp(points[:, 0])) > MAX_ZONE_WIDTH_DEG:
+def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64]]) -> Frame:
+    if survey.high[0] - survey.low[0] > MAX_ZONE_WIDTH_DEG:
         raise InputError(path, "spans more than a zone of UTM in longitude", "Cut it into several.")
-    middle = np.median(points, axis=0)
-    if not MIN_LATITUDE_DEG <= middle[1] <= MAX_LATITUDE_DEG:
+    longitude, latitude = survey.middle
+    if not MIN_LATITUDE_DEG <= latitude <= MAX_LATITUDE_DEG:
         raise InputError(
             path, "lies in the polar regions, where UTM ends", "Project it to metres before."
         )
-    zone, south = zone_of(float(middle[0])), bool(middle[1] < 0)
-    metres = np.column_stack([utm(points[:, :2], zone, south=south), points[:, 2]])
+    zone, south = zone_of(longitude), latitude < 0
+    low = np.array([math.inf, math.inf, survey.low[2]])
+    for group in _grouped(outlines):
+        low[:2] = np.minimum(low[:2], utm(group[:, :2], zone, south=south).min(axis=0))
     code = f"EPSG:{epsg_of(zone, south=south)}"
     note = f"longitude and latitude were projected to metres in {code} (WGS 84 / UTM)"
-    return Frame(code, _origin(metres), (zone, south), (note,))
+    return Frame(code, _origin(low), (zone, south), (note,))
+
+
+def _grouped(outlines: Iterable[NDArray[np.float64]]) -> Iterator[NDArray[np.float64]]:
+    """Some outlines at a time, as the corners of all."""
+    every = iter(outlines)
+    while group := list(itertools.islice(every, TOGETHER)):
+        yield np.concatenate(group)
 
 
 def _projected(points: NDArray[np.float64], zone: int, south: bool) -> NDArray[np.float64]:
@@ -122,7 +207,7 @@ def _projected(points: NDArray[np.float64], zone: int, south: bool) -> NDArray[n
     return metres
 
 
-def _origin(metres: NDArray[np.float64]) -> tuple[float, float, float]:
+def _origin(lowest: ArrayLike) -> tuple[float, float, float]:
     """The lower corner of all, in whole metres: what is near it is small."""
-    x, y, z = np.floor(metres.min(axis=0)).tolist()
+    x, y, z = np.floor(lowest).tolist()
     return (x, y, z)

@@ -7,7 +7,7 @@ plane of the place.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from scipy.spatial import Delaunay
 
 from veduta.grammar.block import Block
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 
 LEVEL_M = 0.05
 """Lots whose heights differ by less stand on a plane."""
@@ -39,30 +39,36 @@ class Ground:
     triangles: NDArray[np.int32]
 
 
-def is_level(lots: Sequence[Lot]) -> bool:
-    """Whether all lots stand on a plane."""
-    heights = [lot.anchor_m[2] for lot in lots]
-    return not heights or max(heights) - min(heights) < LEVEL_M
+def is_level(anchors_m: NDArray[np.float64]) -> bool:
+    """Whether all lots stand on a plane; (n, 3) where they are."""
+    return not len(anchors_m) or float(np.ptp(anchors_m[:, 2])) < LEVEL_M
 
 
-def ground_of(blocks: Sequence[Block]) -> dict[str, Ground]:
-    """The ground by the names of the blocks; none where all lots are level."""
-    if is_level([lot for block in blocks for lot in block.lots]):
+def ground_of(blocks: Iterable[Block]) -> dict[str, Ground]:
+    """The ground by the names of the blocks; none where all lots are level.
+
+    The lots of one block are looked at at a time.
+    """
+    names, corners = [], []
+    for block in blocks:
+        names.append(block.name)
+        corners.append(_corners(block.lots))
+    if not corners or is_level(np.concatenate(corners)):
         return {}
-    corners = [_corners(block.lots) for block in blocks]
-    owner = np.repeat(np.arange(len(blocks)), [len(own) for own in corners])
+    owner = np.repeat(np.arange(len(names)), [len(own) for own in corners])
     points, owner = _merged(np.concatenate(corners), owner)
+    corners.clear()
     margin = _margin(points)
     every = np.concatenate([points, margin])
     owner = np.concatenate([owner, np.full(len(margin), -1)])
     triangles = _upward(every, Delaunay(every[:, :2]).simplices.astype(np.int32))
     # The margin's own corners belong to nobody; a triangle between three of them goes to the first.
-    block = np.maximum(owner[triangles].max(axis=1), 0)
+    block_of = np.maximum(owner[triangles].max(axis=1), 0)
     found = {}
-    for number, one in enumerate(blocks):
-        used, own = np.unique(triangles[block == number], return_inverse=True)
+    for number, name in enumerate(names):
+        used, own = np.unique(triangles[block_of == number], return_inverse=True)
         if len(used):
-            found[one.name] = Ground(every[used], own.reshape(-1, 3).astype(np.int32))
+            found[name] = Ground(every[used], own.reshape(-1, 3).astype(np.int32))
     return found
 
 

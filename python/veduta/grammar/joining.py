@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Mapping
 from pathlib import Path
 
 from veduta.formats.ground_glb import ground_glb
 from veduta.formats.tiles import Box, union
-from veduta.grammar.block import Block
-from veduta.grammar.ground import ground_of
+from veduta.grammar.ground_regions import grounds_of
 from veduta.grammar.report import Whole
 from veduta.grammar.reported import FILE as REPORTS
+from veduta.grammar.squares import Squares
 from veduta.grammar.textures import with_builtin
 from veduta.grammar.tile_pictures import picture_files
 
@@ -30,13 +30,11 @@ def tables(out: Path, whole: Whole) -> list[Path]:
     return [out / name / REPORTS for name, summary in whole.blocks if summary["tabled"]]
 
 
-def write_ground(
-    work: Path, blocks: Sequence[Block], done: Collection[str]
-) -> dict[str, tuple[str, Box]]:
+def write_ground(work: Path, squares: Squares, done: Collection[str]) -> dict[str, tuple[str, Box]]:
     """The ground of each block that is done, seen from its origin: its file and box."""
     found = {}
-    origins = {block.name: block.origin_m for block in blocks}
-    for name, ground in ground_of(blocks).items():
+    origins = {square.name: square.origin_m for square in squares.every}
+    for name, ground in grounds_of(squares).items():
         if name not in done:
             continue
         file = f"{GROUND}/{name.rpartition('/')[2]}.glb"

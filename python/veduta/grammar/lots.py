@@ -1,15 +1,21 @@
-"""Building lots: outlines with holes on level ground, from files of several formats.
+"""Building lots: outlines with holes on level ground, from files of several formats and any size.
 
-Read: GeoJSON (here), CityJSON (`city_lots`), GeoPackage (`package_lots`), OBJ (`object_lots`).
+A file is read once: its outlines go to a spool on the disk while what they have in common (where
+they lie, in which units) is found out. The lots are then placed one by one, into a second spool;
+in memory remains where each stands, and which names are taken.
+
+Read: GeoJSON (`geojson_lots`), CityJSON (`city_lots`, `city_stream`), GeoPackage (`package_lots`),
+OBJ (`object_lots`).
 """
 
 from __future__ import annotations
 
+import contextlib
 import difflib
+import itertools
 import json
-import re
-from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+import tempfile
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, NoReturn
@@ -17,42 +23,46 @@ from typing import Any, NoReturn
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.grammar.city_lots import city_epsg, city_outlines
+from veduta.grammar.city_lots import city_outlines
+from veduta.grammar.city_stream import (
+    SEQUENCES,
+    is_city,
+    large_city_outlines,
+    sequence_outlines,
+)
 from veduta.grammar.edits import Edit
+from veduta.grammar.failures import Failures
 from veduta.grammar.feature_stream import FeatureStream
-from veduta.grammar.frames import Frame, find_frame, named_crs
+from veduta.grammar.frames import Frame, Survey, find_frame, named_crs
+from veduta.grammar.geojson_lots import feature_outlines, features_of
+from veduta.grammar.lot import (
+    Lot,
+    SpooledLots,
+    bytes_of_rings,
+    edited,
+    ids_of,
+    rings_of_bytes,
+)
 from veduta.grammar.object_lots import object_outlines
 from veduta.grammar.options import LotOptions
-from veduta.grammar.outline import Attribute, Outline, plain_attributes
+from veduta.grammar.outline import Found, Outline, Outlines
 from veduta.grammar.package_lots import is_package, package_outlines
-from veduta.grammar.rings import RingFault, clean_rings, numbers_of
+from veduta.grammar.rings import RingFault, clean_rings
+from veduta.grammar.spool import Record, Spool
+from veduta.grammar.taken_names import TakenNames
 from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
-from veduta.run.report import Failure
+from veduta.run.outputs import writing_to
 
 MAX_BYTES = 64 * 2**20
-MAX_LOTS = 100_000
+"""Bytes of JSON that are read at once."""
 MAX_EXTENT_M = 200_000.0
 """Between the lots that are farthest from each other."""
-_MAX_ID = 200
-
-
-@dataclass(frozen=True)
-class Lot:
-    """A building lot.
-
-    rings_m: (n, 2) each, about `anchor_m`; the outline first, counter-clockwise seen from above,
-    its first edge along the street; holes run clockwise. anchor_m: x, y, z from the origin of all
-    lots. attributes: what the file says of it. edits: what is otherwise at single shapes.
-    """
-
-    id: str
-    name: str
-    rings_m: tuple[NDArray[np.float64], ...]
-    anchor_m: tuple[float, float, float]
-    attributes: dict[str, Attribute] = field(default_factory=dict)
-    edits: tuple[Edit, ...] = ()
+TELL_EACH = 100_000
+"""Polygons between two lines about how far the reading has come."""
+MOST_COMPARED = 10_000
+"""Ids that are looked at for one that is written alike."""
 
 
 @dataclass(frozen=True)
@@ -62,28 +72,51 @@ class Lots:
     look: where a visitor begins: eye and target (m, about the origin), if the lots know it.
     """
 
-    lots: tuple[Lot, ...]
+    lots: Sequence[Lot]
     crs: str | None = None
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
-    failures: tuple[Failure, ...] = ()
+    failures: Failures = field(default_factory=Failures)
     notes: tuple[str, ...] = ()
     look: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
 
+    def close(self) -> None:
+        """Give the room on the disk back; no lot can be read any more."""
+        if isinstance(self.lots, SpooledLots):
+            self.lots.close()
 
-def read_lots(path: Path, options: LotOptions | None = None) -> Lots:
-    """The lots in a file; InputError where it has none that can be used."""
+
+def read_lots(
+    path: Path,
+    options: LotOptions | None = None,
+    folder: Path | None = None,
+    say: Callable[[str], None] = lambda text: None,
+) -> Lots:
+    """The lots in a file; InputError where it has none that can be used.
+
+    folder: has room for the lots where they are many; where temporary files lie if it is None. say:
+    is told how far the reading of many has come.
+    """
     options = options or LotOptions()
-    outlines, failures, notes, epsg = _outlines_of(path, options)
-    if not outlines:
-        reason = f" ({failures[0].reason})" if failures else ""
-        raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
-    if len(outlines) > MAX_LOTS:
-        raise InputError(path, f"has more than {MAX_LOTS} polygons", "Cut it into several.")
-    frame = find_frame(path, epsg, [outline.rings[0] for outline in outlines])
-    terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
-    lots, more = place_lots(path, outlines, frame, terrain, options.ground)
-    notes += frame.notes
-    return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
+    found, survey = Found(), Survey()
+    room = folder or Path(tempfile.gettempdir())
+    with writing_to(room), contextlib.closing(Spool(folder)) as spool:
+        for outline in _outlines_of(path, options, found, folder):
+            survey.add(outline.rings[0])
+            spool.append(_record(outline))
+            if len(spool) % TELL_EACH == 0:
+                say(f"{path}: {len(spool):,} polygons read")
+        if not len(spool):
+            named = found.failures.named
+            reason = f" ({named[0].reason})" if named else ""
+            raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
+        frame = find_frame(path, found.epsg, survey, lambda: (_first_ring(one) for one in spool))
+        terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
+        stand = _Stand(frame, terrain, options.ground)
+        lots = _placed(path, (_outline(record) for record in spool), stand, found, folder)
+        if len(spool) >= TELL_EACH:
+            say(f"{path}: {len(lots):,} lots")
+    notes = (*found.all_notes(), *frame.notes)
+    return Lots(lots, frame.crs, frame.origin_m, found.failures, notes)
 
 
 def require_lots(path: Path | None, options: LotOptions | None) -> None:
@@ -93,106 +126,102 @@ def require_lots(path: Path | None, options: LotOptions | None) -> None:
         raise InputError(f"--{changed[0]}", "is about a file of lots", "Give --lots, too.")
 
 
-def _outlines_of(
-    path: Path, options: LotOptions
-) -> tuple[list[Outline], list[Failure], list[str], int | None]:
-    """What the file has, whatever its format, and its EPSG code."""
+def edited_lots(lots: Lots, path: Path, edits: Mapping[str, tuple[Edit, ...]]) -> Lots:
+    """The lots with the edits of the file `path`; InputError where it names another lot."""
+    missing = set(edits)
+    if missing:
+        missing.difference_update(ids_of(lots.lots))
+    for name in sorted(missing):
+        line = edits[name][0].where.rpartition(":")[2]
+        hint = near_id(name, lots.lots, "There are")
+        raise InputError(path, f"line {line} edits the lot `{name}`, which is not there", hint)
+    return replace(lots, lots=edited(lots.lots, edits))
+
+
+def near_id(name: str, lots: Sequence[Lot], told: str) -> str:
+    """What to say of a lot that is not there: one that is called alike, or the first ones."""
+    ids = list(itertools.islice(ids_of(lots), MOST_COMPARED))
+    near = difflib.get_close_matches(name, ids, n=1)
+    more = ", ..." if len(lots) > 12 else ""
+    return f"Did you mean `{near[0]}`?" if near else f"{told}: {', '.join(ids[:12])}{more}."
+
+
+def _outlines_of(path: Path, options: LotOptions, found: Found, folder: Path | None) -> Outlines:
+    """What the file has, whatever its format."""
+    _require(path)
     if is_package(path):
-        return package_outlines(path, options.layer, MAX_LOTS)
-    if path.suffix.lower() == ".gpkg" and path.is_file():
+        return package_outlines(path, options.layer, found)
+    suffix = path.suffix.lower()
+    if suffix == ".gpkg":
         raise InputError(path, "is no GeoPackage, though its name says so", "Save it anew as one.")
     if options.layer is not None:
         raise InputError(f"--layer {options.layer}", f"but {path} has no layers", "Leave it out.")
-    if path.suffix.lower() == ".obj":
-        outlines, failures = object_outlines(path, options.up)
-        return outlines, failures, [f"OBJ: {options.up} is up, the unit is taken for metres"], None
-    if _size(path) > MAX_BYTES:
+    if suffix == ".obj":
+        return object_outlines(path, options.up, found, folder)
+    if suffix in SEQUENCES:
+        return sequence_outlines(path, found)
+    if path.stat().st_size > MAX_BYTES:
+        if is_city(path):
+            return large_city_outlines(path, found, folder)
         stream = FeatureStream(path)
-        outlines, failures, notes = _of_features(path, stream.features())
-        return outlines, failures, notes, named_crs(path, stream.members)
+        return _of_geojson(path, stream.features(), stream.members, found)
     document = _read_json(path)
     if document.get("type") == "CityJSON":
-        outlines, failures = city_outlines(path, document)
-        return outlines, failures, [], city_epsg(document)
-    outlines, failures, notes = _of_features(path, _features(path, document))
-    return outlines, failures, notes, named_crs(path, document)
+        return city_outlines(path, document, found)
+    return _of_geojson(path, features_of(path, document), document, found)
 
 
-def edited_lots(lots: Lots, path: Path, edits: Mapping[str, tuple[Edit, ...]]) -> Lots:
-    """The lots with the edits of the file `path`; InputError where it names another lot."""
-    ids = [lot.id for lot in lots.lots]
-    for name in sorted(set(edits) - set(ids)):
-        line = edits[name][0].where.rpartition(":")[2]
-        near = difflib.get_close_matches(name, ids, n=1)
-        hint = f"Did you mean `{near[0]}`?" if near else f"There are: {', '.join(ids[:12])}."
-        raise InputError(path, f"line {line} edits the lot `{name}`, which is not there", hint)
-    return replace(lots, lots=tuple(replace(lot, edits=edits.get(lot.id, ())) for lot in lots.lots))
+def _of_geojson(
+    path: Path, features: Iterator[Any], members: dict[str, Any], found: Found
+) -> Outlines:
+    """The lots of all features; `members` has the CRS when the last feature has come."""
+    yield from feature_outlines(path, features, found)
+    found.epsg = named_crs(path, members)
 
 
-def _size(path: Path) -> int:
-    """Bytes of a file; 0 where there is none, which reading it tells."""
-    try:
-        return path.stat().st_size if path.is_file() else 0
-    except OSError:
-        return 0
+@dataclass(frozen=True)
+class _Stand:
+    """Where lots come to stand: as high as their lowest corner, or as the terrain says."""
+
+    frame: Frame
+    terrain: Terrain | None
+    ground: Ground
+
+    def of(self, outline: Outline, own_id: Callable[[str], str]) -> Lot:
+        """The lot, about its own anchor; RingFault or NoGroundError where it cannot be used."""
+        rings = [self.frame.local(ring) for ring in outline.rings]
+        low = np.floor(rings[0].min(axis=0))
+        level = float(min(ring[:, 2].min() for ring in rings))
+        flat = clean_rings([ring[:, :2] - low[:2] for ring in rings])
+        if self.terrain is not None:
+            east, north, up = self.frame.origin_m
+            own = [ring[:, :2] + (east, north) for ring in rings]
+            level = self.terrain.under(own, self.ground) - up
+        return Lot(
+            id=own_id(outline.name),
+            name=outline.name,
+            rings_m=tuple(flat),
+            anchor_m=(float(low[0]), float(low[1]), level),
+            attributes=outline.attributes,
+        )
 
 
-def _of_features(
-    path: Path, features: Iterable[Any]
-) -> tuple[list[Outline], list[Failure], list[str]]:
-    outlines, failures, others = _outlines(path, features)
-    told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
-    notes = [f"left out, for they are no polygons: {told}"] if others else []
-    return outlines, failures, notes
-
-
-def place_lots(
-    path: Path,
-    outlines: list[Outline],
-    frame: Frame,
-    terrain: Terrain | None = None,
-    ground: Ground = "lowest",
-) -> tuple[tuple[Lot, ...], list[Failure]]:
-    """Lots with rings that can be built on, each about its own anchor; the failures of others.
-
-    A lot stands as high as its lowest corner, or as the terrain says where there is one.
-    """
-    found: list[Lot] = []
-    failures: list[Failure] = []
-    taken: set[str] = set()
+def _placed(
+    path: Path, outlines: Outlines, stand: _Stand, found: Found, folder: Path | None
+) -> SpooledLots:
+    """Lots with rings that can be built on; the failures of others go to `found`."""
+    lots, taken = SpooledLots(folder), TakenNames()
+    first_fault = ""
     for outline in outlines:
         try:
-            rings = [frame.local(ring) for ring in outline.rings]
-            low = np.floor(rings[0].min(axis=0))
-            level = float(min(ring[:, 2].min() for ring in rings))
-            flat = clean_rings([ring[:, :2] - low[:2] for ring in rings])
-            if terrain is not None:
-                east, north, up = frame.origin_m
-                own = [ring[:, :2] + (east, north) for ring in rings]
-                level = terrain.under(own, ground) - up
+            lots.append(stand.of(outline, taken.own))
         except (RingFault, NoGroundError) as fault:
-            failures.append(Failure(subject=outline.subject, kind="input", reason=str(fault)))
-            continue
-        found.append(
-            Lot(
-                id=_own_id(outline.name, taken),
-                name=outline.name,
-                rings_m=tuple(flat),
-                anchor_m=(float(low[0]), float(low[1]), level),
-                attributes=outline.attributes,
-            )
-        )
-    if not found:
-        raise InputError(
-            path, f"has no lot that can be used ({failures[0].reason})", "Mend its polygons."
-        )
-    _require_near(path, found)
-    return tuple(found), failures
-
-
-def _require_near(path: Path, lots: list[Lot]) -> None:
-    anchors = np.array([lot.anchor_m for lot in lots])
-    extent_m = float(np.ptp(anchors[:, :2], axis=0).max())
+            found.fail(outline.subject, str(fault))
+            first_fault = first_fault or str(fault)
+    if not len(lots):
+        raise InputError(path, f"has no lot that can be used ({first_fault})", "Mend its polygons.")
+    lots.flush()
+    extent_m = float(np.ptp(lots.anchors_m[:, :2], axis=0).max())
     if extent_m > MAX_EXTENT_M:
         raise InputError(
             path,
@@ -200,24 +229,35 @@ def _require_near(path: Path, lots: list[Lot]) -> None:
             f"{MAX_EXTENT_M / 1000:.0f} km",
             "Cut it into several, or check its coordinates.",
         )
+    return lots
 
 
-def _own_id(name: str, taken: set[str]) -> str:
-    """A name for files that no other lot has, on disks that do not tell case apart neither."""
-    slug = re.sub(r"[^A-Za-z0-9_-]+", "-", name)[:80].strip("-") or "lot"
-    unique, number = slug, 2
-    while unique.lower() in taken:
-        unique, number = f"{slug}-{number}", number + 1
-    taken.add(unique.lower())
-    return unique
+def _record(outline: Outline) -> Record:
+    return outline.subject, outline.name, outline.attributes, bytes_of_rings(outline.rings)
+
+
+def _outline(record: Record) -> Outline:
+    subject, name, attributes, rings = record
+    return Outline(subject, name, list(rings_of_bytes(rings, 3)), attributes)
+
+
+def _first_ring(record: Record) -> NDArray[np.float64]:
+    return rings_of_bytes(record[3][:1], 3)[0]
+
+
+def _require(path: Path) -> None:
+    try:
+        require_file(path)
+    except FileNotFoundError as error:
+        raise InputError(path, "does not exist", "Check its name.") from error
+    except OSError as error:
+        told = f"cannot be read ({error.strerror})"
+        raise InputError(path, told, "Check its permissions.") from error
 
 
 def _read_json(path: Path) -> dict[str, Any]:
     try:
-        require_file(path, MAX_BYTES)
         document = json.loads(path.read_bytes(), parse_constant=_refuse_constant)
-    except FileNotFoundError as error:
-        raise InputError(path, "does not exist", "Check its name.") from error
     except OSError as error:
         raise InputError(
             path, f"cannot be read ({error.strerror})", "Check its permissions."
@@ -233,81 +273,3 @@ def _read_json(path: Path) -> dict[str, Any]:
 
 def _refuse_constant(word: str) -> NoReturn:
     raise ValueError(f"{word} is not a number")
-
-
-def _features(path: Path, document: dict[str, Any]) -> Iterator[dict[str, Any]]:
-    """The features of a collection; a lone feature or polygon counts as one."""
-    kind = document.get("type")
-    if kind == "FeatureCollection":
-        features = document.get("features")
-        if not isinstance(features, list):
-            raise InputError(path, "has no list of features", "Save it as GeoJSON.")
-        yield from features
-    elif kind == "Feature":
-        yield document
-    elif kind in ("Polygon", "MultiPolygon"):
-        yield {"type": "Feature", "geometry": document, "properties": {}}
-    else:
-        raise InputError(
-            path,
-            f"is not GeoJSON of polygons: its type is {str(kind)[:40]!r}",
-            "Give a FeatureCollection of polygons, CityJSON, GeoPackage or OBJ.",
-        )
-
-
-def _outlines(
-    path: Path, features: Iterable[Any]
-) -> tuple[list[Outline], list[Failure], Counter[str]]:
-    """The polygons of all features, the faults of bad ones, and how many are something else."""
-    found: list[Outline] = []
-    failures: list[Failure] = []
-    others: Counter[str] = Counter()
-    for number, feature in enumerate(features, 1):
-        if number > MAX_LOTS:
-            raise InputError(path, f"has more than {MAX_LOTS} features", "Cut it into several.")
-        subject = f"{path}: feature {number}"
-        try:
-            polygons, kind = _polygons(feature)
-            if polygons is None:
-                others[kind] += 1
-                continue
-            attributes = plain_attributes(feature.get("properties"))
-            name = _name(feature, attributes, number)
-            for index, polygon in enumerate(polygons, 1):
-                rings = [numbers_of(ring) for ring in polygon]
-                own = name if len(polygons) == 1 else f"{name}-{index}"
-                found.append(Outline(f"{subject} ({own})", own, rings, attributes))
-        except RingFault as fault:
-            failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
-    return found, failures, others
-
-
-def _polygons(feature: Any) -> tuple[list[list[Any]] | None, str]:
-    """The polygons of a feature, each a list of rings; None and the kind of something else."""
-    if not isinstance(feature, dict):
-        raise RingFault("is no object")
-    geometry = feature.get("geometry")
-    if geometry is None:
-        return None, "feature without geometry"
-    if not isinstance(geometry, dict):
-        raise RingFault("its geometry is no object")
-    kind, coordinates = geometry.get("type"), geometry.get("coordinates")
-    if kind not in ("Polygon", "MultiPolygon"):
-        return None, str(kind)[:40]
-    polygons = [coordinates] if kind == "Polygon" else coordinates
-    if not isinstance(polygons, list) or not polygons:
-        raise RingFault("has no coordinates")
-    for polygon in polygons:
-        if not isinstance(polygon, list) or not polygon:
-            raise RingFault("has a polygon without rings")
-    return polygons, str(kind)
-
-
-def _name(feature: dict[str, Any], attributes: dict[str, Attribute], number: int) -> str:
-    """What the file calls the feature, or its number."""
-    for value in (feature.get("id"), attributes.get("id"), attributes.get("name")):
-        if isinstance(value, float) and value.is_integer():
-            value = int(value)
-        if isinstance(value, str | int) and not isinstance(value, bool) and str(value).strip():
-            return "".join(c for c in str(value).strip() if c.isprintable())[:_MAX_ID]
-    return f"lot-{number}"

@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-import itertools
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot, boxes_of
 
 NEAR_M = 5.0
 """Lots farther apart are no neighbours: balconies and eaves do not reach so far."""
@@ -17,59 +17,83 @@ MOST = 24
 """Neighbours of a lot: the nearest. It bounds the work where lots lie on each other."""
 CROWD = 300
 """Lots that are looked at to find them."""
+AT_ONCE = 1 << 16
+"""Lots whose neighbours are looked for before what is far away is forgotten."""
+Rows = NDArray[np.int32]
 
 
-def neighbours_of(lots: Sequence[Lot]) -> list[tuple[int, ...]]:
+@dataclass(frozen=True)
+class Beside(Sequence[tuple[int, ...]]):
     """For each lot the rows of those beside it, the nearest first.
+
+    ends: (n + 1,) where those of each lot begin and end in `rows`.
+    """
+
+    rows: Rows
+    ends: NDArray[np.int64]
+
+    def __len__(self) -> int:
+        return len(self.ends) - 1
+
+    def __getitem__(self, row: int) -> tuple[int, ...]:  # type: ignore[override]
+        first, end = self.ends[row], self.ends[row + 1]
+        return tuple(self.rows[first : min(end, first + MOST)].tolist())
+
+
+def neighbours_of(lots: Sequence[Lot]) -> Beside:
+    """Which stand beside each lot.
 
     They are the lots whose boxes (along x and y, about the outline) come within `NEAR_M` of its
     own: of two lots each is a neighbour of the other, but where one has more than `MOST`.
     """
     if not lots:
-        return []
-    low, high = _boxes(lots)
-    one, other = _near_pairs(low, high)
-    both = np.concatenate([one, other]), np.concatenate([other, one])
-    apart = np.maximum(low[both[1]] - high[both[0]], low[both[0]] - high[both[1]])
-    gap_m = np.maximum(apart, 0.0).max(axis=1, initial=0.0)
-    is_near = gap_m <= NEAR_M
-    one, other, gap_m = both[0][is_near], both[1][is_near], gap_m[is_near]
+        return Beside(np.zeros(0, np.int32), np.zeros(1, np.int64))
+    found = list(_near_pairs(*boxes_of(lots)))
+    one = np.concatenate([pair[side] for side in (0, 1) for pair in found])
+    other = np.concatenate([pair[side] for side in (1, 0) for pair in found])
+    gap_m = np.concatenate([pair[2] for _ in range(2) for pair in found])
+    found.clear()
     order = np.lexsort((other, gap_m, one))
-    ends = np.searchsorted(one[order], np.arange(len(lots) + 1)).tolist()
-    nearest = other[order]
-    return [
-        tuple(nearest[first : min(end, first + MOST)].tolist())
-        for first, end in itertools.pairwise(ends)
-    ]
+    counts = np.bincount(one, minlength=len(lots))
+    return Beside(other[order], np.concatenate([[0], np.cumsum(counts)]))
 
 
 def _near_pairs(
     low: NDArray[np.float64], high: NDArray[np.float64]
-) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
-    """Pairs of boxes (n, 2) that may be near each other, each once.
+) -> Iterator[tuple[Rows, Rows, NDArray[np.float64]]]:
+    """Pairs of boxes (n, 2) that are near each other, each once, and how far apart they are (m).
 
     A box finds those that are no larger, so that one huge lot does not make all look far.
     """
     middles, reach = (low + high) / 2, ((high - low) / 2).max(axis=1)
-    radius = 2 * reach + NEAR_M
     tree = cKDTree(middles)
-    counts = np.atleast_1d(tree.query_ball_point(middles, radius, p=np.inf, return_length=True))
+    for first in range(0, len(middles), AT_ONCE):
+        rows = np.arange(first, min(first + AT_ONCE, len(middles)))
+        one, other = _found_by(rows, tree, middles, reach)
+        apart = np.maximum(low[other] - high[one], low[one] - high[other])
+        gap_m = np.maximum(apart, 0.0).max(axis=1, initial=0.0)
+        is_near = gap_m <= NEAR_M
+        yield one[is_near].astype(np.int32), other[is_near].astype(np.int32), gap_m[is_near]
+
+
+def _found_by(
+    rows: NDArray[np.int64],
+    tree: cKDTree,
+    middles: NDArray[np.float64],
+    reach: NDArray[np.float64],
+) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
+    """What some boxes find: their rows, and those of the others."""
+    radius = 2 * reach[rows] + NEAR_M
+    counts = np.atleast_1d(
+        tree.query_ball_point(middles[rows], radius, p=np.inf, return_length=True)
+    )
     found = []
-    for row, count in enumerate(counts.tolist()):
+    for row, far, count in zip(rows.tolist(), radius.tolist(), counts.tolist(), strict=True):
         if count > CROWD:
-            _, near = tree.query(middles[row], CROWD, p=np.inf, distance_upper_bound=radius[row])
+            _, near = tree.query(middles[row], CROWD, p=np.inf, distance_upper_bound=far)
             others = np.asarray(near)[np.less(near, len(middles))]
         else:
-            others = np.array(tree.query_ball_point(middles[row], radius[row], p=np.inf))
+            others = np.array(tree.query_ball_point(middles[row], far, p=np.inf))
         is_smaller = (reach[others] < reach[row]) | ((reach[others] == reach[row]) & (others < row))
         found.append(others[is_smaller].astype(np.int64))
-    rows = np.repeat(np.arange(len(found)), [len(others) for others in found])
-    return rows, np.concatenate(found)
-
-
-def _boxes(lots: Sequence[Lot]) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """Lower and upper corners (n, 2) of the outlines."""
-    anchors = np.array([lot.anchor_m[:2] for lot in lots])
-    low = np.array([lot.rings_m[0].min(axis=0) for lot in lots]) + anchors
-    high = np.array([lot.rings_m[0].max(axis=0) for lot in lots]) + anchors
-    return low, high
+    return np.repeat(rows, [len(others) for others in found]), np.concatenate(found)

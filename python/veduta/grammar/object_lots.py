@@ -6,49 +6,55 @@ object that share edges are one lot. Materials and texture coordinates are not l
 
 from __future__ import annotations
 
+import tempfile
+from array import array
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Literal
+from typing import IO, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.grammar.city_lots import border, polygons_of, ring_area
-from veduta.grammar.outline import Outline
+from veduta.grammar.outline import Found, Outline, Outlines
 from veduta.grammar.rings import MAX_VERTICES, RingFault
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
-from veduta.run.report import Failure
 
-MAX_BYTES = 512 * 2**20
-MAX_POINTS = 10_000_000
+MAX_FACE_CORNERS = 1_000_000
+"""Of the faces of one object, which are looked at together."""
 MAX_LINE = 1 << 20
+AT_ONCE = 1 << 18
+"""Vertices that are worked on at a time."""
 Up = Literal["y", "z"]
 Loop = NDArray[np.int64]
 
 
-def object_outlines(path: Path, up: Up) -> tuple[list[Outline], list[Failure]]:
-    """The outlines of all objects; InputError with the line where the file is no OBJ."""
-    points, groups = _parsed(path)
-    if up == "y":
-        points = np.column_stack([points[:, 0], -points[:, 2], points[:, 1]])
-    found: list[Outline] = []
-    failures: list[Failure] = []
-    for name, faces in groups:
-        subject = f"{path}: {name}"
-        try:
-            polygons = _polygons(points, faces)
-        except RingFault as fault:
-            failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
-            continue
-        for number, rings in enumerate(polygons, 1):
-            own = name if len(polygons) == 1 else f"{name}-{number}"
-            found.append(Outline(f"{subject} ({own})", own[:200], rings, {}))
-    return found, failures
+def object_outlines(path: Path, up: Up, found: Found, folder: Path | None = None) -> Outlines:
+    """The outlines of all objects; InputError with the line where the file is no OBJ.
+
+    folder: has room for the vertices, which lie on the disk meanwhile.
+    """
+    found.notes.append(f"OBJ: {up} is up, the unit is taken for metres")
+    with tempfile.TemporaryFile(dir=folder) as room:
+        points = _vertices(path, up, room)
+        for name, faces, fault in _objects(path):
+            subject = f"{path}: {name}"
+            try:
+                polygons = _polygons(points, faces, fault)
+            except RingFault as reason:
+                found.fail(subject, str(reason))
+                continue
+            for number, rings in enumerate(polygons, 1):
+                own = name if len(polygons) == 1 else f"{name}-{number}"
+                yield Outline(f"{subject} ({own})", own[:200], rings, {})
 
 
-def _polygons(points: NDArray[np.float64], faces: list[Loop]) -> list[list[NDArray[np.float64]]]:
+def _polygons(
+    points: NDArray[np.float64], faces: list[Loop], fault: str
+) -> list[list[NDArray[np.float64]]]:
     """The outlines with their holes; a lone face keeps its first edge."""
+    if fault:
+        raise RingFault(fault)
     if len(faces) == 1:
         return [[points[faces[0]]]]
     up = [face if ring_area(points[face]) > 0 else face[::-1] for face in faces]
@@ -56,33 +62,65 @@ def _polygons(points: NDArray[np.float64], faces: list[Loop]) -> list[list[NDArr
     return polygons_of([points[loop] for loop in loops])
 
 
-def _parsed(path: Path) -> tuple[NDArray[np.float64], list[tuple[str, list[Loop]]]]:
-    """(n, 3) vertices as the file has them, and the faces of each object, in order."""
-    corners: list[tuple[float, float, float]] = []
-    groups: list[tuple[str, list[Loop]]] = []
-    name = path.stem
+def _vertices(path: Path, up: Up, room: IO[bytes]) -> NDArray[np.float64]:
+    """(n, 3) of the whole file, z up."""
+    some, count = array("d"), 0
     for number, words in _lines(path):
+        if words[0] != "v":
+            continue
         try:
-            if words[0] == "v":
-                x, y, z = (float(word) for word in words[1:4])
-                corners.append((x, y, z))
-            elif words[0] in ("o", "g"):
-                name = " ".join(words[1:]) or path.stem
-                groups.append((name, []))
-            elif words[0] == "f":
-                if not groups:
-                    groups.append((name, []))
-                groups[-1][1].append(_face(words[1:], len(corners)))
-        except (ValueError, RingFault) as error:
-            raise InputError(
-                path, f"has a line that cannot be read (line {number})", "Save it as OBJ."
-            ) from error
-        if len(corners) > MAX_POINTS:
-            raise InputError(path, f"has more than {MAX_POINTS} vertices", "Cut it into several.")
-    points = np.array(corners, dtype=np.float64).reshape(-1, 3)
-    if not np.isfinite(points).all():
+            x, y, z = (float(word) for word in words[1:4])
+        except ValueError as error:
+            raise _unreadable(path, number) from error
+        some.extend((x, y, z) if up == "z" else (x, -z, y))
+        count += 1
+        if len(some) >= 3 * AT_ONCE:
+            _keep(path, some, room)
+            some = array("d")
+    _keep(path, some, room)
+    room.flush()
+    if not count:
+        return np.zeros((0, 3))
+    return np.memmap(room, dtype=np.float64, mode="r", shape=(count, 3))
+
+
+def _keep(path: Path, some: array[float], room: IO[bytes]) -> None:
+    if not np.isfinite(np.frombuffer(some)).all():
         raise InputError(path, "has vertices that are not finite", "Check the file.")
-    return points, [(name, faces) for name, faces in groups if faces]
+    room.write(some.tobytes())
+
+
+def _objects(path: Path) -> Iterator[tuple[str, list[Loop], str]]:
+    """Name and faces of each object that has some, and what is wrong with the first bad face."""
+    name, fault = path.stem, ""
+    faces: list[Loop] = []
+    count = corners = 0
+    for number, words in _lines(path):
+        if words[0] == "v":
+            count += 1
+        elif words[0] in ("o", "g"):
+            if faces or fault:
+                yield name, faces, fault
+            name, faces, fault, corners = " ".join(words[1:]) or path.stem, [], "", 0
+        elif words[0] == "f" and not fault:
+            try:
+                faces.append(_face(words[1:], count))
+            except (ValueError, RingFault) as error:
+                told = (
+                    str(error) if isinstance(error, RingFault) else "a face is no list of numbers"
+                )
+                fault = f"line {number}: {told}"
+            corners += len(words) - 1
+            if corners > MAX_FACE_CORNERS:
+                told = f"has an object of more than {MAX_FACE_CORNERS:,} corners (line {number})"
+                raise InputError(path, told, "Give each lot an object of its own (o NAME).")
+    if faces or fault:
+        yield name, faces, fault
+
+
+def _unreadable(path: Path, number: int) -> InputError:
+    told = f"has a line that cannot be read (line {number})"
+    return InputError(path, told, "Save it as OBJ.")
 
 
 def _face(words: list[str], count: int) -> Loop:
@@ -99,11 +137,12 @@ def _face(words: list[str], count: int) -> Loop:
 def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
     """Numbers and words of the lines that say something; a line may go on after a backslash."""
     try:
-        require_file(path, MAX_BYTES)
         with path.open(encoding="utf-8", errors="replace") as file:
             kept = ""
-            for number, line in enumerate(file, 1):
-                if len(kept) + len(line) > MAX_LINE:
+            number = 0
+            while line := file.readline(MAX_LINE):
+                number += 1
+                if len(kept) + len(line) >= MAX_LINE:
                     raise InputError(
                         path, f"has a line too long (line {number})", "Save it as OBJ."
                     )
@@ -114,8 +153,6 @@ def _lines(path: Path) -> Iterator[tuple[int, list[str]]]:
                 kept = ""
                 if words := text.split():
                     yield number, words
-    except FileNotFoundError as error:
-        raise InputError(path, "does not exist", "Check its name.") from error
     except OSError as error:
         told = f"cannot be read ({error.strerror})"
         raise InputError(path, told, "Check its permissions.") from error

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-import difflib
+import contextlib
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,8 @@ from veduta.grammar.derivation import Derivation, Rules, derive
 from veduta.grammar.deriving import Deriver, attributes_of, seed_of
 from veduta.grammar.edits import Edit, fault_told
 from veduta.grammar.levels import FULL, Levels
-from veduta.grammar.lots import Lot, read_lots, require_lots
+from veduta.grammar.lot import Lot
+from veduta.grammar.lots import near_id, read_lots, require_lots
 from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions, LotOptions
 from veduta.run.errors import InputError
@@ -39,15 +41,19 @@ def find_lot(
     if path is None and lot_id in (None, PLAIN_ID):
         return plain_lot(), ()
     named = "the synthetic street" if path is None else str(path)
-    lots = (demo_lots(DEMO_LOTS, seed) if path is None else read_lots(path, options)).lots
-    rows = [row for row, lot in enumerate(lots) if lot_id in (lot.id, lot.name)]
-    if lot_id is not None and not rows:
-        ids = [lot.id for lot in lots]
-        near = difflib.get_close_matches(lot_id, ids, n=1)
-        hint = f"Did you mean `{near[0]}`?" if near else f"It has: {', '.join(ids[:12])}."
-        raise InputError(f"--lot {lot_id}", f"is no lot of {named}", hint)
-    row = rows[0] if rows else 0
-    return lots[row], tuple(lots[other] for other in neighbours_of(lots)[row])
+    found = demo_lots(DEMO_LOTS, seed) if path is None else read_lots(path, options)
+    with contextlib.closing(found):
+        lots = found.lots
+        row = 0 if lot_id is None else _row_of(lot_id, lots)
+        if row is None:
+            hint = near_id(str(lot_id), lots, "It has")
+            raise InputError(f"--lot {lot_id}", f"is no lot of {named}", hint)
+        return lots[row], tuple(lots[other] for other in neighbours_of(lots)[row])
+
+
+def _row_of(lot_id: str, lots: Sequence[Lot]) -> int | None:
+    """The first lot of this id or name."""
+    return next((row for row, lot in enumerate(lots) if lot_id in (lot.id, lot.name)), None)
 
 
 def derive_lot(

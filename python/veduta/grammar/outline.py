@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.grammar.failures import Failures
+from veduta.run.report import Failure
+
+MOST_KINDS = 50
+"""Kinds of other things that are told apart."""
 Attribute = bool | float | str
 
 
@@ -19,6 +26,38 @@ class Outline:
     name: str
     rings: list[NDArray[np.float64]]
     attributes: dict[str, Attribute]
+
+
+@dataclass
+class Found:
+    """What a reader finds in a file beside outlines; whole when it has given the last of them.
+
+    epsg: code of the reference system, None where the file names none. others: how many of each
+    kind are no polygons.
+    """
+
+    epsg: int | None = None
+    failures: Failures = field(default_factory=Failures)
+    notes: list[str] = field(default_factory=list)
+    others: Counter[str] = field(default_factory=Counter)
+
+    def fail(self, subject: str, reason: str) -> None:
+        """Something that would be a lot gives none."""
+        self.failures.add(Failure(subject=subject, kind="input", reason=reason))
+
+    def pass_over(self, kind: str) -> None:
+        """Something is no polygon."""
+        is_known = kind in self.others or len(self.others) < MOST_KINDS
+        self.others[kind if is_known else "of other kinds"] += 1
+
+    def all_notes(self) -> list[str]:
+        """The notes, and what was left out."""
+        told = ", ".join(f"{count} {kind}" for kind, count in sorted(self.others.items()))
+        return [*self.notes, f"left out, for they are no polygons: {told}"] if told else self.notes
+
+
+Outlines = Iterator[Outline]
+"""The outlines of a file, one after the other."""
 
 
 def plain_attributes(properties: Any) -> dict[str, Attribute]:

@@ -10,17 +10,15 @@ import contextlib
 import difflib
 import sqlite3
 import time
-from collections import Counter
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from veduta.grammar.outline import Attribute, Outline, plain_attributes
+from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
-from veduta.run.report import Failure
 
 MAGIC = b"SQLite format 3\0"
 BLOCK_ROWS = 1000
@@ -47,25 +45,20 @@ def is_package(path: Path) -> bool:
         return False
 
 
-def package_outlines(
-    path: Path, layer_name: str | None, most: int
-) -> tuple[list[Outline], list[Failure], list[str], int | None]:
-    """Outlines, failures, notes and EPSG code of a layer; the only one where none is named.
+def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlines:
+    """The outlines of a layer; of the only one where none is named.
 
-    InputError where it has more than `most` rows, or is no GeoPackage.
+    InputError where the file is no GeoPackage.
     """
     try:
         with contextlib.closing(_opened(path)) as base:
             layer = _layer(path, base, layer_name)
-            epsg = _epsg(path, base, layer.srs)
-            outlines, failures, others = _outlines(path, base, layer, most)
+            found.epsg = _epsg(path, base, layer.srs)
+            yield from _outlines(path, base, layer, found)
     except sqlite3.Error as error:
         raise InputError(
             path, f"cannot be read ({error})", "Save it anew as GeoPackage."
         ) from error
-    told = ", ".join(f"{count} {kind}" for kind, count in sorted(others.items()))
-    notes = [f"left out, for they are no polygons: {told}"] if others else []
-    return outlines, failures, notes, epsg
 
 
 def _opened(path: Path) -> sqlite3.Connection:
@@ -73,10 +66,15 @@ def _opened(path: Path) -> sqlite3.Connection:
     base = sqlite3.connect(f"{path.resolve().as_uri()}?mode=ro&immutable=1", uri=True)
     base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, MAX_CELL_BYTES)
     base.execute("PRAGMA trusted_schema = OFF")
-    end = time.monotonic() + MAX_SECONDS
-    base.set_progress_handler(lambda: int(time.monotonic() > end), _STEPS)
+    _bound_time(base)
     base.text_factory = lambda raw: raw.decode("utf-8", "replace")
     return base
+
+
+def _bound_time(base: sqlite3.Connection) -> None:
+    """What the file is asked from now on may take so long."""
+    end = time.monotonic() + MAX_SECONDS
+    base.set_progress_handler(lambda: int(time.monotonic() > end), _STEPS)
 
 
 def _layer(path: Path, base: sqlite3.Connection, wanted: str | None) -> _Layer:
@@ -124,44 +122,66 @@ def _epsg(path: Path, base: sqlite3.Connection, srs: int) -> int | None:
     return int(row[1])
 
 
-def _outlines(
-    path: Path, base: sqlite3.Connection, layer: _Layer, most: int
-) -> tuple[list[Outline], list[Failure], Counter[str]]:
+def _outlines(path: Path, base: sqlite3.Connection, layer: _Layer, found: Found) -> Outlines:
     columns = list(base.execute(f"PRAGMA table_info({_quoted(layer.table)})"))
     names = [str(column[1]) for column in columns]
     truths = {str(column[1]) for column in columns if str(column[2]).upper() == "BOOLEAN"}
     if layer.column not in names:
         raise InputError(path, f"has no column {layer.column}", "Save it anew as GeoPackage.")
-    found: list[Outline] = []
-    failures: list[Failure] = []
-    others: Counter[str] = Counter()
-    for number, row in enumerate(_rows(base, layer, names), 1):
-        if number > most:
-            raise InputError(path, f"has more than {most} rows", "Cut it into several.")
+    for number, row in enumerate(_rows(path, base, layer, names), 1):
+        subject = f"{path}: {layer.table} row {number}"
+        if isinstance(row, str):
+            found.fail(subject, row)
+            continue
         values = dict(zip(names, row, strict=True))
         geometry = values.pop(layer.column)
         properties = {k: bool(v) if k in truths and v in (0, 1) else v for k, v in values.items()}
         attributes = plain_attributes(properties)
         name = _name(attributes, number)
-        subject = f"{path}: {layer.table} row {number}"
         try:
             polygons, kind = _polygons(geometry)
             if polygons is None:
-                others[kind] += 1
+                found.pass_over(kind)
                 continue
             for index, rings in enumerate(polygons, 1):
                 own = name if len(polygons) == 1 else f"{name}-{index}"
-                found.append(Outline(f"{subject} ({own})", own, rings, attributes))
+                yield Outline(f"{subject} ({own})", own, rings, attributes)
         except RingFault as fault:
-            failures.append(Failure(subject=subject, kind="input", reason=str(fault)))
-    return found, failures, others
+            found.fail(subject, str(fault))
 
 
-def _rows(base: sqlite3.Connection, layer: _Layer, names: list[str]) -> Iterator[tuple[Any, ...]]:
+def _rows(
+    path: Path, base: sqlite3.Connection, layer: _Layer, names: list[str]
+) -> Iterator[tuple[Any, ...] | str]:
+    """The rows in their order; what is wrong with one that has a cell too large."""
+    taken = {name.lower() for name in names}
+    row_id = next((name for name in ("rowid", "_rowid_", "oid") if name not in taken), None)
+    if row_id is None:
+        raise InputError(path, "has no numbers of rows", "Save it anew as GeoPackage.")
     listed = ", ".join(_quoted(name) for name in names)
-    cursor = base.execute(f"SELECT {listed} FROM {_quoted(layer.table)} ORDER BY rowid")
-    while block := cursor.fetchmany(BLOCK_ROWS):
-        yield from block
+    begin = f"FROM {_quoted(layer.table)} WHERE {row_id} > ? ORDER BY {row_id}"
+    last, number = -(2**63), 0
+    try:
+        while True:
+            _bound_time(base)
+            with contextlib.suppress(sqlite3.DataError):  # of the next row, or the one behind it
+                for row in base.execute(f"SELECT {row_id}, {listed} {begin}", (last,)):
+                    last, number = row[0], number + 1
+                    yield row[1:]
+                    if number % BLOCK_ROWS == 0:
+                        _bound_time(base)
+                return
+            number += 1
+            try:
+                row = base.execute(f"SELECT {row_id}, {listed} {begin} LIMIT 1", (last,)).fetchone()
+                yield row[1:]
+            except sqlite3.DataError:
+                row = base.execute(f"SELECT {row_id} {begin} LIMIT 1", (last,)).fetchone()
+                yield f"a cell is larger than {MAX_CELL_BYTES >> 20} MB"
+            last = row[0]
+    except sqlite3.DatabaseError as error:
+        told = f"cannot be read after row {number} ({error})"
+        raise InputError(path, told, "Save it anew as GeoPackage.") from error
 
 
 def _polygons(geometry: object) -> tuple[list[Any] | None, str]:

@@ -2,40 +2,41 @@
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import json
 import shutil
 from collections.abc import Mapping, Sequence
-from contextlib import closing
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from pydantic import JsonValue
 
 from veduta.formats.cityjson_text import header, write_joined, write_sequence
 from veduta.formats.place_json import write_place
 from veduta.formats.tiles import write_tileset
 from veduta.grammar.assets.library import Library
-from veduta.grammar.block import MEMORY, Block, Job, run_block
+from veduta.grammar.block import MEMORY, Job, run_block
 from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
+from veduta.grammar.failures import Failures
 from veduta.grammar.given import check_options
 from veduta.grammar.ground import is_level
 from veduta.grammar.joining import tables, write_ground, write_pictures
-from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
-from veduta.grammar.neighbours import neighbours_of
+from veduta.grammar.lot import anchors_of
+from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
-from veduta.grammar.placing import block_origin, place_of, placed_how, town_of
-from veduta.grammar.quadtree import squares
+from veduta.grammar.placing import place_of, placed_how, town_of
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.squares import FEW, Square, Squares, squares_of, told
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
+from veduta.run.errors import InputError
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import Progress
@@ -44,10 +45,8 @@ from veduta.run.report import Failure, StepRecord, timed_step
 
 VERSION = "6"
 COMMAND = "grammar derive"
-FEW = 64
-"""Lots that a block may always have; so many get a file each."""
-MOST_BLOCKS = 48
-"""The record of a run is written after each block: their number is bounded, not their size."""
+MOST_SEPARATE = 100_000
+"""Lots whose buildings may get a file each."""
 SEQUENCE = 1000
 """More lots than these are CityJSONSeq, which is read a line at a time."""
 TILESET = "tileset.json"
@@ -65,7 +64,7 @@ class DeriveResult:
     total: int = 0
     up_to_date: bool = False
     built: Whole = field(default_factory=Whole)
-    failures: list[Failure] = field(default_factory=list)
+    failures: Failures = field(default_factory=Failures)
     notes: list[str] = field(default_factory=list)
     steps: list[StepRecord] = field(default_factory=list)
     edited: list[str] = field(default_factory=list)
@@ -75,7 +74,7 @@ class DeriveResult:
     @property
     def exit_code(self) -> int:
         """0 done, 1 a bug, 2 no lot could be built, 3 some could not."""
-        kinds = {failure.kind for failure in self.failures}
+        kinds = self.failures.kinds
         if "bug" in kinds:
             return 1
         if kinds == {"input"} and not self.built.count:
@@ -97,24 +96,27 @@ def run_derive(
     """Build every lot in OUT, by the rules of `run.outputs`."""
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
-        call = _call(rules_name, lots_path, edits_path, options)
+        call = _call(rules_name, lots_path, edits_path, options, _room_for(out), progress)
     lots = call.lots
-    with open_out(out, COMMAND, call.key, force=force) as folder:
+    with contextlib.closing(lots), open_out(out, COMMAND, call.key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
         result.up_to_date = folder.standing is Standing.UP_TO_DATE
         if result.up_to_date:
             shutil.rmtree(out / CITY, ignore_errors=True)
         waiting = [] if result.up_to_date else _waiting(call, folder)
         with timed_step(steps, "build"):
-            _process(
-                [call.job(b, folder) for b in waiting], folder, call.keys, result, progress, jobs
-            )
-        _collect(folder, call.blocks, lots, result)
+            _process(call, waiting, folder, result, progress, jobs)
+        _collect(folder, call, result)
         if not result.up_to_date:
             _write_call(folder, call, result)
         result.edited = folder.edited()
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
+
+
+def _room_for(out: Path) -> Path:
+    """The folder that is there, nearest to OUT: lots that memory does not hold lie on its disk."""
+    return next(folder for folder in (out, *out.absolute().parents) if folder.is_dir())
 
 
 @dataclass(frozen=True)
@@ -131,30 +133,38 @@ class _Call:
     options: GrammarOptions
     textures: Mapping[str, str]
     lots: Lots
-    blocks: list[Block]
+    squares: Squares
     keys: dict[str, str]
     key: str
 
-    def job(self, block: Block, folder: OutFolder) -> Job:
-        """The work on a block."""
+    def job(self, square: Square, folder: OutFolder) -> Job:
+        """The work on a block, with its lots."""
         return Job(
-            block,
+            self.squares.block(square),
             self.files,
             self.options,
             self.source,
             self.folder,
             folder.path,
-            folder.work_path(block.name),
+            folder.work_path(square.name),
             is_separate(self.options, self.lots),
-            _city_path(folder.path, block) if self.options.output.city else None,
+            _city_path(folder.path, square) if self.options.output.city else None,
             self.textures,
         )
 
 
 def _call(
-    rules_name: str, lots_path: Path | None, edits_path: Path | None, options: GrammarOptions
+    rules_name: str,
+    lots_path: Path | None,
+    edits_path: Path | None,
+    options: GrammarOptions,
+    room: Path,
+    progress: Progress,
 ) -> _Call:
-    """Read and check all that is given; InputError names what is wrong."""
+    """Read and check all that is given; InputError names what is wrong.
+
+    room: the folder that large lots may lie in.
+    """
     rules = read_rules(find_rules(rules_name))
     compiled = compile_rules(rules, options.derive.style)
     options = check_options(compiled, rules.path, options)
@@ -162,56 +172,45 @@ def _call(
     files = tuple(rules.texts)
     textures = find_textures(rules.path, [text for _, text in files])
     read_textures(textures)
-    lots = _lots(lots_path, options)
+    edits = {} if edits_path is None else read_edits(edits_path)
+    lots = _lots(lots_path, options, room, progress)
     if edits_path is not None:
-        lots = edited_lots(lots, edits_path, read_edits(edits_path))
-    blocks = _blocks(lots, ask_beside=compiled.asks_beside)
+        lots = edited_lots(lots, edits_path, edits)
+    if options.output.separate and len(lots.lots) > MOST_SEPARATE:
+        told_of = f"is for up to {MOST_SEPARATE:,} lots, and here are {len(lots.lots):,}"
+        raise InputError("--separate", told_of, "Leave it out: tiles have all buildings.")
+    squares = squares_of(lots.lots, ask_beside=compiled.asks_beside)
     source = rules_name if lots_path is None else str(lots_path)
     made_of: list[JsonValue] = [files_digest(files), assets, textures_digests(textures)]
-    keys = {block.name: _key("block", options, [*made_of, _told(block)]) for block in blocks}
+    keys = {
+        square.name: _key("block", options, [*made_of, told(squares.block(square))])
+        for square in squares.every
+    }
     origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
-    failed: JsonValue = [failure.model_dump() for failure in lots.failures]
+    failed: JsonValue = lots.failures.told()
     key = _key("call", options, [dict(keys), origin, failed, source])
     return _Call(
-        *(rules_name, source, rules.path.parent, files, options), textures, lots, blocks, keys, key
+        *(rules_name, source, rules.path.parent, files, options),
+        *(textures, lots, squares, keys, key),
     )
 
 
-def _waiting(call: _Call, folder: OutFolder) -> list[Block]:
+def _waiting(call: _Call, folder: OutFolder) -> list[Square]:
     """The blocks that are not there, or whose lines of CityJSON are wanted and are not there."""
     needs_lines = call.options.output.city and not _has_city(folder, call)
     return [
-        block
-        for block in call.blocks
-        if not folder.is_current(block.name, call.keys[block.name])
-        or (needs_lines and not _city_path(folder.path, block).exists())
+        square
+        for square in call.squares.every
+        if not folder.is_current(square.name, call.keys[square.name])
+        or (needs_lines and not _city_path(folder.path, square).exists())
     ]
 
 
-def _lots(path: Path | None, options: GrammarOptions) -> Lots:
+def _lots(path: Path | None, options: GrammarOptions, room: Path, progress: Progress) -> Lots:
     require_lots(path, options.lots)
     if path is None:
         return demo_lots(DEMO_LOTS, options.derive.seed)
-    return read_lots(path, options.lots)
-
-
-def _blocks(lots: Lots, *, ask_beside: bool) -> list[Block]:
-    """The lots by squares of a map, some to a folder; with what stands beside them if rules ask."""
-    size = max(FEW, -(-len(lots.lots) // MOST_BLOCKS))
-    if not lots.lots:
-        return []
-    points = np.array([lot.anchor_m[:2] for lot in lots.lots])
-    beside = neighbours_of(lots.lots) if ask_beside else [()] * len(lots.lots)
-    blocks = []
-    for number, rows in enumerate(squares(points, size)):
-        chosen = tuple(lots.lots[row] for row in rows)
-        near = {
-            lots.lots[row].id: tuple(lots.lots[other] for other in beside[row])
-            for row in rows
-            if beside[row]
-        }
-        blocks.append(Block(f"parts/{number:02d}", chosen, block_origin(chosen), near))
-    return blocks
+    return read_lots(path, options.lots, room, progress.said)
 
 
 def is_separate(options: GrammarOptions, lots: Lots) -> bool:
@@ -224,7 +223,7 @@ def is_streamed(options: GrammarOptions, lots: Lots) -> bool:
     return not is_separate(options, lots) or len(lots.lots) > FEW
 
 
-def _city_path(out: Path, block: Block) -> Path:
+def _city_path(out: Path, block: Square) -> Path:
     """A block's lines of CityJSON, until all are there."""
     return out / CITY / f"{block.name.rpartition('/')[2]}.jsonl"
 
@@ -243,44 +242,27 @@ def files_digest(files: Sequence[tuple[str, str]]) -> str:
     return hashlib.sha256(json.dumps(files).encode()).hexdigest()
 
 
-def _told(block: Block) -> str:
-    """The digest of all that is known of the lots of a block, and of those beside them."""
-    lots = {lot.id: lot for near in block.beside.values() for lot in near}
-    lots |= {lot.id: lot for lot in block.lots}
-    own = [lot.id for lot in block.lots]
-    beside = [[name, *(lot.id for lot in near)] for name, near in block.beside.items()]
-    content = [block.name, own, beside, [_lot_told(lot) for lot in lots.values()]]
-    return hashlib.sha256(json.dumps(content).encode()).hexdigest()
-
-
-def _lot_told(lot: Lot) -> list[Any]:
-    return [
-        *(lot.id, lot.name, lot.anchor_m, lot.attributes),
-        [ring.tolist() for ring in lot.rings_m],
-        [edit.core for edit in lot.edits],
-    ]
-
-
 def _key(step: str, options: GrammarOptions, inputs: JsonValue) -> str:
     return result_key(f"{COMMAND} {step}", VERSION, options, inputs)
 
 
 def _process(
-    work: list[Job],
+    call: _Call,
+    waiting: Sequence[Square],
     folder: OutFolder,
-    keys: dict[str, str],
     result: DeriveResult,
     progress: Progress,
     jobs: int | None,
 ) -> None:
     """Work on the blocks, and publish each as soon as it is done."""
-    for job in work:
-        folder.work_folder(job.block.name)
-    tasks = [Task(job.block.name, job, MEMORY) for job in work]
-    with (
-        progress.over(len(tasks)),
-        closing(run_tasks(run_block, tasks, jobs=jobs, started=progress.started)) as outcomes,
-    ):
+
+    def made(square: Square) -> Job:
+        folder.work_folder(square.name)
+        return call.job(square, folder)
+
+    tasks = [Task(square.name, square, MEMORY) for square in waiting]
+    run = run_tasks(run_block, tasks, jobs=jobs, started=progress.started, made=made)
+    with progress.over(len(tasks)), contextlib.closing(run) as outcomes:
         for outcome in outcomes:
             if outcome.error is not None:
                 raise outcome.error
@@ -289,29 +271,29 @@ def _process(
                 if outcome.traceback is not None:
                     result.tracebacks[name] = outcome.traceback
                 failure = outcome.failure(name)
-                result.failures.append(failure)
+                result.failures.add(failure)
                 folder.forget(name)
             else:
                 failure = None
-                summary = outcome.value.summary(name)
-                folder.publish(name, keys[name], folder.work_path(name), summary)
+                folder.publish(name, call.keys[name], folder.work_path(name), outcome.value)
             progress.finished(name, failure)
 
 
-def _collect(folder: OutFolder, blocks: list[Block], lots: Lots, result: DeriveResult) -> None:
+def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """What the place consists of, in the order of the lots."""
-    result.failures += lots.failures
-    result.notes += lots.notes
-    for block in blocks:
-        item = folder.record.items.get(block.name)
+    result.failures.add_all(call.lots.failures, call.lots.failures.untold)
+    result.notes += call.lots.notes
+    for square in call.squares.every:
+        item = folder.record.items.get(square.name)
         if item is None:
             continue
         summary: dict[str, Any] = dict(item.summary)
-        result.built.add(block.name, summary | {"origin_m": block.origin_m})
-        result.failures += [Failure.model_validate(failure) for failure in summary["failures"]]
+        result.built.add(square.name, summary | {"origin_m": square.origin_m})
+        named = [Failure.model_validate(failure) for failure in summary["failures"]]
+        result.failures.add_all(named, summary.get("untold", 0))
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
-    names = {block.name for block in blocks}
+    names = {square.name for square in call.squares.every}
     folders = {"/".join(path.split("/")[:2]) for path in folder.record.files if "/" in path}
     result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
 
@@ -329,8 +311,8 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """The place of all that is done, and the report of the call."""
     whole, lots, options = result.built, call.lots, call.options
     work = folder.work_folder(CALL)
-    result.notes.append(placed_how(lots, call.blocks))
-    if not is_level(lots.lots):
+    result.notes.append(placed_how(lots, call.squares.every))
+    if not is_level(anchors_of(lots.lots)):
         result.notes.append("the ground between the lots is invented, from their heights")
     result.notes += [f"{name} was edited and is left as it is" for name in folder.edited()]
     report, page = derive_report(
@@ -345,22 +327,22 @@ def _write_call(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, call.key, work)
-    if all(failure.kind in LASTING for failure in result.failures):
+    if result.failures.kinds <= LASTING:
         shutil.rmtree(folder.path / CITY, ignore_errors=True)
         folder.finish()
 
 
 def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> None:
     """The files that hold all blocks together."""
-    lots, blocks = call.lots, call.blocks
+    lots, squares = call.lots, call.squares.every
     streamed = is_streamed(call.options, lots)
     done = {name for name, _ in whole.blocks}
-    grounds = write_ground(work, blocks, done)
-    write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
+    grounds = write_ground(work, call.squares, done)
+    write_tileset(town_of(lots, squares, whole, grounds), work / TILESET)
     write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
     if not call.options.output.city:
         return
-    pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
+    pieces = [_city_path(folder.path, one) for one in squares if one.name in done]
     name = _city_name(lots)
     if _has_city(folder, call) and not all(piece.exists() for piece in pieces):
         same_file(folder.path / name, work / name)

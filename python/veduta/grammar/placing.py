@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from veduta.formats.tiles import Box, Tile, union
 from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
-from veduta.grammar.block import Block
 from veduta.grammar.levels import BOXES_ERROR_M
-from veduta.grammar.lots import Lot, Lots
+from veduta.grammar.lots import Lots
 from veduta.grammar.report import Whole
+from veduta.grammar.squares import Square
 from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start
 
 EYE_M = 1.7
@@ -34,15 +34,8 @@ def place_of(lots: Lots, whole: Whole, *, tileset: str | None) -> Place:
     )
 
 
-def block_origin(lots: Sequence[Lot]) -> tuple[float, float, float]:
-    """Where the tiles of some lots count from: a whole metre near their middle, on their ground."""
-    anchors = np.array([lot.anchor_m for lot in lots])
-    x, y, _ = np.floor((anchors.min(axis=0) + anchors.max(axis=0)) / 2).tolist()
-    return (x, y, float(np.floor(anchors[:, 2].min())))
-
-
 def town_of(
-    lots: Lots, blocks: Sequence[Block], whole: Whole, grounds: Mapping[str, tuple[str, Box]]
+    lots: Lots, blocks: Sequence[Square], whole: Whole, grounds: Mapping[str, tuple[str, Box]]
 ) -> Tile:
     """The tree over the tiles of all blocks, on the Earth where the place has a known CRS.
 
@@ -75,7 +68,7 @@ def town_of(
     return Tile(box, max(4 * BOXES_ERROR_M, size / 4), None, tuple(tiles), ground, (0.0, 0.0, 0.0))
 
 
-def placed_how(lots: Lots, blocks: Sequence[Block]) -> str:
+def placed_how(lots: Lots, blocks: Sequence[Square]) -> str:
     """Where on the Earth the tiles of lots stand, in words."""
     grid = _grid(lots, blocks)
     if grid is not None:
@@ -90,7 +83,7 @@ def placed_how(lots: Lots, blocks: Sequence[Block]) -> str:
     return f"{what}: the tiles stand in metres of their own, not on the Earth"
 
 
-def _grid(lots: Lots, blocks: Sequence[Block]) -> Grid | None:
+def _grid(lots: Lots, blocks: Sequence[Square]) -> Grid | None:
     """The projection of the lots; None where it is not known, or ends before one of the blocks."""
     grid = grid_of_crs(lots.crs)
     if grid is None:

@@ -7,11 +7,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+from veduta.grammar.failures import Failures
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.reported import FILE, Sum, as_json, joined
 from veduta.grammar.same_faults import told_once
 from veduta.run.page import Bars, Page, Table, render
-from veduta.run.report import Failure, Report, StepRecord
+from veduta.run.report import Report, StepRecord
 
 MAX_ROWS = 200
 FILES = (
@@ -51,12 +52,13 @@ def derive_report(
     rules: str,
     options: GrammarOptions,
     whole: Whole,
-    failures: Sequence[Failure],
+    failures: Failures,
     notes: list[str],
     steps: list[StepRecord],
 ) -> tuple[Report, bytes]:
     """The report of all lots, and its page."""
     total = whole.count + len(failures)
+    more = [f"{failures.untold:,} more failed, and are not named"] if failures.untold else []
     found = measures(whole, total)
     results = {lot["id"]: _result(lot) for lot in whole.rows}
     report = Report(
@@ -66,8 +68,8 @@ def derive_report(
         options=options.model_dump(mode="json"),
         steps=steps,
         measures={**found, "results": results},
-        notes=[*notes, *_notes(whole)],
-        failures=told_once(failures),
+        notes=[*notes, *more, *_notes(whole)],
+        failures=told_once(failures.named),
     )
     page = Page(
         title=rules,

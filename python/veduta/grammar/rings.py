@@ -75,7 +75,7 @@ def clean_rings(rings_m: list[NDArray[np.float64]]) -> list[NDArray[np.float64]]
 
 def _apart(ring: NDArray[np.float64]) -> NDArray[np.float64]:
     """Without corners that lie on the one before."""
-    steps = np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1)
+    steps = np.linalg.norm(ring - ring[np.arange(-1, len(ring) - 1)], axis=1)
     kept: NDArray[np.float64] = ring[steps >= MIN_STEP_M]
     return kept
 

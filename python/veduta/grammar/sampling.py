@@ -16,7 +16,7 @@ from PIL import Image
 
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.derivation import Derivation, Rules
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.one_lot import derive_lot
 from veduta.grammar.options import GrammarOptions, SampleOptions
 from veduta.grammar.outline import Attribute

@@ -26,7 +26,7 @@ from veduta.grammar.levels import (
     VOLUME,
     prism_attributes,
 )
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.outline import Attribute
 from veduta.grammar.tile_pictures import TilePicture
 from veduta.place.semantics import Provenance, SemanticClass

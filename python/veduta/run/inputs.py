@@ -16,7 +16,7 @@ _KINDS = {
 }
 
 
-def require_file(path: Path, max_bytes: int) -> None:
+def require_file(path: Path, max_bytes: int | None = None) -> None:
     """Refuse what is not a file, or a larger one than `max_bytes`, before it is opened.
 
     Links are followed. A pipe would be waited for, and a device read without end. InputError says
@@ -26,7 +26,7 @@ def require_file(path: Path, max_bytes: int) -> None:
     if not stat.S_ISREG(status.st_mode):
         kind = _KINDS.get(stat.S_IFMT(status.st_mode), "something else")
         raise InputError(path, f"is {kind}, not a file", "Save it as a file, and name that.")
-    if status.st_size > max_bytes:
+    if max_bytes is not None and status.st_size > max_bytes:
         sizes = f"{_size(status.st_size)} large, more than {_size(max_bytes)}"
         raise InputError(path, f"is {sizes}", "Check that it is the right file.")
 

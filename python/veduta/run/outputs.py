@@ -22,7 +22,7 @@ import fcntl
 import os
 import shutil
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import dataclass, field
 from enum import Enum
 from pathlib import Path
@@ -33,7 +33,7 @@ from pydantic import JsonValue
 from veduta.run.atomic import sync_folder, sync_tree
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
-from veduta.run.record import CALL, PRIVATE, Item, RunRecord, load_record
+from veduta.run.record import CALL, JOURNAL, PRIVATE, Change, Item, RunRecord, load_record
 from veduta.run.report import Failure
 
 _NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -113,16 +113,11 @@ class OutFolder:
         stale = [name for name in self.record.files_of(item) if name not in new]
         ours = {name: digest for name, digest in new.items() if name not in users}
 
-        self.record.pending = ours
-        self.record.items[item] = Item(key=result.key, state="publishing")
-        self.record.save(self.path)
+        begun = Item(key=result.key, state="publishing")
+        self.record.change(self.path, Change(items={item: begun}, pending=ours))
         self._move_into_place(item, work, list(ours))
-        for name in stale:
-            self._remove_unless_users(name)
-        self.record.files.update(ours)
-        self.record.pending = {}
-        self.record.items[item] = result
-        self.record.save(self.path)
+        gone: dict[str, str | None] = {name: None for name in stale if self._is_removed(name)}
+        self.record.change(self.path, Change(items={item: result}, files={**gone, **ours}))
         self.kept.extend(users)
 
     def keep(self, item: str) -> bool:
@@ -136,8 +131,9 @@ class OutFolder:
 
     def forget(self, item: str) -> None:
         """Have the next run of the same call make the item again."""
-        if self.record.items.pop(item, None) is not None:
-            self._save()
+        if item in self.record.items:
+            with writing_to(self.path):
+                self.record.change(self.path, Change(items={item: None}))
 
     def finish(self) -> None:
         """Everything that the call asked for is there."""
@@ -172,12 +168,13 @@ class OutFolder:
             not path.is_file() or file_digest(path) != self.record.files.get(name)
         )
 
-    def _remove_unless_users(self, name: str) -> None:
+    def _is_removed(self, name: str) -> bool:
+        """Remove a file, unless it is the user's."""
         if self._is_users(name):
             self.kept.append(name)
-            return
+            return False
         (self.path / name).unlink(missing_ok=True)
-        self.record.files.pop(name, None)
+        return True
 
 
 @contextmanager
@@ -208,6 +205,9 @@ def open_out(
             yield out
         finally:
             shutil.rmtree(work, ignore_errors=True)
+            if (path / PRIVATE / JOURNAL).exists():
+                with suppress(OSError):  # then the next run finds the changes in the journal
+                    out.record.save(path)
 
 
 @contextmanager
@@ -257,11 +257,12 @@ def _take(descriptor: int, out: Path) -> None:
 
 def _settle(record: RunRecord, out: Path) -> None:
     """Recognise the files that a killed run had renamed into place but not yet recorded."""
-    for name, digest in record.pending.items():
-        path = out / name
-        if path.is_file() and file_digest(path) == digest:
-            record.files[name] = digest
-    record.pending = {}
+    there = {
+        name: digest
+        for name, digest in record.pending.items()
+        if (out / name).is_file() and file_digest(out / name) == digest
+    }
+    record.apply(Change(files=there))
 
 
 def _open_locked(

@@ -84,24 +84,26 @@ def run_tasks(
     jobs: int | None = None,
     memory_budget: int = MEMORY_BUDGET,
     started: Callable[[Task], None] = lambda task: None,
+    made: Callable[[Any], Any] = lambda argument: argument,
 ) -> Generator[Outcome[T], None, None]:
     """Call `function` (of a module's top level) on each task's argument; yield as they end.
 
     `jobs` is the number of processes, as many as there are cores by default. With one job or
-    one task the work is done in this process.
+    one task the work is done in this process. `made` gives what the function is called with, of a
+    task's argument: so that what is large is made, in this process, when the task's turn has come.
     """
     jobs = min(jobs or available_cores(), len(tasks), max(1, memory_budget // (2 * WORKER_BASE)))
     if jobs <= 1:
         for task in tasks:
             started(task)
-            yield Outcome(task, *_attempt(function, task.argument))
+            yield Outcome(task, *_attempt(function, made(task.argument)))
         return
     budget = memory_budget - (jobs + 1) * WORKER_BASE  # this process is one more
     waiting = list(reversed(tasks))
     workers: list[_Worker] = []
     try:
         while waiting or any(worker.task for worker in workers):
-            _hand_out(function, workers, waiting, jobs, budget, started)
+            _hand_out(function, workers, waiting, jobs, budget, started, made)
             for worker, task in _ready(workers):
                 yield _collect(worker, task, workers)
     finally:
@@ -120,6 +122,7 @@ def _hand_out(
     jobs: int,
     budget: int,
     started: Callable[[Task], None],
+    made: Callable[[Any], Any],
 ) -> None:
     """Give the next tasks to idle workers, as far as the memory reaches (always to one)."""
     while waiting:
@@ -136,7 +139,7 @@ def _hand_out(
         worker.task = waiting.pop()
         started(worker.task)
         try:
-            worker.pipe.send(worker.task.argument)
+            worker.pipe.send(made(worker.task.argument))
         except (BrokenPipeError, ConnectionResetError):
             return  # the worker died before its task; `_collect` finds that out
 

@@ -53,6 +53,12 @@ class Progress:
         finally:
             self._bar = None
 
+    def said(self, text: str) -> None:
+        """A line about work that is no item of a call."""
+        if not self._console.quiet:
+            sys.stderr.write(f"{text}\n")
+            sys.stderr.flush()
+
     def started(self, task: Task) -> None:
         """A process has taken an item in hand."""
         self._in_hand.append(task.name)

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
-from veduta.grammar import feature_stream
+from veduta.grammar import json_stream
 from veduta.grammar import lots as lots_module
 from veduta.grammar.feature_stream import FeatureStream
 from veduta.grammar.lots import read_lots
@@ -31,7 +31,7 @@ def streamed(folder: Path, text: str, block: int = 1 << 20) -> tuple[list[Any], 
     path = folder / "lots.geojson"
     path.write_text(text, "utf-8")
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(feature_stream, "BLOCK_BYTES", block)
+        patch.setattr(json_stream, "BLOCK_BYTES", block)
         stream = FeatureStream(path)
         return list(stream.features()), stream.members
 
@@ -60,7 +60,6 @@ def test_it_is_what_the_json_module_reads(
         '{"type": "FeatureCollection", "features": {}}',
         '{"type": "FeatureCollection", "features": [1, 2',
         '{"type": "FeatureCollection", "features": [1 2]}',
-        '{"type": "FeatureCollection", "features": [NaN]}',
         '{"type": "FeatureCollection", "features": [1], }',
         '{"type": "FeatureCollection", "features": [1, ]}',
         '{"type": "FeatureCollection", "features": [' + "[" * 200_000,
@@ -72,7 +71,7 @@ def test_what_is_no_collection_is_refused(tmp_path: Path, text: str) -> None:
 
 
 def test_a_value_without_end_is_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(feature_stream, "MAX_VALUE", 10_000)
+    monkeypatch.setattr(json_stream, "MAX_VALUE", 10_000)
     with pytest.raises(InputError, match="a value of more than"):
         streamed(tmp_path, '{"features": ["' + "x" * 100_000, block=1000)
 
@@ -95,6 +94,3 @@ def test_lots_are_the_same_in_blocks(tmp_path: Path, monkeypatch: pytest.MonkeyP
     )
     assert [lot.id for lot in parts.lots] == [lot.id for lot in whole.lots]
     assert [lot.anchor_m for lot in parts.lots] == [lot.anchor_m for lot in whole.lots]
-    monkeypatch.setattr(lots_module, "MAX_LOTS", 20)
-    with pytest.raises(InputError, match="more than 20 features"):
-        read_lots(path)

@@ -10,7 +10,7 @@ import pytest
 from veduta import _core
 from veduta.grammar.deriving import attributes_of, seed_of
 from veduta.grammar.given import check_options, read_attributes
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import AttributeOptions, DeriveOptions, GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.run.errors import InputError

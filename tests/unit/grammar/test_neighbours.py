@@ -12,7 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from veduta.grammar.derivation import parse
-from veduta.grammar.lots import Lot, read_lots
+from veduta.grammar.lot import Lot
+from veduta.grammar.lots import read_lots
 from veduta.grammar.neighbours import MOST, NEAR_M, neighbours_of
 from veduta.grammar.one_lot import derive_lot, find_lot
 from veduta.grammar.options import GrammarOptions

@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from veduta.grammar import object_lots
 from veduta.grammar.lots import Lots, read_lots
 from veduta.grammar.options import LotOptions
 from veduta.run.errors import InputError
@@ -94,3 +95,26 @@ def test_what_cannot_be_read_names_the_line(tmp_path: Path, text: str, told: str
 def test_layers_are_for_packages(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="has no layers"):
         read(tmp_path, TWO, layer="lots")
+
+
+def test_a_bad_face_is_a_failure_of_its_object(tmp_path: Path) -> None:
+    found = read(tmp_path, TWO.replace("f 5 6 7", "f 5 6 70"))
+    assert [lot.name for lot in found.lots] == ["left"]
+    (failure,) = found.failures
+    assert failure.subject.endswith(": right side")
+    assert failure.reason == "line 14: names a vertex that is not there"
+
+
+def test_an_object_has_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(object_lots, "MAX_FACE_CORNERS", 6)
+    with pytest.raises(InputError, match=r"more than 6 corners \(line 15\)"):
+        read(tmp_path, TWO + "f 1 2 3\n")
+
+
+def test_vertices_are_the_same_in_pieces(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    whole = read(tmp_path, TWO)
+    monkeypatch.setattr(object_lots, "AT_ONCE", 2)
+    parts = read(tmp_path, TWO)
+    assert [lot.anchor_m for lot in parts.lots] == [lot.anchor_m for lot in whole.lots]
+    for one, other in zip(parts.lots, whole.lots, strict=True):
+        assert one.rings_m[0].tolist() == other.rings_m[0].tolist()

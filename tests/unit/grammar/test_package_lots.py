@@ -12,6 +12,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from veduta.grammar import package_lots
 from veduta.grammar.lots import read_lots
 from veduta.grammar.options import LotOptions
 from veduta.grammar.rings import RingFault
@@ -165,3 +166,16 @@ def test_a_file_that_is_named_like_a_package_and_is_none(tmp_path: Path) -> None
     path.unlink()
     with pytest.raises(InputError, match="does not exist"):
         read_lots(path)
+
+
+def test_a_cell_too_large_costs_nothing_but_its_row(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(package_lots, "MAX_CELL_BYTES", 5000)
+    sound = cell(wkb([SQUARE]))
+    rows = [(number, sound, f"lot {number}", 1.0, 0) for number in (2, 5, 9)]
+    rows += [(3, sound + bytes(9000), "large", 1.0, 0), (20, sound + bytes(9000), "last", 1.0, 0)]
+    found = read_lots(package(tmp_path / "lots.gpkg", rows))
+    assert [lot.name for lot in found.lots] == ["lot 2", "lot 5", "lot 9"]
+    told = [(failure.subject.rpartition(" ")[2], failure.reason) for failure in found.failures]
+    assert told == [("2", "a cell is larger than 0 MB"), ("5", "a cell is larger than 0 MB")]

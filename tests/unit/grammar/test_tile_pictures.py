@@ -17,7 +17,7 @@ from veduta import _core
 from veduta.formats.tiles import contents
 from veduta.grammar.deriving import deriver
 from veduta.grammar.levels import FULL
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
 from veduta.grammar.surfaces.catalogue import mean_colour

@@ -17,7 +17,7 @@ from veduta.grammar.assets.library import Library
 from veduta.grammar.building import build_part
 from veduta.grammar.deriving import deriver
 from veduta.grammar.levels import FULL
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.town import PROVENANCES
 from veduta.place.part import Part

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from veduta.grammar.block import Block
 from veduta.grammar.ground import MARGIN_M, Ground, ground_of
-from veduta.grammar.lots import Lot
+from veduta.grammar.lot import Lot
 
 
 def lot(x: float, y: float, z: float, size: float = 10.0) -> Lot:

@@ -104,3 +104,20 @@ def test_stopping_ends_the_workers() -> None:
     outcomes.close()
     assert not any(child.is_alive() for child in children)
     assert time.monotonic() - start < 5
+
+
+@pytest.mark.parametrize("jobs", [1, 2])
+def test_arguments_are_made_when_their_turn_comes(jobs: int) -> None:
+    made: list[int] = []
+
+    def make(number: int) -> int:
+        made.append(number)
+        return number + 100
+
+    known = []
+    for outcome in run_tasks(square, tasks(list(range(12))), jobs=jobs, made=make):
+        assert outcome.value is not None
+        known.append(outcome.value[0])
+        assert len(made) <= len(known) + jobs
+    assert sorted(known) == [(number + 100) ** 2 for number in range(12)]
+    assert sorted(made) == list(range(12))
