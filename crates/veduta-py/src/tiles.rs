@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use pyo3::prelude::*;
 use veduta_grammar::engine::Look;
-use veduta_tiles::{batch, Batch, Building};
+use veduta_tiles::{batch, batch_whole, Batch, Building};
 
 use crate::derived_lot::Derived;
 use crate::standing::Stands;
@@ -92,6 +92,7 @@ pub fn tile(
     places: &[[f64; 3]],
     codes: &Codes,
     textures: &Textures,
+    whole: bool,
 ) -> Result<TileBuffers, String> {
     let mut surfaces = Surfaces::default();
     let mut materials = Materials::default();
@@ -171,6 +172,11 @@ pub fn tile(
         .collect();
     let each = materials.rows.iter();
     let mapped: Vec<bool> = each.map(|(.., texture)| texture.is_some()).collect();
+    let plain = if whole {
+        materials.plain(textures)
+    } else {
+        Vec::new()
+    };
     let buildings: Vec<Building<'_>> = lots
         .iter()
         .zip(&all)
@@ -185,10 +191,12 @@ pub fn tile(
             part: &columns.part,
             uv: &lot.packed.uv,
             mapped: &mapped,
+            plain: &plain,
             offset,
         })
         .collect();
-    let batch = batch(&buildings, &stands.finish()?).map_err(|error| error.to_string())?;
+    let put_together = if whole { batch_whole } else { batch };
+    let batch = put_together(&buildings, &stands.finish()?).map_err(|error| error.to_string())?;
     Ok(TileBuffers {
         batch,
         surfaces,
@@ -217,6 +225,20 @@ struct Materials {
 }
 
 impl Materials {
+    /// For each material one without a texture, of the same colour in the mean.
+    fn plain(&mut self, textures: &Textures) -> Vec<u32> {
+        let own = self.rows.clone();
+        let each = own.into_iter().zip(0..);
+        each.map(|((class, told, colour, opacity, texture), number)| {
+            let named = texture.and_then(|texture| textures.named.get(texture as usize));
+            named.map_or(number, |(_, mean)| {
+                let seen = [0, 1, 2].map(|k| colour[k] * mean[k]);
+                self.number((class, told), seen, opacity, None)
+            })
+        })
+        .collect()
+    }
+
     /// `kind` is class and provenance.
     fn number(
         &mut self,

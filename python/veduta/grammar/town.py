@@ -138,6 +138,7 @@ class Town:
             PROVENANCES,
             [picture.named for picture in self.pictures],
             mapped=level in MAPPED,
+            whole=level != FULL,
         )
         if buffers.bounds is None:
             return None
