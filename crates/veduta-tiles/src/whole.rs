@@ -5,8 +5,7 @@
 //! through between them. From where single cells are not told apart, those of a surface become the
 //! faces that they were cut from, and the corners of each face stand in the edges of the others.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use glam::DVec3;
 use veduta_geometry::solid::{dissolve, Corner, Sheet};
 
@@ -41,7 +40,7 @@ impl Whole {
             return None;
         }
         let mut looks = Vec::new();
-        let mut known = HashMap::new();
+        let mut known = HashMap::default();
         let sheets: Vec<Sheet> = (0..building.feature.len())
             .map(|polygon| {
                 let look = (building.feature[polygon], building.material[polygon]);

@@ -5,11 +5,11 @@
 //! cancel, and what is left are the outlines and holes of the faces as they were meant. Corners that
 //! no face turns at are dropped from all of them, so that what was closed stays so.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use glam::DVec3;
 
 use super::loops::{nested, traced};
+use super::points_near::PointsNear;
 use super::weld::weld;
 
 /// Normals this near to each other (1 - cosine) are those of one plane.
@@ -120,14 +120,14 @@ impl Faces {
         let all = members
             .iter()
             .flat_map(|&index| self.rings[index].iter().flatten());
-        let known = Sorted::new(unique(all.map(|corner| corner.0)), places);
+        let known = PointsNear::new(unique(all.map(|corner| corner.0)), places);
         for &index in members {
             for ring in &mut self.rings[index] {
                 let mut longer = Vec::with_capacity(ring.len());
                 for (k, &from) in ring.iter().enumerate() {
                     let to = ring[(k + 1) % ring.len()];
                     longer.push(from);
-                    for (share, number) in known.between(from.0, to.0, places, near) {
+                    for (share, number) in known.between(from.0, to.0, near) {
                         let uv = [0, 1].map(|c| from.1[c] + share * (to.1[c] - from.1[c]));
                         longer.push((number, uv));
                     }
@@ -145,7 +145,7 @@ impl Faces {
             .iter()
             .map(|rings| area(rings, places).normalize_or_zero())
             .collect();
-        let mut at_edge: HashMap<(u32, u32, u32, u32), Vec<AtEdge>> = HashMap::new();
+        let mut at_edge: HashMap<(u32, u32, u32, u32), Vec<AtEdge>> = HashMap::default();
         let mut root: Vec<usize> = (0..sheets.len()).collect();
         for (index, sheet) in sheets.iter().enumerate() {
             for ring in &self.rings[index] {
@@ -176,8 +176,8 @@ impl Faces {
 
     /// Some sheets of one plane as the faces that they make together; as they are where that fails.
     fn as_one(&self, members: &[usize], places: &[DVec3]) -> Vec<Whole> {
-        let mut uv = HashMap::new();
-        let mut count: HashMap<(u32, u32), i32> = HashMap::new();
+        let mut uv = HashMap::default();
+        let mut count: HashMap<(u32, u32), i32> = HashMap::default();
         let mut order = Vec::new();
         for ring in members.iter().flat_map(|&index| &self.rings[index]) {
             for (k, &(a, at)) in ring.iter().enumerate() {
@@ -237,58 +237,9 @@ impl Faces {
 /// A sheet at an edge, with its texture coordinates at both ends.
 type AtEdge = (usize, [f64; 2], [f64; 2]);
 
-/// Points in the order of each axis.
-struct Sorted {
-    by_axis: [Vec<u32>; 3],
-}
-
-impl Sorted {
-    fn new(numbers: Vec<u32>, places: &[DVec3]) -> Self {
-        let by_axis = [0, 1, 2].map(|axis| {
-            let mut sorted = numbers.clone();
-            let along = |number: &u32| places[*number as usize][axis];
-            sorted.sort_by(|a, b| along(a).total_cmp(&along(b)));
-            sorted
-        });
-        Self { by_axis }
-    }
-
-    /// The points on the edge between two others, with their share of the way, in order.
-    fn between(&self, from: u32, to: u32, places: &[DVec3], near: f64) -> Vec<(f64, u32)> {
-        let (a, b) = (places[from as usize], places[to as usize]);
-        let slab = |axis: usize| {
-            let sorted = &self.by_axis[axis];
-            let (low, high) = (a[axis].min(b[axis]) - near, a[axis].max(b[axis]) + near);
-            let first = sorted.partition_point(|&n| places[n as usize][axis] < low);
-            let end = sorted.partition_point(|&n| places[n as usize][axis] <= high);
-            &sorted[first..end]
-        };
-        let fewest = [slab(0), slab(1), slab(2)]
-            .into_iter()
-            .min_by_key(|slab| slab.len());
-        let along = b - a;
-        let length = along.length();
-        let mut found = Vec::new();
-        for &number in fewest.unwrap_or_default() {
-            let away = places[number as usize] - a;
-            let share = away.dot(along) / (length * length);
-            let is_inside = share * length > near && (1.0 - share) * length > near;
-            if is_inside
-                && number != from
-                && number != to
-                && (away - share * along).length() <= near
-            {
-                found.push((share, number));
-            }
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found
-    }
-}
-
 /// The corners, by solid and number, at which some face turns.
 fn turning(whole: &[Whole], places: &[DVec3], sheets: &[Sheet]) -> HashSet<(u32, u32)> {
-    let mut found = HashSet::new();
+    let mut found = HashSet::default();
     for one in whole {
         for ring in &one.rings {
             for (k, &number) in ring.iter().enumerate() {

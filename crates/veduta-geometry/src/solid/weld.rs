@@ -1,7 +1,6 @@
 //! Points at one place as one point.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use glam::DVec3;
 
 use super::mesh::Mesh;
@@ -59,7 +58,7 @@ impl Places {
     pub fn new(near: f64) -> Self {
         Self {
             near: if near > 0.0 { near } else { f64::MIN_POSITIVE },
-            cells: HashMap::new(),
+            cells: HashMap::default(),
         }
     }
 
