@@ -145,24 +145,27 @@ impl Faces {
             .iter()
             .map(|rings| area(rings, places).normalize_or_zero())
             .collect();
-        let mut at_edge: HashMap<(u32, u32, u32, u32), Vec<AtEdge>> = HashMap::default();
-        let mut root: Vec<usize> = (0..sheets.len()).collect();
+        let mut at_edge: Vec<([u32; 4], AtEdge)> = Vec::new();
         for (index, sheet) in sheets.iter().enumerate() {
             for ring in &self.rings[index] {
                 for (k, &a) in ring.iter().enumerate() {
                     let b = ring[(k + 1) % ring.len()];
                     let (low, high) = if a.0 < b.0 { (a, b) } else { (b, a) };
-                    let here = (index, low.1, high.1);
-                    let key = (sheet.solid, sheet.group, low.0, high.0);
-                    let others = at_edge.entry(key).or_default();
-                    for other in others.iter() {
-                        let in_plane = normals[index].dot(normals[other.0]).abs() >= 1.0 - PARALLEL;
-                        if in_plane && is_same(here.1, other.1) && is_same(here.2, other.2) {
-                            let (a, b) = (find(&mut root, index), find(&mut root, other.0));
-                            root[a.max(b)] = a.min(b);
-                        }
+                    let key = [sheet.solid, sheet.group, low.0, high.0];
+                    at_edge.push((key, (index, low.1, high.1)));
+                }
+            }
+        }
+        at_edge.sort_unstable_by_key(|(key, (index, ..))| (*key, *index));
+        let mut root: Vec<usize> = (0..sheets.len()).collect();
+        for same in at_edge.chunk_by(|one, other| one.0 == other.0) {
+            for (k, (_, here)) in same.iter().enumerate() {
+                for (_, other) in &same[..k] {
+                    let in_plane = normals[here.0].dot(normals[other.0]).abs() >= 1.0 - PARALLEL;
+                    if in_plane && is_same(here.1, other.1) && is_same(here.2, other.2) {
+                        let (a, b) = (find(&mut root, here.0), find(&mut root, other.0));
+                        root[a.max(b)] = a.min(b);
                     }
-                    others.push(here);
                 }
             }
         }
@@ -176,6 +179,9 @@ impl Faces {
 
     /// Some sheets of one plane as the faces that they make together; as they are where that fails.
     fn as_one(&self, members: &[usize], places: &[DVec3]) -> Vec<Whole> {
+        if members.len() < 2 {
+            return self.as_they_are(members);
+        }
         let mut uv = HashMap::default();
         let mut count: HashMap<(u32, u32), i32> = HashMap::default();
         let mut order = Vec::new();
@@ -207,7 +213,7 @@ impl Faces {
             .flatten()
             .map(|ring| ring_area(ring, places))
             .sum();
-        if members.len() > 1 && found.distance(sum) <= LOST_AREA * sum.length().max(1e-6) {
+        if found.distance(sum) <= LOST_AREA * sum.length().max(1e-6) {
             let first = members[0];
             return faces
                 .into_iter()
@@ -218,6 +224,10 @@ impl Faces {
                 })
                 .collect();
         }
+        self.as_they_are(members)
+    }
+
+    fn as_they_are(&self, members: &[usize]) -> Vec<Whole> {
         let alone = |&index: &usize| Whole {
             first: index,
             rings: self.rings[index]
