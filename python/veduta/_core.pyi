@@ -259,10 +259,12 @@ class DerivedLots:
         textures: Sequence[tuple[str, tuple[float, float, float]]] = ...,
         *,
         mapped: bool = False,
+        whole: bool = False,
     ) -> TileBuffers:
         """The buffers of a tile with these lots, each at its place (m, z up); `classes` and
         `provenances` are those that are known, the last of them for all others. `textures` have
-        their mean colours (sRGB); a tile that is not `mapped` has these instead.
+        their mean colours (sRGB); a tile that is not `mapped` has these instead. In one that is
+        `whole`, the cells of a surface are one face, without cracks between them.
         """
 
 def derive_lots(

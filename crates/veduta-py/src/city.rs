@@ -217,12 +217,15 @@ fn volumes(
     grid: &mut Grid,
 ) -> Result<Vec<String>, String> {
     let mut own = Grid::default();
-    let faces = faces(lot, place, &mut own)?;
+    let mut faces = faces(lot, place, &mut own)?;
     let all: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
     if !all.is_empty() && is_closed(&all) {
         let faces = faces.iter().map(|face| volume_face(lot, face, kinds, code));
         return Ok(vec![solid("2.2", faces.collect(), &own.vertices, grid)]);
     }
+    // A lawn around it is no part of the building.
+    faces.retain(|face| volume_face(lot, face, kinds, code).1 != "GroundSurface");
+    let all: Vec<&Vec<Vec<u32>>> = faces.iter().map(|face| &face.rings).collect();
     let top = own.vertices.iter().map(|vertex| vertex[2]).max();
     let (Some(foot), Some(top)) = (ground(&all, &own.vertices), top) else {
         return Ok(Vec::new());

@@ -196,8 +196,9 @@ impl DerivedLots {
 
     /// The buffers of a tile with these lots, each at its place (m, z up); `classes` and
     /// `provenances` are those that are known, the last of them for all others. `textures` have
-    /// their mean colours (sRGB); a tile that is not `mapped` has these instead.
-    #[pyo3(signature = (lots, places, classes, provenances, textures=Vec::new(), *, mapped=false))]
+    /// their mean colours (sRGB); a tile that is not `mapped` has these instead. In one that is
+    /// `whole`, the cells of a surface are one face, without cracks between them.
+    #[pyo3(signature = (lots, places, classes, provenances, textures=Vec::new(), *, mapped=false, whole=false))]
     #[allow(clippy::too_many_arguments)] // as Python calls it
     fn tile(
         &self,
@@ -208,6 +209,7 @@ impl DerivedLots {
         provenances: Vec<String>,
         textures: Vec<(String, [f32; 3])>,
         mapped: bool,
+        whole: bool,
     ) -> PyResult<TileBuffers> {
         let mut chosen = Vec::new();
         for &lot in &lots {
@@ -227,7 +229,7 @@ impl DerivedLots {
             named: textures,
             shown: mapped,
         };
-        py.detach(|| tile(&chosen, &places, &codes, &textures))
+        py.detach(|| tile(&chosen, &places, &codes, &textures, whole))
             .map_err(PyValueError::new_err)
     }
 }

@@ -4,7 +4,7 @@ use std::collections::HashMap;
 
 use pyo3::prelude::*;
 use veduta_grammar::engine::Look;
-use veduta_tiles::{batch, Batch, Building};
+use veduta_tiles::{batch, batch_whole, Batch, Building};
 
 use crate::derived_lot::Derived;
 use crate::standing::Stands;
@@ -105,6 +105,7 @@ pub fn tile(
     places: &[[f64; 3]],
     codes: &Codes,
     textures: &Textures,
+    whole: bool,
 ) -> Result<TileBuffers, String> {
     let mut making = Making {
         classes: Numbers::of(&codes.classes),
@@ -119,7 +120,7 @@ pub fn tile(
     };
     let each = lots.iter().zip(places);
     let columns: Vec<Columns> = each.map(|(lot, &place)| making.add(lot, place)).collect();
-    making.finish(lots, places, &columns)
+    making.finish(lots, places, &columns, whole)
 }
 
 /// A tile while lots are added to it.
@@ -210,14 +211,21 @@ impl<'a> Making<'a> {
         });
     }
 
+    /// The buffers of all lots; `whole` where the cells of a surface are one face, without cracks.
     fn finish(
         self,
         lots: &[&Derived],
         places: &[[f64; 3]],
         columns: &[Columns],
+        whole: bool,
     ) -> Result<TileBuffers, String> {
         let each = self.materials.rows.iter();
         let mapped: Vec<bool> = each.map(|(.., texture)| texture.is_some()).collect();
+        let plain = if whole {
+            self.materials.plain(self.textures)
+        } else {
+            Vec::new()
+        };
         let each = lots.iter().zip(columns).zip(places);
         let buildings: Vec<Building<'_>> = each
             .map(|((lot, columns), &offset)| Building {
@@ -230,11 +238,13 @@ impl<'a> Making<'a> {
                 part: &columns.part,
                 uv: &lot.packed.uv,
                 mapped: &mapped,
+                plain: &plain,
                 offset,
             })
             .collect();
         let stands = self.stands.finish()?;
-        let batch = batch(&buildings, &stands).map_err(|error| error.to_string())?;
+        let put_together = if whole { batch_whole } else { batch };
+        let batch = put_together(&buildings, &stands).map_err(|error| error.to_string())?;
         Ok(TileBuffers {
             batch,
             surfaces: self.surfaces,
@@ -264,6 +274,20 @@ struct Materials {
 }
 
 impl Materials {
+    /// For each material one without a texture, of the same colour in the mean.
+    fn plain(&mut self, textures: &Textures) -> Vec<u32> {
+        let own = self.rows.clone();
+        let each = own.into_iter().zip(0..);
+        each.map(|((class, told, colour, opacity, texture), number)| {
+            let named = texture.and_then(|texture| textures.named.get(texture as usize));
+            named.map_or(number, |(_, mean)| {
+                let seen = [0, 1, 2].map(|k| colour[k] * mean[k]);
+                self.number((class, told), seen, opacity, None)
+            })
+        })
+        .collect()
+    }
+
     /// `kind` is class and provenance.
     fn number(
         &mut self,

@@ -11,6 +11,7 @@ use crate::mapping::steps;
 use crate::merge::{merge, Grid, Merged};
 use crate::repeats::{take_repeats, Cut, Piece, Repeated};
 use crate::standing::Standing;
+use crate::whole::Whole;
 
 /// A vertex may lie this far off its polygon's plane (m).
 const PLANE_TOLERANCE_M: f64 = 1e-3;
@@ -36,6 +37,29 @@ pub struct Batch {
 
 /// Merges buildings and the meshes that stand in them; the same give the same bytes.
 pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch, PolygonError> {
+    batched(buildings, standing, true)
+}
+
+/// As [`batch`], with the cells of a surface as the faces that they were cut from, and none of them
+/// repeated: what meets before places are rounded meets after it, too.
+pub fn batch_whole(
+    buildings: &[Building<'_>],
+    standing: &[Standing],
+) -> Result<Batch, PolygonError> {
+    let whole: Vec<Option<Whole>> = buildings.par_iter().map(Whole::of).collect();
+    let faces: Vec<Building<'_>> = buildings
+        .iter()
+        .zip(&whole)
+        .map(|(own, whole)| whole.as_ref().map_or(*own, |whole| whole.building(own)))
+        .collect();
+    batched(&faces, standing, false)
+}
+
+fn batched(
+    buildings: &[Building<'_>],
+    standing: &[Standing],
+    repeats: bool,
+) -> Result<Batch, PolygonError> {
     let cuts: Vec<Cut> = buildings
         .par_iter()
         .map(cut)
@@ -51,11 +75,16 @@ pub fn batch(buildings: &[Building<'_>], standing: &[Standing]) -> Result<Batch,
     }
     let pieces = pieces(buildings, &cuts, |building| building.piece);
     let uv_steps = steps(buildings, &pieces, standing);
-    let (repeated, rest) = take_repeats(buildings, &cuts, &uv_steps, pieces);
-    let rest = split(buildings, rest);
-    let (more, rest) = take_repeats(buildings, &cuts, &uv_steps, rest);
-    made.repeated = repeated;
-    made.repeated.extend(more);
+    let rest = if repeats {
+        let (repeated, rest) = take_repeats(buildings, &cuts, &uv_steps, pieces);
+        let rest = split(buildings, rest);
+        let (more, rest) = take_repeats(buildings, &cuts, &uv_steps, rest);
+        made.repeated = repeated;
+        made.repeated.extend(more);
+        rest
+    } else {
+        pieces
+    };
     let mut alone = Vec::new();
     for one in standing {
         match one

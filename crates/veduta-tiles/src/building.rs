@@ -23,6 +23,9 @@ pub struct Building<'a> {
     pub uv: &'a [[f32; 2]],
     /// Whether a material has a texture, by its number; none has beyond the end.
     pub mapped: &'a [bool],
+    /// What stands for a material with a texture where a face is too narrow to show it, by its
+    /// number; the material itself beyond the end.
+    pub plain: &'a [u32],
     /// Where the building stands in the tile (m), z up.
     pub offset: [f64; 3],
 }
@@ -35,13 +38,18 @@ impl Building<'_> {
         vertex(ring(polygon))..vertex(ring(polygon + 1))
     }
 
-    /// The rings of a polygon in the tile, z up.
-    pub(crate) fn rings(&self, polygon: usize) -> impl Iterator<Item = Vec<DVec3>> + '_ {
+    /// The vertices of each ring of a polygon.
+    pub(crate) fn ranges(&self, polygon: usize) -> impl Iterator<Item = Range<usize>> + '_ {
         let first = self.polygon_offsets[polygon] as usize;
         let last = self.polygon_offsets[polygon + 1] as usize;
+        let vertex = |ring: usize| self.ring_offsets[ring] as usize;
+        (first..last).map(move |ring| vertex(ring)..vertex(ring + 1))
+    }
+
+    /// The rings of a polygon in the tile, z up.
+    pub(crate) fn rings(&self, polygon: usize) -> impl Iterator<Item = Vec<DVec3>> + '_ {
         let offset = DVec3::from_array(self.offset);
-        (first..last).map(move |ring| {
-            let range = self.ring_offsets[ring] as usize..self.ring_offsets[ring + 1] as usize;
+        self.ranges(polygon).map(move |range| {
             let points = self.positions[range].iter();
             points.map(|&p| DVec3::from_array(p) + offset).collect()
         })

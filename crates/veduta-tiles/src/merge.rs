@@ -1,7 +1,8 @@
 //! What is not repeated: one mesh for each material, vertices of a surface shared.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
+use foldhash::HashMap;
 use glam::DVec3;
 
 use crate::building::Building;

@@ -1,7 +1,8 @@
 //! Pieces that occur several times: one mesh, and where each stands.
 
-use std::collections::{BTreeMap, HashMap};
+use std::collections::BTreeMap;
 
+use foldhash::HashMap;
 use glam::DVec3;
 
 use crate::building::Building;
@@ -63,7 +64,7 @@ pub(crate) fn take_repeats(
     pieces: Vec<Piece>,
 ) -> (Vec<Repeated>, Vec<Piece>) {
     let mut groups: Vec<Vec<(usize, Motion)>> = Vec::new();
-    let mut known: HashMap<(u32, Key), usize> = HashMap::new();
+    let mut known: HashMap<(u32, Key), usize> = HashMap::default();
     for (number, piece) in pieces.iter().enumerate() {
         let Some((motion, key)) = described(&buildings[piece.building], cuts, uv_steps, piece)
         else {
@@ -144,7 +145,7 @@ fn repeated(
         ..Repeated::default()
     };
     let mapping = Mapping::of(building, &first.polygons, uv_steps);
-    let mut known: HashMap<Corner, u16> = HashMap::new();
+    let mut known: HashMap<Corner, u16> = HashMap::default();
     let offset = DVec3::from_array(building.offset);
     for &polygon in &first.polygons {
         for triangle in &cuts[first.building].triangles[polygon] {

@@ -55,6 +55,7 @@ fn building(columns: &Columns, offset: [f64; 3]) -> Building<'_> {
         part: &columns.piece,
         uv: &[],
         mapped: &[],
+        plain: &[],
         offset,
     }
 }

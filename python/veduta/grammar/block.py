@@ -18,7 +18,7 @@ from veduta.formats.tiles import Tile
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
 from veduta.grammar.failures import Failures
-from veduta.grammar.levels import FULL, PLAIN, VOLUME
+from veduta.grammar.levels import FULL, PANELS, PLAIN, VOLUME
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.quadtree import squares
@@ -189,6 +189,7 @@ def _leaf(
         full = by.together(sound, FULL)
         plain = by.together(sound, PLAIN) if by.levels.plain else None
         is_solid = job.city is not None and by.levels.marked
+        panels = by.together(sound, PANELS) if is_solid else None
         volumes = by.together(sound, VOLUME) if is_solid else None
     rows, built = [], []
     reported: dict[str, Values] = {}
@@ -204,7 +205,7 @@ def _leaf(
         built.append(one)
     with timed_step(result.steps, "write"), writing_to(job.out):
         if job.city is not None:
-            levels = [plain, full] if plain else [full]
+            levels = [panels, full] if panels else [full]
             with _growing(job.city).open("a", encoding="utf-8", newline="\n") as lines:
                 lines.writelines(_city(levels, volumes, rows, built, reported, result))
         tile = result.town.leaf(name, built, (full, rows), (plain, rows) if plain else None)

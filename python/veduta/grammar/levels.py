@@ -1,8 +1,9 @@
 """The levels of detail of a building, and what rule files say of them.
 
-A rule file that has the attribute `LOD` (the convention of CityEngine) is derived three times: with
-2, all that there is, with 1, windows and railings as plain surfaces, and with 0, little more than
-the volume. A file without it has one level, and its lots stand as prisms in the distance.
+A rule file that has the attribute `LOD` (the convention of CityEngine) is derived several times:
+with 2, all that there is, with 1.5, all of it with few faces, and with 0, little more than the
+volume; for CityJSON with 1, windows as plain surfaces. A file without it has one level, and its
+lots stand as prisms in the distance.
 """
 
 from __future__ import annotations
@@ -13,10 +14,10 @@ from veduta import _core
 from veduta.grammar.outline import Attribute
 
 ATTRIBUTE = "LOD"
-FULL, PLAIN, VOLUME = 2.0, 1.0, 0.0
+FULL, PLAIN, PANELS, VOLUME = 2.0, 1.5, 1.0, 0.0
 ERROR_M = {FULL: 0.0, PLAIN: 0.5, VOLUME: 4.0}
-"""How far a level is from the truth: the depth of a frame; of a balcony or a cornice with its
-shadow."""
+"""How far a level is from the truth: the depth of what rules leave out of a window or a railing; of
+a balcony or a cornice with its shadow."""
 BOXES_ERROR_M = 25.0
 """Of buildings as boxes: a roof, or a wing that is not there."""
 

@@ -1,4 +1,4 @@
-"""The tiles of a block of lots: what is seen from near, from across the street and from afar."""
+"""The tiles of a block of lots: what is seen from near, from along the street and from afar."""
 
 from __future__ import annotations
 
@@ -138,6 +138,7 @@ class Town:
             PROVENANCES,
             [picture.named for picture in self.pictures],
             mapped=level in MAPPED,
+            whole=level != FULL,
         )
         if buffers.bounds is None:
             return None

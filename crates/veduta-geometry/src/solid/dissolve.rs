@@ -5,11 +5,11 @@
 //! cancel, and what is left are the outlines and holes of the faces as they were meant. Corners that
 //! no face turns at are dropped from all of them, so that what was closed stays so.
 
-use std::collections::{HashMap, HashSet};
-
+use foldhash::{HashMap, HashSet};
 use glam::DVec3;
 
 use super::loops::{nested, traced};
+use super::points_near::PointsNear;
 use super::weld::weld;
 
 /// Normals this near to each other (1 - cosine) are those of one plane.
@@ -120,14 +120,14 @@ impl Faces {
         let all = members
             .iter()
             .flat_map(|&index| self.rings[index].iter().flatten());
-        let known = Sorted::new(unique(all.map(|corner| corner.0)), places);
+        let known = PointsNear::new(unique(all.map(|corner| corner.0)), places);
         for &index in members {
             for ring in &mut self.rings[index] {
                 let mut longer = Vec::with_capacity(ring.len());
                 for (k, &from) in ring.iter().enumerate() {
                     let to = ring[(k + 1) % ring.len()];
                     longer.push(from);
-                    for (share, number) in known.between(from.0, to.0, places, near) {
+                    for (share, number) in known.between(from.0, to.0, near) {
                         let uv = [0, 1].map(|c| from.1[c] + share * (to.1[c] - from.1[c]));
                         longer.push((number, uv));
                     }
@@ -145,24 +145,27 @@ impl Faces {
             .iter()
             .map(|rings| area(rings, places).normalize_or_zero())
             .collect();
-        let mut at_edge: HashMap<(u32, u32, u32, u32), Vec<AtEdge>> = HashMap::new();
-        let mut root: Vec<usize> = (0..sheets.len()).collect();
+        let mut at_edge: Vec<([u32; 4], AtEdge)> = Vec::new();
         for (index, sheet) in sheets.iter().enumerate() {
             for ring in &self.rings[index] {
                 for (k, &a) in ring.iter().enumerate() {
                     let b = ring[(k + 1) % ring.len()];
                     let (low, high) = if a.0 < b.0 { (a, b) } else { (b, a) };
-                    let here = (index, low.1, high.1);
-                    let key = (sheet.solid, sheet.group, low.0, high.0);
-                    let others = at_edge.entry(key).or_default();
-                    for other in others.iter() {
-                        let in_plane = normals[index].dot(normals[other.0]).abs() >= 1.0 - PARALLEL;
-                        if in_plane && is_same(here.1, other.1) && is_same(here.2, other.2) {
-                            let (a, b) = (find(&mut root, index), find(&mut root, other.0));
-                            root[a.max(b)] = a.min(b);
-                        }
+                    let key = [sheet.solid, sheet.group, low.0, high.0];
+                    at_edge.push((key, (index, low.1, high.1)));
+                }
+            }
+        }
+        at_edge.sort_unstable_by_key(|(key, (index, ..))| (*key, *index));
+        let mut root: Vec<usize> = (0..sheets.len()).collect();
+        for same in at_edge.chunk_by(|one, other| one.0 == other.0) {
+            for (k, (_, here)) in same.iter().enumerate() {
+                for (_, other) in &same[..k] {
+                    let in_plane = normals[here.0].dot(normals[other.0]).abs() >= 1.0 - PARALLEL;
+                    if in_plane && is_same(here.1, other.1) && is_same(here.2, other.2) {
+                        let (a, b) = (find(&mut root, here.0), find(&mut root, other.0));
+                        root[a.max(b)] = a.min(b);
                     }
-                    others.push(here);
                 }
             }
         }
@@ -176,8 +179,11 @@ impl Faces {
 
     /// Some sheets of one plane as the faces that they make together; as they are where that fails.
     fn as_one(&self, members: &[usize], places: &[DVec3]) -> Vec<Whole> {
-        let mut uv = HashMap::new();
-        let mut count: HashMap<(u32, u32), i32> = HashMap::new();
+        if members.len() < 2 {
+            return self.as_they_are(members);
+        }
+        let mut uv = HashMap::default();
+        let mut count: HashMap<(u32, u32), i32> = HashMap::default();
         let mut order = Vec::new();
         for ring in members.iter().flat_map(|&index| &self.rings[index]) {
             for (k, &(a, at)) in ring.iter().enumerate() {
@@ -207,7 +213,7 @@ impl Faces {
             .flatten()
             .map(|ring| ring_area(ring, places))
             .sum();
-        if members.len() > 1 && found.distance(sum) <= LOST_AREA * sum.length().max(1e-6) {
+        if found.distance(sum) <= LOST_AREA * sum.length().max(1e-6) {
             let first = members[0];
             return faces
                 .into_iter()
@@ -218,6 +224,10 @@ impl Faces {
                 })
                 .collect();
         }
+        self.as_they_are(members)
+    }
+
+    fn as_they_are(&self, members: &[usize]) -> Vec<Whole> {
         let alone = |&index: &usize| Whole {
             first: index,
             rings: self.rings[index]
@@ -237,58 +247,9 @@ impl Faces {
 /// A sheet at an edge, with its texture coordinates at both ends.
 type AtEdge = (usize, [f64; 2], [f64; 2]);
 
-/// Points in the order of each axis.
-struct Sorted {
-    by_axis: [Vec<u32>; 3],
-}
-
-impl Sorted {
-    fn new(numbers: Vec<u32>, places: &[DVec3]) -> Self {
-        let by_axis = [0, 1, 2].map(|axis| {
-            let mut sorted = numbers.clone();
-            let along = |number: &u32| places[*number as usize][axis];
-            sorted.sort_by(|a, b| along(a).total_cmp(&along(b)));
-            sorted
-        });
-        Self { by_axis }
-    }
-
-    /// The points on the edge between two others, with their share of the way, in order.
-    fn between(&self, from: u32, to: u32, places: &[DVec3], near: f64) -> Vec<(f64, u32)> {
-        let (a, b) = (places[from as usize], places[to as usize]);
-        let slab = |axis: usize| {
-            let sorted = &self.by_axis[axis];
-            let (low, high) = (a[axis].min(b[axis]) - near, a[axis].max(b[axis]) + near);
-            let first = sorted.partition_point(|&n| places[n as usize][axis] < low);
-            let end = sorted.partition_point(|&n| places[n as usize][axis] <= high);
-            &sorted[first..end]
-        };
-        let fewest = [slab(0), slab(1), slab(2)]
-            .into_iter()
-            .min_by_key(|slab| slab.len());
-        let along = b - a;
-        let length = along.length();
-        let mut found = Vec::new();
-        for &number in fewest.unwrap_or_default() {
-            let away = places[number as usize] - a;
-            let share = away.dot(along) / (length * length);
-            let is_inside = share * length > near && (1.0 - share) * length > near;
-            if is_inside
-                && number != from
-                && number != to
-                && (away - share * along).length() <= near
-            {
-                found.push((share, number));
-            }
-        }
-        found.sort_by(|a, b| a.0.total_cmp(&b.0));
-        found
-    }
-}
-
 /// The corners, by solid and number, at which some face turns.
 fn turning(whole: &[Whole], places: &[DVec3], sheets: &[Sheet]) -> HashSet<(u32, u32)> {
-    let mut found = HashSet::new();
+    let mut found = HashSet::default();
     for one in whole {
         for ring in &one.rings {
             for (k, &number) in ring.iter().enumerate() {

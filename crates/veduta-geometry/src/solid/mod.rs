@@ -13,6 +13,7 @@ mod level;
 mod loops;
 mod mesh;
 mod normals;
+mod points_near;
 mod primitives;
 mod pyramids;
 mod roofs;

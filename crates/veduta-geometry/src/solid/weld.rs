@@ -1,7 +1,6 @@
 //! Points at one place as one point.
 
-use std::collections::HashMap;
-
+use foldhash::HashMap;
 use glam::DVec3;
 
 use super::mesh::Mesh;
@@ -46,6 +45,9 @@ pub fn joined(parts: &[&Mesh], near: f64) -> Mesh {
     whole.compact()
 }
 
+/// The side of a cell of known places, in the length within which places are one.
+const CELL: f64 = 16.0;
+
 /// Places that are known, by their numbers.
 pub(super) struct Places {
     near: f64,
@@ -56,24 +58,35 @@ impl Places {
     pub fn new(near: f64) -> Self {
         Self {
             near: if near > 0.0 { near } else { f64::MIN_POSITIVE },
-            cells: HashMap::new(),
+            cells: HashMap::default(),
         }
     }
 
     /// The number of the known place that is near enough, else `new`, which is known from then on.
     pub fn number(&mut self, place: DVec3, new: u32) -> u32 {
-        let size = 4.0 * self.near;
-        let cell = place.to_array().map(|c| (c / size).floor() as i64);
-        for offset in 0..27 {
-            let beside = [offset % 3 - 1, offset / 3 % 3 - 1, offset / 9 - 1];
-            let key: [i64; 3] = std::array::from_fn(|axis| cell[axis].saturating_add(beside[axis]));
-            for &(known, number) in self.cells.get(&key).into_iter().flatten() {
-                if known.distance(place) <= self.near {
-                    return number;
+        // Most places are nearer to no other cell than to their own.
+        let (low, high) = (self.cell(place - self.near), self.cell(place + self.near));
+        for x in low[0]..=high[0] {
+            for y in low[1]..=high[1] {
+                for z in low[2]..=high[2] {
+                    for &(known, number) in self.cells.get(&[x, y, z]).into_iter().flatten() {
+                        if known.distance(place) <= self.near {
+                            return number;
+                        }
+                    }
                 }
             }
         }
-        self.cells.entry(cell).or_default().push((place, new));
+        self.cells
+            .entry(self.cell(place))
+            .or_default()
+            .push((place, new));
         new
+    }
+
+    fn cell(&self, place: DVec3) -> [i64; 3] {
+        (place / (CELL * self.near))
+            .to_array()
+            .map(|c| c.floor() as i64)
     }
 }

@@ -58,12 +58,12 @@ def flat_window(
     model: Model, width: float, height: float, border: float, across: int, up: int
 ) -> None:
     """What is left of a window from afar: a board, and panes a little before it."""
-    model.pane((0.0, width), (0.0, height), -0.04, "frame")
+    model.pane((0.0, width), (0.0, height), -0.012, "frame")
     w, h = (width - border) / across, (height - border) / up
     for i in range(across):
         for k in range(up):
             x, y = border + i * w, border + k * h
-            model.pane((x, x + w - border), (y, y + h - border), -0.03, "pane")
+            model.pane((x, x + w - border), (y, y + h - border), 0.0, "pane")
 
 
 def casement(name: str, level: int) -> Asset:
@@ -84,7 +84,7 @@ def door(name: str, level: int) -> Asset:
     model = Model(FRAME, PANE, BRASS)
     if level == 2:
         flat_window(model, 1.2, 2.6, 0.09, 2, 4)
-        model.pane((0.09, 1.11), (0.09, 0.6), -0.025, "frame")
+        model.pane((0.09, 1.11), (0.09, 0.6), 0.01, "frame")
         return model.asset(name)
     framed(model, (0.0, 1.2), (0.0, 2.6), 0.055, (-0.07, 0.0), level)
     for x in ((0.05, 0.6), (0.6, 1.15)):
@@ -204,8 +204,8 @@ def arched(name: str, level: int) -> Asset:
     steps = (14, 8, 6)[level]
     outline = _round_head(0.0, 1.2, 0.0, 2.2, steps)
     if level == 2:
-        model.sheet(outline, -0.04, "frame")
-        model.sheet(_round_head(0.09, 1.11, 0.09, 2.11, steps), -0.03, "pane")
+        model.sheet(outline, -0.012, "frame")
+        model.sheet(_round_head(0.09, 1.11, 0.09, 2.11, steps), 0.0, "pane")
         return model.asset(name)
     model.sweep(moulding(0.06, -0.07, 0.0, level), outline, "frame", closed=True)
     inner = _round_head(0.06, 1.14, 0.06, 2.14, steps)
