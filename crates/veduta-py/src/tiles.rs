@@ -213,7 +213,7 @@ impl<'a> Making<'a> {
 
     /// The buffers of all lots; `whole` where the cells of a surface are one face, without cracks.
     fn finish(
-        self,
+        mut self,
         lots: &[&Derived],
         places: &[[f64; 3]],
         columns: &[Columns],
