@@ -8,6 +8,7 @@ in which most of the lots lie.
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -123,6 +124,12 @@ def _projected(points: NDArray[np.float64], zone: int, south: bool) -> NDArray[n
 
 
 def _origin(metres: NDArray[np.float64]) -> tuple[float, float, float]:
-    """The lower corner of all, in whole metres: what is near it is small."""
-    x, y, z = np.floor(metres.min(axis=0)).tolist()
-    return (x, y, z)
+    """The lower corner of all, in whole metres but for the height: the lowest lies on the plane."""
+    low = metres.min(axis=0)
+    x, y = np.floor(low[:2]).tolist()
+    return (x, y, height_origin(float(low[2])))
+
+
+def height_origin(lowest_m: float) -> float:
+    """From where heights count: whole millimetres, as CityJSON has them."""
+    return math.floor(1000 * lowest_m) / 1000

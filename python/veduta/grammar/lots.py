@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from veduta.grammar.city_lots import city_epsg, city_outlines
 from veduta.grammar.edits import Edit
 from veduta.grammar.feature_stream import FeatureStream
-from veduta.grammar.frames import Frame, find_frame, named_crs
+from veduta.grammar.frames import Frame, find_frame, height_origin, named_crs
 from veduta.grammar.object_lots import object_outlines
 from veduta.grammar.options import LotOptions
 from veduta.grammar.outline import Attribute, Outline, plain_attributes
@@ -82,6 +82,8 @@ def read_lots(path: Path, options: LotOptions | None = None) -> Lots:
     frame = find_frame(path, epsg, [outline.rings[0] for outline in outlines])
     terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
     lots, more = place_lots(path, outlines, frame, terrain, options.ground)
+    if terrain is not None:
+        frame, lots = from_lowest(frame, lots)
     notes += frame.notes
     return Lots(lots, frame.crs, frame.origin_m, (*failures, *more), tuple(notes))
 
@@ -188,6 +190,15 @@ def place_lots(
         )
     _require_near(path, found)
     return tuple(found), failures
+
+
+def from_lowest(frame: Frame, lots: tuple[Lot, ...]) -> tuple[Frame, tuple[Lot, ...]]:
+    """Lots that stand on terrain, with heights about the lowest of them: it lies on the plane."""
+    x, y, z = frame.origin_m
+    up = height_origin(z + min(lot.anchor_m[2] for lot in lots))
+    moved = [(*lot.anchor_m[:2], lot.anchor_m[2] + z - up) for lot in lots]
+    placed = tuple(replace(lot, anchor_m=at) for lot, at in zip(lots, moved, strict=True))
+    return replace(frame, origin_m=(x, y, up)), placed
 
 
 def _require_near(path: Path, lots: list[Lot]) -> None:

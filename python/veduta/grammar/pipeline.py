@@ -23,7 +23,7 @@ from veduta.grammar.demo import DEMO_LOTS, demo_lots
 from veduta.grammar.edits import read_edits
 from veduta.grammar.given import check_options
 from veduta.grammar.ground import is_level
-from veduta.grammar.joining import tables, write_ground, write_pictures
+from veduta.grammar.joining import tables, write_ground, write_ground_city, write_pictures
 from veduta.grammar.lots import Lot, Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.neighbours import neighbours_of
 from veduta.grammar.options import GrammarOptions
@@ -42,7 +42,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "6"
+VERSION = "7"
 COMMAND = "grammar derive"
 FEW = 64
 """Lots that a block may always have; so many get a file each."""
@@ -53,6 +53,7 @@ SEQUENCE = 1000
 TILESET = "tileset.json"
 CITY = f"{PRIVATE}/city"
 """Where lines of CityJSON wait for those of the other blocks."""
+GROUND_CITY = f"{CITY}/ground.jsonl"
 LASTING = {"input"}
 """Failures that the same input would give again; others are tried anew by the next run."""
 
@@ -355,9 +356,11 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     lots, blocks = call.lots, call.blocks
     streamed = is_streamed(call.options, lots)
     done = {name for name, _ in whole.blocks}
-    grounds = write_ground(work, blocks, done)
+    separate = is_separate(call.options, lots)
+    grounds = write_ground(work, blocks, done, separate=separate)
     write_tileset(town_of(lots, blocks, whole, grounds), work / TILESET)
-    write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
+    place = place_of(lots, whole, grounds, tileset=TILESET if streamed else None)
+    write_place(place, work / "place.json")
     if not call.options.output.city:
         return
     pieces = [_city_path(folder.path, block) for block in blocks if block.name in done]
@@ -367,4 +370,7 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
         return
     first = header(Path(call.rules_name).stem, lots.crs, lots.origin_m)
     write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
+    if grounds:
+        write_ground_city(folder.path / GROUND_CITY, grounds)
+        pieces.append(folder.path / GROUND_CITY)
     write(work / name, first, pieces)
