@@ -32,6 +32,8 @@ const GROUND = new Color("#cfccc4");
 const GROUND_RADIUS_M = 3000;
 /** Just under the buildings' own bases, which lie at zero. */
 const GROUND_HEIGHT_M = -0.012;
+/** Where the place has a ground of its own: between the lowest lots and that ground's end. */
+const UNDER_GROUND_M = -0.04;
 /** Buildings beyond this number get no darkening of the ground along their walls. */
 const MOST_FOOTPRINTS = 24;
 
@@ -44,16 +46,20 @@ export interface Scenery {
   shadeAround(centre: Vector3, radius_m: number): void;
 }
 
-/** `footprints` are the boxes of the buildings in the drawn frame. */
-export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
+/**
+ * `footprints` are the boxes of the buildings in the drawn frame; `hasGround` says whether the place
+ * has a ground of its own.
+ */
+export function makeScenery(bounds: Box, footprints: readonly Box3[], hasGround: boolean): Scenery {
+  const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
   const group = new Group();
   const sky = makeSky();
   const sun = makeSun(bounds);
   // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
   // most of the loading time without a graphics card.
   const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
-  const shade = makeGroundShadow(bounds);
-  group.add(sky, makeGround(footprints), shade, skyLight, sun, sun.target);
+  const shade = makeGroundShadow(bounds, height_m);
+  group.add(sky, makeGround(footprints, height_m), shade, skyLight, sun, sun.target);
   return {
     group,
     sun,
@@ -137,7 +143,7 @@ function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.shadow.needsUpdate = true;
 }
 
-function makeGround(footprints: readonly Box3[]): Mesh {
+function makeGround(footprints: readonly Box3[], height_m: number): Mesh {
   const boxes = footprints
     .slice(0, MOST_FOOTPRINTS)
     .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
@@ -159,7 +165,7 @@ function makeGround(footprints: readonly Box3[]): Mesh {
   });
   const ground = new Mesh(new PlaneGeometry(2 * GROUND_RADIUS_M, 2 * GROUND_RADIUS_M, 24, 24), material);
   ground.rotation.x = -Math.PI / 2;
-  ground.position.y = GROUND_HEIGHT_M;
+  ground.position.y = height_m;
   ground.renderOrder = -1;
   return ground;
 }
@@ -191,12 +197,12 @@ const GROUND_SHADER = `
     gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;
   }`;
 
-function makeGroundShadow(bounds: Box): Mesh {
+function makeGroundShadow(bounds: Box, height_m: number): Mesh {
   const { centre, radius } = sphereOf(bounds);
   const material = new ShadowMaterial({ color: "#2b3442", opacity: 0.36, depthWrite: false });
   const plane = new Mesh(new PlaneGeometry(6 * radius, 6 * radius), material);
   plane.rotation.x = -Math.PI / 2;
-  plane.position.set(centre.x, GROUND_HEIGHT_M + 0.004, centre.z);
+  plane.position.set(centre.x, height_m + 0.004, centre.z);
   plane.receiveShadow = true;
   plane.renderOrder = -1;
   return plane;

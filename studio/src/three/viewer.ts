@@ -98,7 +98,8 @@ export class Viewer {
     const corners = told.length > 0 ? told : cornersOf(bounds);
     const seen = boxOfPoints(corners);
     const buildings = parts.filter(({ part }) => !part.isGround);
-    this.#scenery = makeScenery(seen, buildings.map(({ group }) => new Box3().setFromObject(group)));
+    const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
+    this.#scenery = makeScenery(seen, footprints, place.parts.some(({ isGround }) => isGround));
     this.#appearance = new Appearance(parts);
     for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
