@@ -62,13 +62,14 @@ def write_ground(
         (work / GROUND).mkdir(exist_ok=True)
         number = name.rpartition("/")[2]
         points = ground.points_m - origins[name]
-        part = ground_part(part_id(number), points, ground.triangles)
         row = BuildingRow(GROUND, NAME)
         tile, model = f"{GROUND}/{number}.glb", f"{GROUND}/{number}-model.glb"
         write_bytes(work / tile, ground_glb(points, ground.triangles, row, COLOUR))
         if separate:
-            write_glb(part, work / model)
-        found[name] = GroundFiles(ground, part.bounds_m, tile, model if separate else None)
+            write_glb(ground_part(part_id(number), points, ground.triangles), work / model)
+        low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
+        box = (low[0], low[1], low[2]), (high[0], high[1], high[2])
+        found[name] = GroundFiles(ground, box, tile, model if separate else None)
     return found
 
 
