@@ -11,8 +11,9 @@ MARGIN_M = 25.0
 """The ground reaches so far beyond the lots at least."""
 REACH = 3.0
 """And so many times the height from which it falls: it can be walked, at 27 degrees at most."""
-BELOW_M = -0.05
-"""The margin's end: just below the plane."""
+BELOW_M = -0.3
+"""The end: below the plane, into which it dips with its last ring. An end that is level with
+the plane would meet it in a ragged line."""
 RINGS = 10
 _SPACING_M = 6.0
 _MOST_SPANS = 400
@@ -77,7 +78,9 @@ def margin_around(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> 
     flat = points[base, :2] + (steps[:, None, None] * width) * away
     heights = _blurred(flat, points[base, 2], steps * width / 2)
     fallen = (steps * steps * (3 - 2 * steps))[:, None]
-    found = np.dstack([flat, heights * (1 - fallen) + BELOW_M * fallen]).reshape(-1, 3)
+    heights = heights * (1 - fallen)
+    heights[-1] = BELOW_M
+    found = np.dstack([flat, heights]).reshape(-1, 3)
     first = len(points) + len(base) * np.arange(RINGS)[:, None] + np.arange(len(base))
     rings = np.concatenate([base[None], first])
     return Margin(found, np.tile(base, RINGS), _strips(rings))
