@@ -47,6 +47,7 @@ def town(tmp_path_factory: pytest.TempPathFactory) -> Path:
     for number in range(80):
         x, y = 100_000.0 + 12.0 * (number % 20), 200_000.0 + 25.0 * (number // 20)
         ring = [[x, y], [x + 12, y], [x + 12, y + 10], [x, y + 10], [x, y]]
+        ring = [[*point, 0.5 * (number // 20)] for point in ring]
         shape = {"type": "Polygon", "coordinates": [ring]}
         features.append({"type": "Feature", "id": f"house {number}", "geometry": shape})
     lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))

@@ -156,6 +156,25 @@ def test_tiles_with_pictures_and_ground_are_valid(tmp_path: Path) -> None:
     assert sum(issues["numErrors"] + issues["numWarnings"] for issues in told) > 0
 
 
+def test_the_ground_of_a_few_lots_is_valid(tmp_path: Path) -> None:
+    rules, lots, out = tmp_path / "rules.cga", tmp_path / "lots.geojson", tmp_path / "out"
+    rules.write_text("Lot --> extrude(6) comp(f) { bottom : NIL | all : Wall. }\n")
+    features = []
+    for number in range(9):
+        x, y, z = 20.0 * (number % 3), 20.0 * (number // 3), 0.4 * number
+        ring = [[x, y, z], [x + 15, y, z], [x + 15, y + 12, z], [x, y + 12, z], [x, y, z]]
+        shape = {"type": "Polygon", "coordinates": [ring]}
+        features.append({"type": "Feature", "id": number, "geometry": shape, "properties": {}})
+    lots.write_text(json.dumps({"type": "FeatureCollection", "features": features}))
+    run_derive(str(rules), lots, out, GrammarOptions(), Progress(quiet=True), jobs=1)
+    for file in ("ground/00.glb", "ground/00-model.glb"):
+        issues = validate_gltf(out / file)
+        assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    city = out / "city.city.json"
+    assert '"TINRelief"' in city.read_text()
+    assert validate_city(city)["valid"] is True
+
+
 def test_the_validators_see_a_broken_file(tmp_path: Path) -> None:
     document = sample_document()
     part = build_part(document, sample_photo(document), "broken")

@@ -5,21 +5,12 @@ from __future__ import annotations
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from veduta.formats.tile_glb import (
-    FLOAT,
-    SHORT,
-    USHORT,
-    Binary,
-    BuildingRow,
-    buildings_table,
-    linear,
-    packed,
-    schema,
-)
+from veduta.formats.plain_tile import PlainLook, feature_ids, plain_tile
+from veduta.formats.tile_glb import FLOAT, SHORT, USHORT, Binary, BuildingRow
+from veduta.place.material import Colour
 from veduta.place.semantics import SemanticClass
 
 _ARRAY, _ELEMENTS = 34962, 34963
@@ -50,7 +41,7 @@ class PlainBox:
 def boxes_glb(
     boxes: Sequence[PlainBox],
     buildings: Sequence[BuildingRow],
-    colour: tuple[float, float, float],
+    colour: Colour,
 ) -> bytes:
     """The GLB of the boxes; surface and building of a box have its number."""
     binary = Binary()
@@ -75,7 +66,6 @@ def boxes_glb(
         "indices": binary.accessor(
             np.array(indices, dtype="<u2").tobytes(), USHORT, "SCALAR", target=_ELEMENTS
         ),
-        "material": 0,
     }
     attributes = {
         "TRANSLATION": binary.accessor(places.tobytes(), FLOAT, "VEC3"),
@@ -83,58 +73,19 @@ def boxes_glb(
         "SCALE": binary.accessor(sizes.tobytes(), FLOAT, "VEC3"),
         "_FEATURE_ID_0": binary.accessor(numbers.astype("<u2").tobytes(), USHORT, "SCALAR"),
     }
-    feature = {"featureCount": count, "attribute": 0, "propertyTable": 0}
     node = {
-        "mesh": 0,
         "extensions": {
             "EXT_mesh_gpu_instancing": {"attributes": attributes},
-            "EXT_instance_features": {"featureIds": [feature]},
-        },
+            "EXT_instance_features": {"featureIds": feature_ids(count)},
+        }
     }
-    required = ["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"]
-    root: dict[str, Any] = {
-        "asset": {"version": "2.0", "generator": "veduta"},
-        "extensionsUsed": sorted([*required, "EXT_instance_features", "EXT_structural_metadata"]),
-        "extensionsRequired": required,
-        "scene": 0,
-        "scenes": [{"nodes": [0]}],
-        "nodes": [node],
-        "meshes": [{"primitives": [primitive]}],
-        "materials": [
-            {
-                "name": SemanticClass.WALL.value,
-                "pbrMetallicRoughness": {
-                    "baseColorFactor": [*(linear(channel) for channel in colour), 1.0],
-                    "metallicFactor": 0.0,
-                    "roughnessFactor": 0.9,
-                },
-            }
-        ],
-        "extensions": {"EXT_structural_metadata": _metadata(boxes, buildings, binary)},
-    }
-    return packed(root, binary)
-
-
-def _metadata(
-    boxes: Sequence[PlainBox], buildings: Sequence[BuildingRow], binary: Binary
-) -> dict[str, Any]:
-    count = len(boxes)
-    columns = {
-        "class": np.full(count, SemanticClass.WALL.code, dtype=np.uint8),
-        "building": np.arange(count, dtype="<u2"),
-        "width": _millimetres([2 * box.half_m[0] for box in boxes]),
-        "height": _millimetres([box.height_m for box in boxes]),
-    }
-    surfaces = {
-        "class": "surface",
-        "count": count,
-        "properties": {
-            name: {"values": binary.number(binary.view(column.tobytes()))}
-            for name, column in columns.items()
-        },
-    }
-    return {"schema": schema(()), "propertyTables": [surfaces, buildings_table(buildings, binary)]}
-
-
-def _millimetres(sizes_m: Sequence[float]) -> Any:
-    return np.clip(np.round(np.array(sizes_m) * 1000), 0, 65535).astype("<u2")
+    return plain_tile(
+        PlainLook(SemanticClass.WALL, colour, roughness=0.9),
+        buildings,
+        np.column_stack([2 * half[:, 0], height]),
+        primitive,
+        binary,
+        node=node,
+        used=["EXT_instance_features"],
+        required=["EXT_mesh_gpu_instancing", "KHR_mesh_quantization"],
+    )

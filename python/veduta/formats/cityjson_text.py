@@ -18,7 +18,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.place.semantics import CITYJSON_SURFACE, SemanticClass
+from veduta.place.semantics import CITYJSON_SURFACE, Provenance, SemanticClass
 
 FORM = re.compile(r'\{"type":"(Solid|MultiSurface)","lod":"([0-9.]+)"')
 VERTICES = '"vertices":'
@@ -55,6 +55,25 @@ def feature_line(building: str, attributes: Mapping[str, Any], geometry: Geometr
     return (
         f'{{"type":"CityJSONFeature","id":{json.dumps(building)},'
         f'"CityObjects":{{{",".join(objects)}}},"vertices":{vertices}}}'
+    )
+
+
+def relief_line(name: str, points_m: NDArray[np.float64], triangles: NDArray[np.int32]) -> str:
+    """The line of invented ground: (n, 3) points about the origin and (m, 3) triangles.
+
+    Corners that fall into one on the grid are one; a triangle without area is left out.
+    """
+    used = np.round(points_m[triangles].reshape(-1, 3) / GRID_M).astype(np.int64)
+    vertices, corners = np.unique(used, axis=0, return_inverse=True)
+    faces = corners.reshape(-1, 3)
+    a, b, c = (faces[:, k] for k in range(3))
+    faces = faces[(a != b) & (b != c) & (c != a)]
+    surface = {"type": "CompositeSurface", "lod": "1", "boundaries": faces[:, None].tolist()}
+    about = {"type": "TINRelief", "attributes": {"provenance": Provenance.INVENTED.value}}
+    text = _object(name, about, json.dumps(surface, separators=(",", ":")))
+    return (
+        f'{{"type":"CityJSONFeature","id":{json.dumps(name)},"CityObjects":{{{text}}},'
+        f'"vertices":{json.dumps(vertices.tolist(), separators=(",", ":"))}}}'
     )
 
 

@@ -208,6 +208,11 @@ def _projected(points: NDArray[np.float64], zone: int, south: bool) -> NDArray[n
 
 
 def _origin(lowest: ArrayLike) -> tuple[float, float, float]:
-    """The lower corner of all, in whole metres: what is near it is small."""
-    x, y, z = np.floor(lowest).tolist()
-    return (x, y, z)
+    """The lower corner of all, in whole metres but for the height: the lowest lies on the plane."""
+    east, north, low = np.asarray(lowest, dtype=np.float64).tolist()
+    return (float(math.floor(east)), float(math.floor(north)), height_origin(low))
+
+
+def height_origin(lowest_m: float) -> float:
+    """From where heights count: whole millimetres, as CityJSON has them."""
+    return math.floor(1000 * lowest_m) / 1000

@@ -3,16 +3,23 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Mapping
+from dataclasses import dataclass
 from pathlib import Path
 
+from veduta.formats.cityjson_text import relief_line
+from veduta.formats.gltf import write_glb
 from veduta.formats.ground_glb import ground_glb
-from veduta.formats.tiles import Box, union
+from veduta.formats.tile_glb import BuildingRow
+from veduta.formats.tiles import Box
+from veduta.grammar.ground import Ground
+from veduta.grammar.ground_part import COLOUR, NAME, ground_part
 from veduta.grammar.ground_regions import grounds_of
 from veduta.grammar.report import Whole
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.squares import Squares
 from veduta.grammar.textures import with_builtin
 from veduta.grammar.tile_pictures import picture_files
+from veduta.run.atomic import write_bytes
 
 GROUND = "ground"
 
@@ -30,17 +37,55 @@ def tables(out: Path, whole: Whole) -> list[Path]:
     return [out / name / REPORTS for name, summary in whole.blocks if summary["tabled"]]
 
 
-def write_ground(work: Path, squares: Squares, done: Collection[str]) -> dict[str, tuple[str, Box]]:
-    """The ground of each block that is done, seen from its origin: its file and box."""
+@dataclass(frozen=True)
+class GroundFiles:
+    """The ground of a block, and where it is stored: paths in OUT.
+
+    box: around it, seen from the block's origin. model: a glTF file for the place; None where the
+    tile is all that there is.
+    """
+
+    ground: Ground
+    box: Box
+    tile: str
+    model: str | None
+
+
+def write_ground(
+    work: Path, squares: Squares, done: Collection[str], *, separate: bool
+) -> dict[str, GroundFiles]:
+    """The ground of each block that is done, by the block's name."""
     found = {}
     origins = {square.name: square.origin_m for square in squares.every}
     for name, ground in grounds_of(squares).items():
         if name not in done:
             continue
-        file = f"{GROUND}/{name.rpartition('/')[2]}.glb"
+        (work / GROUND).mkdir(exist_ok=True)
+        number = name.rpartition("/")[2]
         points = ground.points_m - origins[name]
-        (work / file).parent.mkdir(exist_ok=True)
-        (work / file).write_bytes(ground_glb(points, ground.triangles))
+        row = BuildingRow(GROUND, NAME)
+        tile, model = f"{GROUND}/{number}.glb", f"{GROUND}/{number}-model.glb"
+        write_bytes(work / tile, ground_glb(points, ground.triangles, row, COLOUR))
+        if separate:
+            write_glb(ground_part(part_id(number), points, ground.triangles), work / model)
         low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
-        found[name] = (file, union([((low[0], low[1], low[2]), (high[0], high[1], high[2]))]))
+        box = (low[0], low[1], low[2]), (high[0], high[1], high[2])
+        found[name] = GroundFiles(ground, box, tile, model if separate else None)
     return found
+
+
+def part_id(number: str) -> str:
+    """What the ground of a block is called in the place: no lot's name has a colon."""
+    return f"{GROUND}:{number}"
+
+
+def write_ground_city(path: Path, grounds: Mapping[str, GroundFiles]) -> None:
+    """The ground between the lots as lines of CityJSON."""
+    lines = []
+    for name, files in grounds.items():
+        ground = files.ground
+        between = ground.triangles[: ground.between]
+        if len(between):
+            own = part_id(name.rpartition("/")[2])
+            lines.append(relief_line(own, ground.points_m, between))
+    write_bytes(path, "".join(f"{line}\n" for line in lines).encode())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 from array import array
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
@@ -54,6 +55,10 @@ class SpooledLots(Sequence[Lot]):
         self._anchors.extend(lot.anchor_m)
         self._boxes.extend((min(east) + x, min(north) + y, max(east) + x, max(north) + y))
 
+    def lift(self, from_m: float, to_m: float) -> None:
+        """Have heights that counted from one height count from another."""
+        self.anchors_m[:, 2] = self.anchors_m[:, 2] + from_m - to_m
+
     def flush(self) -> None:
         """Have all lots where they are read from; OSError where there is no room."""
         self._spool.flush()
@@ -84,10 +89,10 @@ class SpooledLots(Sequence[Lot]):
             return tuple(self[one] for one in range(*row.indices(len(self))))
         if not -len(self) <= row < len(self):
             raise IndexError(row)
-        return self._lot(self._spool[row % len(self)])
+        return self._lot(row % len(self), self._spool[row % len(self)])
 
     def __iter__(self) -> Iterator[Lot]:
-        return map(self._lot, self._spool)
+        return itertools.starmap(self._lot, enumerate(self._spool))
 
     def ids(self) -> Iterator[str]:
         """The ids in the order of the lots."""
@@ -97,10 +102,11 @@ class SpooledLots(Sequence[Lot]):
         """Give the room on the disk back; no lot can be read any more."""
         self._spool.close()
 
-    def _lot(self, record: Record) -> Lot:
-        lot_id, name, anchor_m, attributes, rings = record
+    def _lot(self, row: int, record: Record) -> Lot:
+        lot_id, name, attributes, rings = record
+        x, y, z = self._anchors[3 * row : 3 * row + 3]
         edits = self._edits.get(lot_id, ())
-        return Lot(lot_id, name, rings_of_bytes(rings, 2), anchor_m, attributes, edits)
+        return Lot(lot_id, name, rings_of_bytes(rings, 2), (x, y, z), attributes, edits)
 
 
 def anchors_of(lots: Sequence[Lot]) -> NDArray[np.float64]:
@@ -144,4 +150,4 @@ def rings_of_bytes(rings: Sequence[bytes], dimensions: int) -> tuple[NDArray[np.
 
 
 def _record(lot: Lot) -> Record:
-    return (lot.id, lot.name, lot.anchor_m, lot.attributes, bytes_of_rings(lot.rings_m))
+    return (lot.id, lot.name, lot.attributes, bytes_of_rings(lot.rings_m))

@@ -33,7 +33,7 @@ from veduta.grammar.city_stream import (
 from veduta.grammar.edits import Edit
 from veduta.grammar.failures import Failures
 from veduta.grammar.feature_stream import FeatureStream
-from veduta.grammar.frames import Frame, Survey, find_frame, named_crs
+from veduta.grammar.frames import Frame, Survey, find_frame, height_origin, named_crs
 from veduta.grammar.geojson_lots import feature_outlines, features_of
 from veduta.grammar.lot import (
     Lot,
@@ -113,6 +113,8 @@ def read_lots(
         terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
         stand = _Stand(frame, terrain, options.ground)
         lots = _placed(path, (_outline(record) for record in spool), stand, found, folder)
+        if terrain is not None:
+            frame = _from_lowest(frame, lots)
         if len(spool) >= TELL_EACH:
             say(f"{path}: {len(lots):,} lots")
     notes = (*found.all_notes(), *frame.notes)
@@ -230,6 +232,14 @@ def _placed(
             "Cut it into several, or check its coordinates.",
         )
     return lots
+
+
+def _from_lowest(frame: Frame, lots: SpooledLots) -> Frame:
+    """Has heights of lots on terrain count from the lowest of them: it lies on the plane."""
+    x, y, z = frame.origin_m
+    up = height_origin(z + float(lots.anchors_m[:, 2].min()))
+    lots.lift(z, up)
+    return replace(frame, origin_m=(x, y, up))
 
 
 def _record(outline: Outline) -> Record:

@@ -23,7 +23,7 @@ from veduta.grammar.edits import read_edits
 from veduta.grammar.failures import Failures
 from veduta.grammar.given import check_options
 from veduta.grammar.ground import is_level
-from veduta.grammar.joining import tables, write_ground, write_pictures
+from veduta.grammar.joining import tables, write_ground, write_ground_city, write_pictures
 from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
@@ -43,7 +43,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "6"
+VERSION = "7"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
@@ -52,6 +52,7 @@ SEQUENCE = 1000
 TILESET = "tileset.json"
 CITY = f"{PRIVATE}/city"
 """Where lines of CityJSON wait for those of the other blocks."""
+GROUND_CITY = f"{CITY}/ground.jsonl"
 LASTING = {"input"}
 """Failures that the same input would give again; others are tried anew by the next run."""
 
@@ -337,9 +338,11 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     lots, squares = call.lots, call.squares.every
     streamed = is_streamed(call.options, lots)
     done = {name for name, _ in whole.blocks}
-    grounds = write_ground(work, call.squares, done)
+    separate = is_separate(call.options, lots)
+    grounds = write_ground(work, call.squares, done, separate=separate)
     write_tileset(town_of(lots, squares, whole, grounds), work / TILESET)
-    write_place(place_of(lots, whole, tileset=TILESET if streamed else None), work / "place.json")
+    place = place_of(lots, whole, grounds, tileset=TILESET if streamed else None)
+    write_place(place, work / "place.json")
     if not call.options.output.city:
         return
     pieces = [_city_path(folder.path, one) for one in squares if one.name in done]
@@ -349,4 +352,7 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
         return
     first = header(Path(call.rules_name).stem, lots.crs, lots.origin_m)
     write = write_sequence if len(lots.lots) > SEQUENCE else write_joined
+    if grounds:
+        write_ground_city(folder.path / GROUND_CITY, grounds)
+        pieces.append(folder.path / GROUND_CITY)
     write(work / name, first, pieces)

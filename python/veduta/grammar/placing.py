@@ -11,6 +11,9 @@ from numpy.typing import NDArray
 
 from veduta.formats.tiles import Box, Tile, union
 from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
+from veduta.grammar.ground import height_at
+from veduta.grammar.ground_part import NAME
+from veduta.grammar.joining import GroundFiles, part_id
 from veduta.grammar.levels import BOXES_ERROR_M
 from veduta.grammar.lots import Lots
 from veduta.grammar.report import Whole
@@ -21,27 +24,31 @@ EYE_M = 1.7
 MIN_DISTANCE_M, MAX_DISTANCE_M = 15.0, 60.0
 
 
-def place_of(lots: Lots, whole: Whole, *, tileset: str | None) -> Place:
-    """The place of what was built: a part for each building, or else for each near tile."""
+def place_of(
+    lots: Lots, whole: Whole, grounds: Mapping[str, GroundFiles], *, tileset: str | None
+) -> Place:
+    """The place of what was built: a part for each building, or else for each near tile.
+
+    The ground between them follows, a part for each block that has some.
+    """
+    parts = [_part(lot) for lot in whole.rows] if whole.rows else _tiles(whole)
+    origins = {name: summary["origin_m"] for name, summary in whole.blocks}
+    fronts = [summary["front"] for _, summary in whole.blocks if summary["front"]]
     return Place(
         crs=lots.crs,
         origin=lots.origin_m,
-        parts=[_part(lot) for lot in whole.rows] if whole.rows else _tiles(whole),
+        parts=parts + [_ground(name, origins[name], files) for name, files in grounds.items()],
         tileset=tileset,
-        start=_start([summary["front"] for _, summary in whole.blocks if summary["front"]])
+        start=_start(fronts, grounds)
         if lots.look is None
         else Start(eye=lots.look[0], target=lots.look[1]),
     )
 
 
 def town_of(
-    lots: Lots, blocks: Sequence[Square], whole: Whole, grounds: Mapping[str, tuple[str, Box]]
+    lots: Lots, blocks: Sequence[Square], whole: Whole, grounds: Mapping[str, GroundFiles]
 ) -> Tile:
-    """The tree over the tiles of all blocks, on the Earth where the place has a known CRS.
-
-    grounds: of the blocks that have some, the file of their ground and the box around it, seen from
-    the block's origin.
-    """
+    """The tree over the tiles of all blocks, on the Earth where the place has a known CRS."""
     origin = {block.name: block.origin_m for block in blocks}
     grid = _grid(lots, blocks)
     ground = None if grid is None else _on_earth(grid, lots, (0.0, 0.0, 0.0))
@@ -60,8 +67,8 @@ def town_of(
         tiles.append(Tile((low, high), BOXES_ERROR_M, content, (), local, own))
         boxes.append(_moved((low, high), local))
         if name in grounds:
-            content, around = grounds[name]
-            tiles.append(Tile(around, 0.0, content, (), local, own))
+            around = grounds[name].box
+            tiles.append(Tile(around, 0.0, grounds[name].tile, (), local, own))
             boxes.append(_moved(around, local))
     box = union(boxes)
     size = float(np.linalg.norm(np.array(box[1]) - np.array(box[0])))
@@ -142,7 +149,22 @@ def _part(lot: Mapping[str, Any]) -> PlacePart:
     )
 
 
-def _start(built: Sequence[Mapping[str, Any]]) -> Start:
+def _ground(name: str, origin_m: Sequence[float], files: GroundFiles) -> PlacePart:
+    transform = list(IDENTITY)
+    transform[12:15] = origin_m
+    low, high = files.box
+    return PlacePart(
+        id=part_id(name.rpartition("/")[2]),
+        name=NAME,
+        model=files.model or files.tile,
+        transform=tuple(transform),
+        arrangement="single",
+        bounds=Bounds(min=low, max=high),
+        ground=True,
+    )
+
+
+def _start(built: Sequence[Mapping[str, Any]], grounds: Mapping[str, GroundFiles]) -> Start:
     """South of the building in the middle of the southern edge, far enough to see it whole."""
     low = np.array([lot["bounds"][0] for lot in built]) + [lot["anchor_m"] for lot in built]
     high = np.array([lot["bounds"][1] for lot in built]) + [lot["anchor_m"] for lot in built]
@@ -153,7 +175,10 @@ def _start(built: Sequence[Mapping[str, Any]]) -> Start:
     ground = float(low[front, 2])
     x = float(low[front, 0] + high[front, 0]) / 2
     distance = min(max(MIN_DISTANCE_M, 1.4 * height), MAX_DISTANCE_M)
+    eye_x, eye_y = x - 0.4 * distance, south - distance
+    under = height_at([files.ground for files in grounds.values()], eye_x, eye_y)
+    standing = under if under is not None else 0.0 if grounds else ground
     return Start(
-        eye=(x - 0.4 * distance, south - distance, ground + EYE_M),
+        eye=(eye_x, eye_y, max(standing, 0.0) + EYE_M),
         target=(x, float(low[front, 1]), ground + 0.4 * height),
     )

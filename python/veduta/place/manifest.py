@@ -58,6 +58,9 @@ class PlacePart(_Record):
         description="invented: where it stands relative to the other parts is not known"
     )
     bounds: Bounds
+    ground: bool = Field(
+        default=False, description="whether it is the ground between the others, on which one walks"
+    )
 
     @model_validator(mode="after")
     def _is_affine(self) -> Self:

@@ -40,11 +40,12 @@ export async function openPlace(
   const [{ fetchText }, { loadParts }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
+  const grounds = place.parts.filter(({ isGround }) => isGround).map(({ model }) => fileAddress(model, address));
   let viewer: Viewer | null = null;
   const town =
     tileset === null
       ? null
-      : new Town(fileAddress(tileset, address), () => viewer?.invalidate(), onShown);
+      : new Town(fileAddress(tileset, address), grounds, () => viewer?.invalidate(), onShown);
   const parts =
     tileset === null
       ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))

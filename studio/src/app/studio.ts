@@ -309,7 +309,7 @@ export class Studio extends LitElement {
 
 function titleOf(session: Session): string {
   if (session.town !== null) return "A town of many buildings";
-  const { parts } = session.place;
+  const parts = session.place.parts.filter(({ isGround }) => !isGround);
   const first = parts[0]?.name ?? "";
   return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;
 }

@@ -30,33 +30,64 @@ export function shiftOf(insets: Insets): readonly [number, number] {
 }
 
 /**
- * The nearest eye on the ray from the box's centre against `direction` (unit, where the camera
- * looks to; not vertical) from which all corners are inside the free part of the
- * picture, provided that the picture's centre is moved to that part's middle.
- * `fovY_rad` is the vertical angle of view of the whole picture, `aspect` its width over height.
+ * The nearest eye that looks along `direction` (unit; not vertical) and has all points inside the
+ * free part of the picture, provided that the picture's centre is moved to that part's middle. What
+ * room is left is on both sides alike. `fovY_rad` is the vertical angle of view of the whole picture,
+ * `aspect` its width over height.
+ *
+ * With x and depth d of a point along the picture and into it, and t the tangent of half the angle,
+ * it is inside where |x - x0| <= t (d - d0): the eye lies between the most of x - t d and the least
+ * of x + t d, each moved by t d0, and the nearer the eye, the closer they are.
  */
-export function frameBox(
-  box: Box,
+export function framePoints(
+  points: readonly Vec3[],
   direction: Vec3,
   fovY_rad: number,
   aspect: number,
   insets: Insets = NO_INSETS,
 ): View {
-  const target = scale(add(box.min, box.max), 0.5);
   const right = rightOf(direction);
   const up = cross(right, direction);
   const half = Math.tan(fovY_rad / 2) * (1 - MARGIN);
-  const tanY = half * (1 - insets.top - insets.bottom);
-  const tanX = half * aspect * (1 - insets.left - insets.right);
-  let distance = 0;
-  for (const corner of cornersOf(box)) {
-    const arm = subtract(corner, target);
-    const nearer = -dot(arm, direction);
-    const x = Math.abs(dot(arm, right)) / tanX;
-    const y = Math.abs(dot(arm, up)) / tanY;
-    distance = Math.max(distance, nearer + Math.max(x, y));
+  const across = extentOf(points, right, direction, half * aspect * (1 - insets.left - insets.right));
+  const above = extentOf(points, up, direction, half * (1 - insets.top - insets.bottom));
+  const depth = Math.min(across.nearest, above.nearest);
+  const eye = add(add(scale(right, across.middle), scale(up, above.middle)), scale(direction, depth));
+  const { centre, lowest } = middleOf(points);
+  // On the axis of the picture, as deep as the middle of the points, but not below the lowest.
+  const ahead = dot(subtract(centre, eye), direction);
+  const toLowest = direction[2] < 0 ? (lowest - eye[2]) / direction[2] : ahead;
+  return { eye, target: add(eye, scale(direction, Math.min(ahead, toLowest))) };
+}
+
+/** Where the eye lies along one axis of the picture, and how deep it may be. */
+function extentOf(
+  points: readonly Vec3[],
+  axis: Vec3,
+  direction: Vec3,
+  tan: number,
+): { middle: number; nearest: number } {
+  let low = Infinity;
+  let high = -Infinity;
+  for (const point of points) {
+    const x = dot(point, axis);
+    const d = tan * dot(point, direction);
+    low = Math.min(low, x + d);
+    high = Math.max(high, x - d);
   }
-  return { eye: subtract(target, scale(direction, distance)), target };
+  return { middle: (low + high) / 2, nearest: (low - high) / (2 * tan) };
+}
+
+function middleOf(points: readonly Vec3[]): { centre: Vec3; lowest: number } {
+  const { min, max } = boxOfPoints(points);
+  return { centre: scale(add(min, max), 0.5), lowest: min[2] };
+}
+
+/** The box around points. */
+export function boxOfPoints(points: readonly Vec3[]): Box {
+  const ends = (pick: (...values: number[]) => number, start: number): Vec3 =>
+    points.reduce<Vec3>((a, b) => [pick(a[0], b[0]), pick(a[1], b[1]), pick(a[2], b[2])], [start, start, start]);
+  return { min: ends(Math.min, Infinity), max: ends(Math.max, -Infinity) };
 }
 
 /**

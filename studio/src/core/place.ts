@@ -1,6 +1,8 @@
 /** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
 import type { Place as Manifest, PlacePart } from "../generated/place.ts";
 import { Fault } from "./fault.ts";
+import { worldPoint } from "./frames.ts";
+import { type Box, cornersOf } from "./framing.ts";
 import type { Vec3 } from "./vector.ts";
 
 export interface Part {
@@ -11,6 +13,10 @@ export interface Part {
   readonly photo: string | null;
   readonly worldFromPart: readonly number[];
   readonly arrangement: PlacePart["arrangement"];
+  /** The part's own frame; null where the manifest does not say it. */
+  readonly bounds: Box | null;
+  /** The ground between the others: one walks on it, and it is not what one comes to see. */
+  readonly isGround: boolean;
 }
 
 export interface Place {
@@ -92,7 +98,22 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
     photo: isInside(part.photo) ? part.photo : null,
     worldFromPart: transform,
     arrangement: part.arrangement,
+    bounds: readBounds(part.bounds),
+    isGround: part.ground === true,
   };
+}
+
+function readBounds(value: unknown): Box | null {
+  if (typeof value !== "object" || value === null) return null;
+  const { min, max } = value as Fields<Box>;
+  return isPoint(min) && isPoint(max) ? { min, max } : null;
+}
+
+/** The corners of the boxes of all parts but the ground, world frame: what one comes to see. */
+export function cornersOfPlace(place: Place): Vec3[] {
+  return place.parts.flatMap(({ bounds, isGround, worldFromPart }) =>
+    bounds === null || isGround ? [] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
+  );
 }
 
 function isTransform(value: unknown): value is number[] {
@@ -107,10 +128,12 @@ export function isInside(path: unknown): path is string {
 }
 
 function readVec3(value: unknown, bad: () => Fault): Vec3 {
-  if (!Array.isArray(value) || value.length !== 3) throw bad();
-  const [x, y, z] = value as unknown[];
-  if (![x, y, z].every((v) => Number.isFinite(v))) throw bad();
-  return [x as number, y as number, z as number];
+  if (!isPoint(value)) throw bad();
+  return [value[0], value[1], value[2]];
+}
+
+function isPoint(value: unknown): value is Vec3 {
+  return Array.isArray(value) && value.length === 3 && value.every((v) => Number.isFinite(v));
 }
 
 /** The address of the manifest: `?place=` (a file, or a folder ending in /), else beside the page. */

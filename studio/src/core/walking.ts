@@ -3,8 +3,9 @@
  *
  * The horizontal velocity follows the wish with a time constant and both it and the fall are
  * integrated in closed form, so that the way walked does not depend on the frame rate.
- * Frame: world, z up, metres, seconds. The ground is the plane z = 0 plus whatever the
- * obstacles offer to stand on.
+ * Frame: world, z up, metres, seconds. The ground is the plane z = 0, or the place's own where it
+ * lies higher, plus whatever the obstacles offer to stand on. Nobody falls through it, however fast
+ * they are and however late it arrives.
  */
 import { directionOf, type Heading } from "./heading.ts";
 import { add, dot, length, scale, type Vec3 } from "./vector.ts";
@@ -58,6 +59,8 @@ export interface Walker {
 export interface Obstacles {
   /** The translation that frees the body standing at `feet`; null where it is free. */
   pushOut(feet: Vec3, body: Body): Vec3 | null;
+  /** How high the place's own ground lies there (m); null where there is none. */
+  groundAt?(x: number, y: number): number | null;
 }
 
 /** Longest step that is integrated at once; a page that slept does not make the walker leap. */
@@ -161,7 +164,7 @@ type Moving = Omit<Walker, "heading">;
 
 /** Frees the body from what it touches and takes the velocity into it away. */
 function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Moving {
-  let { feet, velocity, grounded, blocked } = onPlane(state);
+  let { feet, velocity, grounded, blocked } = onGround(state, obstacles);
   for (let i = 0; i < PUSHES; i += 1) {
     const push = obstacles.pushOut(feet, options.body);
     const size = push === null ? 0 : length(push);
@@ -178,16 +181,17 @@ function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Movi
       blocked = true;
     }
   }
-  return withinReach(onPlane({ feet, velocity, grounded, blocked }), options);
+  return withinReach(onGround({ feet, velocity, grounded, blocked }, obstacles), options);
 }
 
-/** The ground plane carries whoever would be below it. */
-function onPlane(state: Moving): Moving {
+/** The ground carries whoever would be below it. */
+function onGround(state: Moving, obstacles: Obstacles): Moving {
   const { feet, velocity } = state;
-  if (feet[2] > 0) return state;
+  const height = Math.max(0, obstacles.groundAt?.(feet[0], feet[1]) ?? 0);
+  if (feet[2] > height) return state;
   return {
     ...state,
-    feet: [feet[0], feet[1], 0],
+    feet: [feet[0], feet[1], height],
     velocity: withoutInto(velocity, [0, 0, 1]),
     grounded: true,
   };

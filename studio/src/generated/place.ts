@@ -97,6 +97,10 @@ export interface PlacePart {
    */
   arrangement: "single" | "invented";
   bounds: Bounds;
+  /**
+   * whether it is the ground between the others, on which one walks
+   */
+  ground?: boolean;
 }
 /**
  * Axis-parallel box in the part's own frame (m).

@@ -1,9 +1,9 @@
 /** Looking at the place from outside. */
 import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
-import { drawnFromWorld } from "../core/frames.ts";
-import { type Box, frameBox, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
-import { length, subtract } from "../core/vector.ts";
+import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import { type Box, framePoints, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
+import { length, subtract, type Vec3 } from "../core/vector.ts";
 import type { Pose } from "./flight.ts";
 
 export const ORBIT_FOV_DEG = 28;
@@ -13,10 +13,19 @@ export class OrbitRig {
   readonly #controls: OrbitControls;
   readonly #camera: PerspectiveCamera;
   readonly #bounds: Box;
+  readonly #corners: readonly Vec3[];
 
-  constructor(camera: PerspectiveCamera, canvas: HTMLElement, bounds: Box, onChange: () => void) {
+  /** `corners` are those of what is to be seen, `bounds` the box around them. */
+  constructor(
+    camera: PerspectiveCamera,
+    canvas: HTMLElement,
+    corners: readonly Vec3[],
+    bounds: Box,
+    onChange: () => void,
+  ) {
     this.#camera = camera;
     this.#bounds = bounds;
+    this.#corners = corners;
     this.#controls = new OrbitControls(camera, canvas);
     this.#controls.enableDamping = true;
     this.#controls.dampingFactor = 0.09;
@@ -39,7 +48,7 @@ export class OrbitRig {
   home(aspect: number, insets: Insets): { pose: Pose; target: Vector3 } {
     const direction = homeDirection(this.#bounds);
     const fov_rad = MathUtils.degToRad(ORBIT_FOV_DEG);
-    const view = frameBox(this.#bounds, direction, fov_rad, aspect, insets);
+    const view = framePoints(this.#corners, direction, fov_rad, aspect, insets);
     const target = new Vector3(...drawnFromWorld(view.target));
     const camera = this.#camera.clone();
     camera.position.set(...drawnFromWorld(view.eye));
@@ -58,6 +67,15 @@ export class OrbitRig {
 
   aimAt(target: Vector3): void {
     this.#controls.target.copy(target);
+  }
+
+  /** How near to the camera nothing is to be seen (m), outside of the place and above the ground. */
+  get free_m(): number {
+    const { min, max } = this.#bounds;
+    const [x, y, z] = worldFromDrawn(this.#camera.position.toArray());
+    const off = (at: number, low: number, high: number): number => Math.max(low - at, 0, at - high);
+    const away = Math.hypot(off(x, min[0], max[0]), off(y, min[1], max[1]), off(z, min[2], max[2]));
+    return Math.min(away, z - min[2]);
   }
 
   /** Damping; true while the camera still moves. */

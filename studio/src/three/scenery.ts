@@ -17,6 +17,7 @@ import {
 import { drawnFromWorld } from "../core/frames.ts";
 import type { Box } from "../core/framing.ts";
 import type { Vec3 } from "../core/vector.ts";
+import { GROUND_LOOK, HORIZON } from "./ground-material.ts";
 
 /** To the sun, world frame: a spring afternoon, from the street's side (facades look south). */
 const TO_SUN: Vec3 = [-0.72, -0.62, 0.66];
@@ -24,7 +25,6 @@ const SUN_STRENGTH = 3.1;
 const SKY_STRENGTH = 2.05;
 const SKY_LIGHT = new Color("#e3edf7");
 const GROUND_LIGHT = new Color("#d8d0c2");
-const HORIZON = new Color("#e4eaee");
 const ZENITH = new Color("#7ea6c9");
 const SUN_GLOW = new Color("#fff3dc");
 const GROUND = new Color("#cfccc4");
@@ -32,6 +32,8 @@ const GROUND = new Color("#cfccc4");
 const GROUND_RADIUS_M = 3000;
 /** Just under the buildings' own bases, which lie at zero. */
 const GROUND_HEIGHT_M = -0.012;
+/** Where the place has a ground of its own: between the lowest lots and that ground's end. */
+const UNDER_GROUND_M = -0.04;
 /** Buildings beyond this number get no darkening of the ground along their walls. */
 const MOST_FOOTPRINTS = 24;
 
@@ -44,16 +46,20 @@ export interface Scenery {
   shadeAround(centre: Vector3, radius_m: number): void;
 }
 
-/** `footprints` are the boxes of the buildings in the drawn frame. */
-export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
+/**
+ * `footprints` are the boxes of the buildings in the drawn frame; `hasGround` says whether the place
+ * has a ground of its own.
+ */
+export function makeScenery(bounds: Box, footprints: readonly Box3[], hasGround: boolean): Scenery {
+  const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
   const group = new Group();
   const sky = makeSky();
   const sun = makeSun(bounds);
   // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
   // most of the loading time without a graphics card.
   const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
-  const shade = makeGroundShadow(bounds);
-  group.add(sky, makeGround(footprints), shade, skyLight, sun, sun.target);
+  const shade = makeGroundShadow(bounds, height_m);
+  group.add(sky, makeGround(footprints, height_m), shade, skyLight, sun, sun.target);
   return {
     group,
     sun,
@@ -137,7 +143,7 @@ function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.shadow.needsUpdate = true;
 }
 
-function makeGround(footprints: readonly Box3[]): Mesh {
+function makeGround(footprints: readonly Box3[], height_m: number): Mesh {
   const boxes = footprints
     .slice(0, MOST_FOOTPRINTS)
     .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
@@ -159,32 +165,23 @@ function makeGround(footprints: readonly Box3[]): Mesh {
   });
   const ground = new Mesh(new PlaneGeometry(2 * GROUND_RADIUS_M, 2 * GROUND_RADIUS_M, 24, 24), material);
   ground.rotation.x = -Math.PI / 2;
-  ground.position.y = GROUND_HEIGHT_M;
+  ground.position.y = height_m;
   ground.renderOrder = -1;
   return ground;
 }
 
-/** Paving lines of one and five metres give the eye a scale; they fade with distance. */
+/** The ground, darker along the walls of buildings. */
 const GROUND_SHADER = `
   uniform vec3 ground, horizon;
   #if FOOTPRINTS > 0
   uniform vec4 footprints[FOOTPRINTS];
   #endif
   varying vec3 vWorld;
-  float lines(vec2 p, float width) {
-    vec2 blur = fwidth(p);
-    vec2 toLine = abs(fract(p - 0.5) - 0.5);
-    vec2 line = 1.0 - smoothstep(vec2(width), vec2(width) + 1.2 * blur, toLine);
-    vec2 coverage = clamp(vec2(width) / max(blur, vec2(1e-5)), 0.0, 1.0);
-    return max(line.x * coverage.x, line.y * coverage.y);
-  }
+  ${GROUND_LOOK}
   float dither(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453) - 0.5; }
   void main() {
     float away = distance(vWorld, cameraPosition);
-    vec3 colour = ground;
-    float fine = lines(vWorld.xz, 0.012) * (1.0 - smoothstep(10.0, 40.0, away));
-    float coarse = lines(vWorld.xz / 5.0, 0.006) * (1.0 - smoothstep(30.0, 130.0, away));
-    colour *= 1.0 - 0.09 * fine - 0.10 * coarse;
+    vec3 colour = paved(ground, vWorld, away);
     #if FOOTPRINTS > 0
     float dark = 0.0;
     for (int i = 0; i < FOOTPRINTS; i++) {
@@ -194,18 +191,18 @@ const GROUND_SHADER = `
     }
     colour *= 1.0 - dark;
     #endif
-    colour = mix(colour, horizon, 1.0 - exp(-max(0.0, away - 30.0) / 260.0));
+    colour = hazed(colour, horizon, away);
     gl_FragColor = vec4(colour, 1.0);
     #include <colorspace_fragment>
     gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;
   }`;
 
-function makeGroundShadow(bounds: Box): Mesh {
+function makeGroundShadow(bounds: Box, height_m: number): Mesh {
   const { centre, radius } = sphereOf(bounds);
   const material = new ShadowMaterial({ color: "#2b3442", opacity: 0.36, depthWrite: false });
   const plane = new Mesh(new PlaneGeometry(6 * radius, 6 * radius), material);
   plane.rotation.x = -Math.PI / 2;
-  plane.position.set(centre.x, GROUND_HEIGHT_M + 0.004, centre.z);
+  plane.position.set(centre.x, height_m + 0.004, centre.z);
   plane.receiveShadow = true;
   plane.renderOrder = -1;
   return plane;

@@ -41,9 +41,12 @@ export class Solid implements Obstacles {
   readonly #soup: Soup;
   readonly #bvh: MeshBVH;
   readonly #trees = new WeakMap<BufferGeometry, MeshBVH>();
+  readonly #ground: Solid | null;
 
-  constructor(soup: Soup) {
+  /** `ground` is what of it one walks on and cannot fall through. */
+  constructor(soup: Soup, ground: Solid | null = null) {
     this.#soup = soup;
+    this.#ground = ground;
     this.faceCount = soup.rowOfFace.length;
     const geometry = new BufferGeometry();
     geometry.setAttribute("position", new BufferAttribute(soup.positions, 3));
@@ -80,6 +83,16 @@ export class Solid implements Obstacles {
     });
     const push = axis.start.sub(start);
     return push.lengthSq() === 0 ? null : push.toArray();
+  }
+
+  groundAt(x: number, y: number): number | null {
+    return this.#ground?.topAt(x, y) ?? null;
+  }
+
+  /** The highest face over or under a place; null where there is none. */
+  topAt(x: number, y: number): number | null {
+    const from = new Vector3(x, y, this.bounds.max[2] + 1);
+    return this.#bvh.raycastFirst(new Ray(from, new Vector3(0, 0, -1)), DoubleSide)?.point.z ?? null;
   }
 
   /** The first visible surface on the ray; `direction` is a unit vector. */

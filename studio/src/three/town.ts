@@ -28,6 +28,7 @@ import type { FeatureRef, StudioState } from "../core/state.ts";
 import { TileTable } from "../core/tile-table.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
+import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
 import { TileModel } from "./tile-model.ts";
@@ -69,6 +70,8 @@ export class Town implements Obstacles {
   readonly tables: FeatureTable[] = [];
   readonly #tiles: FlatTiles;
   readonly #models = new Map<Object3D, { model: TileModel; part: number; tile: Tile }>();
+  readonly #grounds: ReadonlySet<string>;
+  readonly #floors = new Map<Object3D, Solid>();
   readonly #byPart: (TileModel | undefined)[] = [];
   readonly #solids = new Map<Object3D, Solid>();
   readonly #images = new SharedImages();
@@ -76,9 +79,10 @@ export class Town implements Obstacles {
   #fault: Fault | null = null;
   #state: StudioState | null = null;
 
-  /** `onShown` is called when other tiles are shown than before. */
-  constructor(address: URL, onChange: () => void, onShown: () => void) {
+  /** `grounds` are the tiles of the ground; `onShown` is called when other tiles are shown than before. */
+  constructor(address: URL, grounds: readonly URL[], onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
+    this.#grounds = new Set(grounds.map(({ href }) => href));
     this.#tiles = new FlatTiles(address.href);
     this.#tiles.errorTarget = ERROR_PX;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
@@ -207,6 +211,17 @@ export class Town implements Obstacles {
     return push;
   }
 
+  groundAt(x: number, y: number): number | null {
+    let highest: number | null = null;
+    for (const floor of this.#floors.values()) {
+      const { min, max } = floor.bounds;
+      if (x < min[0] || y < min[1] || x > max[0] || y > max[1]) continue;
+      const height = floor.topAt(x, y);
+      if (height !== null) highest = Math.max(highest ?? height, height);
+    }
+    return highest;
+  }
+
   /** Hides layers and colours surfaces as the state says. */
   show(state: StudioState): void {
     this.#state = state;
@@ -242,6 +257,10 @@ export class Town implements Obstacles {
       this.#byPart.push(model);
       this.tables.push(model.table);
       this.#models.set(scene, { model, part, tile });
+      if (this.#grounds.has(new URL(url, location.href).href)) {
+        this.#floors.set(scene, this.#inPlace(scene, () => new Solid(model.soup(null))));
+        for (const { mesh } of model.meshes) layGround(mesh);
+      }
       if (this.#state !== null) dress(model, this.#state);
     } catch (error) {
       if (!(error instanceof Fault)) throw error;
@@ -255,6 +274,7 @@ export class Town implements Obstacles {
     if (known !== undefined) this.#byPart[known.part] = undefined;
     this.#models.delete(scene);
     this.#solids.delete(scene);
+    this.#floors.delete(scene);
   }
 
   *#shown(): Generator<{ model: TileModel; part: number }> {

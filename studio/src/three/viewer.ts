@@ -12,16 +12,17 @@ import {
 } from "three";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
+import { boxOfPoints, cornersOf, type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
-import type { Place } from "../core/place.ts";
+import { cornersOfPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
+import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
 import { OrbitRig } from "./orbit-rig.ts";
 import { CanvasPointer } from "./pointer.ts";
@@ -37,6 +38,9 @@ const MOST_PIXELS_PER_CSS_PX = 2;
 /** Of a town only what is around the person throws shadows; they move when the person has gone far. */
 const SHADE_RADIUS_M = 110;
 const SHADE_STEP_M = 25;
+/** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
+const NEAR_M = 0.08;
+const NEAR_SHARE = 0.2;
 
 export interface ViewerStats {
   readonly frames: number;
@@ -55,7 +59,7 @@ export class Viewer {
   readonly #town: Town | null;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
-  readonly #camera = new PerspectiveCamera(38, 1, 0.08, 6000);
+  readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
   readonly #scenery: Scenery;
   readonly #appearance: Appearance;
   readonly #orbit: OrbitRig;
@@ -87,17 +91,24 @@ export class Viewer {
     this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
     this.#town = town;
-    this.solid = town ?? new Solid(soupOf(parts));
-    const footprints = parts.map(({ group }) => new Box3().setFromObject(group));
-    this.#scenery = makeScenery(this.solid.bounds, footprints);
+    const ground = parts.filter(({ part }) => part.isGround);
+    this.solid = town ?? new Solid(soupOf(parts), ground.length > 0 ? new Solid(soupOf(ground)) : null);
+    const { bounds } = this.solid;
+    const told = cornersOfPlace(place);
+    const corners = told.length > 0 ? told : cornersOf(bounds);
+    const seen = boxOfPoints(corners);
+    const buildings = parts.filter(({ part }) => !part.isGround);
+    const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
+    this.#scenery = makeScenery(seen, footprints, place.parts.some(({ isGround }) => isGround));
     this.#appearance = new Appearance(parts);
+    for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
     for (const { group } of parts) this.#scene.add(group);
     if (town !== null) this.#scene.add(town.group);
-    const { min, max } = this.solid.bounds;
+    const { min, max } = bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
-    this.#orbit = new OrbitRig(this.#camera, canvas, this.solid.bounds, () => this.invalidate());
-    this.#walk = new WalkRig(place.start, this.solid, this.solid.bounds);
+    this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
+    this.#walk = new WalkRig(place.start, this.solid, bounds);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
@@ -279,9 +290,19 @@ export class Viewer {
 
   #draw(): void {
     this.#scenery.follow(this.#camera);
+    this.#keepDepth();
     if (this.#town !== null) this.#stream(this.#town);
     this.#renderer.render(this.#scene, this.#camera);
     this.#frames += 1;
+  }
+
+  /** Depth is told apart best where nothing is drawn near: the ground lies close over the plane. */
+  #keepDepth(): void {
+    const free_m = this.#store.value.mode === "orbit" ? this.#orbit.free_m : 0;
+    const near = Math.max(NEAR_M, NEAR_SHARE * free_m);
+    if (Math.abs(near - this.#camera.near) < 0.1 * this.#camera.near) return;
+    this.#camera.near = near;
+    this.#camera.updateProjectionMatrix();
   }
 
   /** Fetches what is seen from here, and keeps the shadows around the person. */

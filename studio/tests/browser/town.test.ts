@@ -68,6 +68,9 @@ describe.skipIf(MISSING !== null || url === undefined)("a town of tiles", () => 
       expect(chosen?.width_m).toBeCloseTo(1, 2);
       await page.keyboard.press("Escape");
 
+      // The rows behind stand higher: there is ground between them, and it is there.
+      expect(await page.evaluate(() => window.veduta?.features().some((one) => one.class === "ground"))).toBe(true);
+
       // To the wall: on the way the full level comes.
       await page.keyboard.down("w");
       await page.waitForFunction(() => window.veduta?.walk().blocked === true, undefined, { timeout: PATIENCE_MS });

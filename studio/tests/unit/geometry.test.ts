@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { cornersOf, frameBox, homeDirection, NO_INSETS, shiftOf } from "../../src/core/framing.ts";
+import { boxOfPoints, cornersOf, framePoints, homeDirection, NO_INSETS, shiftOf } from "../../src/core/framing.ts";
 import { drawnFromModel, drawnFromWorld, worldFromDrawn, worldPoint } from "../../src/core/frames.ts";
 import { directionOf, headingOf, turned } from "../../src/core/heading.ts";
 import { photoWindow } from "../../src/core/photo-window.ts";
@@ -52,7 +52,7 @@ describe("framing", () => {
 
   it.each([16 / 9, 1, 9 / 19])("has all corners in the free part and one near its edge, aspect %f", (aspect) => {
     for (const free of [NO_INSETS, insets]) {
-      const { eye } = frameBox(box, direction, 0.6, aspect, free);
+      const { eye } = framePoints(cornersOf(box), direction, 0.6, aspect, free);
       const right: Vec3 = scale([direction[1], -direction[0], 0], 1 / Math.hypot(direction[0], direction[1]));
       const up: Vec3 = [
         right[1] * direction[2] - right[2] * direction[1],
@@ -69,6 +69,31 @@ describe("framing", () => {
       });
       expect(Math.max(...used)).toBeLessThan(1);
       expect(Math.max(...used)).toBeGreaterThan(0.85);
+    }
+  });
+
+  it("is as near as can be, with the same room on both sides", () => {
+    const points: Vec3[] = [[0, 0, 0], [90, 10, 4], [60, 160, 9], [-20, 120, 6], [30, 70, 22]];
+    const flat = homeDirection(boxOfPoints(points));
+    const right: Vec3 = scale([flat[1], -flat[0], 0], 1 / Math.hypot(flat[0], flat[1]));
+    const up: Vec3 = [right[1] * flat[2], -right[0] * flat[2], right[0] * flat[1] - right[1] * flat[0]];
+    const fit = Math.tan(0.3) * 0.93;
+    // The shares of the free part at which the outermost points lie, along both axes of the picture.
+    const ends = (eye: Vec3, aspect: number): [number, number][] =>
+      ([[right, fit * aspect], [up, fit]] as const).map(([axis, tan]) => {
+        const at = points.map((p) => dot(subtract(p, eye), axis) / dot(subtract(p, eye), flat) / tan);
+        return [Math.min(...at), Math.max(...at)];
+      });
+    for (const aspect of [2, 1, 0.5]) {
+      const { eye, target } = framePoints(points, flat, 0.6, aspect);
+      const shares = ends(eye, aspect);
+      for (const share of shares.flat()) expect(Math.abs(share)).toBeLessThan(1 + 1e-9);
+      // Along one axis both ends are at the border: no nearer eye has all points in the picture.
+      const widest = Math.max(...shares.map(([low, high]) => Math.min(-low, high)));
+      expect(widest).toBeCloseTo(1, 9);
+      expect(dot(subtract(target, eye), right)).toBeCloseTo(0, 9);
+      expect(dot(subtract(target, eye), up)).toBeCloseTo(0, 9);
+      expect(target[2]).toBeGreaterThanOrEqual(-1e-9);
     }
   });
 

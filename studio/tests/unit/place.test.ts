@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
-import { fileAddress, isInside, placeAddress, readPlace } from "../../src/core/place.ts";
+import { cornersOfPlace, fileAddress, isInside, placeAddress, readPlace } from "../../src/core/place.ts";
 
 function manifest(change: Record<string, unknown> = {}, part: Record<string, unknown> = {}): string {
   return JSON.stringify({
@@ -34,6 +34,18 @@ describe("reading a place", () => {
     const place = readPlace(manifest({}, { photo: null, transform: undefined }), "place.json");
     expect(place.parts[0]?.photo).toBeNull();
     expect(place.parts[0]?.worldFromPart[15]).toBe(1);
+  });
+
+  it("knows the ground, and what else there is to see", () => {
+    const ground = { ...(JSON.parse(manifest()) as { parts: object[] }).parts[0], id: "g", ground: true };
+    const { parts } = JSON.parse(manifest()) as { parts: object[] };
+    const place = readPlace(manifest({ parts: [...parts, ground] }), "place.json");
+    expect(place.parts.map(({ isGround }) => isGround)).toEqual([false, true]);
+    const corners = cornersOfPlace(place);
+    expect(corners).toHaveLength(8);
+    expect(corners).toContainEqual([7, 8, 9]);
+    expect(corners).toContainEqual([8, 9, 10]);
+    expect(cornersOfPlace(readPlace(manifest({}, { bounds: { min: [0, 0], max: "far" } }), "place.json"))).toEqual([]);
   });
 
   it.each([

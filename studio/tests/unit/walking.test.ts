@@ -49,6 +49,28 @@ function walked(walker: Walker, wish: WalkWish, seconds: number, dt: number, wor
   return now;
 }
 
+describe("the ground of a place", () => {
+  /** It rises by a third to the north, from y = 1 on. */
+  const hill: Obstacles = { pushOut: () => null, groundAt: (_, y) => (y < 1 ? null : (y - 1) / 3) };
+
+  it.each([1 / 60, 1 / 10])("carries a walker up and down at steps of %f s", (dt) => {
+    const up = walked(onGround(), { ...AHEAD, run: true }, 6, dt, hill);
+    expect(up.feet[1]).toBeGreaterThan(20);
+    expect(up.feet[2]).toBeCloseTo((up.feet[1] - 1) / 3, 9);
+    expect(up.grounded).toBe(true);
+    const down = walked(up, { forward: -1, right: 0, run: true }, 8, dt, hill);
+    expect(down.feet[1]).toBeLessThan(1);
+    expect(down.feet[2]).toBe(0);
+  });
+
+  it("lifts whoever stands below it when it comes late, and lets nobody fall through it", () => {
+    const late = step({ ...onGround(), feet: [0, 31, 0] }, STILL, 1 / 60, hill, DEFAULT_WALK);
+    expect(late.feet[2]).toBeCloseTo(10, 9);
+    const dropped: Walker = { ...onGround(), feet: [0, 31, 60], velocity: [0, 0, -90], grounded: false };
+    expect(walked(dropped, STILL, 3, 1 / 10, hill).feet[2]).toBeCloseTo(10, 9);
+  });
+});
+
 describe("free walking", () => {
   it.each([1 / 144, 1 / 60, 1 / 15, 1 / 10])("follows the closed form at steps of %f s", (dt) => {
     const seconds = Math.round(3 / dt) * dt;

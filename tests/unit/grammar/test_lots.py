@@ -96,6 +96,7 @@ def test_the_lowest_corner_is_the_ground(tmp_path: Path) -> None:
     ring = [[0, 0, 7.5], [10, 0, 8], [10, 10, 9], [0, 10, 8]]
     found = read(tmp_path, collection(feature(ring)))
     assert found.lots[0].anchor_m[2] + found.origin_m[2] == 7.5
+    assert found.lots[0].anchor_m[2] == 0.0
 
 
 BOW_TIE = [[0, 0], [10, 10], [10, 0], [0, 8], [0, 0]]

@@ -110,6 +110,7 @@ def test_lots_stand_on_it(tmp_path: Path) -> None:
     found = read_lots(lots, LotOptions(terrain=path))
     heights = [found.origin_m[2] + lot.anchor_m[2] for lot in found.lots]
     assert heights == pytest.approx([2 + 0.2 + 0.15, 2 + 2.0 + 0.15], abs=1e-4)
+    assert 0 <= found.lots[0].anchor_m[2] < 1e-3  # the lowest lies on the plane of the place
     (failure,) = found.failures
     assert "no height" in failure.reason
 
