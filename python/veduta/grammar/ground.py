@@ -48,10 +48,10 @@ def is_level(anchors_m: NDArray[np.float64]) -> bool:
     return not len(anchors_m) or float(np.ptp(anchors_m[:, 2])) < LEVEL_M
 
 
-def ground_of(blocks: Iterable[Block]) -> dict[str, Ground]:
+def ground_of(blocks: Iterable[Block], highest_m: float | None = None) -> dict[str, Ground]:
     """The ground by the names of the blocks; none where all lots are level.
 
-    The lots of one block are looked at at a time.
+    The lots of one block are looked at at a time. highest_m: of a town of which these are a part.
     """
     names, rings = [], []
     for block in blocks:
@@ -63,7 +63,8 @@ def ground_of(blocks: Iterable[Block]) -> dict[str, Ground]:
     rings.clear()
     points[:, 2] -= SINK_M
     points, owner, inner = _joined(points, owner, edges)
-    margin = margin_around(points, inner)
+    highest = points[:, 2].max() if highest_m is None else highest_m - SINK_M
+    margin = margin_around(points, inner, float(highest))
     inner = inner[_doubled(points, inner) > 2 * _SLIVER_M2]
     every = np.concatenate([points, margin.points_m])
     owner = np.concatenate([owner, owner[margin.base]])

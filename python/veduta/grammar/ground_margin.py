@@ -66,14 +66,18 @@ def on_long_edges(
     return points[base] + (number / parts[which])[:, None] * there[which], base
 
 
-def margin_around(points: NDArray[np.float64], triangles: NDArray[np.int32]) -> Margin:
+def margin_around(
+    points: NDArray[np.float64], triangles: NDArray[np.int32], highest_m: float
+) -> Margin:
     """Rings around (n, 3) points and their triangles, whose border is convex.
+
+    highest_m: of the whole town, which says how wide they are.
 
     Each corner of the border is led away at right angles to it; on the way its height becomes that
     of its neighbours, and falls as the cubic that is level at both ends.
     """
     base, away = _rays(points, triangles)
-    width = max(MARGIN_M, REACH * float(points[:, 2].max()))
+    width = max(MARGIN_M, REACH * highest_m)
     steps = np.arange(1, RINGS + 1) / RINGS
     flat = points[base, :2] + (steps[:, None, None] * width) * away
     heights = _blurred(flat, points[base, 2], steps * width / 2)

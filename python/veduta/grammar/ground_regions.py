@@ -2,9 +2,10 @@
 
 All corners of a town at once would need a kilobyte each. Blocks that follow each other in the order
 of the quadtree are a region; its ground is made with the lots of other regions around it, and what
-belongs to those is left to them. Triangles join what is near, so that regions meet but in rare
-places: where two of them choose differently between corners on one circle, or across a gap that is
-wider than what is looked at around a region.
+belongs to those is left to them. All regions see the outermost lots of the town, so that it ends for
+all of them in the same way. Triangles join what is near, so that regions meet but in rare places:
+where two of them choose differently between corners on one circle, or across a gap that is wider
+than what is looked at around a region.
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from collections.abc import Iterator, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, cKDTree
 
 from veduta.grammar.ground import Ground, ground_of, is_level
 from veduta.grammar.lot import anchors_of
@@ -31,10 +32,15 @@ def grounds_of(squares: Squares, most: int = MOST_LOTS) -> dict[str, Ground]:
     if is_level(anchors):
         return {}
     found: dict[str, Ground] = {}
-    for region in _regions(squares.every, most):
+    highest_m = float(anchors[:, 2].max())
+    regions = list(_regions(squares.every, most))
+    outermost = _outermost(squares) if len(regions) > 1 else np.empty(0, dtype=np.int64)
+    for region in regions:
         own = {square.name for square in region}
-        blocks = (squares.block(square) for square in _with_others(squares, region, anchors))
-        found |= {name: ground for name, ground in ground_of(blocks).items() if name in own}
+        every = _with_others(squares, region, anchors, outermost)
+        blocks = (squares.block(square) for square in every)
+        grounds = ground_of(blocks, highest_m)
+        found |= {name: ground for name, ground in grounds.items() if name in own}
     return found
 
 
@@ -50,10 +56,27 @@ def _regions(every: Sequence[Square], most: int) -> Iterator[list[Square]]:
         yield region
 
 
+def _outermost(squares: Squares) -> NDArray[np.int64]:
+    """The rows of the lots in whose corners the town ends."""
+    corners, rows = np.empty((0, 2)), np.empty(0, dtype=np.int64)
+    for square in squares.every:
+        own = [lot.rings_m[0] + lot.anchor_m[:2] for lot in squares.block(square).lots]
+        row = np.repeat(square.rows, [len(ring) for ring in own])
+        corners, rows = np.concatenate([corners, *own]), np.concatenate([rows, row])
+        last = ConvexHull(corners).vertices
+        corners, rows = corners[last], rows[last]
+    return np.unique(rows)
+
+
 def _with_others(
-    squares: Squares, region: list[Square], anchors: NDArray[np.float64]
+    squares: Squares,
+    region: list[Square],
+    anchors: NDArray[np.float64],
+    outermost: NDArray[np.int64],
 ) -> list[Square]:
-    """The squares of a region between the lots around it of earlier and of later squares.
+    """The squares of a region between other lots, of earlier and of later squares.
+
+    They are those around it, and the outermost of the town.
 
     A triangle between several blocks belongs to the last of them: so the order has to stay.
     """
@@ -68,10 +91,10 @@ def _with_others(
     low, high = own.min(axis=0) - AROUND_M, own.max(axis=0) + AROUND_M
     near = ~is_own & ((anchors[:, :2] >= low) & (anchors[:, :2] <= high)).all(axis=1)
     rows = np.flatnonzero(near)
-    if not len(rows):
-        return region
-    distance_m, _ = cKDTree(own).query(anchors[rows, :2], distance_upper_bound=AROUND_M)
-    rows = rows[np.isfinite(distance_m)]
+    if len(rows):
+        distance_m, _ = cKDTree(own).query(anchors[rows, :2], distance_upper_bound=AROUND_M)
+        rows = rows[np.isfinite(distance_m)]
+    rows = np.union1d(rows, outermost[~is_own[outermost]])
     before, after = rows[number[rows] < first], rows[number[rows] >= first]
     outside = [Square(name, some, (0.0, 0.0, 0.0)) for name, some in (("<", before), (">", after))]
     return [one for one in (outside[0], *region, outside[1]) if len(one.rows)]
