@@ -124,7 +124,7 @@ pub enum ExprKind {
     /// `comp(f) { selector : value | ... }`: an array of a value for each component.
     Components {
         kind: Kind,
-        cells: Vec<(Selector, Expr)>,
+        cells: Vec<ComponentValue>,
     },
     Unary {
         op: UnaryOp,
@@ -206,6 +206,15 @@ pub enum Sizing {
     FloatingRelative,
 }
 
+/// A cell of the function `comp`.
+#[derive(Debug, Clone)]
+pub struct ComponentValue {
+    pub selector: Selector,
+    /// `=`: the value is that of all that is selected as one shape.
+    pub combined: bool,
+    pub value: Expr,
+}
+
 #[derive(Debug, Clone)]
 pub enum Cell {
     Part {
@@ -238,4 +247,14 @@ impl Cell {
 pub enum Selector {
     Word(Arc<str>),
     Value(Sizing, Expr),
+}
+
+impl Selector {
+    /// What `comp.sel` is of what it selects.
+    pub fn name(&self) -> Arc<str> {
+        match self {
+            Self::Word(word) => word.clone(),
+            Self::Value(..) => "".into(),
+        }
+    }
 }
