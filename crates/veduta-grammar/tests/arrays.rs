@@ -178,3 +178,42 @@ fn materials_are_set_and_read() {
     assert!(unknown.contains("`material.colour`"), "{unknown}");
     assert!(fault("Lot --> set(material.opacity, \"thick\")").contains("a number from 0 to 1"));
 }
+
+#[test]
+fn arrays_are_compared_as_wholes() {
+    // The examples of the reference.
+    let holds = [
+        "[1, 2] == [1, 2]",
+        "[1, 2] != [1; 2]",
+        "[\"a\", \"b\"] != [\"a\"; \"b\"]",
+        "[true, true] != [true, false]",
+        "[1, 2] < [1, 3]",
+        "[1, 2] <= [1, 2]",
+        "[1, 3] > [1, 2]",
+        "[\"a\"; \"b\"] > [\"a\"]",
+        "[1, 2, 3] >= [1, 2]",
+        "[\"a\"; \"b\"] >= [\"a\"; \"b\"]",
+    ];
+    assert_eq!(each(&holds), ["true"; 10]);
+    let fails = [
+        "[\"a\", \"b\"] == [\"a\"; \"b\"]",
+        "[true, false] == [true, true]",
+        "[\"a\", \"b\"] < [\"a\"; \"b\"]",
+        "[\"a\"; \"b\"] <= [\"a\"]",
+        "[1, 2, 3] == [1, 2]",
+    ];
+    assert_eq!(each(&fails), ["false"; 5]);
+    // With a dot, element by element.
+    let elements = ["[1, 2] .== [1, 3]", "[1, 2] .< [2, 1]"];
+    assert_eq!(each(&elements), ["[true,false]", "[true,false]"]);
+}
+
+#[test]
+fn a_string_and_an_array_are_one_string() {
+    let values = [
+        "\"a: \" + [1, 2; 3, 4]",
+        "[true] + \" b\"",
+        "\"a\" .+ [1, 2]",
+    ];
+    assert_eq!(each(&values), ["a: [1,2;3,4]", "[true] b", "[a1,a2]"]);
+}
