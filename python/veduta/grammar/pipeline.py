@@ -312,7 +312,8 @@ def _collect(folder: OutFolder, blocks: list[Block], lots: Lots, result: DeriveR
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
     names = {block.name for block in blocks}
-    folders = {"/".join(path.split("/")[:2]) for path in folder.record.files if "/" in path}
+    files = [path for path in folder.record.files if path.startswith("parts/")]
+    folders = {"/".join(path.split("/")[:2]) for path in files}
     result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
 
 
