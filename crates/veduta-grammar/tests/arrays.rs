@@ -217,3 +217,33 @@ fn a_string_and_an_array_are_one_string() {
     ];
     assert_eq!(each(&values), ["a: [1,2;3,4]", "[true] b", "[a1,a2]"]);
 }
+
+#[test]
+fn arrays_of_another_kind() {
+    // The examples of the reference.
+    let values = [
+        "floatArray([1, 0, 1.777, 20])",
+        "floatArray([\"1.5\", \"-2\", \"0\", \"nixda\", \"5+6\"])",
+        "floatArray([true, false, true])",
+        "stringArray([1, 0, 1.777, 20])",
+        "stringArray([true, false, true])",
+        "floatArray([\"1\", \"2\"; \"3\", \"4\"])",
+        "boolArray([\"true\", \"\"])",
+        "size(floatArray())",
+        "float(\"12.5 m\")",
+    ];
+    assert_eq!(
+        each(&values),
+        [
+            "[1,0,1.777,20]",
+            "[1.5,-2,0,NaN,5]",
+            "[1,0,1]",
+            "[1,0,1.777,20]",
+            "[true,false,true]",
+            "[1,2;3,4]",
+            "[true,false]",
+            "0",
+            "12.5",
+        ]
+    );
+}
