@@ -62,6 +62,18 @@ fn names(tree: &Tree) -> Vec<String> {
 }
 
 #[test]
+fn the_first_rule_without_parameters_starts() {
+    let found = tree("Wall(x) --> print(x) Brick.\nLot --> Wall(3)\nOther --> Other.");
+    assert_eq!(
+        (names(&found), found.messages),
+        (vec!["Brick".into()], vec!["3".into()])
+    );
+    let named = tree("Lot --> Lot.\n@StartRule Other --> Here.");
+    assert_eq!(names(&named), ["Here"]);
+    assert!(fault("Wall(x) --> Brick.").contains("cannot start"));
+}
+
+#[test]
 fn a_house_of_two_floors() {
     let tree = tree(
         "Lot --> extrude(7) comp(f) { front : Front | top : Roof. | side : NIL }
