@@ -176,7 +176,7 @@ pub enum Step {
     Leaf {
         symbol: Symbol,
     },
-    Push(Vec<Step>),
+    Push(Body),
     Operation(Box<Operation>),
 }
 
