@@ -84,6 +84,9 @@ def test_one_command_makes_a_street(tmp_path: Path) -> None:
     city = validate_city(out / "city.city.json")
     assert (city["valid"], city["has_warnings"]) == (True, False), city["checks"]
     assert any("synthetic" in note for note in report["notes"])
+    again = veduta("grammar", "derive", "haussmann", "-o", out).stdout
+    assert "up to date" in again
+    assert "earlier call" not in again  # its textures and ground are of this one
 
 
 def test_lots_keep_their_place(tmp_path: Path, rules: Path, lots: Path) -> None:

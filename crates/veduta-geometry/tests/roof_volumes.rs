@@ -331,6 +331,7 @@ proptest! {
             match roofed(&sheet(&rings), &kind, slope) {
                 Ok(solid) => prop_assert_eq!(fault(&solid, &rings, None), None, "{}", name),
                 Err(SkeletonError::NoApex) => prop_assert_eq!(name, "pyramid"),
+                Err(SkeletonError::FoldedGable) => prop_assert_eq!(name, "even gable"),
                 Err(error) => prop_assert!(false, "{name}: {error}"),
             }
             let over = Overhang { eaves: out, gables: out };

@@ -200,9 +200,9 @@ impl Printer<'_> {
     fn operation(&mut self, operation: &Operation) {
         match operation {
             Operation::Call(call) => self.call(call),
-            Operation::Push { operations, .. } => {
+            Operation::Push { body, .. } => {
                 self.word("[");
-                operations.iter().for_each(|one| self.operation(one));
+                self.body(body);
                 self.word("]");
             }
         }

@@ -178,3 +178,72 @@ fn materials_are_set_and_read() {
     assert!(unknown.contains("`material.colour`"), "{unknown}");
     assert!(fault("Lot --> set(material.opacity, \"thick\")").contains("a number from 0 to 1"));
 }
+
+#[test]
+fn arrays_are_compared_as_wholes() {
+    // The examples of the reference.
+    let holds = [
+        "[1, 2] == [1, 2]",
+        "[1, 2] != [1; 2]",
+        "[\"a\", \"b\"] != [\"a\"; \"b\"]",
+        "[true, true] != [true, false]",
+        "[1, 2] < [1, 3]",
+        "[1, 2] <= [1, 2]",
+        "[1, 3] > [1, 2]",
+        "[\"a\"; \"b\"] > [\"a\"]",
+        "[1, 2, 3] >= [1, 2]",
+        "[\"a\"; \"b\"] >= [\"a\"; \"b\"]",
+    ];
+    assert_eq!(each(&holds), ["true"; 10]);
+    let fails = [
+        "[\"a\", \"b\"] == [\"a\"; \"b\"]",
+        "[true, false] == [true, true]",
+        "[\"a\", \"b\"] < [\"a\"; \"b\"]",
+        "[\"a\"; \"b\"] <= [\"a\"]",
+        "[1, 2, 3] == [1, 2]",
+    ];
+    assert_eq!(each(&fails), ["false"; 5]);
+    // With a dot, element by element.
+    let elements = ["[1, 2] .== [1, 3]", "[1, 2] .< [2, 1]"];
+    assert_eq!(each(&elements), ["[true,false]", "[true,false]"]);
+}
+
+#[test]
+fn a_string_and_an_array_are_one_string() {
+    let values = [
+        "\"a: \" + [1, 2; 3, 4]",
+        "[true] + \" b\"",
+        "\"a\" .+ [1, 2]",
+    ];
+    assert_eq!(each(&values), ["a: [1,2;3,4]", "[true] b", "[a1,a2]"]);
+}
+
+#[test]
+fn arrays_of_another_kind() {
+    // The examples of the reference.
+    let values = [
+        "floatArray([1, 0, 1.777, 20])",
+        "floatArray([\"1.5\", \"-2\", \"0\", \"nixda\", \"5+6\"])",
+        "floatArray([true, false, true])",
+        "stringArray([1, 0, 1.777, 20])",
+        "stringArray([true, false, true])",
+        "floatArray([\"1\", \"2\"; \"3\", \"4\"])",
+        "boolArray([\"true\", \"\"])",
+        "size(floatArray())",
+        "float(\"12.5 m\")",
+    ];
+    assert_eq!(
+        each(&values),
+        [
+            "[1,0,1.777,20]",
+            "[1.5,-2,0,NaN,5]",
+            "[1,0,1]",
+            "[1,0,1.777,20]",
+            "[true,false,true]",
+            "[1,2;3,4]",
+            "[true,false]",
+            "0",
+            "12.5",
+        ]
+    );
+}

@@ -62,6 +62,30 @@ fn names(tree: &Tree) -> Vec<String> {
 }
 
 #[test]
+fn alternatives_in_brackets() {
+    // As the reference has them in its example of `minimumDistance`.
+    let lot = "Lot --> split(x) { ~2 : Cell(split.index) }*\n\
+               Cell(x) --> [ case x == 1 : t(0, 1, 0) A. else : NIL ] B.";
+    assert_eq!(names(&tree(lot)), ["B", "A", "B", "B", "B", "B"]);
+    let chances = tree("Lot --> [ 100% : A. else : B. ] C.");
+    assert_eq!(names(&chances), ["A", "C"]);
+    let nested = tree("Lot --> [ case true : [ case false : A. else : B. ] C. else : D. ] E.");
+    assert_eq!(names(&nested), ["B", "C", "E"]);
+}
+
+#[test]
+fn the_first_rule_without_parameters_starts() {
+    let found = tree("Wall(x) --> print(x) Brick.\nLot --> Wall(3)\nOther --> Other.");
+    assert_eq!(
+        (names(&found), found.messages),
+        (vec!["Brick".into()], vec!["3".into()])
+    );
+    let named = tree("Lot --> Lot.\n@StartRule Other --> Here.");
+    assert_eq!(names(&named), ["Here"]);
+    assert!(fault("Wall(x) --> Brick.").contains("cannot start"));
+}
+
+#[test]
 fn a_house_of_two_floors() {
     let tree = tree(
         "Lot --> extrude(7) comp(f) { front : Front | top : Roof. | side : NIL }

@@ -188,7 +188,7 @@ fn faults_say_what_is_wrong() {
     assert!(fault("Lot --> roofDutch(45, 1)").contains("between 0 and 1"));
     assert!(fault("Lot --> roofDutch(byAngle, 45)").contains("a share"));
     assert!(fault("Lot --> roofSawtooth(45, 0)").contains("a count"));
-    assert!(fault("Lot --> roofPerEdge([45, 45])").contains("there are 2 speeds for 4 edges"));
+    assert!(fault("Lot --> roofPerEdge([45, 45])").contains("there are 2 values for 4 edges"));
     assert!(fault("Lot --> roofPerEdge([90, 90, 90, 90])").contains("not upright"));
     assert!(fault("Lot --> roofFlat(0, 1)").contains("above 0"));
     assert!(fault("Lot --> roofMansard(70, 95, 2)").contains("a slope"));

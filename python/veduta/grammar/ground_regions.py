@@ -2,10 +2,10 @@
 
 All corners of a town at once would need a kilobyte each. Blocks that follow each other in the order
 of the quadtree are a region; its ground is made with the lots of other regions around it, and what
-belongs to those is left to them. All regions see the outermost lots of the town, so that it ends for
-all of them in the same way. Triangles join what is near, so that regions meet but in rare places:
-where two of them choose differently between corners on one circle, or across a gap that is wider
-than what is looked at around a region.
+belongs to those is left to them. All regions see the outermost lots of the town, so that it ends
+for all of them in the same way. Triangles join what is near, so that regions meet but in rare
+places: where two of them choose differently between corners on one circle, or across a gap that is
+wider than what is looked at around a region.
 """
 
 from __future__ import annotations

@@ -295,7 +295,8 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
     names = {square.name for square in call.squares.every}
-    folders = {"/".join(path.split("/")[:2]) for path in folder.record.files if "/" in path}
+    files = [path for path in folder.record.files if path.startswith("parts/")]
+    folders = {"/".join(path.split("/")[:2]) for path in files}
     result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
 
 

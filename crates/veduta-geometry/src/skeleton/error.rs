@@ -14,7 +14,7 @@ pub enum SkeletonError {
     NotFinite { vertex: usize },
     #[error("ring {ring} has {vertices} vertices; 3 are the least")]
     RingTooShort { ring: usize, vertices: usize },
-    #[error("there are {speeds} speeds for {edges} edges")]
+    #[error("there are {speeds} values for {edges} edges")]
     SpeedCount { speeds: usize, edges: usize },
     #[error("the speed of edge {edge} is {speed}; it must be from 0 to {most}")]
     BadSpeed { edge: usize, speed: f64, most: f64 },
@@ -57,6 +57,8 @@ pub enum SkeletonError {
     NoSuchEdge { edge: usize, edges: usize },
     #[error("no place is in sight of all edges, for a point of the roof to stand over it")]
     NoApex,
+    #[error("with all ridges at one height, a gable would fold over itself")]
+    FoldedGable,
     #[error("the roof found is not sound: {0}")]
     Unsound(#[from] RoofFault),
     #[error(transparent)]

@@ -13,6 +13,13 @@ pub fn kinds() -> Vec<(&'static str, RoofKind)> {
         ("hip", RoofKind::HIP),
         ("even hip", RoofKind::Hip { even: true }),
         ("gable", RoofKind::GABLE),
+        (
+            "even gable",
+            RoofKind::Gable {
+                gables: gables.clone(),
+                even: true,
+            },
+        ),
         ("pyramid", RoofKind::Pyramid),
         ("shed", RoofKind::Shed { edge: 0 }),
         (

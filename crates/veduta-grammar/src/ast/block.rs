@@ -44,7 +44,7 @@ pub enum Operation {
     Call(Call),
     /// `[ … ]`: works on a copy of the current shape, which is as before afterwards.
     Push {
-        operations: Vec<Operation>,
+        body: Body,
         span: Span,
     },
 }

@@ -19,7 +19,7 @@ impl Checker<'_> {
         for operation in list {
             match operation {
                 Operation::Call(call) => self.call(call),
-                Operation::Push { operations, .. } => self.operations(operations),
+                Operation::Push { body, .. } => self.body(body),
             }
         }
     }

@@ -10,19 +10,43 @@ use super::value::{Array, Value};
 pub const TABLE: &[(&str, Function, usize, usize)] = {
     use Function::Of;
     &[
-        ("boolArray", Of(empty), 0, 0),
+        ("boolArray", Of(truths), 0, 1),
         ("findFirst", Of(find_first), 2, 2),
-        ("floatArray", Of(empty), 0, 0),
+        ("floatArray", Of(numbers), 0, 1),
         ("setElems", Of(set_elements), 3, 4),
         ("sortIndices", Of(sort_indices), 1, 1),
         ("sortRowIndices", Of(sort_row_indices), 1, 1),
-        ("stringArray", Of(empty), 0, 0),
+        ("stringArray", Of(texts), 0, 1),
         ("transpose", Of(transpose), 1, 1),
     ]
 };
 
-fn empty(_: &[Value]) -> Result<Value, String> {
-    Ok(Value::list(Vec::new()))
+/// `floatArray()` is empty, and `floatArray(array)` the array with its elements as `float` gives them.
+fn numbers(args: &[Value]) -> Result<Value, String> {
+    converted(args, Function::ToFloat)
+}
+
+fn truths(args: &[Value]) -> Result<Value, String> {
+    converted(args, Function::ToBool)
+}
+
+fn texts(args: &[Value]) -> Result<Value, String> {
+    converted(args, Function::ToText)
+}
+
+fn converted(args: &[Value], to: Function) -> Result<Value, String> {
+    if args.is_empty() {
+        return Ok(Value::list(Vec::new()));
+    }
+    let from = array(args)?;
+    let values = from.values.iter();
+    let values: Result<_, _> = values
+        .map(|value| to.call(std::slice::from_ref(value), || 0.0))
+        .collect();
+    Ok(Value::Array(Arc::new(Array {
+        columns: from.columns,
+        values: values?,
+    })))
 }
 
 /// `findFirst(array, value)`: its number, row by row; `findFirst(text, part)`: the place of the

@@ -49,7 +49,7 @@ fn in_body(body: &Body, seen: &mut impl FnMut(&Operation)) {
 fn in_steps(steps: &[Step], seen: &mut impl FnMut(&Operation)) {
     for step in steps {
         match step {
-            Step::Push(inner) => in_steps(inner, seen),
+            Step::Push(inner) => in_body(inner, seen),
             Step::Operation(operation) => {
                 seen(operation);
                 in_cells(&operation.cells, seen);

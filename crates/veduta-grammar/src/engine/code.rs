@@ -124,7 +124,7 @@ pub enum ExprKind {
     /// `comp(f) { selector : value | ... }`: an array of a value for each component.
     Components {
         kind: Kind,
-        cells: Vec<(Selector, Expr)>,
+        cells: Vec<ComponentValue>,
     },
     Unary {
         op: UnaryOp,
@@ -176,7 +176,7 @@ pub enum Step {
     Leaf {
         symbol: Symbol,
     },
-    Push(Vec<Step>),
+    Push(Body),
     Operation(Box<Operation>),
 }
 
@@ -204,6 +204,15 @@ pub enum Sizing {
     Relative,
     Floating,
     FloatingRelative,
+}
+
+/// A cell of the function `comp`.
+#[derive(Debug, Clone)]
+pub struct ComponentValue {
+    pub selector: Selector,
+    /// `=`: the value is that of all that is selected as one shape.
+    pub combined: bool,
+    pub value: Expr,
 }
 
 #[derive(Debug, Clone)]
@@ -238,4 +247,14 @@ impl Cell {
 pub enum Selector {
     Word(Arc<str>),
     Value(Sizing, Expr),
+}
+
+impl Selector {
+    /// What `comp.sel` is of what it selects.
+    pub fn name(&self) -> Arc<str> {
+        match self {
+            Self::Word(word) => word.clone(),
+            Self::Value(..) => "".into(),
+        }
+    }
 }

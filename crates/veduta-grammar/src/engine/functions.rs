@@ -112,7 +112,7 @@ impl Function {
             }
             Self::Chance => Ok(Value::Bool(random() < number(args, 0)?)),
             Self::ToBool => args[0].truth().map(Value::Bool).ok_or_else(|| no(&args[0])),
-            Self::ToFloat => Ok(Value::Number(args[0].number().unwrap_or(f64::NAN))),
+            Self::ToFloat => Ok(Value::Number(read_number(&args[0]))),
             Self::ToText => Ok(Value::text(&args[0].written()?)),
             Self::Sum => folded(args, |a, b| a + b),
             Self::Of(work) => work(args),
@@ -207,3 +207,21 @@ pub(super) fn array(args: &[Value]) -> Result<&Array, String> {
 fn no(value: &Value) -> String {
     format!("{} cannot be used here", value.kind())
 }
+
+/// A value as a number: of a string the number that it begins with, and NaN where it begins with none.
+fn read_number(value: &Value) -> f64 {
+    if let (Value::Text(text), None) = (value, value.number()) {
+        let text = text.trim_start();
+        let digits = |c: char| c.is_ascii_digit() || matches!(c, '+' | '-' | '.' | 'e' | 'E');
+        let end = text
+            .find(|c| !digits(c))
+            .unwrap_or(text.len())
+            .min(LONGEST_NUMBER);
+        let beginnings = (1..=end).rev().filter_map(|to| text[..to].parse().ok());
+        return beginnings.into_iter().next().unwrap_or(f64::NAN);
+    }
+    value.number().unwrap_or(f64::NAN)
+}
+
+/// The most characters that a number at the beginning of a string is read from.
+const LONGEST_NUMBER: usize = 64;

@@ -69,13 +69,11 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             all.extend(new);
         }
     }
-    if lowered.code.start.is_none()
-        && checked
-            .definitions
-            .first()
-            .is_some_and(|d| !d.rules.is_empty())
-    {
-        lowered.code.start = Some(0);
+    if lowered.code.start.is_none() {
+        let own = checked.definitions.first().map_or(0, |d| d.rules.len());
+        let mut rules = lowered.code.rules.iter().take(own);
+        let able = rules.position(|rule| rule.params.is_empty());
+        lowered.code.start = able.or((own > 0).then_some(0));
     }
     lowered
 }

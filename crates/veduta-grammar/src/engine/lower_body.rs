@@ -45,7 +45,7 @@ impl Lowering<'_> {
 
     fn step(&mut self, operation: &ast::Operation) -> Step {
         match operation {
-            ast::Operation::Push { operations, .. } => Step::Push(self.steps(operations)),
+            ast::Operation::Push { body, .. } => Step::Push(self.body(body)),
             ast::Operation::Call(call) => self.call(call),
         }
     }
@@ -62,7 +62,7 @@ impl Lowering<'_> {
                 Some(id) => Step::Operation(Box::new(self.operation(id, call))),
                 None => {
                     self.unknown(call.name);
-                    Step::Push(Vec::new())
+                    Step::Push(Body::Steps(Vec::new()))
                 }
             },
             _ => Step::Leaf {

@@ -3,7 +3,7 @@
 use crate::ast::{self, ExprKind as Ast, Ident};
 use crate::{Span, Target};
 
-use super::code::{Expr, ExprKind};
+use super::code::{ComponentValue, Expr, ExprKind};
 use super::functions::Function;
 use super::lower::{Lowering, Number};
 use super::measures::Measure;
@@ -86,8 +86,18 @@ impl Lowering<'_> {
         };
         let mut lowered = Vec::with_capacity(cells.len());
         for cell in cells {
-            if let ast::Cell::Part { selector, body, .. } = cell {
-                lowered.push((self.selector(selector), self.expr(body)));
+            if let ast::Cell::Part {
+                selector,
+                combined,
+                body,
+                ..
+            } = cell
+            {
+                lowered.push(ComponentValue {
+                    selector: self.selector(selector),
+                    combined: *combined,
+                    value: self.expr(body),
+                });
             }
         }
         ExprKind::Components {

@@ -1,5 +1,6 @@
-//! Operators on values, and element by element on arrays.
+//! Operators on values and arrays, and element by element on arrays.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use crate::ast::{BinaryOp, UnaryOp};
@@ -31,20 +32,22 @@ pub fn unary(op: UnaryOp, value: Value) -> Result<Value, String> {
 pub fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
     use BinaryOp as B;
     if matches!(a, Value::Array(_)) || matches!(b, Value::Array(_)) {
-        return each(op, a, b);
+        return match (op, a, b) {
+            (B::Add, Value::Text(_), _) | (B::Add, _, Value::Text(_)) => {
+                let texts = [a.written()?, b.written()?];
+                Ok(Value::text(&texts.concat()))
+            }
+            (_, Value::Array(left), Value::Array(right)) if is_comparison(op) => {
+                Ok(Value::Bool(holds(op, ordered_arrays(left, right))))
+            }
+            _ => each(op, a, b),
+        };
     }
     if let (B::Add | B::EachAdd, Value::Text(_), _) | (B::Add | B::EachAdd, _, Value::Text(_)) =
         (op, a, b)
     {
         return Ok(Value::text(&format!("{a}{b}")));
     }
-    let ordered = match (a, b) {
-        (Value::Text(a), Value::Text(b)) => Some(a.cmp(b)),
-        _ => match (a.number(), b.number()) {
-            (Some(a), Some(b)) => a.partial_cmp(&b),
-            _ => None,
-        },
-    };
     let truth = |value: &Value| value.truth().unwrap_or(false);
     let number = |value: &Value| {
         let needed = || format!("`{}` needs numbers, not {}", op.sign(), value.kind());
@@ -53,18 +56,70 @@ pub fn binary(op: BinaryOp, a: &Value, b: &Value) -> Result<Value, String> {
     Ok(match op {
         B::Or | B::EachOr => Value::Bool(truth(a) || truth(b)),
         B::And | B::EachAnd => Value::Bool(truth(a) && truth(b)),
-        B::Equal | B::EachEqual => Value::Bool(ordered.is_some_and(|o| o.is_eq())),
-        B::NotEqual | B::EachNotEqual => Value::Bool(!ordered.is_some_and(|o| o.is_eq())),
-        B::Less | B::EachLess => Value::Bool(ordered.is_some_and(|o| o.is_lt())),
-        B::LessEqual | B::EachLessEqual => Value::Bool(ordered.is_some_and(|o| o.is_le())),
-        B::Greater | B::EachGreater => Value::Bool(ordered.is_some_and(|o| o.is_gt())),
-        B::GreaterEqual | B::EachGreaterEqual => Value::Bool(ordered.is_some_and(|o| o.is_ge())),
+        B::Equal
+        | B::NotEqual
+        | B::Less
+        | B::LessEqual
+        | B::Greater
+        | B::GreaterEqual
+        | B::EachEqual
+        | B::EachNotEqual
+        | B::EachLess
+        | B::EachLessEqual
+        | B::EachGreater
+        | B::EachGreaterEqual => Value::Bool(holds(op, ordered(a, b))),
         B::Add | B::EachAdd => Value::Number(number(a)? + number(b)?),
         B::Subtract | B::EachSubtract => Value::Number(number(a)? - number(b)?),
         B::Multiply | B::EachMultiply => Value::Number(number(a)? * number(b)?),
         B::Divide | B::EachDivide => Value::Number(number(a)? / number(b)?),
         B::Remainder | B::EachRemainder => Value::Number(number(a)? % number(b)?),
     })
+}
+
+/// Whether an operator compares arrays as wholes.
+fn is_comparison(op: BinaryOp) -> bool {
+    use BinaryOp as B;
+    matches!(
+        op,
+        B::Equal | B::NotEqual | B::Less | B::LessEqual | B::Greater | B::GreaterEqual
+    )
+}
+
+/// Whether a comparison holds for values of this order; what has no order is unequal.
+fn holds(op: BinaryOp, order: Option<Ordering>) -> bool {
+    use BinaryOp as B;
+    match op {
+        B::Equal | B::EachEqual => order.is_some_and(Ordering::is_eq),
+        B::NotEqual | B::EachNotEqual => !order.is_some_and(Ordering::is_eq),
+        B::Less | B::EachLess => order.is_some_and(Ordering::is_lt),
+        B::LessEqual | B::EachLessEqual => order.is_some_and(Ordering::is_le),
+        B::Greater | B::EachGreater => order.is_some_and(Ordering::is_gt),
+        _ => order.is_some_and(Ordering::is_ge),
+    }
+}
+
+fn ordered(a: &Value, b: &Value) -> Option<Ordering> {
+    match (a, b) {
+        (Value::Text(a), Value::Text(b)) => Some(a.cmp(b)),
+        _ => a.number()?.partial_cmp(&b.number()?),
+    }
+}
+
+/// Row by row; where rows are equal as far as they go, fewer columns are less, and then fewer rows.
+fn ordered_arrays(a: &Array, b: &Array) -> Option<Ordering> {
+    for row in 0..a.rows().min(b.rows()) {
+        let of = |array: &'_ Array| row * array.columns..(row + 1) * array.columns;
+        for (a, b) in a.values[of(a)].iter().zip(&b.values[of(b)]) {
+            let order = ordered(a, b)?;
+            if order.is_ne() {
+                return Some(order);
+            }
+        }
+        if a.columns != b.columns {
+            return Some(a.columns.cmp(&b.columns));
+        }
+    }
+    Some(a.rows().cmp(&b.rows()))
 }
 
 /// The most bytes of all strings of an array.

@@ -2,13 +2,15 @@
 
 use std::cell::OnceCell;
 
+use veduta_geometry::solid::{joined, Mesh};
+
 use crate::ast::{BinaryOp, UnaryOp};
 use crate::shape::{
-    components, is_meant, surroundings, Component, Form, Frames, Kind, Surroundings,
+    components, is_meant, surroundings, Component, Form, Frames, Kind, Surroundings, TOLERANCE,
 };
 use crate::Span;
 
-use super::code::{Expr, ExprKind, Selector};
+use super::code::{ComponentValue, Expr, ExprKind, Selector};
 use super::evaluate::Scene;
 use super::fault::Fault;
 use super::limits::Limit;
@@ -68,7 +70,8 @@ impl Choosing {
             .ok_or_else(|| Fault::at(span, format!("`{word}` selects no component")))
     }
 
-    /// The shape of a component, with what it has from the whole.
+    /// The shape of a component, with what it has from the whole, before a cell has taken it:
+    /// `comp.index` is its number among all.
     pub fn state(&self, whole: &State, at: usize) -> State {
         let mut state = whole.component(self.found[at].form.clone());
         state.comp = Place {
@@ -76,6 +79,21 @@ impl Choosing {
             total: self.found.len(),
         };
         state
+    }
+
+    /// The picked components as one shape along the axes of the whole; none where nothing is picked.
+    pub fn combined(&self, picked: &[usize]) -> Option<Form> {
+        let parts: Vec<Mesh> = picked
+            .iter()
+            .map(|&at| self.found[at].form.world_mesh())
+            .collect();
+        if parts.is_empty() {
+            return None;
+        }
+        // What met in a corner still does.
+        let near = TOLERANCE * self.form.scope.size.length();
+        let all = joined(&parts.iter().collect::<Vec<_>>(), near);
+        Some(Form::around(all, self.form.scope.axes, false))
     }
 }
 
@@ -168,11 +186,12 @@ impl Run<'_> {
         Ok(chosen)
     }
 
-    /// A value for each component, from the first cell that selects it; 0 where none does.
+    /// A value for each component, from the first cell that selects it; 0 where none does. After `=`
+    /// it is that of all that the cell selects as one shape.
     pub(super) fn component_values(
         &mut self,
         kind: Kind,
-        cells: &[(Selector, Expr)],
+        cells: &[ComponentValue],
         span: Span,
         scene: &mut Scene<'_>,
     ) -> Result<Vec<Value>, Fault> {
@@ -182,17 +201,23 @@ impl Run<'_> {
             let message = format!("an array of {} elements", choosing.found.len());
             return Err(Fault::over(Limit::Parts, span, message));
         }
-        let selectors = cells.iter().map(|(selector, _)| selector);
+        let selectors = cells.iter().map(|cell| &cell.selector);
         let chosen = self.chosen(selectors, &choosing, span, scene)?;
         let mut values = vec![None; choosing.found.len()];
-        for ((_, expr), picked) in cells.iter().zip(chosen) {
-            for at in picked {
-                let state = choosing.state(scene.state, at);
-                let value = self.value(expr, &mut scene.of(&state))?;
-                if let Value::Array(_) = value {
-                    return Err(Fault::at(expr.span, "an array in an array"));
+        for (cell, picked) in cells.iter().zip(chosen) {
+            if cell.combined {
+                if let Some(form) = choosing.combined(&picked) {
+                    let value = self.value_of_component(cell, form, (0, 1), scene)?;
+                    for at in picked {
+                        values[at] = Some(value.clone());
+                    }
                 }
-                values[at] = Some(value);
+                continue;
+            }
+            let total = picked.len();
+            for (index, at) in picked.into_iter().enumerate() {
+                let form = choosing.found[at].form.clone();
+                values[at] = Some(self.value_of_component(cell, form, (index, total), scene)?);
             }
         }
         let none = match values.iter().flatten().next() {
@@ -202,6 +227,23 @@ impl Run<'_> {
         };
         let value = |value: Option<Value>| value.unwrap_or_else(|| none.clone());
         Ok(values.into_iter().map(value).collect())
+    }
+
+    fn value_of_component(
+        &mut self,
+        cell: &ComponentValue,
+        form: Form,
+        (index, total): (usize, usize),
+        scene: &mut Scene<'_>,
+    ) -> Result<Value, Fault> {
+        let mut state = scene.state.component(form);
+        state.comp = Place { index, total };
+        state.selector = cell.selector.name();
+        let value = self.value(&cell.value, &mut scene.of(&state))?;
+        if let Value::Array(_) = value {
+            return Err(Fault::at(cell.value.span, "an array in an array"));
+        }
+        Ok(value)
     }
 }
 

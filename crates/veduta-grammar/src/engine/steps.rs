@@ -56,11 +56,11 @@ impl Run<'_> {
     }
 
     /// `[ ... ]`: what is left of the copy at its end stays as a leaf, if anything was done to it.
-    fn run_pushed(&mut self, steps: &[Step], frame: &mut Frame) -> Result<(), Fault> {
+    fn run_pushed(&mut self, body: &Body, frame: &mut Frame) -> Result<(), Fault> {
         let kept = (frame.state.clone(), frame.fate);
         frame.fate = Fate::Done;
         self.enter();
-        self.run_steps(steps, frame)?;
+        self.run_body(body, frame)?;
         if frame.fate == Fate::Changed {
             self.leave_under_rule(frame)?;
         }

@@ -36,11 +36,9 @@ fn operations(words: &mut Words, list: &[Operation]) -> Doc {
 fn operation(words: &mut Words, one: &Operation) -> Doc {
     match one {
         Operation::Call(call) => call_of(words, call),
-        Operation::Push {
-            operations: inside, ..
-        } => {
+        Operation::Push { body: inside, .. } => {
             let open = words.take();
-            let inside = vec![Doc::Line, operations(words, inside)];
+            let inside = vec![Doc::Line, body(words, inside)];
             Doc::group(vec![open, Doc::Indented(inside), Doc::Line, words.take()])
         }
     }

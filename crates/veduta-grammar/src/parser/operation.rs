@@ -46,10 +46,10 @@ impl Parser<'_> {
 
     fn push(&mut self) -> Parsed<Operation> {
         let start = self.advance().span;
-        let operations = self.operations()?;
+        let body = self.body()?;
         self.expect(TokenKind::CloseBracket, "at the end of `[ … ]`")?;
         Ok(Operation::Push {
-            operations,
+            body,
             span: self.since(start),
         })
     }

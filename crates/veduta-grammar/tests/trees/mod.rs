@@ -118,15 +118,9 @@ fn operation(body: BoxedStrategy<Body>) -> impl Strategy<Value = Operation> {
         rest: Some(rest),
         ..call(ident_of("splitAndSetbackPerimeter"), args, Some(block))
     });
-    let push = body.prop_map(|body| match body {
-        Body::Operations(operations) => Operation::Push {
-            operations,
-            span: nowhere(),
-        },
-        Body::Branches(_) => Operation::Push {
-            operations: Vec::new(),
-            span: nowhere(),
-        },
+    let push = body.prop_map(|body| Operation::Push {
+        body,
+        span: nowhere(),
     });
     prop_oneof![
         prop_oneof![4 => named, 2 => leaf, 2 => with_block, 1 => inline, 1 => boolean, 1 => perimeter]

@@ -2,12 +2,13 @@
 
 use glam::DVec3;
 
-use crate::solid::Mesh;
+use crate::solid::{weld, Face, Mesh};
 use crate::{triangulate, PolygonSet};
 
 /// A solid with all its points above the floor at the height of the highest. Faces that are no
-/// longer planar are cut in triangles, as seen from above.
-pub fn levelled(solid: &Mesh) -> Mesh {
+/// longer planar are cut in triangles, as seen from above. None where upright faces would fold: a
+/// gable may reach beyond its edge higher up, and back again.
+pub fn levelled(solid: &Mesh) -> Option<Mesh> {
     let top = solid.points.iter().map(|p| p.z).fold(0.0, f64::max);
     let least = 1e-9 * top;
     let raise = |p: DVec3| {
@@ -38,7 +39,29 @@ pub fn levelled(solid: &Mesh) -> Mesh {
             None => whole.push_face(&rings),
         }
     }
-    whole
+    let first = weld(&whole.points, least);
+    let apart = (0u32..).zip(&first).all(|(point, &first)| point == first);
+    (apart && whole.faces().all(|face| is_simple(&whole.points, &face))).then_some(whole)
+}
+
+/// Whether a face neither folds back, nor touches or crosses itself.
+fn is_simple(points: &[DVec3], face: &Face<'_>) -> bool {
+    let mut corners = Vec::new();
+    let mut offsets = vec![0i64];
+    for ring in face.rings() {
+        let at = |index: usize| points[ring[index % ring.len()] as usize];
+        for index in 0..ring.len() {
+            let (from, to) = (at(index + 1) - at(index), at(index + 2) - at(index + 1));
+            let bend = from.cross(to).length();
+            if from.dot(to) < 0.0 && bend < 1e-9 * from.length() * to.length() {
+                return false;
+            }
+        }
+        corners.extend((0..ring.len()).map(|index| at(index).to_array()));
+        offsets.push(corners.len() as i64);
+    }
+    let polygons = [0, offsets.len() as i64 - 1];
+    PolygonSet::new(&corners, &offsets, &polygons).is_ok_and(|set| triangulate(&set, 1e-6).is_ok())
 }
 
 /// Triangles of a face seen from above, as numbers of its corners.

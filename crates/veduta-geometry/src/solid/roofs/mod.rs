@@ -248,7 +248,7 @@ impl Work<'_> {
         let found = roof_within(&eaves, None, self.budget)?;
         let mut solid = Shell::of(&eaves, &found).closed(|p| p.z * self.slope);
         if even {
-            solid = even::levelled(&solid);
+            solid = even::levelled(&solid).ok_or(SkeletonError::FoldedGable)?;
         }
         Ok(placed(
             solid,

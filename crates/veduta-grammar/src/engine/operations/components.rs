@@ -2,9 +2,6 @@
 
 use std::sync::Arc;
 
-use glam::DMat3;
-use veduta_geometry::solid::{joined, Mesh};
-
 use super::super::code::{Body, Cell, Operation, Selector};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
@@ -13,7 +10,7 @@ use super::super::selection::{kind_named, Choosing};
 use super::super::state::{Place, State};
 use super::trimming::planes;
 use super::word;
-use crate::shape::{Component, Form, Kind, TOLERANCE};
+use crate::shape::{Form, Kind};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
 /// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
@@ -40,29 +37,23 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
         let Some((selector, combined, body)) = cell.part() else {
             return Err(Fault::at(op.span, "components do not repeat"));
         };
-        let shapes = if combined {
-            combine(&whole, &picked, &choosing.found)
+        let shapes: Vec<Form> = if combined {
+            choosing.combined(&picked).into_iter().collect()
         } else {
-            let form = |&at: &usize| (choosing.found[at].form.clone(), choosing.found[at].index);
+            let form = |&at: &usize| choosing.found[at].form.clone();
             picked.iter().map(form).collect()
         };
         if !planes.is_empty() && !combined {
-            for (&at, shape) in picked.iter().zip(shapes) {
+            let total = picked.len();
+            for ((index, &at), shape) in picked.iter().enumerate().zip(shapes) {
                 let mut trimmed = whole.clone();
                 trimmed.extra_mut().trims = std::mem::take(&mut planes[at]);
-                run_shape(
-                    run,
-                    body,
-                    shape,
-                    picked.len(),
-                    &trimmed,
-                    &name_of(selector),
-                    frame,
-                )?;
+                let place = Place { index, total };
+                run_shape(run, body, shape, place, &trimmed, &selector.name(), frame)?;
             }
             continue;
         }
-        run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
+        run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
     }
     frame.state = whole;
     frame.consumed();
@@ -77,58 +68,35 @@ pub fn selectors(op: &Operation) -> impl Iterator<Item = &Selector> {
     })
 }
 
-/// What `comp.sel` is in a cell.
-pub fn name_of(selector: &Selector) -> Arc<str> {
-    match selector {
-        Selector::Word(word) => word.clone(),
-        Selector::Value(..) => "".into(),
-    }
-}
-
-/// Runs a cell's body on each of these shapes, which have their numbers with them.
+/// Runs a cell's body on each of these shapes. `comp.index` counts those of the cell.
 pub fn run_shapes(
     run: &mut Run<'_>,
     body: &Body,
-    shapes: Vec<(Form, usize)>,
+    shapes: Vec<Form>,
     whole: &State,
     name: &Arc<str>,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     let total = shapes.len();
-    for shape in shapes {
-        run_shape(run, body, shape, total, whole, name, frame)?;
+    for (index, shape) in shapes.into_iter().enumerate() {
+        let place = Place { index, total };
+        run_shape(run, body, shape, place, whole, name, frame)?;
     }
     Ok(())
 }
 
-/// Runs a cell's body on one of `total` shapes.
+/// Runs a cell's body on one of its shapes.
 fn run_shape(
     run: &mut Run<'_>,
     body: &Body,
-    (form, index): (Form, usize),
-    total: usize,
+    form: Form,
+    place: Place,
     whole: &State,
     name: &Arc<str>,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     let mut state = whole.component(form);
-    state.comp = Place { index, total };
+    state.comp = place;
     state.selector = name.clone();
     run.run_cell(body, state, frame)
-}
-
-/// The picked components as one shape along the axes of the whole; none where nothing is picked.
-fn combine(whole: &State, picked: &[usize], found: &[Component]) -> Vec<(Form, usize)> {
-    let Some(&first) = picked.first() else {
-        return Vec::new();
-    };
-    let parts: Vec<Mesh> = picked
-        .iter()
-        .map(|&at| found[at].form.world_mesh())
-        .collect();
-    // What met in a corner still does.
-    let near = TOLERANCE * whole.form.scope.size.length();
-    let all = joined(&parts.iter().collect::<Vec<_>>(), near);
-    let axes: DMat3 = whole.form.scope.axes;
-    vec![(Form::around(all, axes, false), found[first].index)]
 }

@@ -11,7 +11,7 @@ use super::super::frame::Frame;
 use super::super::run::Run;
 use super::super::selection::{kind_named, Choosing};
 use super::super::state::State;
-use super::components::{name_of, selectors};
+use super::components::selectors;
 use super::inlining::recomposed;
 use super::word;
 use crate::shape::{Component, Form, Geometry, Kind, TOLERANCE};
@@ -49,7 +49,7 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         };
         for at in picked {
             let mut state = choosing.state(&whole, at);
-            state.selector = name_of(selector);
+            state.selector = selector.name();
             let left = run.inlined(body, state, op.span, frame)?;
             parts.take(kind, &choosing.found[at], &left);
         }

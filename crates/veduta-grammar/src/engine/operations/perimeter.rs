@@ -10,7 +10,7 @@ use super::super::run::Run;
 use super::super::selection::REMAINDER;
 use super::super::state::{Place, State};
 use super::super::value::Value;
-use super::components::{name_of, run_shapes};
+use super::components::run_shapes;
 use super::dividing::patterns;
 use super::{length, number, value};
 use crate::shape::{cells, Form, Pattern, TOLERANCE};
@@ -59,7 +59,7 @@ pub fn split_and_set_back(
         };
         if is_rest(selector) {
             let shapes = super::setbacks::as_shapes(rest.clone(), whole.form.scope.axes, combined);
-            run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
+            run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
         }
     }
     frame.state = whole;

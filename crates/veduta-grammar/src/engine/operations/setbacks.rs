@@ -8,7 +8,7 @@ use super::super::frame::Frame;
 use super::super::run::Run;
 use super::super::selection::{Choosing, REMAINDER};
 use super::super::value::Value;
-use super::components::{name_of, run_shapes, selectors};
+use super::components::{run_shapes, selectors};
 use super::{numbers, positive, value};
 use crate::shape::{Form, Kind};
 
@@ -258,7 +258,7 @@ pub fn run_pieces(
         };
         let is_rest = matches!(selector, Selector::Word(word) if word.as_ref() == REMAINDER);
         let shapes = as_shapes(faces_of((!is_rest).then_some(index)), axes, combined);
-        run_shapes(run, body, shapes, &whole, &name_of(selector), frame)?;
+        run_shapes(run, body, shapes, &whole, &selector.name(), frame)?;
     }
     frame.state = whole;
     frame.consumed();
@@ -266,14 +266,14 @@ pub fn run_pieces(
 }
 
 /// Faces as a shape each, or as one.
-pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<(Form, usize)> {
+pub fn as_shapes(faces: Mesh, axes: glam::DMat3, combined: bool) -> Vec<Form> {
     if faces.is_empty() {
         return Vec::new();
     }
     if combined {
-        return vec![(Form::around(faces, axes, false), 0)];
+        return vec![Form::around(faces, axes, false)];
     }
     let each = 0..faces.face_count();
-    each.map(|face| (Form::around(faces.of_faces([face]), axes, false), face))
+    each.map(|face| Form::around(faces.of_faces([face]), axes, false))
         .collect()
 }
