@@ -1,6 +1,6 @@
 """Reading and laying out lots by their number: time and memory before the first is derived.
 
-    python benchmarks/grammar_lots.py              # 10,000 to 3,000,000 lots, kept in results/
+    python benchmarks/grammar_lots.py              # 1000 to 1,000,000 lots, kept in results/
     python benchmarks/grammar_lots.py 50000        # any numbers, only printed
 
 A GeoJSON file of rectangles is read as `veduta grammar derive` does it: outlines, lots, blocks with
@@ -22,7 +22,7 @@ from pathlib import Path
 
 from record import Value, keep_or_print
 
-COUNTS = (10_000, 100_000, 1_000_000, 3_000_000)
+COUNTS = (1000, 10_000, 100_000, 1_000_000)
 CHILD = "--read"
 
 
