@@ -80,12 +80,13 @@ def _robust(
     if len(steps) < _FEWEST_PAIRS:
         return None
     # Pairs are many times as many as windows: together they weigh as the windows do.
-    share, found = 1.0 / boxes, np.zeros(2)
+    share = 1.0 / boxes
+    found: NDArray[np.float64] = np.zeros(2)
     likely = np.diag((_SCATTER / np.array(_LIKELY)) ** 2) / 2
     for _ in range(_MAX_ROUNDS):
         weight = share / (1 + ((steps - design @ found) / _SCATTER) ** 2) ** 2
         normal = design.T @ (weight[:, None] * design) + likely
-        found = np.linalg.solve(normal, design.T @ (weight * steps))
+        found = np.asarray(np.linalg.solve(normal, design.T @ (weight * steps)), np.float64)
     return found
 
 
