@@ -163,7 +163,7 @@ def cameras(views: int) -> None:
         "after the best shift and scale of x and of y (a plane is known up to these; the aspect "
         "is judged by itself); `uniform`: after the best shift and one scale.",
         "as given: the pictures themselves, unturned, focal length unknown: what is 'off' here is "
-        "mostly in the sets' own rectification, which is taken for the truth.",
+        "in part in the sets' own rectification, which is taken for the truth (rectify-frames.md).",
         "of true pictures: the share of corners <= 1 % among the views of those pictures that are "
         "within 1 % as given.",
         "own lines: the corners against the rectification found for the unturned picture instead "
