@@ -100,7 +100,12 @@ def cmp(data: Path) -> list[Labelled]:
     """Every third picture of facades/cmp."""
     paths = sorted((data / "facades/cmp").glob("cmp_b*.png"))
     kept = [path for path in paths if int(path.stem.removeprefix("cmp_b")) % 3 == 2]
-    return [Labelled(p.stem, p.with_suffix(".jpg"), cmp_labels(_indices(p))) for p in kept]
+    return [Labelled(p.stem, p.with_suffix(".jpg"), cmp_picture_labels(p)) for p in kept]
+
+
+def cmp_picture_labels(path: Path) -> Labels:
+    """Labels of one picture of facades/cmp."""
+    return cmp_labels(_indices(path.with_suffix(".png")))
 
 
 def _indices(path: Path) -> NDArray[np.int64]:

@@ -134,10 +134,9 @@ def cameras(views: int) -> None:
     pooled: dict[tuple[str, bool], list[NDArray[np.float64]]] = {}
     all_fit: list[NDArray[np.bool_]] = []
     for set_name, paths in sets.items():
-        rng = np.random.default_rng(7)
-        chosen = [paths[i] for i in rng.choice(len(paths), size=views, replace=views > len(paths))]
+        chosen, rng = drawn_pictures(paths, views)
         pictures = [read_image(path) for path in chosen]
-        owns = [_own_rectification(picture) for picture in pictures]
+        owns = [own_rectification(picture) for picture in pictures]
         as_given = [_as_given(*pair) for pair in zip(pictures, owns, strict=True)]
         given = _measured(as_given, False)
         fits = given[:, 0] <= 0.01
@@ -164,13 +163,20 @@ def cameras(views: int) -> None:
         "after the best shift and scale of x and of y (a plane is known up to these; the aspect "
         "is judged by itself); `uniform`: after the best shift and one scale.",
         "as given: the pictures themselves, unturned, focal length unknown: what is 'off' here is "
-        "mostly in the sets' own rectification, which is taken for the truth.",
+        "in part in the sets' own rectification, which is taken for the truth (rectify-frames.md).",
         "of true pictures: the share of corners <= 1 % among the views of those pictures that are "
         "within 1 % as given.",
         "own lines: the corners against the rectification found for the unturned picture instead "
         "of the picture's own frame: what turning it adds, without the sets' own errors.",
     ]
     record("rectify-cameras", rows, [*notes, *_bounds(rows)])
+
+
+def drawn_pictures(paths: list[Path], count: int) -> tuple[list[Path], np.random.Generator]:
+    """The pictures of a set that are judged, and the generator that goes on to draw their views."""
+    rng = np.random.default_rng(7)
+    drawn = rng.choice(len(paths), size=count, replace=count > len(paths))
+    return [paths[i] for i in drawn], rng
 
 
 def _bounds(rows: list[Row]) -> list[str]:
@@ -318,7 +324,7 @@ def _row(
     }
 
 
-def _own_rectification(photo: Photo) -> Matrix:
+def own_rectification(photo: Photo) -> Matrix:
     """What the picture's own lines say, without turning it; the identity where they say nothing."""
     try:
         return np.array(rectify(photo, RectifyOptions()).record.rectified_from_source)

@@ -20,6 +20,7 @@ from veduta.facade.columns_alike import likeness_of_columns
 from veduta.facade.dissimilarity import at_offsets
 from veduta.facade.evidence import Float
 from veduta.facade.floors import MAX_FLOORS, Floors
+from veduta.facade.goes_on import goes_on
 from veduta.facade.presence import REMEDY
 from veduta.facade.rows import Rows
 from veduta.run.errors import NotFoundError
@@ -49,7 +50,8 @@ HARDLY_ALIKE = f"storeys: they are hardly alike, {_CHECK}"
 NOT_PARTED = f"storeys: no wall parts the windows of one from those of the next, {_CHECK}"
 NOT_IN_COLUMNS = f"storeys: the windows of one do not stand above those of the next, {_CHECK}"
 SINGLE = f"storeys: nothing confirms a single floor above the ground floor, {_CHECK}"
-STOREY_DOUBTS = (HARDLY_ALIKE, NOT_PARTED, NOT_IN_COLUMNS, SINGLE)
+UNENDED = f"storeys: neither a sky nor a ground floor ends them, as in a pattern, {_CHECK}"
+STOREY_DOUBTS = (HARDLY_ALIKE, NOT_PARTED, NOT_IN_COLUMNS, SINGLE, UNENDED)
 
 
 def require_facade(rows: Rows, floors: Floors, wall: Wall, boxes: list[Box]) -> None:
@@ -75,6 +77,7 @@ def storey_doubts(rows: Rows, floors: Floors, window: Float, pairs: list[Between
         not are_floors(pairs, floors),
         alike is not None and alike < _IN_COLUMNS,
         alike is None and rows.bay is None,
+        goes_on(rows, floors),
     )
     return [reason for reason, holds in zip(STOREY_DOUBTS, found, strict=True) if holds]
 

@@ -118,14 +118,16 @@ def _cuts(evidence: Evidence, skyline: Skyline) -> NDArray[np.bool_]:
     both = np.minimum(wall / _OTHER_WALL, roof / (_OTHER_ROOF * evidence.height))
     levels = two_levels(skyline.rows, evidence.valid, reach) / (_OTHER_LEVEL * evidence.height)
     all_down = np.minimum(np.percentile(bands, 25, axis=0) / _OTHER_ALL_DOWN, levels)
-    apart = np.maximum(np.maximum(both, all_down), wall / _SURELY_OTHER_WALL)
-    # Too little to compare is left beside the edges of the picture.
-    apart[: reach // 4] = apart[-(reach // 4) :] = 0.0
     keep = np.ones(evidence.width, bool)
-    for x in np.flatnonzero(apart > 1):
-        around = apart[max(0, x - reach) : x + reach + 1]
-        if apart[x] >= around.max() and wall[x] >= wall[max(0, x - 3) : x + 4].max():
-            keep[x] = False
+    # One after the other: where the levels part, the steps of wall and roof may peak elsewhere.
+    for apart in (np.maximum(both, wall / _SURELY_OTHER_WALL), all_down):
+        # Too little to compare is left beside the edges of the picture.
+        apart[: reach // 4] = apart[-(reach // 4) :] = 0.0
+        for x in np.flatnonzero(apart > 1):
+            near = slice(max(0, x - reach), x + reach + 1)
+            is_peak = wall[x] >= wall[max(0, x - 3) : x + 4].max()
+            if is_peak and apart[x] >= apart[near].max() and keep[near].all():
+                keep[x] = False
     return keep
 
 

@@ -17,6 +17,7 @@ from veduta.facade.plausible import (
     NOT_PARTED,
     SINGLE,
     STOREY_DOUBTS,
+    UNENDED,
     storey_doubts,
 )
 from veduta.facade.rows import Rows
@@ -90,7 +91,7 @@ def test_what_makes_storeys_doubtful() -> None:
     upper, lower = (Box("window", 10, y, 20, 40, n, 0, 0.9) for y, n in ((10, 3), (50, 2)))
     glass = [Between(upper, lower, 1.0)]
     assert storey_doubts(_rows(40), FLOORS, windows(), glass) == [NOT_PARTED]
-    assert set(STOREY_DOUBTS) == {HARDLY_ALIKE, NOT_PARTED, NOT_IN_COLUMNS, SINGLE}
+    assert set(STOREY_DOUBTS) == {HARDLY_ALIKE, NOT_PARTED, NOT_IN_COLUMNS, SINGLE, UNENDED}
 
 
 def test_a_single_floor_needs_bays() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 from numpy.typing import NDArray
 
 from veduta.facade.evidence import gather
@@ -11,15 +12,21 @@ from veduta.facade.sides import find_sides, two_levels
 
 HEIGHT, WIDTH, EDGE = 300, 320, 200
 BEIGE, GREY, SKY = (205, 196, 174), (168, 166, 160), (170, 200, 240)
+YELLOW = (206, 190, 150)
 
 
 def sides_of(
-    roofs: tuple[int, int], walls: tuple[tuple[int, int, int], tuple[int, int, int]]
+    roofs: tuple[int, int],
+    walls: tuple[tuple[int, int, int], tuple[int, int, int]],
+    eaves: int = 0,
 ) -> tuple[int, int]:
-    """Columns found of a house up to EDGE and what is right of it, with their roofs' rows."""
+    """Columns found of a house up to EDGE and what is right of it, with their roofs' rows.
+
+    The left roof reaches `eaves` columns over the neighbour.
+    """
     rng = np.random.default_rng(3)
     picture = np.empty((HEIGHT, WIDTH, 3), np.float64)
-    rows = np.where(np.arange(WIDTH) < EDGE, *roofs)
+    rows = np.where(np.arange(WIDTH) < EDGE + eaves, *roofs)
     picture[:, :EDGE], picture[:, EDGE:] = walls
     for y in range(90, HEIGHT - 40, 50):
         for x in range(20, WIDTH - 20, 45):
@@ -35,6 +42,14 @@ def sides_of(
 
 def test_a_lower_house_of_nearly_the_same_colour_is_another() -> None:
     left, right = sides_of((30, 66), (BEIGE, GREY))
+    assert left == 0
+    assert abs(right - EDGE) <= 4
+
+
+@pytest.mark.parametrize("eaves", [0, 4, 8, 12])
+def test_eaves_that_jut_over_the_neighbour_do_not_hide_it(eaves: int) -> None:
+    """The step of the roof line is beside that of the wall, at which the house ends."""
+    left, right = sides_of((30, 90), (YELLOW, GREY), eaves)
     assert left == 0
     assert abs(right - EDGE) <= 4
 
