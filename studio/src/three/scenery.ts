@@ -44,8 +44,11 @@ export interface Scenery {
   shadeAround(centre: Vector3, radius_m: number): void;
 }
 
-/** `footprints` are the boxes of the buildings in the drawn frame. */
-export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
+/**
+ * `footprints` are the boxes of the buildings in the drawn frame. `scaleKnown`: the ground gets lines
+ * a metre apart, which would say something false of a place of unknown scale.
+ */
+export function makeScenery(bounds: Box, footprints: readonly Box3[], scaleKnown: boolean): Scenery {
   const group = new Group();
   const sky = makeSky();
   const sun = makeSun(bounds);
@@ -53,7 +56,7 @@ export function makeScenery(bounds: Box, footprints: readonly Box3[]): Scenery {
   // most of the loading time without a graphics card.
   const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
   const shade = makeGroundShadow(bounds);
-  group.add(sky, makeGround(footprints), shade, skyLight, sun, sun.target);
+  group.add(sky, makeGround(footprints, scaleKnown), shade, skyLight, sun, sun.target);
   return {
     group,
     sun,
@@ -137,12 +140,12 @@ function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.shadow.needsUpdate = true;
 }
 
-function makeGround(footprints: readonly Box3[]): Mesh {
+function makeGround(footprints: readonly Box3[], scaleKnown: boolean): Mesh {
   const boxes = footprints
     .slice(0, MOST_FOOTPRINTS)
     .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
   const material = new ShaderMaterial({
-    defines: { FOOTPRINTS: boxes.length },
+    defines: { FOOTPRINTS: boxes.length, LINES: scaleKnown ? 1 : 0 },
     uniforms: {
       ground: { value: GROUND },
       horizon: { value: HORIZON },
@@ -182,9 +185,11 @@ const GROUND_SHADER = `
   void main() {
     float away = distance(vWorld, cameraPosition);
     vec3 colour = ground;
+    #if LINES
     float fine = lines(vWorld.xz, 0.012) * (1.0 - smoothstep(10.0, 40.0, away));
     float coarse = lines(vWorld.xz / 5.0, 0.006) * (1.0 - smoothstep(30.0, 130.0, away));
     colour *= 1.0 - 0.09 * fine - 0.10 * coarse;
+    #endif
     #if FOOTPRINTS > 0
     float dark = 0.0;
     for (int i = 0; i < FOOTPRINTS; i++) {

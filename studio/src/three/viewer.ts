@@ -3,6 +3,7 @@ import {
   Box3,
   NeutralToneMapping,
   PCFShadowMap,
+  type Group,
   PerspectiveCamera,
   Raycaster,
   Scene,
@@ -16,16 +17,19 @@ import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
+import { boundsOfShots } from "../core/shots.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
+import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
 import type { LoadedPart } from "./load.ts";
 import { OrbitRig } from "./orbit-rig.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
+import { OpenSpace } from "./open-space.ts";
 import { type Hit, Solid, soupOf } from "./solid.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
@@ -47,12 +51,20 @@ export interface ViewerStats {
   readonly tiles: number;
 }
 
+export interface ViewerContent {
+  readonly parts: readonly LoadedPart[];
+  readonly town: Town | null;
+  readonly clouds: Group;
+  readonly frusta: Frusta | null;
+}
+
 export class Viewer {
-  readonly solid: Solid | Town;
+  readonly solid: Solid | Town | OpenSpace;
   readonly #canvas: HTMLCanvasElement;
   readonly #store: Store<StudioState>;
   readonly #parts: readonly LoadedPart[];
   readonly #town: Town | null;
+  readonly #frusta: Frusta | null;
   readonly #renderer: WebGLRenderer;
   readonly #scene = new Scene();
   readonly #camera = new PerspectiveCamera(38, 1, 0.08, 6000);
@@ -78,22 +90,26 @@ export class Viewer {
   constructor(
     canvas: HTMLCanvasElement,
     place: Place,
-    content: { readonly parts: readonly LoadedPart[]; readonly town: Town | null },
+    content: ViewerContent,
     store: Store<StudioState>,
   ) {
-    const { parts, town } = content;
+    const { parts, town, clouds, frusta } = content;
     this.#canvas = canvas;
     this.#store = store;
     this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
     this.#town = town;
-    this.solid = town ?? new Solid(soupOf(parts));
+    this.solid =
+      town ?? (parts.length > 0 ? new Solid(soupOf(parts)) : new OpenSpace(boundsOfShots(place.clouds, place.shots)));
+    this.#frusta = frusta;
     const footprints = parts.map(({ group }) => new Box3().setFromObject(group));
-    this.#scenery = makeScenery(this.solid.bounds, footprints);
+    this.#scenery = makeScenery(this.solid.bounds, footprints, place.scaleKnown);
     this.#appearance = new Appearance(parts);
     this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
     for (const { group } of parts) this.#scene.add(group);
     if (town !== null) this.#scene.add(town.group);
+    this.#scene.add(clouds);
+    if (frusta !== null) this.#scene.add(frusta.group);
     const { min, max } = this.solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, this.solid.bounds, () => this.invalidate());
@@ -175,6 +191,11 @@ export class Viewer {
   }
 
   resetView(): void {
+    if (this.#store.value.shot !== null) {
+      this.#orbitPose = null;
+      this.#store.update({ shot: null });
+      return;
+    }
     if (this.#store.value.mode === "walk") {
       this.#walk.restart();
       this.#fly(this.#walk.pose(this.#camera));
@@ -206,6 +227,14 @@ export class Viewer {
     );
   }
 
+  /** The photo whose pyramid is under a point of the canvas (CSS pixels). */
+  shotAt(x: number, y: number): number | null {
+    if (this.#store.value.shot !== null) return null;
+    const box = this.#canvas.getBoundingClientRect();
+    const onScreen = new Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height);
+    return this.#frusta?.hit(onScreen, this.#camera) ?? null;
+  }
+
   /** Where a point of the world is on the canvas (CSS pixels); null behind the camera. */
   project(point: Vec3): { x: number; y: number } | null {
     const box = this.#canvas.getBoundingClientRect();
@@ -226,6 +255,7 @@ export class Viewer {
 
   dispose(): void {
     this.#town?.dispose();
+    this.#frusta?.dispose();
     cancelAnimationFrame(this.#request);
     this.#resizes.disconnect();
     this.#pointer.dispose();
@@ -259,6 +289,7 @@ export class Viewer {
     }
     const turn = turnOf(this.#held);
     const wish = wishOf(this.#held, this.#stick);
+    if (this.#store.value.shot !== null) return false;
     if (this.#store.value.mode === "walk") {
       const moves = this.#walk.advance(wish, turn, seconds);
       setPose(this.#camera, this.#walk.pose(this.#camera));
@@ -298,6 +329,7 @@ export class Viewer {
 
   #follow(now: StudioState, before: StudioState): void {
     if (now.mode !== before.mode) this.#changeMode(now.mode);
+    if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     if (now.hidden !== before.hidden) {
       this.#appearance.showLayers(now);
       this.#scenery.sun.shadow.needsUpdate = true;
@@ -330,6 +362,23 @@ export class Viewer {
       return;
     }
     this.releaseMouse();
+    this.#returnToOrbit();
+  }
+
+  /** Flies to where a photo was taken, and back to where the person was before. */
+  #lookThrough(shot: number | null, before: number | null): void {
+    void this.#frusta?.show(shot);
+    this.#orbit.enabled = shot === null && this.#store.value.mode === "orbit";
+    if (before === null && this.#store.value.mode === "orbit") {
+      this.#orbitPose = { pose: poseOf(this.#camera), target: this.#orbit.target.clone() };
+    }
+    const seen = shot === null ? null : (this.#frusta?.poseOf(shot, this.#camera) ?? null);
+    if (seen !== null) this.#fly(seen);
+    else if (this.#store.value.mode === "walk") this.#fly(this.#walk.pose(this.#camera));
+    else this.#returnToOrbit();
+  }
+
+  #returnToOrbit(): void {
     const back = this.#orbitPose ?? this.#home();
     this.#orbit.aimAt(back.target);
     this.#fly(back.pose);
@@ -361,7 +410,9 @@ export class Viewer {
   }
 
   #select(x: number, y: number): void {
-    this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
+    const shot = this.shotAt(x, y);
+    if (shot !== null) this.#store.update({ shot, selected: null });
+    else this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
   }
 
   #isVisible(ref: FeatureRef): boolean {
