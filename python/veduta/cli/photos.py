@@ -6,7 +6,7 @@ import shlex
 import sys
 from typing import TYPE_CHECKING
 
-SUMMARY = "Find the cameras of ordinary photos of a place, and the points that they show"
+SUMMARY = "Turn photos of a place into cameras where they were taken, and points in space"
 MOST_NAMED = 10
 
 if TYPE_CHECKING:

@@ -16,7 +16,7 @@ from veduta.photos.structure import Structure
 
 TYPICAL_DISTANCE = 10.0
 """Median distance of a point from the cameras that see it, in the units of the result."""
-TILT_WEIGHT = 0.1
+TILT_WEIGHT = 0.01
 """What the columns of the photos say of up, against their rows; it decides where all photos look
 one way, and their rows leave a circle of directions open."""
 GROUND_SHARE = 0.01

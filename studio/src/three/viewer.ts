@@ -1,15 +1,13 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import {
   Box3,
-  NeutralToneMapping,
-  PCFShadowMap,
   type Group,
   PerspectiveCamera,
   Raycaster,
   Scene,
   Vector2,
   Vector3,
-  WebGLRenderer,
+  type WebGLRenderer,
 } from "three";
 import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
@@ -28,6 +26,7 @@ import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
 import type { LoadedPart } from "./load.ts";
 import { OrbitRig } from "./orbit-rig.ts";
 import { CanvasPointer } from "./pointer.ts";
+import { makeRenderer } from "./renderer.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
 import { OpenSpace } from "./open-space.ts";
 import { type Hit, Solid, soupOf } from "./solid.ts";
@@ -434,15 +433,6 @@ export class Viewer {
     setPose(this.#camera, poseOf(this.#camera));
     this.invalidate();
   }
-}
-
-function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
-  const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-  renderer.toneMapping = NeutralToneMapping;
-  renderer.toneMappingExposure = 1;
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = PCFShadowMap;
-  return renderer;
 }
 
 /** Nine coordinates per face, from the world frame to the drawn one. */
