@@ -2,8 +2,8 @@
 
     python benchmarks/photos.py [fountain-P11] [lund-door]
 
-Reads `photos/` of $VEDUTA_DATA (else ../shared/data). Writes two tables: the runs, and what each
-kind of camera would have given (held-out error beside the true one).
+Reads `photos/` of $VEDUTA_DATA (else ../shared/data). Writes two tables: the run, and what each
+kind of camera would have given (held-out error beside the true one), for each set.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pycolmap
 from photos_truth import Centres, centre_errors, colmap_centres, extent, fountain_centres
-from record import Row, keep_or_print
+from record import Row, record
 
 from veduta.photos.lens import choose_lens, with_cameras
 from veduta.photos.options import CameraOptions
@@ -28,7 +28,17 @@ DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[2] / "shared" /
 SETS = ("fountain-P11", "lund-door")
 BOUND_MM = {"fountain-P11": 4.5}
 """Mean error of the camera positions that is wanted (mm)."""
-ALL = {"fountain-P11": 11, "lund-door": 12}
+RUN_NOTES = (
+    "Errors are distances of the camera positions from the known ones after the similarity that"
+    " fits best. The reference of lund-door was made by other software and has no metres.",
+    "`largest process GiB`: peak resident size of the process that had the largest; while features"
+    " are looked for there are as many processes as cores.",
+    "Times are of a machine that may have had other work; the errors are not touched by that.",
+)
+KIND_NOTES = (
+    "Each kind of camera adjusted to the photos, points and matches that `veduta photos` found. The"
+    " choice sees the held-out error alone; the error of the positions is the truth.",
+)
 
 
 def truth(name: str) -> Centres:
@@ -110,25 +120,12 @@ def _centres(structure: Structure) -> Centres:
 
 
 def main(names: list[str]) -> None:
-    """Measure the sets."""
-    rows: list[Row] = []
-    kind_rows: list[Row] = []
+    """Measure the sets, each to results of its own."""
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
-            rows.append(run(name, Path(folder) / name))
-            kind_rows += kinds(name, Path(folder) / name)
-    notes = [
-        "Errors are distances of the camera positions from the known ones after the similarity that"
-        " fits best. The reference of lund-door was made by other software and has no metres.",
-        "`largest process GiB`: peak resident size of the process that had the largest; while"
-        " features are looked for there are as many processes as cores.",
-    ]
-    keep_or_print("photos", rows, notes, keep=tuple(names) == SETS)
-    notes = [
-        "Each kind of camera adjusted to the photos, points and matches that the run above found."
-        " The choice sees the held-out error alone; the error of the positions is the truth.",
-    ]
-    keep_or_print("photos-cameras", kind_rows, notes, keep=tuple(names) == SETS)
+            out = Path(folder) / name
+            record(f"photos-{name}", [run(name, out)], RUN_NOTES)
+            record(f"photos-{name}-cameras", kinds(name, out), KIND_NOTES)
 
 
 if __name__ == "__main__":
