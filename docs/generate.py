@@ -20,12 +20,14 @@ from style_tables import attribute_rows
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
+from veduta.cli.photos_call import PhotosCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
 from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, described
 from veduta.grammar.rules import style_names
 from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
+from veduta.photos.report import FILES as PHOTOS_FILES
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
@@ -83,13 +85,13 @@ def _argument_row(call: type[Any], name: str, annotation: Any) -> Sequence[str]:
     return flags, takes, "required" if required else "", settings.help
 
 
-def files_table() -> str:
-    """The files of one image."""
+def files_table(files: Sequence[tuple[str, str]]) -> str:
+    """The files of one result, and its reports."""
     reports = (
         ("report.json", "steps, times, counts, measures, what was rejected and why"),
         ("report.html", "the same with pictures, in one file"),
     )
-    return table(("file", "what it is"), [(f"`{name}`", text) for name, text in FILES + reports])
+    return table(("file", "what it is"), [(f"`{name}`", text) for name, text in (*files, *reports)])
 
 
 def classes_table() -> str:
@@ -141,13 +143,17 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "demo.md": {"options": lambda: options_table(DemoCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),
-        "files": files_table,
+        "files": lambda: files_table(FILES),
         "classes": classes_table,
     },
     "grammar.md": {
         "options": lambda: options_table(DeriveCall),
         "sample": lambda: options_table(SampleCall),
         "tree": lambda: options_table(TreeCall),
+    },
+    "photos.md": {
+        "options": lambda: options_table(PhotosCall),
+        "files": lambda: files_table(PHOTOS_FILES),
     },
     "textures.md": {"textures": textures_table},
     "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},

@@ -8,7 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager
 from pathlib import Path
 from typing import Any
 
@@ -46,11 +46,16 @@ def facade(*arguments: object) -> subprocess.CompletedProcess[str]:
     return veduta("facade", "--rectified", *arguments)
 
 
+def running_facade(*arguments: object) -> AbstractContextManager[subprocess.Popen[str]]:
+    """A `veduta facade --rectified` at work."""
+    return running("facade", "--rectified", *arguments)
+
+
 @contextmanager
-def running_facade(*arguments: object) -> Iterator[subprocess.Popen[str]]:
-    """A `veduta facade --rectified` at work, with its errors in a pipe; none is left behind."""
+def running(*arguments: object) -> Iterator[subprocess.Popen[str]]:
+    """A `veduta` at work, with its errors in a pipe; none is left behind."""
     run = subprocess.Popen(
-        command("facade", "--rectified", *arguments),
+        command(*arguments),
         stdout=subprocess.DEVNULL,
         stderr=subprocess.PIPE,
         text=True,

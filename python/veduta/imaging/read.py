@@ -9,7 +9,7 @@ import warnings
 import zlib
 from collections.abc import Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,7 @@ from PIL import Image, UnidentifiedImageError
 
 from veduta.imaging.colour import READABLE_MODES, srgb_on_white
 from veduta.imaging.exif import CameraTags, focal_px_from_mm35, read_camera_tags
+from veduta.imaging.shot import Shot, read_shot
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -59,7 +60,8 @@ class Photo:
     """An upright photo.
 
     `pixels` is (h, w, 3) uint8 sRGB with EXIF orientation applied and alpha laid on white;
-    `sha256` is that of the file's bytes; the focal length is None where EXIF has none.
+    `sha256` is that of the file's bytes; the focal length is None where EXIF has none. `shot` says
+    with which camera, when and where it was taken, as far as EXIF does.
     """
 
     pixels: NDArray[np.uint8]
@@ -68,6 +70,7 @@ class Photo:
     focal_px: float | None
     path: Path
     notes: tuple[str, ...] = ()
+    shot: Shot = field(default_factory=Shot)
 
 
 def read_image(path: Path) -> Photo:
@@ -77,7 +80,7 @@ def read_image(path: Path) -> Photo:
         notes = _frame_notes(image)
         image.load()
         # After loading: Pillow turns a TIFF by its orientation then, and takes the tag away.
-        tags = _camera_tags(image)
+        tags, shot = _camera_tags(image), _shot(image)
         if image.mode not in READABLE_MODES:
             raise InputError(
                 path,
@@ -97,6 +100,7 @@ def read_image(path: Path) -> Photo:
         focal_px=focal_px,
         path=path,
         notes=notes + tags.notes + colour_notes,
+        shot=shot,
     )
 
 
@@ -193,6 +197,13 @@ def _camera_tags(image: Image.Image) -> CameraTags:
         return read_camera_tags(image)
     except DAMAGE:
         return CameraTags(notes=("the EXIF block is damaged: orientation and lens unknown",))
+
+
+def _shot(image: Image.Image) -> Shot:
+    try:
+        return read_shot(image)
+    except DAMAGE:
+        return Shot()
 
 
 def _upright(image: Image.Image, orientation: int) -> Image.Image:

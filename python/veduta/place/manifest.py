@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import PurePosixPath
-from typing import Annotated, Literal, Self
+from typing import Annotated, Literal, Self, TypeVar
 
 import numpy as np
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
@@ -14,7 +14,9 @@ VERSION = 1
 IDENTITY: tuple[float, ...] = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
 
 Finite = Annotated[float, Field(allow_inf_nan=False)]
+Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Vector = tuple[Finite, Finite, Finite]
+Matrix = Annotated[tuple[Finite, ...], Field(min_length=16, max_length=16)]
 
 
 def _within_folder(path: str) -> str:
@@ -48,11 +50,8 @@ class PlacePart(_Record):
     city_model: RelativePath | None = Field(default=None, description="CityJSON")
     document: RelativePath | None = Field(default=None, description="what it was built from")
     photo: RelativePath | None = Field(default=None, description="the photo that textures it")
-    transform: tuple[Finite, ...] = Field(
-        default=IDENTITY,
-        min_length=16,
-        max_length=16,
-        description="world_from_part, 4x4, column-major, metres",
+    transform: Matrix = Field(
+        default=IDENTITY, description="world_from_part, 4x4, column-major, metres"
     )
     arrangement: Literal["single", "invented"] = Field(
         description="invented: where it stands relative to the other parts is not known"
@@ -68,6 +67,31 @@ class PlacePart(_Record):
         if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0] or np.linalg.det(matrix[:3, :3]) <= 0.0:
             raise ValueError(f"the transform of part {self.id!r} is no placement in space")
         return self
+
+
+class PlacePoints(_Record):
+    """A cloud of points."""
+
+    id: str = Field(min_length=1, max_length=256)
+    file: RelativePath = Field(description="PLY with colours")
+    transform: Matrix = Field(
+        default=IDENTITY, description="world_from_points, 4x4, column-major, metres"
+    )
+    count: int = Field(ge=0)
+    bounds: Bounds = Field(description="around nearly all of the points; a few lie far off")
+
+
+class PlaceCamera(_Record):
+    """A photo in the place where it was taken. Camera frame: x right, y down, z forward."""
+
+    id: str = Field(min_length=1, max_length=256)
+    name: str = Field(description="the photo's file, as the user named it")
+    picture: RelativePath = Field(description="the photo without the lens's distortion")
+    width_px: int = Field(gt=0)
+    height_px: int = Field(gt=0)
+    focal_px: tuple[Positive, Positive] = Field(description="along x and y, of the picture")
+    centre_px: tuple[Finite, Finite] = Field(description="principal point, of the picture")
+    transform: Matrix = Field(description="world_from_camera, 4x4, column-major")
 
 
 class Start(_Record):
@@ -89,26 +113,36 @@ class Place(_Record):
         default=None,
         description="3D Tiles of all parts together: what is shown where they are too many",
     )
+    points: list[PlacePoints] = Field(default=[], max_length=1000)
+    cameras: list[PlaceCamera] = Field(default=[], max_length=100_000)
+    scale: Literal["metres", "unknown"] = Field(
+        default="metres", description="unknown: the unit of length is not the metre, but any"
+    )
     start: Start
 
     @model_validator(mode="after")
     def _ids_are_unique(self) -> Self:
-        seen: set[str] = set()
-        for part in self.parts:
-            if part.id in seen:
-                raise ValueError(f"two parts have the id {part.id!r}")
-            seen.add(part.id)
+        for kind, items in (("parts", self.parts), ("cameras", self.cameras)):
+            seen: set[str] = set()
+            for item in items:
+                if item.id in seen:
+                    raise ValueError(f"two {kind} have the id {item.id!r}")
+                seen.add(item.id)
         return self
+
+
+Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera)
+_FILES = {"model", "city_model", "document", "photo", "file", "picture"}
 
 
 def merge(first: Place, second: Place, second_folder: str = "") -> Place:
     """Join two places into one in the frame of the first.
 
-    The rule: both are in the same CRS (or both in none). Parts of the second move by the
-    difference of the origins, and their files are looked for below `second_folder`. A part that
-    both have under one id is kept once if it is the same in all that it says, and refused
-    otherwise: an id names one thing. Parts keep their order, the first place's before the
-    second's; the start is the first's.
+    The rule: both are in the same CRS (or both in none), and both have a scale. Parts, points and
+    cameras of the second move by the difference of the origins, and their files are looked for
+    below `second_folder`. One that both have under one id is kept once if it is the same in all
+    that it says, and refused otherwise: an id names one thing. They keep their order, the first
+    place's before the second's; the start is the first's.
     """
     if first.crs != second.crs:
         raise InputError(
@@ -116,28 +150,45 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
             f"the places are in different coordinate systems ({first.crs} and {second.crs})",
             "Bring both into one coordinate system first.",
         )
-    shift = np.array(second.origin) - np.array(first.origin)
-    parts = {part.id: part for part in first.parts}
-    for part in second.parts:
-        moved = _moved(part, shift.tolist(), second_folder)
-        known = parts.setdefault(moved.id, moved)
+    if "unknown" in (first.scale, second.scale):
+        raise InputError(
+            "place.json",
+            "the scale of one of the places is not known",
+            "Give it its scale first: nothing says how large it is beside the other.",
+        )
+    shift = (np.array(second.origin) - np.array(first.origin)).tolist()
+    update: dict[str, object] = {
+        "parts": _joined("part", first.parts, second.parts, shift, second_folder),
+        "points": _joined("cloud", first.points, second.points, shift, second_folder),
+        "cameras": _joined("camera", first.cameras, second.cameras, shift, second_folder),
+        "tileset": None,  # the tiles of one do not show the other
+    }
+    return first.model_copy(update=update)
+
+
+def _joined(
+    kind: str, first: list[Item], second: list[Item], shift_m: list[float], folder: str
+) -> list[Item]:
+    items = {item.id: item for item in first}
+    for item in second:
+        moved = _moved(item, shift_m, folder)
+        known = items.setdefault(moved.id, moved)
         if known != moved:
             raise InputError(
                 "place.json",
-                f"both places have a part {moved.id!r}, and the two differ",
+                f"both places have a {kind} {moved.id!r}, and the two differ",
                 "Rename one of them, or remove the one that is out of date.",
             )
-    # The tiles of one do not show the other.
-    return first.model_copy(update={"parts": list(parts.values()), "tileset": None})
+    return list(items.values())
 
 
-def _moved(part: PlacePart, shift_m: list[float], folder: str) -> PlacePart:
-    transform = list(part.transform)
+def _moved(item: Item, shift_m: list[float], folder: str) -> Item:
+    transform = list(item.transform)
     for axis in range(3):
         transform[12 + axis] += shift_m[axis]
     update: dict[str, object] = {"transform": tuple(transform)}
-    for field in ("model", "city_model", "document", "photo"):
-        path = getattr(part, field)
+    for field in _FILES & set(type(item).model_fields):
+        path = getattr(item, field)
         if path is not None and folder:
             update[field] = str(PurePosixPath(folder) / path)
-    return PlacePart.model_validate(part.model_dump() | update)
+    return type(item).model_validate(item.model_dump() | update)

@@ -65,8 +65,8 @@ class Progress:
         self._show()
 
     def step(self, step: str, fraction: float) -> None:
-        """The only item in hand has come to this step."""
-        self._show(step)
+        """The only item in hand has come to this share of a step."""
+        self._show(f"{step} {fraction:.0%}" if fraction > 0.0 else step)
 
     def finished(self, name: str, failure: Failure | None) -> None:
         """An item is done, or has failed."""

@@ -13,24 +13,26 @@ from veduta.studio.content import MANIFEST
 def part_files(folder: Path) -> dict[str, Path]:
     """The files that `place.json` names: path in the place and where each is.
 
-    Without its model a part cannot be seen, so that must be there; the others may be missing
-    from a place that was made by hand. `folder` is resolved.
+    Without its model a part cannot be seen, so that must be there, and so must a cloud's points;
+    the others may be missing from a place that was made by hand. `folder` is resolved.
     """
     files: dict[str, Path] = {}
     place = read_place(folder / MANIFEST)
     if place.tileset is not None:
         files = {name: _inside(folder, name) for name in _tiles(folder, place.tileset)}
+    needed = [part.model for part in place.parts] + [cloud.file for cloud in place.points]
+    beside = [camera.picture for camera in place.cameras]
     for part in place.parts:
-        for name in (part.model, part.photo, part.city_model, part.document):
-            if name is None:
-                continue
-            path = _inside(folder, name)
-            if path.is_file():
-                files[PurePosixPath(name).as_posix()] = path
-            elif name == part.model:
-                raise InputError(
-                    path, "the file is not there", "Write the place again, then export it."
-                )
+        beside += [name for name in (part.photo, part.city_model, part.document) if name]
+    must = set(needed)
+    for name in needed + beside:
+        path = _inside(folder, name)
+        if path.is_file():
+            files[PurePosixPath(name).as_posix()] = path
+        elif name in must:
+            raise InputError(
+                path, "the file is not there", "Write the place again, then export it."
+            )
     return files
 
 

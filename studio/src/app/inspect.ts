@@ -22,6 +22,10 @@ export interface Inspection {
   under(x: number, y: number): { feature: Feature; point: Vec3; distance_m: number } | null;
   /** Where a point of the world is on the canvas, CSS pixels; null behind the camera. */
   project(point: Vec3): { x: number; y: number } | null;
+  /** The photo that is looked through. */
+  photo(): { id: string; name: string } | null;
+  /** The photo whose pyramid a click there would choose; CSS pixels of the canvas. */
+  photoUnder(x: number, y: number): string | null;
   bounds(): { min: Vec3; max: Vec3 };
   stats(): ViewerStats & { load_s: number };
 }
@@ -67,6 +71,11 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
         : { feature, point: hit.point, distance_m: hit.distance_m };
     },
     project: (point) => viewer.project(point),
+    photo: () => {
+      const shot = place.shots[store.value.shot ?? -1];
+      return shot === undefined ? null : { id: shot.id, name: shot.name };
+    },
+    photoUnder: (x, y) => place.shots[viewer.shotAt(x, y) ?? -1]?.id ?? null,
     bounds: () => viewer.solid.bounds,
     stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
   };

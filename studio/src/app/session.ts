@@ -25,19 +25,22 @@ export async function openPlace(
   store: Store<StudioState>,
   onProgress: (share: number, file: string) => void,
   onShown: () => void,
+  onFault: (fault: Fault) => void,
 ): Promise<Session> {
   const begin = performance.now();
   checkWebGL();
   const address = placeAddress(page);
   // three.js is most of the program; it arrives while the place does.
   const drawing = Promise.all([
+    import("../three/clouds.ts"),
     import("../three/fetch.ts"),
+    import("../three/frusta.ts"),
     import("../three/load.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ fetchText }, { loadParts }, { Town }, { Viewer }] = await drawing;
+  const [{ loadClouds }, { fetchText }, { Frusta }, { loadParts }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
   const grounds = place.parts.filter(({ isGround }) => isGround).map(({ model }) => fileAddress(model, address));
@@ -51,7 +54,10 @@ export async function openPlace(
       ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))
       : [];
   await town?.open((share) => onProgress(share, "tileset.json"));
-  viewer = new Viewer(canvas, place, { parts, town }, store);
+  const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
+  const frusta =
+    place.shots.length === 0 ? null : new Frusta(place, address, () => viewer?.invalidate(), onFault);
+  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {

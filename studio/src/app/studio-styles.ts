@@ -72,6 +72,13 @@ export const studioStyles = css`
     width: 328px;
     max-height: calc(100% - 2 * var(--edge));
   }
+  veduta-photo-panel {
+    position: absolute;
+    top: var(--edge);
+    left: 50%;
+    transform: translateX(-50%);
+    max-width: calc(100% - 2 * var(--edge) - 540px);
+  }
   .hint {
     position: absolute;
     left: 50%;
@@ -114,6 +121,10 @@ export const studioStyles = css`
     }
     .brand {
       width: auto;
+      max-width: calc(100% - 2 * var(--edge));
+    }
+    veduta-photo-panel {
+      top: calc(var(--edge) + 62px);
       max-width: calc(100% - 2 * var(--edge));
     }
     veduta-layers {

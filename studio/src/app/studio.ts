@@ -16,6 +16,7 @@ import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
+import "./photo-panel.ts";
 import { openPlace, type Session } from "./session.ts";
 import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
@@ -92,6 +93,7 @@ export class Studio extends LitElement {
           this.progress = { share, file };
         },
         () => this.requestUpdate(),
+        (fault) => this.#say(fault.message),
       );
       this.session = session;
       document.title = `${titleOf(session)} · Veduta`;
@@ -159,7 +161,7 @@ export class Studio extends LitElement {
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
-      <veduta-layers class="sheet" ?hidden=${!this.layersOpen} .tables=${session.tables} .counted=${this.#counted(session)}
+      <veduta-layers class="sheet" ?hidden=${!this.layersOpen || session.tables.length === 0} .tables=${session.tables} .counted=${this.#counted(session)}
         .hidden_=${state.hidden} .colouring=${state.colouring}
         @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
         @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}>
@@ -167,15 +169,19 @@ export class Studio extends LitElement {
       <veduta-feature-panel class="sheet" role="region" aria-label="The selected surface" ?hidden=${shown === null}
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
+      <veduta-photo-panel class="sheet" role="region" aria-label="The photo" ?hidden=${state.shot === null}
+        .shot=${state.shot === null ? null : (session.place.shots[state.shot] ?? null)} .count=${session.place.shots.length}
+        .number=${(state.shot ?? 0) + 1} @close-photo=${() => this.#store.update({ shot: null })}
+        @step-photo=${(event: CustomEvent<number>) => this.#stepPhoto(event.detail)}></veduta-photo-panel>
       ${state.mode === "walk" && coarse
         ? html`<veduta-joystick
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
-      ${shown !== null && this.notice === "" ? nothing : keyed(
+      ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
-        html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse) : this.notice}</p>`,
+        html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
       )}
       <veduta-help></veduta-help>
     `;
@@ -245,8 +251,8 @@ export class Studio extends LitElement {
     if (session === null) return;
     const { viewer } = session;
     const actions: Record<Command, () => void> = {
-      orbit: () => this.#store.update({ mode: "orbit" }),
-      walk: () => this.#store.update({ mode: "walk" }),
+      orbit: () => this.#store.update({ mode: "orbit", shot: null }),
+      walk: () => this.#store.update({ mode: "walk", shot: null }),
       reset: () => {
         this.#leaveFree(session);
         viewer.resetView();
@@ -257,9 +263,19 @@ export class Studio extends LitElement {
       fullscreen: () => void this.#toggleFullscreen(),
       "mouse-look": () => void this.#toggleMouseLook(session),
       help: () => this.#help?.toggle(),
-      close: () => this.#store.update({ selected: null }),
+      "next-photo": () => this.#stepPhoto(1),
+      "previous-photo": () => this.#stepPhoto(-1),
+      close: () => this.#store.update({ selected: null, shot: null }),
     };
     actions[command]();
+  }
+
+  #stepPhoto(step: number): void {
+    const count = this.session?.place.shots.length ?? 0;
+    if (count === 0) return;
+    const { shot } = this.#store.value;
+    const next = shot === null ? (step > 0 ? 0 : count - 1) : (shot + step + count) % count;
+    this.#store.update({ shot: next, selected: null });
   }
 
   #nextColouring(): void {
@@ -309,12 +325,20 @@ export class Studio extends LitElement {
 
 function titleOf(session: Session): string {
   if (session.town !== null) return "A town of many buildings";
+  const { shots, scaleKnown } = session.place;
   const parts = session.place.parts.filter(({ isGround }) => !isGround);
+  if (parts.length === 0) {
+    const photos = shots.length === 1 ? "1 photo" : `${shots.length} photos`;
+    return scaleKnown ? photos : `${photos}, scale unknown`;
+  }
   const first = parts[0]?.name ?? "";
   return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;
 }
 
-function hintOf(state: StudioState, coarse: boolean): string {
+function hintOf(state: StudioState, coarse: boolean, hasPhotos: boolean): string {
+  if (state.mode === "orbit" && hasPhotos) {
+    return coarse ? "Drag to turn, tap a photo to look through it" : "Drag to turn · scroll to zoom · click a photo to look through it";
+  }
   if (state.mode === "orbit") return coarse ? "Drag to turn, tap a surface to ask" : "Drag to turn · scroll to zoom · click a surface to ask";
   if (state.mouseLook) return "Move the mouse to look · click to ask · Esc lets go";
   return coarse ? "Stick to walk, drag to look" : "W A S D to walk · drag to look · Shift to run";

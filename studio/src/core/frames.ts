@@ -37,3 +37,12 @@ export function worldPoint(worldFromPart: Matrix4, p: Vec3): Vec3 {
     (worldFromPart[row + 12] ?? 0);
   return [at(0), at(1), at(2)];
 }
+
+/** Nine coordinates per face, from the world frame to the drawn one. */
+export function drawnFaces(positions: Float32Array): Float32Array {
+  const drawn = new Float32Array(positions.length);
+  for (let i = 0; i + 2 < positions.length; i += 3) {
+    drawn.set(drawnFromWorld([positions[i] ?? 0, positions[i + 1] ?? 0, positions[i + 2] ?? 0]), i);
+  }
+  return drawn;
+}

@@ -10,6 +10,8 @@ export type Command =
   | "screenshot"
   | "fullscreen"
   | "mouse-look"
+  | "next-photo"
+  | "previous-photo"
   | "help"
   | "close";
 
@@ -42,6 +44,8 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyC"], action: "screenshot", shown: "C", text: "Save a picture" },
   { codes: ["KeyF"], action: "fullscreen", shown: "F", text: "Full screen" },
   { codes: ["KeyM"], action: "mouse-look", shown: "M", text: "Look around with the mouse while walking" },
+  { codes: ["KeyN"], action: "next-photo", shown: "N", text: "Look through the next photo" },
+  { codes: ["KeyB"], action: "previous-photo", shown: "B", text: "Look through the photo before" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

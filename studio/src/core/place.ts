@@ -1,5 +1,5 @@
 /** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
-import type { Place as Manifest, PlacePart } from "../generated/place.ts";
+import type { Place as Manifest, PlaceCamera, PlacePart, PlacePoints } from "../generated/place.ts";
 import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
@@ -19,8 +19,34 @@ export interface Part {
   readonly isGround: boolean;
 }
 
+/** A cloud of points. */
+export interface Cloud {
+  /** PLY, relative to `place.json`. */
+  readonly file: string;
+  readonly worldFromPoints: readonly number[];
+  /** Around nearly all of the points, in their own frame. */
+  readonly bounds: Box;
+}
+
+/** A photo in the place where it was taken; an ideal camera, for `picture` has no distortion. */
+export interface Shot {
+  readonly id: string;
+  readonly name: string;
+  readonly picture: string;
+  readonly width_px: number;
+  readonly height_px: number;
+  readonly focal_px: readonly [number, number];
+  readonly centre_px: readonly [number, number];
+  /** Camera frame: x right, y down, z forward. */
+  readonly worldFromCamera: readonly number[];
+}
+
 export interface Place {
   readonly parts: readonly Part[];
+  readonly clouds: readonly Cloud[];
+  readonly shots: readonly Shot[];
+  /** Whether lengths are metres. */
+  readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
   readonly tileset: string | null;
   readonly start: { readonly eye: Vec3; readonly target: Vec3 };
@@ -28,6 +54,8 @@ export interface Place {
 
 /** More parts than a browser could show; a larger number is a broken or hostile file. */
 const MOST_PARTS = 10_000;
+const MOST_CLOUDS = 1000;
+const MOST_SHOTS = 100_000;
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const REMEDY = "Write the place again, for example with `veduta facade`.";
 
@@ -42,13 +70,17 @@ export function readPlace(text: string, file: string): Place {
       "Use the studio of the Veduta that wrote the place.",
     );
   }
-  const parts: unknown = manifest.parts;
-  if (!Array.isArray(parts) || parts.length === 0) throw broken("the place has no parts");
-  if (parts.length > MOST_PARTS) throw broken(`it names more than ${MOST_PARTS} parts`);
+  const parts = list(manifest.parts, MOST_PARTS, "parts", broken);
+  const clouds = list(manifest.points ?? [], MOST_CLOUDS, "clouds of points", broken);
+  const shots = list(manifest.cameras ?? [], MOST_SHOTS, "cameras", broken);
+  if (parts.length + clouds.length === 0) throw broken("the place has no parts");
   const start = record(manifest.start, () => broken("it does not say where to start"));
   return {
     tileset: readTileset(manifest.tileset, broken),
     parts: parts.map((part, index) => readPart(part, `part ${index + 1}`, broken)),
+    clouds: clouds.map((cloud, index) => readCloud(cloud, `cloud ${index + 1}`, broken)),
+    shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
+    scaleKnown: manifest.scale !== "unknown",
     start: {
       eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),
       target: readVec3(start.target, () => broken('"start.target" is not a point')),
@@ -114,6 +146,50 @@ export function cornersOfPlace(place: Place): Vec3[] {
   return place.parts.flatMap(({ bounds, isGround, worldFromPart }) =>
     bounds === null || isGround ? [] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
   );
+}
+
+function list(value: unknown, most: number, what: string, broken: (fault: string) => Fault): unknown[] {
+  if (!Array.isArray(value)) throw broken(`it has no list of ${what}`);
+  if (value.length > most) throw broken(`it names more than ${most} ${what}`);
+  return value as unknown[];
+}
+
+function readCloud(value: unknown, which: string, broken: (fault: string) => Fault): Cloud {
+  const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
+  if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
+  const cloud = value as Fields<PlacePoints>;
+  const transform: unknown = cloud.transform ?? IDENTITY;
+  if (!isTransform(transform)) throw bad("transform");
+  if (!isInside(cloud.file)) throw bad("file");
+  const bounds = (cloud.bounds ?? {}) as { min?: unknown; max?: unknown };
+  const min = readVec3(bounds.min, () => bad("bounds"));
+  const max = readVec3(bounds.max, () => bad("bounds"));
+  if (min.some((low, axis) => low > (max[axis] ?? low))) throw bad("bounds");
+  return { file: cloud.file, worldFromPoints: transform, bounds: { min, max } };
+}
+
+function readShot(value: unknown, which: string, broken: (fault: string) => Fault): Shot {
+  const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
+  if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
+  const shot = value as Fields<PlaceCamera>;
+  const { id, name, picture, transform } = shot;
+  if (typeof id !== "string") throw bad("id");
+  if (typeof name !== "string") throw bad("name");
+  if (!isInside(picture)) throw bad("picture");
+  if (!isTransform(transform)) throw bad("transform");
+  const size = readPair([shot.width_px, shot.height_px], () => bad("width_px"));
+  const focal_px = readPair(shot.focal_px, () => bad("focal_px"));
+  if (Math.min(...size, ...focal_px) <= 0) throw bad("focal_px");
+  const [width_px, height_px] = size;
+  const centre_px = readPair(shot.centre_px, () => bad("centre_px"));
+  return { id, name, picture, width_px, height_px, focal_px, centre_px, worldFromCamera: transform };
+}
+
+function readPair(value: unknown, bad: () => Fault): [number, number] {
+  if (!Array.isArray(value) || value.length !== 2) throw bad();
+  const [x, y] = value as unknown[];
+  if (!Number.isFinite(x) || !Number.isFinite(y)) throw bad();
+  return [x as number, y as number];
 }
 
 function isTransform(value: unknown): value is number[] {

@@ -15,6 +15,8 @@ export interface StudioState {
   readonly colouring: Colouring;
   readonly hidden: ReadonlySet<SemanticClass>;
   readonly selected: FeatureRef | null;
+  /** The photo that is looked through, by its number in the place. */
+  readonly shot: number | null;
   readonly mouseLook: boolean;
 }
 
@@ -23,6 +25,7 @@ export const INITIAL_STATE: StudioState = {
   colouring: "photo",
   hidden: new Set(),
   selected: null,
+  shot: null,
   mouseLook: false,
 };
 

@@ -41,6 +41,18 @@ export interface Place {
    * 3D Tiles of all parts together: what is shown where they are too many
    */
   tileset?: string | null;
+  /**
+   * @maxItems 1000
+   */
+  points?: PlacePoints[];
+  /**
+   * @maxItems 100000
+   */
+  cameras?: PlaceCamera[];
+  /**
+   * unknown: the unit of length is not the metre, but any
+   */
+  scale?: "metres" | "unknown";
   start: Start;
 }
 /**
@@ -116,6 +128,111 @@ export interface Bounds {
    * @maxItems 3
    */
   max: [number, number, number];
+}
+/**
+ * A cloud of points.
+ */
+export interface PlacePoints {
+  id: string;
+  /**
+   * PLY with colours
+   */
+  file: string;
+  /**
+   * world_from_points, 4x4, column-major, metres
+   *
+   * @minItems 16
+   * @maxItems 16
+   */
+  transform?: [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number
+  ];
+  count: number;
+  bounds: Bounds1;
+}
+/**
+ * Axis-parallel box in the part's own frame (m).
+ */
+export interface Bounds1 {
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  min: [number, number, number];
+  /**
+   * @minItems 3
+   * @maxItems 3
+   */
+  max: [number, number, number];
+}
+/**
+ * A photo in the place where it was taken. Camera frame: x right, y down, z forward.
+ */
+export interface PlaceCamera {
+  id: string;
+  /**
+   * the photo's file, as the user named it
+   */
+  name: string;
+  /**
+   * the photo without the lens's distortion
+   */
+  picture: string;
+  width_px: number;
+  height_px: number;
+  /**
+   * along x and y, of the picture
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  focal_px: [number, number];
+  /**
+   * principal point, of the picture
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_px: [number, number];
+  /**
+   * world_from_camera, 4x4, column-major
+   *
+   * @minItems 16
+   * @maxItems 16
+   */
+  transform: [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number
+  ];
 }
 /**
  * Where a visitor begins (m, world frame).

@@ -48,9 +48,14 @@ export interface Scenery {
 
 /**
  * `footprints` are the boxes of the buildings in the drawn frame; `hasGround` says whether the place
- * has a ground of its own.
+ * has a ground of its own. `scaleKnown`: the ground gets lines a metre apart, which would say
+ * something false of a place of unknown scale.
  */
-export function makeScenery(bounds: Box, footprints: readonly Box3[], hasGround: boolean): Scenery {
+export function makeScenery(
+  bounds: Box,
+  footprints: readonly Box3[],
+  { hasGround, scaleKnown }: { hasGround: boolean; scaleKnown: boolean },
+): Scenery {
   const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
   const group = new Group();
   const sky = makeSky();
@@ -59,7 +64,7 @@ export function makeScenery(bounds: Box, footprints: readonly Box3[], hasGround:
   // most of the loading time without a graphics card.
   const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
   const shade = makeGroundShadow(bounds, height_m);
-  group.add(sky, makeGround(footprints, height_m), shade, skyLight, sun, sun.target);
+  group.add(sky, makeGround(footprints, height_m, scaleKnown), shade, skyLight, sun, sun.target);
   return {
     group,
     sun,
@@ -143,12 +148,12 @@ function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.shadow.needsUpdate = true;
 }
 
-function makeGround(footprints: readonly Box3[], height_m: number): Mesh {
+function makeGround(footprints: readonly Box3[], height_m: number, scaleKnown: boolean): Mesh {
   const boxes = footprints
     .slice(0, MOST_FOOTPRINTS)
     .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
   const material = new ShaderMaterial({
-    defines: { FOOTPRINTS: boxes.length },
+    defines: { FOOTPRINTS: boxes.length, LINES: scaleKnown ? 1 : 0 },
     uniforms: {
       ground: { value: GROUND },
       horizon: { value: HORIZON },
@@ -181,7 +186,11 @@ const GROUND_SHADER = `
   float dither(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453) - 0.5; }
   void main() {
     float away = distance(vWorld, cameraPosition);
+    #if LINES
     vec3 colour = paved(ground, vWorld, away);
+    #else
+    vec3 colour = ground;
+    #endif
     #if FOOTPRINTS > 0
     float dark = 0.0;
     for (int i = 0; i < FOOTPRINTS; i++) {

@@ -1,33 +1,23 @@
 /** Draws the place and moves the camera through it, as the state says. */
-import {
-  Box3,
-  NeutralToneMapping,
-  PCFShadowMap,
-  PerspectiveCamera,
-  Raycaster,
-  Scene,
-  Vector2,
-  Vector3,
-  WebGLRenderer,
-} from "three";
+import { PerspectiveCamera, Raycaster, Vector2, Vector3, type WebGLRenderer } from "three";
 import { Fault } from "../core/fault.ts";
-import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import { boxOfPoints, cornersOf, type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
+import { drawnFaces, drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
-import { cornersOfPlace, type Place } from "../core/place.ts";
+import type { Place } from "../core/place.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
-import { Appearance } from "./appearance.ts";
+import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
-import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
 import { OrbitRig } from "./orbit-rig.ts";
 import { CanvasPointer } from "./pointer.ts";
-import { makeScenery, type Scenery } from "./scenery.ts";
-import { type Hit, Solid, soupOf } from "./solid.ts";
+import { makeRenderer } from "./renderer.ts";
+import type { Hit } from "./solid.ts";
+import { Stage, type ViewerContent } from "./stage.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
 
@@ -35,9 +25,6 @@ import { WalkRig } from "./walk-rig.ts";
 const DRAG_RAD_PX = 0.0032;
 const MOUSE_RAD_PX = 0.0022;
 const MOST_PIXELS_PER_CSS_PX = 2;
-/** Of a town only what is around the person throws shadows; they move when the person has gone far. */
-const SHADE_RADIUS_M = 110;
-const SHADE_STEP_M = 25;
 /** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
 const NEAR_M = 0.08;
 const NEAR_SHARE = 0.2;
@@ -52,16 +39,14 @@ export interface ViewerStats {
 }
 
 export class Viewer {
-  readonly solid: Solid | Town;
   readonly #canvas: HTMLCanvasElement;
   readonly #store: Store<StudioState>;
   readonly #parts: readonly LoadedPart[];
   readonly #town: Town | null;
+  readonly #frusta: Frusta | null;
   readonly #renderer: WebGLRenderer;
-  readonly #scene = new Scene();
+  readonly #stage: Stage;
   readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
-  readonly #scenery: Scenery;
-  readonly #appearance: Appearance;
   readonly #orbit: OrbitRig;
   readonly #walk: WalkRig;
   readonly #pointer: CanvasPointer;
@@ -77,38 +62,21 @@ export class Viewer {
   #pace = FULL_PACE;
   #sharpness = 1;
   #streak = { frames: 0, seconds: 0 };
-  #shaded = { centre: new Vector3(Infinity, 0, 0), tiles: -1 };
 
-  constructor(
-    canvas: HTMLCanvasElement,
-    place: Place,
-    content: { readonly parts: readonly LoadedPart[]; readonly town: Town | null },
-    store: Store<StudioState>,
-  ) {
-    const { parts, town } = content;
+  constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
+    const { parts, town, frusta } = content;
     this.#canvas = canvas;
     this.#store = store;
     this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
     this.#town = town;
-    const ground = parts.filter(({ part }) => part.isGround);
-    this.solid = town ?? new Solid(soupOf(parts), ground.length > 0 ? new Solid(soupOf(ground)) : null);
-    const { bounds } = this.solid;
-    const told = cornersOfPlace(place);
-    const corners = told.length > 0 ? told : cornersOf(bounds);
-    const seen = boxOfPoints(corners);
-    const buildings = parts.filter(({ part }) => !part.isGround);
-    const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
-    this.#scenery = makeScenery(seen, footprints, place.parts.some(({ isGround }) => isGround));
-    this.#appearance = new Appearance(parts);
-    for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
-    this.#scene.add(this.#scenery.group, this.#appearance.outline.group);
-    for (const { group } of parts) this.#scene.add(group);
-    if (town !== null) this.#scene.add(town.group);
-    const { min, max } = bounds;
+    this.#frusta = frusta;
+    this.#stage = new Stage(place, content);
+    const { solid, corners, seen } = this.#stage;
+    const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
-    this.#walk = new WalkRig(place.start, this.solid, bounds);
+    this.#walk = new WalkRig(place.start, solid, solid.bounds);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
@@ -118,15 +86,20 @@ export class Viewer {
     this.#resizes.observe(canvas);
     store.subscribe((now, before) => this.#follow(now, before));
     this.#resize();
-    this.#appearance.tint(store.value);
+    this.#stage.appearance.tint(store.value);
     town?.show(store.value);
     this.goHome();
+  }
+
+  /** What one meets with. */
+  get solid(): Stage["solid"] {
+    return this.#stage.solid;
   }
 
   /** Compiles and draws once, so that the first picture the person sees is whole. */
   async prepare(): Promise<void> {
     await this.#town?.settle(this.#camera);
-    await this.#renderer.compileAsync(this.#scene, this.#camera);
+    await this.#renderer.compileAsync(this.#stage.scene, this.#camera);
     this.#draw();
   }
 
@@ -186,6 +159,11 @@ export class Viewer {
   }
 
   resetView(): void {
+    if (this.#store.value.shot !== null) {
+      this.#orbitPose = null;
+      this.#store.update({ shot: null });
+      return;
+    }
     if (this.#store.value.mode === "walk") {
       this.#walk.restart();
       this.#fly(this.#walk.pose(this.#camera));
@@ -217,6 +195,14 @@ export class Viewer {
     );
   }
 
+  /** The photo whose pyramid is under a point of the canvas (CSS pixels). */
+  shotAt(x: number, y: number): number | null {
+    if (this.#store.value.shot !== null) return null;
+    const box = this.#canvas.getBoundingClientRect();
+    const onScreen = new Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height);
+    return this.#frusta?.hit(onScreen, this.#camera) ?? null;
+  }
+
   /** Where a point of the world is on the canvas (CSS pixels); null behind the camera. */
   project(point: Vec3): { x: number; y: number } | null {
     const box = this.#canvas.getBoundingClientRect();
@@ -237,6 +223,7 @@ export class Viewer {
 
   dispose(): void {
     this.#town?.dispose();
+    this.#frusta?.dispose();
     cancelAnimationFrame(this.#request);
     this.#resizes.disconnect();
     this.#pointer.dispose();
@@ -270,6 +257,7 @@ export class Viewer {
     }
     const turn = turnOf(this.#held);
     const wish = wishOf(this.#held, this.#stick);
+    if (this.#store.value.shot !== null) return false;
     if (this.#store.value.mode === "walk") {
       const moves = this.#walk.advance(wish, turn, seconds);
       setPose(this.#camera, this.#walk.pose(this.#camera));
@@ -289,10 +277,9 @@ export class Viewer {
   }
 
   #draw(): void {
-    this.#scenery.follow(this.#camera);
     this.#keepDepth();
-    if (this.#town !== null) this.#stream(this.#town);
-    this.#renderer.render(this.#scene, this.#camera);
+    if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
+    this.#renderer.render(this.#stage.scene, this.#camera);
     this.#frames += 1;
   }
 
@@ -305,36 +292,25 @@ export class Viewer {
     this.#camera.updateProjectionMatrix();
   }
 
-  /** Fetches what is seen from here, and keeps the shadows around the person. */
-  #stream(town: Town): void {
-    town.update(this.#camera, this.#renderer);
-    if (town.tileCount !== this.#shaded.tiles || this.#shaded.centre.distanceTo(this.#camera.position) > SHADE_STEP_M) {
-      const ahead = this.#camera.getWorldDirection(new Vector3()).setY(0).multiplyScalar(0.4 * SHADE_RADIUS_M);
-      const centre = this.#camera.position.clone().add(ahead).setY(0);
-      this.#scenery.shadeAround(centre, SHADE_RADIUS_M);
-      this.#shaded = { centre: this.#camera.position.clone(), tiles: town.tileCount };
-    }
-    if (town.isLoading) this.invalidate();
-  }
-
   #follow(now: StudioState, before: StudioState): void {
     if (now.mode !== before.mode) this.#changeMode(now.mode);
+    if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     if (now.hidden !== before.hidden) {
-      this.#appearance.showLayers(now);
-      this.#scenery.sun.shadow.needsUpdate = true;
+      this.#stage.appearance.showLayers(now);
+      this.#stage.redrawShadows();
     }
     if (this.#town !== null) this.#town.show(now);
     if (now.selected !== before.selected) this.#outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {
-      this.#appearance.tint(now);
+      this.#stage.appearance.tint(now);
     }
     this.invalidate();
   }
 
   #outline(selected: FeatureRef | null): void {
-    const { outline } = this.#appearance;
+    const { outline } = this.#stage.appearance;
     if (this.#town === null) {
-      this.#appearance.outlineSelected(selected);
+      this.#stage.appearance.outlineSelected(selected);
       return;
     }
     const faces = selected === null ? null : this.#town.facesOf(selected);
@@ -351,6 +327,23 @@ export class Viewer {
       return;
     }
     this.releaseMouse();
+    this.#returnToOrbit();
+  }
+
+  /** Flies to where a photo was taken, and back to where the person was before. */
+  #lookThrough(shot: number | null, before: number | null): void {
+    void this.#frusta?.show(shot);
+    this.#orbit.enabled = shot === null && this.#store.value.mode === "orbit";
+    if (before === null && this.#store.value.mode === "orbit") {
+      this.#orbitPose = { pose: poseOf(this.#camera), target: this.#orbit.target.clone() };
+    }
+    const seen = shot === null ? null : (this.#frusta?.poseOf(shot, this.#camera) ?? null);
+    if (seen !== null) this.#fly(seen);
+    else if (this.#store.value.mode === "walk") this.#fly(this.#walk.pose(this.#camera));
+    else this.#returnToOrbit();
+  }
+
+  #returnToOrbit(): void {
     const back = this.#orbitPose ?? this.#home();
     this.#orbit.aimAt(back.target);
     this.#fly(back.pose);
@@ -382,7 +375,9 @@ export class Viewer {
   }
 
   #select(x: number, y: number): void {
-    this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
+    const shot = this.shotAt(x, y);
+    if (shot !== null) this.#store.update({ shot, selected: null });
+    else this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
   }
 
   #isVisible(ref: FeatureRef): boolean {
@@ -399,27 +394,9 @@ export class Viewer {
     const ratio = Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX);
     this.#renderer.setPixelRatio(this.#sharpness * ratio);
     this.#renderer.setSize(width, height, false);
-    this.#appearance.outline.resize(width, height);
+    this.#stage.appearance.outline.resize(width, height);
     this.#camera.aspect = width / height;
     setPose(this.#camera, poseOf(this.#camera));
     this.invalidate();
   }
-}
-
-function makeRenderer(canvas: HTMLCanvasElement): WebGLRenderer {
-  const renderer = new WebGLRenderer({ canvas, antialias: true, powerPreference: "high-performance" });
-  renderer.toneMapping = NeutralToneMapping;
-  renderer.toneMappingExposure = 1;
-  renderer.shadowMap.enabled = true;
-  renderer.shadowMap.type = PCFShadowMap;
-  return renderer;
-}
-
-/** Nine coordinates per face, from the world frame to the drawn one. */
-function drawnFaces(positions: Float32Array): Float32Array {
-  const drawn = new Float32Array(positions.length);
-  for (let i = 0; i + 2 < positions.length; i += 3) {
-    drawn.set(drawnFromWorld([positions[i] ?? 0, positions[i + 1] ?? 0, positions[i + 2] ?? 0]), i);
-  }
-  return drawn;
 }

@@ -9,7 +9,16 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start, merge
+from veduta.place.manifest import (
+    IDENTITY,
+    Bounds,
+    Place,
+    PlaceCamera,
+    PlacePart,
+    PlacePoints,
+    Start,
+    merge,
+)
 from veduta.run.errors import InputError
 
 START = Start(eye=(0.0, -10.0, 1.7), target=(0.0, 0.0, 5.0))
@@ -105,3 +114,40 @@ def test_broken_parts_are_refused(changes: dict[str, Any]) -> None:
 def test_two_parts_of_one_id_are_refused() -> None:
     with pytest.raises(ValidationError, match="two parts"):
         place("a", "a")
+
+
+def seen(camera_id: str, origin: tuple[float, float, float] = (0.0, 0.0, 0.0)) -> Place:
+    camera = PlaceCamera(
+        id=camera_id,
+        name=f"{camera_id}.jpg",
+        picture=f"pictures/{camera_id}.jpg",
+        width_px=60,
+        height_px=40,
+        focal_px=(50.0, 50.0),
+        centre_px=(30.0, 20.0),
+        transform=IDENTITY,
+    )
+    points = PlacePoints(id=f"points-{camera_id}", file="points.ply", count=5, bounds=BOUNDS)
+    return Place(parts=[], points=[points], cameras=[camera], origin=origin, start=START)
+
+
+def test_points_and_cameras_move_with_their_files() -> None:
+    both = merge(seen("a"), seen("b", origin=(3.0, 4.0, 1.0)), "other")
+    assert [camera.id for camera in both.cameras] == ["a", "b"]
+    assert both.cameras[1].transform[12:15] == (3.0, 4.0, 1.0)
+    assert both.cameras[1].picture == "other/pictures/b.jpg"
+    assert [cloud.file for cloud in both.points] == ["points.ply", "other/points.ply"]
+    assert both.points[1].transform[12:15] == (3.0, 4.0, 1.0)
+
+
+def test_a_place_of_unknown_scale_joins_no_other() -> None:
+    small = seen("a").model_copy(update={"scale": "unknown"})
+    for first, second in ((small, seen("b")), (seen("b"), small)):
+        with pytest.raises(InputError, match="scale"):
+            merge(first, second)
+
+
+def test_two_cameras_of_one_id_are_refused() -> None:
+    camera = seen("a").cameras[0]
+    with pytest.raises(ValidationError, match="two cameras"):
+        Place(parts=[], cameras=[camera, camera], start=START)

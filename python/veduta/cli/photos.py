@@ -1,0 +1,54 @@
+"""`veduta photos DIR -o OUT`."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from typing import TYPE_CHECKING
+
+SUMMARY = "Turn photos of a place into cameras where they were taken, and points in space"
+MOST_NAMED = 10
+
+if TYPE_CHECKING:
+    from veduta.photos.pipeline import PhotosResult
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, do the work, say what was found and where it is."""
+    from veduta.cli.arguments import parse
+    from veduta.cli.photos_call import PhotosCall
+    from veduta.photos.pipeline import run_photos
+    from veduta.run.pool import require_jobs
+    from veduta.run.progress import Progress
+
+    call = parse(PhotosCall, "veduta photos", arguments)
+    require_jobs(call.jobs)
+    progress = Progress(quiet=call.quiet)
+    result = run_photos(
+        call.photos, call.out, call.options(), progress, force=call.force, jobs=call.jobs
+    )
+    if result.failure:
+        print(f"error: {result.failure.subject}: {result.failure.reason}", file=sys.stderr)
+    if not call.quiet:
+        _tell(result)
+    return result.exit_code
+
+
+def _tell(result: PhotosResult) -> None:
+    from veduta.photos.report import summary_line
+
+    out = result.out
+    for name, reason in result.left[:MOST_NAMED]:
+        print(f"{name}: left out: {reason}")
+    if len(result.left) > MOST_NAMED:
+        print(f"and {len(result.left) - MOST_NAMED} more left out: {out / 'report.html'}")
+    for path in result.edited:
+        print(f"{out / path}: was edited and is left as it is")
+    for path in result.foreign:
+        print(f"{out / path}: was not made by veduta and is left as it is")
+    if result.up_to_date:
+        print(f"{out} is up to date; --force makes it anew")
+    if result.failure is None:
+        print(summary_line(result.measures))
+        print(f"Look at it: {shlex.join(['veduta', 'view', str(out)])}")
+    print(f"What was done, and why: {out / 'report.html'}")

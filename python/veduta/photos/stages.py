@@ -1,0 +1,64 @@
+"""What a run has finished so far, in OUT/.veduta/photos, so that a killed one goes on from there.
+
+Each file is named after its step and the key of what it depends on, and appears whole. Nothing is
+kept once the run is finished.
+"""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import JsonValue
+
+from veduta.photos.call import Call
+from veduta.photos.options import PhotosOptions
+from veduta.photos.read import PhotoRecord
+from veduta.run.digests import result_key
+from veduta.run.outputs import writing_to
+from veduta.run.record import PRIVATE
+
+VERSION = "1"
+"""Raised when any step changes its result: no older result is then taken for a new one's."""
+COMMAND = "photos"
+FOLDER = f"{PRIVATE}/photos"
+
+
+@dataclass(frozen=True)
+class Stages:
+    """The places of what the steps leave to later ones."""
+
+    out: Path
+    call: Call
+    options: PhotosOptions
+
+    @property
+    def folder(self) -> Path:
+        """Where all of it lies."""
+        return self.out / FOLDER
+
+    def open(self) -> None:
+        """Make the folder."""
+        with writing_to(self.out):
+            self.folder.mkdir(parents=True, exist_ok=True)
+
+    def features(self, photo: PhotoRecord) -> Path:
+        """The features of a photo."""
+        key = result_key("features", VERSION, self.options.match, [photo.sha256])
+        return self.folder / f"features-{key[:24]}.npz"
+
+    def database(self) -> Path:
+        """The engine's database with features and matches of all photos."""
+        photos: list[JsonValue] = [[source.name, source.sha256] for source in self.call.sources]
+        told: list[JsonValue] = [photos, self.options.random.seed, self.options.camera.cameras]
+        key = result_key("match", VERSION, self.options.match, told)
+        return self.folder / f"matches-{key[:24]}.db"
+
+    def models(self) -> Path:
+        """The components as mapping left them, numbered."""
+        return self.database().with_suffix(".models")
+
+    def drop(self) -> None:
+        """The run is finished: none of it is needed any more."""
+        shutil.rmtree(self.folder, ignore_errors=True)

@@ -1,0 +1,225 @@
+"""What structure from motion knows, as columns: cameras, poses, points and observations.
+
+The engine keeps an object per point and per observation; the columns are what our own steps work
+on. `adjusted` hands them to the engine's bundle adjustment and takes the result back.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pycolmap
+from numpy.typing import NDArray
+
+from veduta.photos.engine import quiet_engine
+from veduta.run.errors import NotFoundError
+
+_REMEDY = "Choose the lens model and the sharing of cameras yourself (--lens, --cameras)."
+
+
+@dataclass(frozen=True)
+class Structure:
+    """One connected model; its frame and its scale are its own.
+
+    cameras: by camera id. camera_of: the camera id of each image id.
+    image_ids, names: of the n photos that have a pose. cam_from_world: (n, 3, 4).
+    keypoints_px: (k, 2) of each photo, x right and y down.
+    points: (p, 3). colours: (p, 3) uint8.
+    image_of, keypoint_of, point_of: (o,) the photo (row), its keypoint and the point (row) of each
+    observation.
+    """
+
+    cameras: Mapping[int, pycolmap.Camera]
+    camera_of: Mapping[int, int]
+    image_ids: tuple[int, ...]
+    names: tuple[str, ...]
+    cam_from_world: NDArray[np.float64]
+    keypoints_px: tuple[NDArray[np.float64], ...]
+    points: NDArray[np.float64]
+    colours: NDArray[np.uint8]
+    image_of: NDArray[np.int64]
+    keypoint_of: NDArray[np.int64]
+    point_of: NDArray[np.int64]
+
+    def camera(self, row: int) -> pycolmap.Camera:
+        """The camera of a photo, by its row."""
+        return self.cameras[self.camera_of[self.image_ids[row]]]
+
+    def centres(self) -> NDArray[np.float64]:
+        """(n, 3) where the photos were taken."""
+        rotations, shifts = self.cam_from_world[:, :, :3], self.cam_from_world[:, :, 3]
+        centres: NDArray[np.float64] = -np.einsum("nji,nj->ni", rotations, shifts)
+        return centres
+
+    def with_cameras(
+        self, cameras: Mapping[int, pycolmap.Camera], camera_of: Mapping[int, int]
+    ) -> Structure:
+        """The same, seen by other cameras."""
+        return replace(self, cameras=cameras, camera_of=camera_of)
+
+    def observed(self, kept: NDArray[np.bool_]) -> Structure:
+        """The same with some of the observations."""
+        return replace(
+            self,
+            image_of=self.image_of[kept],
+            keypoint_of=self.keypoint_of[kept],
+            point_of=self.point_of[kept],
+        )
+
+    def seeing(self, other: Structure, kept: NDArray[np.bool_]) -> Structure:
+        """This one's cameras and points with some of the observations of another of them."""
+        return replace(
+            self,
+            image_of=other.image_of[kept],
+            keypoint_of=other.keypoint_of[kept],
+            point_of=other.point_of[kept],
+        )
+
+    def sampled(self, most: int, rng: np.random.Generator) -> Structure:
+        """The same with at most so many of the points, drawn at random."""
+        if len(self.points) <= most:
+            return self
+        kept = np.zeros(len(self.points), dtype=bool)
+        kept[rng.choice(len(self.points), most, replace=False)] = True
+        return self.with_points(kept)
+
+    def with_points(self, kept: NDArray[np.bool_]) -> Structure:
+        """The same with some of the points, and their observations."""
+        number = np.cumsum(kept) - 1
+        seen = kept[self.point_of]
+        return replace(
+            self.observed(seen),
+            points=self.points[kept],
+            colours=self.colours[kept],
+            point_of=number[self.point_of[seen]],
+        )
+
+
+def observed_px(structure: Structure) -> NDArray[np.float64]:
+    """(o, 2) where each observation was seen."""
+    found = np.empty((len(structure.image_of), 2))
+    for row, keypoints in enumerate(structure.keypoints_px):
+        own = structure.image_of == row
+        found[own] = keypoints[structure.keypoint_of[own]]
+    return found
+
+
+def projected_px(structure: Structure) -> NDArray[np.float64]:
+    """(o, 2) where each observation's point comes to lie; NaN behind the camera."""
+    found = np.full((len(structure.image_of), 2), np.nan)
+    for row, pose in enumerate(structure.cam_from_world):
+        own = np.flatnonzero(structure.image_of == row)
+        points = structure.points[structure.point_of[own]] @ pose[:, :3].T + pose[:, 3]
+        ahead = points[:, 2] > 0
+        found[own[ahead]] = structure.camera(row).img_from_cam(points[ahead])
+    return found
+
+
+def errors_px(structure: Structure) -> NDArray[np.float64]:
+    """(o,) distance of each observation from its point's projection; infinite behind the camera."""
+    error = np.linalg.norm(projected_px(structure) - observed_px(structure), axis=1)
+    found: NDArray[np.float64] = np.nan_to_num(error, nan=np.inf)
+    return found
+
+
+def structure_of(model: pycolmap.Reconstruction, names: Mapping[int, str]) -> Structure:
+    """The columns of an engine's model; `names` are the photos' own, by image id."""
+    image_ids = tuple(sorted(model.reg_image_ids()))
+    row_of = {image: row for row, image in enumerate(image_ids)}
+    images = [model.images[image] for image in image_ids]
+    points = [model.points3D[number] for number in sorted(model.points3D)]
+    seen = [
+        (row_of[element.image_id], element.point2D_idx, number)
+        for number, point in enumerate(points)
+        for element in point.track.elements
+    ]
+    columns = np.array(seen, dtype=np.int64).reshape(-1, 3)
+    used = {image.camera_id for image in images}
+    return Structure(
+        cameras={number: pycolmap.Camera(model.cameras[number].todict()) for number in used},
+        camera_of={image.image_id: image.camera_id for image in images},
+        image_ids=image_ids,
+        names=tuple(names[image] for image in image_ids),
+        cam_from_world=np.array([image.cam_from_world().matrix() for image in images]),
+        keypoints_px=tuple(
+            np.array([point.xy for point in image.points2D]).reshape(-1, 2) for image in images
+        ),
+        points=np.array([point.xyz for point in points]).reshape(-1, 3),
+        colours=np.array([point.color for point in points], dtype=np.uint8).reshape(-1, 3),
+        image_of=columns[:, 0],
+        keypoint_of=columns[:, 1],
+        point_of=columns[:, 2],
+    )
+
+
+def model_of(structure: Structure) -> pycolmap.Reconstruction:
+    """The engine's model of the columns; points that fewer than two photos see are left out."""
+    model = pycolmap.Reconstruction()
+    for number, camera in structure.cameras.items():
+        own = pycolmap.Camera(camera.todict())
+        own.camera_id = number
+        model.add_camera_with_trivial_rig(own)
+    for row, image_id in enumerate(structure.image_ids):
+        image = pycolmap.Image(
+            name=structure.names[row],
+            keypoints=structure.keypoints_px[row],
+            camera_id=structure.camera_of[image_id],
+            image_id=image_id,
+        )
+        pose = pycolmap.Rigid3d(structure.cam_from_world[row])
+        model.add_image_with_trivial_frame(image, pose)
+    order = np.argsort(structure.point_of, kind="stable")
+    ends = np.searchsorted(structure.point_of[order], np.arange(len(structure.points) + 1))
+    images, keypoints = structure.image_of[order].tolist(), structure.keypoint_of[order].tolist()
+    for number, point in enumerate(structure.points):
+        rows = range(int(ends[number]), int(ends[number + 1]))
+        if len(rows) < 2:
+            continue
+        elements = [
+            pycolmap.TrackElement(structure.image_ids[images[row]], keypoints[row]) for row in rows
+        ]
+        track = pycolmap.Track(elements)
+        model.add_point3D_with_id(
+            number + 1, pycolmap.Point3D(xyz=point, track=track, color=structure.colours[number])
+        )
+    return model
+
+
+def adjusted(structure: Structure, *, free_principal_point: bool) -> Structure:
+    """Cameras, poses and points after bundle adjustment; the observations stay.
+
+    NotFoundError where it gives no solution.
+    """
+    quiet_engine()
+    model = model_of(structure)
+    options = pycolmap.BundleAdjustmentOptions()
+    options.print_summary = False
+    options.refine_principal_point = free_principal_point
+    config = pycolmap.BundleAdjustmentConfig()
+    for image in structure.image_ids:
+        config.add_image(image)
+    config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)
+    summary = pycolmap.create_default_bundle_adjuster(options, config, model).solve()
+    if not summary.is_solution_usable():
+        raise NotFoundError(
+            "cameras", f"the adjustment of {len(structure.names)} photos did not converge", _REMEDY
+        )
+    images = [model.images[image] for image in structure.image_ids]
+    points = structure.points.copy()
+    for number, point in model.points3D.items():
+        points[number - 1] = point.xyz
+    return replace(
+        structure,
+        cameras={number: model.cameras[number] for number in structure.cameras},
+        cam_from_world=np.array([image.cam_from_world().matrix() for image in images]),
+        points=points,
+    )
+
+
+def without_outliers(structure: Structure, most_px: float) -> Structure:
+    """The same without observations that are further off, nor points that fewer than two see."""
+    seen = structure.observed(errors_px(structure) <= most_px)
+    counts = np.bincount(seen.point_of, minlength=len(seen.points))
+    return seen.with_points(counts >= 2)
