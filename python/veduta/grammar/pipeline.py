@@ -33,7 +33,7 @@ from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.squares import FEW, Square, Squares, squares_of, told
-from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.grammar.textures import find_textures, missing_textures, read_textures, textures_digests
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.errors import InputError
@@ -47,6 +47,8 @@ VERSION = "7"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
+MOST_MISSING = 20
+"""Pictures that are not there, and named."""
 SEQUENCE = 1000
 """More lots than these are CityJSONSeq, which is read a line at a time."""
 TILESET = "tileset.json"
@@ -124,7 +126,8 @@ def _room_for(out: Path) -> Path:
 class _Call:
     """What a call is given, read and checked, and the keys of what is to be made of it.
 
-    source: what failures name. folder: where the rules lie. keys: of the blocks. key: of all.
+    source: what failures name. folder: where the rules lie. untextured: which pictures are
+    missing, in words. keys: of the blocks. key: of all.
     """
 
     rules_name: str
@@ -133,6 +136,7 @@ class _Call:
     files: tuple[tuple[str, str], ...]
     options: GrammarOptions
     textures: Mapping[str, str]
+    untextured: tuple[str, ...]
     lots: Lots
     squares: Squares
     keys: dict[str, str]
@@ -173,6 +177,7 @@ def _call(
     files = tuple(rules.texts)
     textures = find_textures(rules.path, [text for _, text in files])
     read_textures(textures)
+    untextured = tuple(missing_textures(rules.path, rules.files)[:MOST_MISSING])
     edits = {} if edits_path is None else read_edits(edits_path)
     lots = _lots(lots_path, options, room, progress)
     if edits_path is not None:
@@ -191,8 +196,17 @@ def _call(
     failed: JsonValue = lots.failures.told()
     key = _key("call", options, [dict(keys), origin, failed, source])
     return _Call(
-        *(rules_name, source, rules.path.parent, files, options),
-        *(textures, lots, squares, keys, key),
+        rules_name,
+        source,
+        rules.path.parent,
+        files,
+        options,
+        textures,
+        untextured,
+        lots,
+        squares,
+        keys,
+        key,
     )
 
 
@@ -284,6 +298,7 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """What the place consists of, in the order of the lots."""
     result.failures.add_all(call.lots.failures, call.lots.failures.untold)
     result.notes += call.lots.notes
+    result.notes += [f"{told}: the plain colour is seen" for told in call.untextured]
     for square in call.squares.every:
         item = folder.record.items.get(square.name)
         if item is None:

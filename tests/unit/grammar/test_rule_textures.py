@@ -13,6 +13,8 @@ from veduta import _core
 from veduta.formats.gltf import read_glb, write_glb
 from veduta.grammar import textures
 from veduta.grammar.building import build_part
+from veduta.grammar.options import GrammarOptions, OutputOptions
+from veduta.grammar.pipeline import run_derive
 from veduta.grammar.textures import (
     find_textures,
     missing_textures,
@@ -20,6 +22,7 @@ from veduta.grammar.textures import (
     textures_digests,
 )
 from veduta.run.errors import InputError
+from veduta.run.progress import Progress
 
 SQUARE = [[(0.0, 0.0, 0.0), (10.0, 0.0, 0.0), (10.0, 6.0, 0.0), (0.0, 6.0, 0.0)]]
 RULES = """
@@ -60,6 +63,16 @@ X --> texture("deep/stone.png") texture("no picture")
         f"a.cga:5: no picture `none.png` {where}",
         f"a.cga:6: no picture `no picture` {where}",
     ]
+
+
+def test_deriving_tells_the_pictures_that_are_not_there(tmp_path: Path) -> None:
+    rules = tmp_path / "a.cga"
+    rules.write_text('Lot --> extrude(5)\n  texture("builtin:uvtest.png") House.')
+    options = GrammarOptions(output=OutputOptions(city=False))
+    result = run_derive(str(rules), None, tmp_path / "out", options, Progress(quiet=True), jobs=1)
+    assert result.exit_code == 0
+    told = "a.cga:2: no picture `builtin:uvtest.png` lies in the folder of a.cga or below it"
+    assert f"{tmp_path / told}: the plain colour is seen" in result.notes
 
 
 def test_too_many_pictures_are_refused(folder: Path) -> None:
