@@ -112,9 +112,10 @@ fn strings_are_bounded() {
     for value in [
         "s(20)",
         "replace(s(12), \"a\", s(12))",
-        "listFromArray([0:9999] + s(10))",
-        "str([0:9999] + s(10))",
-        "[0:9999] + s(10)",
+        "listFromArray(stringArray([0:9999]) .+ s(10))",
+        "str(stringArray([0:9999]) .+ s(10))",
+        "stringArray([0:9999]) .+ s(10)",
+        "s(15) + [0:9999] + s(15) + s(15) + s(15)",
     ] {
         let found = fault(&format!("{double}  Lot --> print({value}) X."));
         let told = found.contains("a string of") || found.contains("bytes");
