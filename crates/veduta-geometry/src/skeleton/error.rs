@@ -41,13 +41,13 @@ pub enum SkeletonError {
     NearlyParallel { vertex: usize, shift_m: f64 },
     #[error("the roof has no top: face {face} and others stand all around a part of the inside")]
     Unbounded { face: usize },
-    #[error("the wavefront got lost: face {face} moves on and meets nothing")]
+    #[error("the slope of face {face} rises on and meets no other")]
     Lost { face: usize },
     #[error("a corner is so pointed that it would reach too far outwards")]
     TooPointed,
-    #[error("more than {most} events")]
+    #[error("the slopes meet in more than {most} places: the outline is too intricate")]
     TooManyEvents { most: usize },
-    #[error("two wavefront edges are parallel where they meet, at {x_m}, {y_m}")]
+    #[error("two slopes are parallel where they meet, at {x_m}, {y_m}")]
     Degenerate { x_m: f64, y_m: f64 },
     #[error("nothing is left of the outline once double points and spikes are gone")]
     Vanished,
