@@ -156,7 +156,7 @@ def test_rules_that_run_away_are_stopped(tmp_path: Path, lots: Path) -> None:
     out = tmp_path / "out"
     done = veduta("grammar", "derive", endless, "--lots", lots, "-o", out, "--seconds", "1")
     assert done.returncode == 2
-    assert "house 0: " in done.stderr
+    assert "2 lots (house 0, house 1): " in done.stderr
     assert "deep" in done.stderr or "longer" in done.stderr
     assert not (out / "place.json").exists()
 
