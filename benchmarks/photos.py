@@ -8,6 +8,7 @@ kind of camera would have given (held-out error beside the true one), for each s
 
 from __future__ import annotations
 
+import argparse
 import json
 import os
 import subprocess
@@ -119,8 +120,13 @@ def _centres(structure: Structure) -> Centres:
     return dict(zip(structure.names, structure.centres(), strict=True))
 
 
-def main(names: list[str]) -> None:
+def main() -> None:
     """Measure the sets, each to results of its own."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("sets", nargs="*", metavar="SET", help=", ".join(SETS), default=SETS)
+    names = parser.parse_args().sets
+    if unknown := set(names) - set(SETS):
+        parser.error(f"no set {', '.join(sorted(unknown))}; there are {', '.join(SETS)}")
     with tempfile.TemporaryDirectory() as folder:
         for name in names:
             out = Path(folder) / name
@@ -129,4 +135,4 @@ def main(names: list[str]) -> None:
 
 
 if __name__ == "__main__":
-    main(sys.argv[1:] or list(SETS))
+    main()
