@@ -511,6 +511,24 @@ def derive_surroundings(
     nothing there; that it takes long is no fault here.
     """
 
+# texture.rs
+class LabelFault(ValueError): ...
+
+def label_cells(
+    costs: _Array2[np.float32],
+    colours: _Array2[np.float32],
+    shape: tuple[int, int],
+    *,
+    base: float,
+    slope: float,
+    most: float,
+    rounds: int,
+) -> _Array2[np.uint32]:
+    """The label of each of `rows` x `columns` cells. costs: a row per cell, a column per label.
+    colours: a row per cell, three columns per label; NaN where it does not see the cell.
+    A seam costs `base` and `slope` times the disagreement beside it, at most `most`.
+    """
+
 # tiles.rs
 class TileBuffers:
     """The buffers of one tile."""
@@ -558,3 +576,71 @@ class TileBuffers:
         u16 where all surfaces of the tile fit, or else f32, scales three f32 or empty, texture
         coordinates two u16 or empty.
         """
+
+# two_views.rs
+class MatchFault(ValueError): ...
+class UnequalPointsError(MatchFault): ...
+class PointNotFiniteError(MatchFault): ...
+class TooFewMatchesError(MatchFault): ...
+class DegenerateMatchesError(MatchFault): ...
+
+def judge_pairs(
+    first: _Array2[np.float64],
+    second: _Array2[np.float64],
+    offsets: _Array1[np.int64],
+    seeds: _Array1[np.int64],
+    *,
+    draws: int,
+    plane_draws: int,
+    seven: bool,
+    least_px: float,
+    largest_px: float,
+    least_sigma_px: float,
+    min_matches: int,
+    min_share: float,
+) -> tuple[list[str], _Array2[np.float64], _Array2[np.float64], _Array1[np.bool_]]:
+    """Judges pairs of photos: "general", "planar", "too-few" or "mostly-false" of each; F and H, row by
+    row in 18 columns, NaN where there is none; sigma (px) and the scores of F and H; and whether
+    each match is true. The matches of pair n are rows offsets[n] to offsets[n + 1]. The distances
+    are of both photos together; with `seven`, seven matches are drawn instead of eight.
+    """
+
+def robust_fundamental(
+    first: _Array2[np.float64],
+    second: _Array2[np.float64],
+    method: str,
+    *,
+    draws: int,
+    seed: int,
+    seven: bool,
+    limit_px: float | None,
+) -> tuple[_Array2[np.float64], float, _Array1[np.bool_]] | None:
+    """F, sigma (px, of both photos together) and the matches that are taken to be true; None where no
+    draw gives one. method: "ransac", "lmeds" (each with the linear fit over what it keeps) or
+    "lmeds-m" (the M-estimator after it). limit_px: the distance up to which RANSAC counts a match;
+    where there is none, each draw's own sigma says it (algorithm 3).
+    """
+
+def robust_homography(
+    first: _Array2[np.float64], second: _Array2[np.float64], *, draws: int, seed: int
+) -> tuple[_Array2[np.float64], float, _Array1[np.bool_]] | None:
+    """H, sigma (px, of both photos together) and the matches that are taken to be true, by LMedS."""
+
+def linear_fundamental(
+    first: _Array2[np.float64], second: _Array2[np.float64], weights: _Array1[np.float64]
+) -> _Array2[np.float64]:
+    """The normalised eight points over eight or more matches, each with its weight: F of unit length."""
+
+def weigh_models(
+    first: _Array2[np.float64],
+    second: _Array2[np.float64],
+    fundamental: _Array2[np.float64],
+    homography: _Array2[np.float64],
+    of_fundamental: _Array1[np.bool_],
+    of_homography: _Array1[np.bool_],
+    least_sigma_px: float,
+) -> tuple[bool, float, float]:
+    """Whether a homography is taken before a fundamental matrix, and the scores (GRIC) of the latter and
+    of the former. Each comes with the matches that it explains; the errors of the fundamental matrix
+    are the noise, of `least_sigma_px` at least.
+    """

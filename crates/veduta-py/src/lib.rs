@@ -20,8 +20,10 @@ mod roofs;
 mod rules;
 mod standing;
 mod surroundings;
+mod texture;
 mod tile_buffers;
 mod tiles;
+mod two_views;
 mod volumes;
 
 #[pymodule]
@@ -35,6 +37,8 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     rules::register(m)?;
     derived_lots::register(m)?;
     surroundings::register(m)?;
+    texture::register(m)?;
     tile_buffers::register(m)?;
+    two_views::register(m)?;
     polygons::register(m)
 }

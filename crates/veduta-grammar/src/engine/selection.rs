@@ -236,9 +236,8 @@ impl Run<'_> {
         (index, total): (usize, usize),
         scene: &mut Scene<'_>,
     ) -> Result<Value, Fault> {
-        let mut state = scene.state.component(form);
-        state.comp = Place { index, total };
-        state.selector = cell.selector.name();
+        let place = Place { index, total };
+        let state = scene.state.selected(form, place, cell.selector.name());
         let value = self.value(&cell.value, &mut scene.of(&state))?;
         if let Value::Array(_) = value {
             return Err(Fault::at(cell.value.span, "an array in an array"));

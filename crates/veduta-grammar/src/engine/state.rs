@@ -124,6 +124,15 @@ impl State {
         }
     }
 
+    /// A component of this shape as the cell that takes it has it: `comp.index` and `comp.total` count
+    /// those of the cell, whose selector is `comp.sel`.
+    pub fn selected(&self, form: Form, place: Place, selector: Arc<str>) -> Self {
+        let mut state = self.component(form);
+        state.comp = place;
+        state.selector = selector;
+        state
+    }
+
     /// A component of this shape. Those of a roof are tagged by where they look, as in CityEngine:
     /// `roof.top` are slopes and what lies level, `roof.side` gables, `roof.bottom` its floor.
     pub fn component(&self, form: Form) -> Self {

@@ -95,8 +95,5 @@ fn run_shape(
     name: &Arc<str>,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    let mut state = whole.component(form);
-    state.comp = place;
-    state.selector = name.clone();
-    run.run_cell(body, state, frame)
+    run.run_cell(body, whole.selected(form, place, name.clone()), frame)
 }
