@@ -57,6 +57,8 @@ def _joined(pieces: list[trimesh.Trimesh]) -> ReadMesh:
         offsets=np.arange(0, 3 * count + 1, 3, dtype=np.int64),
         face_material=np.repeat(rows, [len(piece.faces) for piece in pieces]).astype(np.int32),
         materials=tuple(number_of),
+        face_group=np.zeros(count, dtype=np.int32),
+        groups=("",),
     )
 
 

@@ -1,6 +1,6 @@
 """Reading meshes from Wavefront OBJ files with the colours of their MTL files.
 
-Points, faces and materials count; normals, texture coordinates and groups do not.
+Points, faces, materials and groups count; normals and texture coordinates do not.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ class ReadMesh:
 
     points: (v, 3) float64. corners: (c,) uint32. offsets: (f + 1,) int64, first corner of each
     face. face_material: (f,) int32, place in `materials`: names with colours (sRGB, 0..1; None
-    where the file has none).
+    where the file has none). face_group: (f,) int32, place in `groups`: names of objects or groups.
     """
 
     points: NDArray[np.float64]
@@ -35,6 +35,8 @@ class ReadMesh:
     offsets: NDArray[np.int64]
     face_material: NDArray[np.int32]
     materials: tuple[tuple[str, Colour | None], ...]
+    face_group: NDArray[np.int32]
+    groups: tuple[str, ...]
 
 
 def read_obj(path: Path, root: Path) -> ReadMesh:
@@ -44,7 +46,10 @@ def read_obj(path: Path, root: Path) -> ReadMesh:
     corners: list[int] = []
     sizes: list[int] = []
     material: list[int] = []
+    group: list[int] = []
     names: dict[str, int] = {}
+    groups: dict[str, int] = {}
+    named = ""
     colours: dict[str, Colour] = {}
     current = ""
     for number, line in enumerate(lines, start=1):
@@ -60,6 +65,9 @@ def read_obj(path: Path, root: Path) -> ReadMesh:
                 corners += face
                 sizes.append(len(face))
                 material.append(names.setdefault(current, len(names)))
+                group.append(groups.setdefault(named, len(groups)))
+            elif word in ("o", "g"):
+                named = rest.strip()
             elif word == "usemtl":
                 current = rest.strip()
             elif word == "mtllib":
@@ -79,6 +87,8 @@ def read_obj(path: Path, root: Path) -> ReadMesh:
         offsets=np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64),
         face_material=np.array(material, dtype=np.int32),
         materials=tuple((name, colours.get(name)) for name in names),
+        face_group=np.array(group, dtype=np.int32),
+        groups=tuple(groups),
     )
 
 

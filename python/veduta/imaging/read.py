@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from veduta.imaging.colour import READABLE_MODES, srgb_on_white
-from veduta.imaging.exif import CameraTags, focal_px_from_mm35, read_camera_tags
+from veduta.imaging.exif import CameraTags, FocalSource, focal_px_from_mm35, read_camera_tags
 from veduta.imaging.shot import Shot, read_shot
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -60,7 +60,8 @@ class Photo:
     """An upright photo.
 
     `pixels` is (h, w, 3) uint8 sRGB with EXIF orientation applied and alpha laid on white;
-    `sha256` is that of the file's bytes; the focal length is None where EXIF has none. `shot` says
+    `sha256` is that of the file's bytes; the focal length is None where EXIF has none, and
+    `focal_source` says how EXIF gives it. `orientation` is that of the stored pixels. `shot` says
     with which camera, when and where it was taken, as far as EXIF does.
     """
 
@@ -71,6 +72,8 @@ class Photo:
     path: Path
     notes: tuple[str, ...] = ()
     shot: Shot = field(default_factory=Shot)
+    focal_source: FocalSource | None = None
+    orientation: int = 1
 
 
 def read_image(path: Path) -> Photo:
@@ -99,8 +102,10 @@ def read_image(path: Path) -> Photo:
         focal_mm35=tags.focal_mm35,
         focal_px=focal_px,
         path=path,
-        notes=notes + tags.notes + colour_notes,
+        notes=notes + tags.notes + shot.notes + colour_notes,
         shot=shot,
+        focal_source=tags.focal_source,
+        orientation=tags.orientation,
     )
 
 

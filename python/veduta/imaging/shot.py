@@ -32,11 +32,15 @@ class Position:
 
 @dataclass(frozen=True)
 class Shot:
-    """The camera (make and model), the local time and the position; None where nothing is told."""
+    """The camera (make and model), the local time and the position; None where nothing is told.
+
+    notes: what is told and cannot be true.
+    """
 
     camera: str | None = None
     time: datetime | None = None
     position: Position | None = None
+    notes: tuple[str, ...] = ()
 
 
 def read_shot(image: Image.Image) -> Shot:
@@ -45,10 +49,18 @@ def read_shot(image: Image.Image) -> Shot:
     words = [_text(exif.get(Base.Make)), _text(exif.get(Base.Model))]
     tags = exif.get_ifd(IFD.Exif)
     time = _time(tags.get(Base.DateTimeOriginal)) or _time(exif.get(Base.DateTime))
+    place = exif.get_ifd(IFD.GPSInfo)
+    position = _position(place)
+    notes = []
+    if position is None and place.get(GPS.GPSLatitude) is not None:
+        notes.append("EXIF gives a GPS position that cannot be true: not used")
+    if position is not None and position.altitude_m is None and _number(place.get(GPS.GPSAltitude)):
+        notes.append("EXIF gives a GPS altitude that cannot be true: not used")
     return Shot(
         camera=" ".join(word for word in words if word) or None,
         time=time,
-        position=_position(exif.get_ifd(IFD.GPSInfo)),
+        position=position,
+        notes=tuple(notes),
     )
 
 

@@ -77,7 +77,10 @@ def test_nothing_is_told() -> None:
     ],
 )
 def test_a_position_that_cannot_be(place: dict[int, Any]) -> None:
-    assert shot_of(gps=place).position is None
+    shot = shot_of(gps=place)
+    assert shot.position is None
+    assert len(shot.notes) == 1
+    assert "GPS position" in shot.notes[0]
 
 
 @pytest.mark.parametrize("text", ["0000:00:00 00:00:00", "yesterday", "2011:13:40 17:24:14", ""])
@@ -87,7 +90,9 @@ def test_a_time_that_cannot_be(text: str) -> None:
 
 def test_an_altitude_that_cannot_be() -> None:
     place = gps((48.0, 0.0, 0.0), (2.0, 0.0, 0.0)) | {GPS.GPSAltitude: 99_000.0}
-    assert shot_of(gps=place).position == Position(48.0, 2.0, None)
+    shot = shot_of(gps=place)
+    assert shot.position == Position(48.0, 2.0, None)
+    assert "altitude" in shot.notes[0]
 
 
 @given(

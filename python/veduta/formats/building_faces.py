@@ -1,0 +1,45 @@
+"""What a file of a city model says of its buildings, whatever its format."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.place.semantics import SemanticClass
+
+MOST_CORNERS = 20_000_000
+"""Of all rings of a file together."""
+Rings = tuple[NDArray[np.float64], ...]
+"""A polygon: its outline, counter-clockwise seen from outside, and its holes; (n, 3) each."""
+
+
+@dataclass(frozen=True)
+class BuildingFaces:
+    """The polygons of one building in the coordinates of its file.
+
+    classes: one for each polygon, None where the file does not say it. solid: whether the file
+    says that the polygons close a body.
+    """
+
+    id: str
+    polygons: tuple[Rings, ...]
+    classes: tuple[SemanticClass | None, ...]
+    attributes: Mapping[str, str | int | float] = field(default_factory=dict)
+    lod: str = ""
+    solid: bool = False
+
+
+@dataclass(frozen=True)
+class CityFile:
+    """The buildings of a file. epsg: None where it names no reference system.
+
+    left: buildings that cannot be used, as (name, reason).
+    """
+
+    buildings: tuple[BuildingFaces, ...]
+    epsg: int | None
+    notes: tuple[str, ...] = ()
+    left: tuple[tuple[str, str], ...] = ()
