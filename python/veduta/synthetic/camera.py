@@ -1,4 +1,4 @@
-"""A pinhole camera: x right, y down, z forward; the upper left pixel's centre is (0.5, 0.5)."""
+"""A camera: x right, y down, z forward; the upper left pixel's centre is (0.5, 0.5)."""
 
 from __future__ import annotations
 
@@ -7,25 +7,36 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.synthetic.lens import NO_DISTORTION, Distortion
+
 Points = NDArray[np.float64]
 FILM_DIAGONAL_MM = 43.2666153
 
 
 @dataclass(frozen=True)
 class Camera:
-    """Size and focal length in pixels, square pixels; `cam_from_world` is 4x4 and rigid."""
+    """Size and focal length in pixels; `cam_from_world` is 4x4 and rigid.
+
+    distortion: of the lens; without it a pinhole with square pixels.
+    """
 
     width_px: int
     height_px: int
     focal_px: float
     centre_px: tuple[float, float]
     cam_from_world: NDArray[np.float64]
+    distortion: Distortion = NO_DISTORTION
+
+    @property
+    def focals_px(self) -> NDArray[np.float64]:
+        """(2,) across and down."""
+        return np.array([self.focal_px, self.focal_px * self.distortion.aspect])
 
     @property
     def intrinsics(self) -> NDArray[np.float64]:
-        """K (3, 3): pixels from camera coordinates."""
-        x, y = self.centre_px
-        return np.array([[self.focal_px, 0, x], [0, self.focal_px, y], [0, 0, 1]])
+        """K (3, 3): pixels from camera coordinates, but for what the lens bends."""
+        (x, y), (across, down) = self.centre_px, self.focals_px
+        return np.array([[across, 0, x], [0, down, y], [0, 0, 1]])
 
     @property
     def position_m(self) -> NDArray[np.float64]:
@@ -43,12 +54,14 @@ class Camera:
         local = points_m @ self.cam_from_world[:3, :3].T + self.cam_from_world[:3, 3]
         depth = local[:, 2]
         safe = np.where(depth > 1e-9, depth, np.nan)[:, None]
-        return self.focal_px * local[:, :2] / safe + np.asarray(self.centre_px), depth
+        bent = self.distortion.bent(local[:, :2] / safe)
+        return self.focals_px * bent + np.asarray(self.centre_px), depth
 
     def rays(self, pixels: Points) -> NDArray[np.float64]:
         """World directions (n, 3) through pixels (n, 2); their depth along z forward is 1."""
         local = np.empty((len(pixels), 3))
-        local[:, :2] = (pixels - np.asarray(self.centre_px)) / self.focal_px
+        bent = (pixels - np.asarray(self.centre_px)) / self.focals_px
+        local[:, :2] = self.distortion.straight(bent)
         local[:, 2] = 1.0
         return np.asarray(local @ self.cam_from_world[:3, :3], np.float64)
 

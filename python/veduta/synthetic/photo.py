@@ -22,13 +22,16 @@ class Lens:
     """The faults of a camera.
 
     blur (px, deviation), vignetting (share lost in the corners), noise (deviation at mid grey,
-    share of white), JPEG quality (1..95).
+    share of white), JPEG quality (1..95), exposure (stops off the right one), tint (what the
+    white balance multiplies red, green and blue with).
     """
 
     blur_px: float = 0.45
     vignetting: float = 0.12
     noise: float = 0.006
     quality: int = 92
+    exposure: float = 0.0
+    tint: tuple[float, float, float] = (1.0, 1.0, 1.0)
 
 
 def develop(radiance: NDArray[np.float32], lens: Lens, seed: int) -> NDArray[np.uint8]:
@@ -41,6 +44,7 @@ def develop(radiance: NDArray[np.float32], lens: Lens, seed: int) -> NDArray[np.
         light = cv2.GaussianBlur(light, (0, 0), lens.blur_px).astype(np.float32)
     level = light @ np.array([0.2126, 0.7152, 0.0722], np.float32)
     light = light * np.float32(0.62 / max(float(np.percentile(level, 88)), 1e-4))
+    light = light * (2.0**lens.exposure * np.array(lens.tint)).astype(np.float32)
     rng = stream(seed, "noise")
     shot = np.sqrt(np.clip(light, 0.0, None) / 0.2 + 0.05)
     light = light + lens.noise * shot * rng.standard_normal(light.shape, dtype=np.float32)

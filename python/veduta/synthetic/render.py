@@ -105,8 +105,10 @@ def _shade(
     """Per ray: direct radiance, ambient radiance without occlusion, openness, polygon."""
     hits = scene.cast(origins, rays)
     unit = rays / np.linalg.norm(rays, axis=1, keepdims=True)
-    direct = light.seen(unit, skyline=False)
-    ambient = np.zeros_like(direct)
+    direct, ambient = np.zeros_like(unit), np.zeros_like(unit)
+    missed = np.ones(len(rays), np.bool_)
+    missed[hits.ray] = False
+    direct[missed] = light.seen(unit[missed], skyline=False)
     free = np.ones(len(rays), np.float32)
     polygon = np.full(len(rays), -1, np.int64)
     if len(hits.ray) == 0:

@@ -80,10 +80,13 @@ class RayScene:
         return Hits(ray, found["primID"][ray], found["tfar"][ray], weight)
 
     def blocked(
-        self, origins: NDArray[np.float32], directions: NDArray[np.float32], reach_m: float
+        self,
+        origins: NDArray[np.float32],
+        directions: NDArray[np.float32],
+        reach_m: float | NDArray[np.float64],
     ) -> NDArray[np.bool_]:
-        """Whether anything stands within `reach_m` along each ray."""
-        reach = np.full(len(origins), reach_m, np.float32)
+        """Whether anything stands within `reach_m` along each ray, one for all or one each."""
+        reach = np.array(np.broadcast_to(reach_m, len(origins)), np.float32)
         hit = self._tracer.run(origins, directions, reach, query="OCCLUDED")
         return np.asarray(hit >= 0)
 
