@@ -19,7 +19,8 @@ from veduta.formats.place_json import read_place
 QUICK = ("--lens", "pinhole", "--cameras", "shared", "--principal-point", "middle",
     "--max-features", "1500")  # fmt: skip
 FILES = {
-    ".veduta", "sparse", "pictures", "points.ply", "place.json", "report.json", "report.html",
+    ".veduta", "sparse", "pictures", "walls", "points.ply", "points.laz", "walls.json",
+    "georef.json", "place.json", "report.json", "report.html",
 }  # fmt: skip
 
 
@@ -67,7 +68,8 @@ def test_all_files_are_there_and_agree(out: Path) -> None:
     assert place.points[0].count == report["measures"]["points"] == model.num_points3D()
     assert report["measures"]["calibrated"] == 6
     assert [step["name"] for step in report["steps"]] == [
-        "read", "features", "match", "map", "cameras", "pictures", "write",
+        "read", "features", "match", "map", "cameras", "walls", "georeference", "pictures",
+        "pictures of walls", "write",
     ]  # fmt: skip
     for camera in place.cameras:
         assert Image.open(out / camera.picture).size == (camera.width_px, camera.height_px)
@@ -197,4 +199,21 @@ def test_killed_in_the_middle(
         run.communicate(timeout=DEADLINE_S)
     assert run.returncode == 0
     assert kept == stamps, "what was finished is not made again"
+    assert centre_errors_mm(out).mean() < 20.0
+
+
+@pytest.mark.slow
+def test_killed_while_it_maps(tmp_path: Path, scene: Path) -> None:
+    """What was matched is kept, and the next run ends with all photos."""
+    out = tmp_path / "out"
+    stages = out / ".veduta" / "photos"
+    with running("photos", scene, "-o", out, *QUICK) as run:
+        wait_for(lambda: any(stages.glob("*.mapping/round-0/growing-*/[0-9]*")))
+        run.send_signal(signal.SIGKILL)
+        run.communicate(timeout=DEADLINE_S)
+    assert run.returncode == -signal.SIGKILL
+    assert len(list(stages.glob("matches-*.db"))) == 1
+    done = veduta("photos", scene, "-o", out, *QUICK)
+    assert done.returncode == 0, done.stderr
+    assert "6 of 6 photos calibrated" in done.stdout
     assert centre_errors_mm(out).mean() < 20.0

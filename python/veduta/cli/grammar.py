@@ -161,17 +161,13 @@ def _tell_failures(result: DeriveResult) -> None:
 
 
 def _tell_result(result: DeriveResult) -> None:
+    from veduta.cli.kept import tell_kept
     from veduta.grammar.report import measures, summary_line
 
     print(summary_line(measures(result.built, result.total)))
     for note in result.notes:
         print(note)
-    for name in result.edited:
-        print(f"{result.out / name}: was edited and is left as it is")
-    for name in result.foreign:
-        print(f"{result.out / name}: was not made by veduta and is left as it is")
-    if result.up_to_date:
-        print(f"{result.out} is up to date; --force makes it anew")
+    tell_kept(result.out, result.edited, result.foreign, up_to_date=result.up_to_date)
     if result.built.count:
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
     print(f"What was done, and why: {result.out / 'report.html'}")

@@ -25,7 +25,13 @@ def run(arguments: list[str]) -> int:
     require_jobs(call.jobs)
     progress = Progress(quiet=call.quiet)
     result = run_photos(
-        call.photos, call.out, call.options(), progress, force=call.force, jobs=call.jobs
+        call.photos,
+        call.out,
+        call.options(),
+        progress,
+        given=call.given(),
+        force=call.force,
+        jobs=call.jobs,
     )
     if result.failure:
         print(f"error: {result.failure.subject}: {result.failure.reason}", file=sys.stderr)
@@ -35,6 +41,7 @@ def run(arguments: list[str]) -> int:
 
 
 def _tell(result: PhotosResult) -> None:
+    from veduta.cli.kept import tell_kept
     from veduta.photos.report import summary_line
 
     out = result.out
@@ -42,13 +49,10 @@ def _tell(result: PhotosResult) -> None:
         print(f"{name}: left out: {reason}")
     if len(result.left) > MOST_NAMED:
         print(f"and {len(result.left) - MOST_NAMED} more left out: {out / 'report.html'}")
-    for path in result.edited:
-        print(f"{out / path}: was edited and is left as it is")
-    for path in result.foreign:
-        print(f"{out / path}: was not made by veduta and is left as it is")
-    if result.up_to_date:
-        print(f"{out} is up to date; --force makes it anew")
+    tell_kept(out, result.edited, result.foreign, up_to_date=result.up_to_date)
     if result.failure is None:
         print(summary_line(result.measures))
+        for refused in result.measures.get("georef_refused", ()):
+            print(f"not laid into the world by {refused}")
         print(f"Look at it: {shlex.join(['veduta', 'view', str(out)])}")
     print(f"What was done, and why: {out / 'report.html'}")

@@ -9,14 +9,49 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.photos.options import CameraOptions, MatchOptions, PhotosOptions, RandomOptions
+from veduta.photos.intake.given import Given
+from veduta.photos.options import (
+    CameraOptions,
+    MatchOptions,
+    ModelOptions,
+    PhotosOptions,
+    RandomOptions,
+    TextureOptions,
+    VideoOptions,
+    WallOptions,
+)
 
 Photos = Annotated[
-    tyro.conf.Positional[Path],
+    tyro.conf.Positional[Path | None],
     tyro.conf.arg(
         metavar="DIR",
         help_behavior_hint="",
-        help="folder of photos of one place (JPEG, PNG, TIFF, WebP)",
+        help="folder of photos of one place (JPEG, PNG, TIFF, WebP); may be left out with --video",
+    ),
+]
+Masks = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="folder of masks: hall.png or hall.jpg.png for hall.jpg; nothing is looked for where"
+        " they are black",
+    ),
+]
+Film = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="FILE",
+        help_behavior_hint="",
+        help="film whose sharpest frames are photos, too (MP4, MOV, AVI, MKV, WebM)",
+    ),
+]
+Model = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="COLMAP model of the photos (binary or text) to take in place of matching and mapping",
     ),
 ]
 
@@ -25,16 +60,25 @@ Photos = Annotated[
 class PhotosCall:
     """Find where photos of a place were taken, with which lens, and the points that they show.
 
-    The cameras and points are in OUT/sparse (COLMAP), OUT/points.ply and OUT/place.json.
+    The cameras and points are in OUT/sparse (COLMAP), OUT/points.ply and OUT/place.json, in metres
+    of the world where a city model, ground control points or GPS say where they lie; the walls are
+    in OUT/walls.json and OUT/walls.
 
     Exit codes: 0 done (photos left out are named), 2 bad use or input, 3 no photos hang
     together, 1 a bug.
     """
 
-    photos: Photos
-    out: Out
+    photos: Photos = None
+    out: Out = field(kw_only=True)
+    masks: Masks = None
+    video: Film = None
+    from_colmap: Model = None
     match: MatchOptions = field(default_factory=MatchOptions)
     camera: CameraOptions = field(default_factory=CameraOptions)
+    frames: VideoOptions = field(default_factory=VideoOptions)
+    walls: WallOptions = field(default_factory=WallOptions)
+    world: ModelOptions = field(default_factory=ModelOptions)
+    texture: TextureOptions = field(default_factory=TextureOptions)
     random: RandomOptions = field(default_factory=RandomOptions)
     force: Force = False
     jobs: Jobs = None
@@ -42,4 +86,16 @@ class PhotosCall:
 
     def options(self) -> PhotosOptions:
         """What changes the result."""
-        return PhotosOptions(match=self.match, camera=self.camera, random=self.random)
+        return PhotosOptions(
+            match=self.match,
+            camera=self.camera,
+            video=self.frames,
+            walls=self.walls,
+            world=self.world,
+            texture=self.texture,
+            random=self.random,
+        )
+
+    def given(self) -> Given:
+        """What is given beside the photos."""
+        return Given(self.masks, self.video, self.from_colmap)

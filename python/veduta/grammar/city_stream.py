@@ -8,7 +8,6 @@ a feature with its own vertices in each line. Roads are looked for before all el
 from __future__ import annotations
 
 import json
-import re
 import tempfile
 from collections.abc import Iterator
 from pathlib import Path
@@ -26,7 +25,7 @@ from veduta.grammar.city_lots import (
     road_rings,
     vertices_of,
 )
-from veduta.grammar.json_stream import Broken, JsonStream
+from veduta.grammar.json_stream import NO_UTF8, Broken, JsonStream, refuse_constant
 from veduta.grammar.outline import Found, Outlines
 from veduta.run.errors import InputError
 
@@ -37,7 +36,6 @@ AT_ONCE = 1 << 18
 """Vertices that are worked on at a time."""
 _ANY = 1 << 62
 _TELLING = ("CityObjects", "vertices", "transform")
-_NO_UTF8 = re.compile("[\udc80-\udcff]")
 
 
 def is_city(path: Path) -> bool:
@@ -197,18 +195,14 @@ def _own_objects(feature: dict[str, Any]) -> list[tuple[str, Any]]:
 
 def _parsed(line: str) -> Any:
     """What a line says; `Broken` where it is no JSON."""
-    if _NO_UTF8.search(line):
+    if NO_UTF8.search(line):
         return Broken("it is no UTF-8")
     try:
-        return json.loads(line, parse_constant=_refuse_constant)
+        return json.loads(line, parse_constant=refuse_constant)
     except RecursionError:
         return Broken("it is nested too deep")
     except ValueError as error:
         return Broken(f"it is no JSON: {error}")
-
-
-def _refuse_constant(word: str) -> None:
-    raise ValueError(f"{word} is not a number")
 
 
 def _lines(path: Path) -> Iterator[tuple[int, str]]:

@@ -11,6 +11,7 @@ wider than what is looked at around a region.
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -34,14 +35,31 @@ def grounds_of(squares: Squares, most: int = MOST_LOTS) -> dict[str, Ground]:
     found: dict[str, Ground] = {}
     highest_m = float(anchors[:, 2].max())
     regions = list(_regions(squares.every, most))
-    outermost = _outermost(squares) if len(regions) > 1 else np.empty(0, dtype=np.int64)
+    town = _town(squares) if len(regions) > 1 else None
     for region in regions:
         own = {square.name for square in region}
-        every = _with_others(squares, region, anchors, outermost)
+        every = region if town is None else _with_others(town, region)
         blocks = (squares.block(square) for square in every)
         grounds = ground_of(blocks, highest_m)
         found |= {name: ground for name, ground in grounds.items() if name in own}
     return found
+
+
+@dataclass(frozen=True)
+class _Town:
+    """All lots by their rows: anchors_m (n, 3), (n,) numbers of squares, and `_outermost`."""
+
+    squares: Squares
+    anchors_m: NDArray[np.float64]
+    square_of: NDArray[np.int64]
+    outermost: NDArray[np.int64]
+
+
+def _town(squares: Squares) -> _Town:
+    square_of = np.empty(len(squares.lots), dtype=np.int64)
+    for number, square in enumerate(squares.every):
+        square_of[square.rows] = number
+    return _Town(squares, anchors_of(squares.lots), square_of, _outermost(squares))
 
 
 def _regions(every: Sequence[Square], most: int) -> Iterator[list[Square]]:
@@ -68,24 +86,15 @@ def _outermost(squares: Squares) -> NDArray[np.int64]:
     return np.unique(rows)
 
 
-def _with_others(
-    squares: Squares,
-    region: list[Square],
-    anchors: NDArray[np.float64],
-    outermost: NDArray[np.int64],
-) -> list[Square]:
+def _with_others(town: _Town, region: list[Square]) -> list[Square]:
     """The squares of a region between other lots, of earlier and of later squares.
 
     They are those around it, and the outermost of the town.
 
     A triangle between several blocks belongs to the last of them: so the order has to stay.
     """
-    if len(region) == len(squares.every):
-        return region
-    number = np.empty(len(anchors), dtype=np.int64)
-    for row, square in enumerate(squares.every):
-        number[square.rows] = row
-    first = squares.every.index(region[0])
+    anchors, number = town.anchors_m, town.square_of
+    first = town.squares.every.index(region[0])
     is_own = (number >= first) & (number < first + len(region))
     own = anchors[is_own, :2]
     low, high = own.min(axis=0) - AROUND_M, own.max(axis=0) + AROUND_M
@@ -94,7 +103,7 @@ def _with_others(
     if len(rows):
         distance_m, _ = cKDTree(own).query(anchors[rows, :2], distance_upper_bound=AROUND_M)
         rows = rows[np.isfinite(distance_m)]
-    rows = np.union1d(rows, outermost[~is_own[outermost]])
+    rows = np.union1d(rows, town.outermost[~is_own[town.outermost]])
     before, after = rows[number[rows] < first], rows[number[rows] >= first]
     outside = [Square(name, some, (0.0, 0.0, 0.0)) for name, some in (("<", before), (">", after))]
     return [one for one in (outside[0], *region, outside[1]) if len(one.rows)]

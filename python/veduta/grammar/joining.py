@@ -61,22 +61,27 @@ def write_ground(
         if name not in done:
             continue
         (work / GROUND).mkdir(exist_ok=True)
-        number = name.rpartition("/")[2]
+        number = _number(name)
         points = ground.points_m - origins[name]
         row = BuildingRow(GROUND, NAME)
         tile, model = f"{GROUND}/{number}.glb", f"{GROUND}/{number}-model.glb"
         write_bytes(work / tile, ground_glb(points, ground.triangles, row, COLOUR))
         if separate:
-            write_glb(ground_part(part_id(number), points, ground.triangles), work / model)
+            write_glb(ground_part(part_id(name), points, ground.triangles), work / model)
         low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         box = (low[0], low[1], low[2]), (high[0], high[1], high[2])
         found[name] = GroundFiles(ground, box, tile, model if separate else None)
     return found
 
 
-def part_id(number: str) -> str:
+def part_id(block: str) -> str:
     """What the ground of a block is called in the place: no lot's name has a colon."""
-    return f"{GROUND}:{number}"
+    return f"{GROUND}:{_number(block)}"
+
+
+def _number(block: str) -> str:
+    """The last part of a block's path."""
+    return block.rpartition("/")[2]
 
 
 def write_ground_city(path: Path, grounds: Mapping[str, GroundFiles]) -> None:
@@ -86,6 +91,5 @@ def write_ground_city(path: Path, grounds: Mapping[str, GroundFiles]) -> None:
         ground = files.ground
         between = ground.triangles[: ground.between]
         if len(between):
-            own = part_id(name.rpartition("/")[2])
-            lines.append(relief_line(own, ground.points_m, between))
+            lines.append(relief_line(part_id(name), ground.points_m, between))
     write_bytes(path, "".join(f"{line}\n" for line in lines).encode())

@@ -12,7 +12,7 @@ import re
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NoReturn
 
 from veduta.run.errors import InputError
 
@@ -24,8 +24,14 @@ _SPACE = re.compile(r"[ \t\r\n]*")
 _TOKEN = re.compile(r'"[^"\\]*(?:\\.[^"\\]*)*"|["\[\]{}]', re.DOTALL)
 _WORD_END = re.compile(r"[,\]}]")
 _LAST_ROW = re.compile(r"\][ \t\r\n]*\]")
-_NO_UTF8 = re.compile("[\udc80-\udcff]")
+NO_UTF8 = re.compile("[\udc80-\udcff]")
+"""What stands for bytes that are no UTF-8, by `surrogateescape`."""
 _OPENS = {"]": "[", "}": "{"}
+
+
+def refuse_constant(word: str) -> NoReturn:
+    """For `json.loads`: NaN and Infinity are no JSON."""
+    raise ValueError(f"{word} is not a number")
 
 
 @dataclass(frozen=True)
@@ -136,7 +142,7 @@ class JsonStream:
         begin, self._at = self._at, end
         if self._constant:
             return Broken(f"{self._constant} is not a number")
-        if self._has_bytes and _NO_UTF8.search(self._text, begin, end):
+        if self._has_bytes and NO_UTF8.search(self._text, begin, end):
             return Broken("it is no UTF-8")
         return value
 
@@ -232,7 +238,7 @@ class JsonStream:
             raise InputError(self._path, told, "Check its permissions.") from error
 
     def _noticed(self, text: str) -> str:
-        self._has_bytes = self._has_bytes or _NO_UTF8.search(text) is not None
+        self._has_bytes = self._has_bytes or NO_UTF8.search(text) is not None
         return text
 
     def _note_constant(self, word: str) -> None:

@@ -18,7 +18,7 @@ import tempfile
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Any, NoReturn
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -35,6 +35,7 @@ from veduta.grammar.failures import Failures
 from veduta.grammar.feature_stream import FeatureStream
 from veduta.grammar.frames import Frame, Survey, find_frame, height_origin, named_crs
 from veduta.grammar.geojson_lots import feature_outlines, features_of
+from veduta.grammar.json_stream import refuse_constant
 from veduta.grammar.lot import (
     Lot,
     SpooledLots,
@@ -267,7 +268,7 @@ def _require(path: Path) -> None:
 
 def _read_json(path: Path) -> dict[str, Any]:
     try:
-        document = json.loads(path.read_bytes(), parse_constant=_refuse_constant)
+        document = json.loads(path.read_bytes(), parse_constant=refuse_constant)
     except OSError as error:
         raise InputError(
             path, f"cannot be read ({error.strerror})", "Check its permissions."
@@ -279,7 +280,3 @@ def _read_json(path: Path) -> dict[str, Any]:
     if not isinstance(document, dict):
         raise InputError(path, "is not GeoJSON: it is no object", "Save it as GeoJSON.")
     return document
-
-
-def _refuse_constant(word: str) -> NoReturn:
-    raise ValueError(f"{word} is not a number")

@@ -154,7 +154,7 @@ def _ground(name: str, origin_m: Sequence[float], files: GroundFiles) -> PlacePa
     transform[12:15] = origin_m
     low, high = files.box
     return PlacePart(
-        id=part_id(name.rpartition("/")[2]),
+        id=part_id(name),
         name=NAME,
         model=files.model or files.tile,
         transform=tuple(transform),

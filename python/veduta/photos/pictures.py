@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.imaging.read import read_image
-from veduta.photos.read import PhotoRecord
+from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.structure import Structure
 from veduta.run.progress import StepProgress, no_progress
 

@@ -8,23 +8,32 @@ import numpy as np
 
 from veduta.photos.pictures import Pinhole, picture_name
 from veduta.photos.structure import Structure
-from veduta.place.manifest import Bounds, Place, PlaceCamera, PlacePoints, Start, Vector
+from veduta.photos.texture.step import Textured
+from veduta.photos.world.georeference import Georeference
+from veduta.place.manifest import Bounds, Place, PlaceCamera, PlacePart, PlacePoints, Start, Vector
 
 POINTS = "points.ply"
+CLOUD = "points.laz"
 PICTURES = "pictures"
-STRAY_SHARE = 0.02
-"""Share of the points at each end of each axis that the bounds leave out: a few lie far off."""
 
 
-def place_of(structure: Structure, cameras: Sequence[Pinhole]) -> Place:
-    """The manifest of one component; its unit of length is not known."""
-    low, high = np.quantile(structure.points, [STRAY_SHARE, 1.0 - STRAY_SHARE], axis=0)
+def place_of(
+    structure: Structure,
+    cameras: Sequence[Pinhole],
+    walls: PlacePart | None = None,
+    world: Georeference | None = None,
+    textured: Textured | None = None,
+) -> Place:
+    """The manifest of one component, with the city model's buildings and its walls as parts.
+
+    The unit of length is known where the component lies in the world.
+    """
+    low, high = structure.seen_box()
     centres = structure.centres()
-    low, high = np.minimum(low, centres.min(axis=0)), np.maximum(high, centres.max(axis=0))
     middle = structure.cam_from_world[len(centres) // 2]
     eye = centres[len(centres) // 2]
     return Place(
-        parts=[],
+        parts=_parts(walls, textured),
         points=[
             PlacePoints(
                 id="points",
@@ -34,9 +43,22 @@ def place_of(structure: Structure, cameras: Sequence[Pinhole]) -> Place:
             )
         ],
         cameras=[_camera(structure, row, camera) for row, camera in enumerate(cameras)],
-        scale="unknown",
+        crs=None if world is None else world.crs,
+        origin=(0.0, 0.0, 0.0) if world is None else world.origin_m,
+        scale="unknown" if world is None else "metres",
         start=Start(eye=_vector(eye), target=_vector(eye + middle[2, :3])),
     )
+
+
+def _parts(walls: PlacePart | None, textured: Textured | None) -> list[PlacePart]:
+    buildings = () if textured is None else textured.parts
+    if walls is None:
+        return list(buildings)
+    taken = {building.id for building in buildings}
+    name = walls.id
+    while name in taken:  # a city model may call a building so
+        name = f"{name}-found"
+    return [*buildings, walls.model_copy(update={"id": name})]
 
 
 def _camera(structure: Structure, row: int, pinhole: Pinhole) -> PlaceCamera:

@@ -4,25 +4,51 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 
-from veduta.photos.component import Component
-from veduta.photos.engine import NAME, engine_version
-from veduta.photos.match import PairRecord
+from veduta.photos.cameras.component import Component
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.laying import Laid
+from veduta.photos.mapping.doubt import Doubt
+from veduta.photos.mapping.engine import NAME, engine_version
+from veduta.photos.matching.match import PairRecord
 from veduta.photos.options import PhotosOptions
-from veduta.photos.read import PhotoRecord
+from veduta.photos.report_doubts import (
+    FOLDED_NOTE,
+    component_name,
+    components_note,
+    doubts_note,
+    doubts_table,
+)
 from veduta.photos.report_pictures import error_picture, match_picture, plan_picture
-from veduta.photos.structure import errors_px
-from veduta.run.page import Bars, Page, Table, render
+from veduta.photos.texture.step import Textured
+from veduta.photos.walls.report import walls_pictures, walls_table
+from veduta.photos.walls.step import FoundWalls
+from veduta.photos.world.report import (
+    georef_line,
+    georef_measures,
+    georef_notes,
+    georef_tables,
+)
+from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord, counted, versions
 
 FILES = (
-    ("sparse/", "cameras, photos and points in the format of COLMAP, a folder per component"),
+    ("sparse/", "cameras, photos and points as COLMAP has them (`.bin`, `.txt`), by component"),
     ("points.ply", "the points of the first component, with colours"),
+    ("points.laz", "the same, for survey software"),
+    ("frames/", "with `--video`: the frames of the film that are photos"),
     ("pictures/", "the photos without the distortion of the lens, as the studio shows them"),
-    ("place.json", "points and cameras, for `veduta view`"),
+    ("walls.json", "the walls that the points speak for: ends, heights, and their pictures"),
+    ("walls/", "a metric picture of each wall (transparent: not seen), and `walls.glb`"),
+    ("georef.json", "where the place lies in the world, how well that is known, and why"),
+    ("model.city.json", "the city model with textures, where photos lie in one (CityJSON)"),
+    ("textures/", "its pictures, and of each a mask: white where no photo shows it"),
+    ("parts/", "its buildings, a file each (glTF binary)"),
+    ("tileset.json", "all its buildings, for viewers of 3D Tiles"),
+    ("place.json", "points, cameras, walls and the textured model, for `veduta view`"),
 )
 ENGINE_NOTE = (
     "the engine adds up on several threads: another run may differ in the last digits of a pose"
@@ -31,7 +57,7 @@ SCALE_NOTE = (
     "the scale is not known: nothing in the photos says it. The unit is chosen so that points lie"
     " 10 from the cameras in the middle"
 )
-UP_NOTE = "up is inferred: people hold cameras level"
+UP_NOTE = "up is inferred: people hold cameras level, and walls and vertical edges stand upright"
 
 
 @dataclass
@@ -47,14 +73,27 @@ class Told:
     how: str = ""
     pairs: list[PairRecord] = field(default_factory=list)
     keypoints: list[int] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
+    """What else a person has to know of the run."""
+    is_given: bool = False
+    """Whether other software has made the model."""
     components: list[Component] = field(default_factory=list)
+    doubts: tuple[Doubt, ...] = ()
+    """Pairs that match, and that were not mapped with."""
+    folded: bool = False
+    """Whether photos contradict each other all the same."""
+    laid: list[Laid] = field(default_factory=list)
+    """The components where they lie."""
+    walls: FoundWalls = field(default_factory=lambda: FoundWalls((), ()))
+    """Of the first component."""
+    textured: Textured | None = None
+    """The city model, where the first component lies in one."""
 
 
 def measures_of(told: Told) -> dict[str, Any]:
     """The run in numbers; sizes of the first component, which is shown."""
-    first = told.components[0].structure
+    first, errors = told.components[0].structure, told.components[0].errors_px
     kind = told.components[0].lens.kind
-    errors = errors_px(first)
     return {
         "photos": len(told.photos) + len(told.left) - _placeless(told),
         "calibrated": sum(len(item.structure.names) for item in told.components),
@@ -62,15 +101,19 @@ def measures_of(told: Told) -> dict[str, Any]:
         "keypoints_mean": round(float(np.mean(told.keypoints)), 1),
         "pairs": len(told.pairs),
         "pairs_verified": sum(pair.verified > 0 for pair in told.pairs),
+        "pairs_doubtful": len(told.doubts),
         "points": len(first.points),
         "observations": len(first.point_of),
         "track_mean": round(len(first.point_of) / max(1, len(first.points)), 3),
         "error_px": round(float(errors.mean()), 4),
         "error_median_px": round(float(np.median(errors)), 4),
+        "walls": len(told.walls.walls),
         "lens": kind.lens,
         "cameras": kind.sharing,
         "principal_point": kind.principal_point,
         "seconds": round(sum(step.seconds for step in told.steps), 1),
+        **georef_measures([one.georef for one in told.laid]),
+        **({} if told.textured is None else told.textured.measures),
     }
 
 
@@ -84,36 +127,42 @@ def summary_line(measures: dict[str, Any]) -> str:
     """What was found, in a line."""
     parts = measures["components"]
     several = f" in {len(parts)} components" if len(parts) > 1 else ""
+    world = georef_line(measures)
     return (
         f"{measures['calibrated']} of {counted(measures['photos'], 'photo')} calibrated{several}, "
         f"{measures['points']:,} points, {measures['error_px']:.2f} px off on average"
+        + (f"; {world}" if world else "")
     )
 
 
 def photos_report(told: Told) -> tuple[Report, bytes]:
     """The report of a run, and its page."""
     measures = measures_of(told)
-    report = Report(
-        verb="photos",
-        subject=told.folder,
-        state="done",
-        options=told.options.model_dump(mode="json"),
-        steps=told.steps,
-        measures=measures,
-        notes=_notes(told),
-        versions={**versions(), NAME: engine_version()},
-    )
+    report = _report(told, "done", measures=measures, notes=_notes(told))
     component = told.components[0]
+    georef = [one.georef for one in told.laid]
     page = Page(
         title=told.folder,
         summary=summary_line(measures),
         facts=_facts(measures),
         pictures=[
             plan_picture(component.structure),
-            match_picture([photo.image_id for photo in told.photos], told.pairs),
-            error_picture(errors_px(component.structure)),
+            *walls_pictures(component.structure, told.walls),
+            *(picture for one in told.laid for picture in one.pictures),
+            *(() if told.textured is None else told.textured.pictures),
+            _matches(told),
+            error_picture(component.errors_px),
         ],
-        tables=[_run_table(told, measures), _cameras(told), *_left(told), *_kinds(told)],
+        tables=[
+            _run_table(told, measures),
+            *georef_tables(georef),
+            *(() if told.textured is None else told.textured.tables),
+            *walls_table(told.walls, "unknown" if georef[0].accepted is None else "metres"),
+            _cameras(told),
+            *_left(told),
+            *doubts_table(told.doubts, {photo.image_id: photo.name for photo in told.photos}),
+            *_kinds(told),
+        ],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in told.steps])],
         files=FILES,
     )
@@ -122,18 +171,10 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
 
 def failure_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
     """The report of a run that gave nothing: how far it came, and why it ended there."""
-    report = Report(
-        verb="photos",
-        subject=told.folder,
-        state="failed",
-        options=told.options.model_dump(mode="json"),
-        steps=told.steps,
-        failures=[failure],
-        versions={**versions(), NAME: engine_version()},
-    )
+    report = _report(told, "failed", failures=[failure])
     pictures = []
     if told.pairs:
-        pictures = [match_picture([photo.image_id for photo in told.photos], told.pairs)]
+        pictures = [_matches(told)]
     page = Page(
         title=told.folder,
         summary="No photos could be placed.",
@@ -143,25 +184,57 @@ def failure_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
     return report, render(report, page)
 
 
+def _matches(told: Told) -> Picture:
+    doubtful = [(doubt.first, doubt.second) for doubt in told.doubts]
+    return match_picture([photo.image_id for photo in told.photos], told.pairs, doubtful)
+
+
+def _report(told: Told, state: Literal["done", "failed"], **found: Any) -> Report:
+    return Report(
+        verb="photos",
+        subject=told.folder,
+        state=state,
+        options=told.options.model_dump(mode="json"),
+        steps=told.steps,
+        versions={**versions(), NAME: engine_version()},
+        **found,
+    )
+
+
 def _notes(told: Told) -> list[str]:
-    notes = [SCALE_NOTE, f"{UP_NOTE}; theirs lie {told.components[0].level_deg:.1f}° off"]
+    georef = [one.georef for one in told.laid]
+    in_world = bool(georef) and georef[0].accepted is not None
+    notes = [] if in_world else [SCALE_NOTE]
+    notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
+    notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)
-    if unknown:
+    if unknown and not told.is_given:
         notes.append(
             f"{counted(unknown, 'photo')} of {len(told.photos)} without a focal length in EXIF:"
             " it was found from the photos alone"
         )
-    if len(told.components) > 1:
-        sizes = ", ".join(
-            f"sparse/{number} ({len(item.structure.names)} photos)"
-            for number, item in enumerate(told.components)
-        )
+    listed = sum(photo.focal_source == "camera-table" for photo in told.photos)
+    if listed:
         notes.append(
-            f"the photos fall into components that share no view: {sizes}. How they lie to each"
-            " other is not known; points.ply and place.json show the first"
+            f"{counted(listed, 'photo')} of {len(told.photos)} whose EXIF gives a focal length in"
+            " millimetres alone: the size of the sensor is from the table of cameras"
         )
-    return [*notes, ENGINE_NOTE]
+    if len(told.components) > 1:
+        sizes = [len(item.structure.names) for item in told.components]
+        notes.append(components_note(sizes, [one.accepted is not None for one in georef]))
+    if told.doubts:
+        notes.append(doubts_note(told.doubts))
+    if told.folded:
+        notes.append(FOLDED_NOTE)
+    return notes if told.is_given else [*notes, ENGINE_NOTE]
+
+
+def _up_note(component: Component) -> str:
+    note = f"{UP_NOTE}; the cameras lie {component.level_deg:.1f}° off"
+    if component.upright is None:
+        return note
+    return f"{note}, and what is upright moved it by {component.upright.moved_deg:.1f}°"
 
 
 def _facts(measures: dict[str, Any]) -> list[tuple[str, str]]:
@@ -196,15 +269,14 @@ def _cameras(told: Told) -> Table:
     rows: list[Sequence[float | int | str | None]] = []
     exif = {photo.image_id: photo.focal_px for photo in told.photos}
     for number, component in enumerate(told.components):
-        structure = component.structure
-        errors = errors_px(structure)
+        structure, errors = component.structure, component.errors_px
         for row, image_id in enumerate(structure.image_ids):
             own = structure.image_of == row
             camera = structure.camera(row)
             rows.append(
                 [
                     structure.names[row],
-                    number,
+                    component_name(number),
                     int(own.sum()),
                     round(float(errors[own].mean()), 3) if own.any() else None,
                     round(camera.mean_focal_length(), 1),
@@ -241,7 +313,9 @@ def _kinds(told: Told) -> list[Table]:
             ]
             for candidate in component.lens.tried
         ]
-        title = "Which kind of camera" + (f" (component {number})" if number else "")
+        title = "Which kind of camera" + (
+            f" (component {component_name(number)})" if number else ""
+        )
         if rows:
             tables.append(Table(title, columns, rows, note=note, for_experts=True))
     return tables

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.photos.match import PairRecord
+from veduta.photos.matching.match import PairRecord
 from veduta.photos.structure import Structure
 from veduta.run.page import Picture
 
@@ -25,8 +25,7 @@ BINS = 40
 def plan_picture(structure: Structure) -> Picture:
     """The points from above in their colours, and each camera with the way that it looks."""
     centres, ahead = structure.centres()[:, :2], structure.cam_from_world[:, 2, :2]
-    low, high = np.quantile(structure.points[:, :2], [0.02, 0.98], axis=0)
-    low, high = np.minimum(low, centres.min(axis=0)), np.maximum(high, centres.max(axis=0))
+    low, high = (corner[:2] for corner in structure.seen_box())
     scale = (SIDE_PX - 2 * MARGIN_PX) / float((high - low).max())
     width, height = (np.ceil((high - low) * scale).astype(int) + 2 * MARGIN_PX).tolist()
     pixels = _paper(height, width)
@@ -46,11 +45,15 @@ def plan_picture(structure: Structure) -> Picture:
         cv2.line(pixels, start, end, CAMERA, 2, cv2.LINE_AA)
         cv2.circle(pixels, start, 5, CAMERA, -1, cv2.LINE_AA)
     note = "Points in their colours; a red dot is a camera, the line the way that it looks."
-    return Picture("From above", note, _png(pixels), "image/png")
+    return Picture("From above", note, png(pixels), "image/png")
 
 
-def match_picture(image_ids: Sequence[int], pairs: Sequence[PairRecord]) -> Picture:
-    """A cell per pair of photos, the darker the more features agree."""
+def match_picture(
+    image_ids: Sequence[int],
+    pairs: Sequence[PairRecord],
+    doubtful: Sequence[tuple[int, int]] = (),
+) -> Picture:
+    """A cell per pair of photos, the darker the more features agree; doubtful ones are red."""
     rows = {image_id: row for row, image_id in enumerate(image_ids)}
     counts = np.zeros((len(rows), len(rows)))
     for pair in pairs:
@@ -58,6 +61,11 @@ def match_picture(image_ids: Sequence[int], pairs: Sequence[PairRecord]) -> Pict
         counts[rows[pair.second], rows[pair.first]] = pair.verified
     share = np.log1p(counts) / max(1.0, float(np.log1p(counts).max()))
     ink = (1.0 - share)[:, :, None] * np.array(PAPER) + share[:, :, None] * np.array(INK)
+    if doubtful:
+        at = np.array([(rows[first], rows[second]) for first, second in doubtful])
+        at = np.concatenate([at, at[:, ::-1]])
+        strength = share[at[:, 0], at[:, 1], None]
+        ink[at[:, 0], at[:, 1]] = (1.0 - strength) * np.array(PAPER) + strength * np.array(CAMERA)
     ink[np.eye(len(rows), dtype=bool)] = FAINT
     side = max(1, SIDE_PX // max(1, len(rows))) * len(rows)
     pixels = cv2.resize(ink.astype(np.uint8), (side, side), interpolation=cv2.INTER_NEAREST)
@@ -65,8 +73,9 @@ def match_picture(image_ids: Sequence[int], pairs: Sequence[PairRecord]) -> Pict
     note = (
         "Which photos agree: a row and a column per photo in the order of their names, the darker"
         f" the more features. {planar} pairs are explained by a plane."
+        + (f" Red: {len(doubtful)} doubtful pairs, which were not used." if doubtful else "")
     )
-    return Picture("Matches", note, _png(pixels), "image/png")
+    return Picture("Matches", note, png(pixels), "image/png")
 
 
 def error_picture(errors_px: NDArray[np.float64]) -> Picture:
@@ -94,14 +103,22 @@ def error_picture(errors_px: NDArray[np.float64]) -> Picture:
             cv2.LINE_AA,
         )
     note = "How far a point's projection lies from where the point was seen, in pixels."
-    return Picture("Reprojection errors", note, _png(pixels), "image/png")
+    return Picture("Reprojection errors", note, png(pixels), "image/png")
 
 
 def _paper(height: int, width: int) -> NDArray[np.uint8]:
     return np.full((height, width, 3), PAPER, dtype=np.uint8)
 
 
-def _png(pixels: NDArray[np.uint8]) -> bytes:
+def png(pixels: NDArray[np.uint8]) -> bytes:
+    """The file of (h, w, 3) pixels."""
     file = io.BytesIO()
     Image.fromarray(pixels).save(file, format="PNG", optimize=True)
+    return file.getvalue()
+
+
+def jpeg(pixels: NDArray[np.uint8]) -> bytes:
+    """The file of (h, w, 3) pixels, where there are photos in them."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, format="JPEG", quality=85)
     return file.getvalue()

@@ -12,14 +12,15 @@ from pathlib import Path
 
 from pydantic import JsonValue
 
-from veduta.photos.call import Call
+from veduta.photos.intake.call import Call
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.intake.video import Video
 from veduta.photos.options import PhotosOptions
-from veduta.photos.read import PhotoRecord
 from veduta.run.digests import result_key
 from veduta.run.outputs import writing_to
 from veduta.run.record import PRIVATE
 
-VERSION = "1"
+VERSION = "3"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = "photos"
 FOLDER = f"{PRIVATE}/photos"
@@ -43,21 +44,28 @@ class Stages:
         with writing_to(self.out):
             self.folder.mkdir(parents=True, exist_ok=True)
 
+    def frames(self, video: Video) -> Path:
+        """The frames that were taken from a film."""
+        key = result_key("video", VERSION, self.options.video, [video.name, video.sha256])
+        return self.folder / f"frames-{key[:24]}"
+
     def features(self, photo: PhotoRecord) -> Path:
         """The features of a photo."""
-        key = result_key("features", VERSION, self.options.match, [photo.sha256])
+        key = result_key("features", VERSION, self.options.match, [photo.sha256, photo.mask_sha256])
         return self.folder / f"features-{key[:24]}.npz"
 
     def database(self) -> Path:
         """The engine's database with features and matches of all photos."""
-        photos: list[JsonValue] = [[source.name, source.sha256] for source in self.call.sources]
+        photos: list[JsonValue] = [
+            [source.name, source.sha256, source.mask_sha256] for source in self.call.sources
+        ]
         told: list[JsonValue] = [photos, self.options.random.seed, self.options.camera.cameras]
         key = result_key("match", VERSION, self.options.match, told)
         return self.folder / f"matches-{key[:24]}.db"
 
-    def models(self) -> Path:
-        """The components as mapping left them, numbered."""
-        return self.database().with_suffix(".models")
+    def mapping(self) -> Path:
+        """Components that are mapped, pairs that are doubted, and snapshots."""
+        return self.database().with_suffix(".mapping")
 
     def drop(self) -> None:
         """The run is finished: none of it is needed any more."""

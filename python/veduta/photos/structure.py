@@ -13,9 +13,11 @@ import numpy as np
 import pycolmap
 from numpy.typing import NDArray
 
-from veduta.photos.engine import quiet_engine
+from veduta.photos.mapping.engine import quiet_engine
 from veduta.run.errors import NotFoundError
 
+STRAY_SHARE = 0.02
+"""Share of the points at each end of each axis that lie far off."""
 _REMEDY = "Choose the lens model and the sharing of cameras yourself (--lens, --cameras)."
 
 
@@ -53,6 +55,12 @@ class Structure:
         centres: NDArray[np.float64] = -np.einsum("nji,nj->ni", rotations, shifts)
         return centres
 
+    def seen_box(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Lower and upper corner around the photos and nearly all points: a few lie far off."""
+        low, high = np.quantile(self.points, [STRAY_SHARE, 1.0 - STRAY_SHARE], axis=0)
+        centres = self.centres()
+        return np.minimum(low, centres.min(axis=0)), np.maximum(high, centres.max(axis=0))
+
     def with_cameras(
         self, cameras: Mapping[int, pycolmap.Camera], camera_of: Mapping[int, int]
     ) -> Structure:
@@ -84,6 +92,24 @@ class Structure:
         kept = np.zeros(len(self.points), dtype=bool)
         kept[rng.choice(len(self.points), most, replace=False)] = True
         return self.with_points(kept)
+
+    def without_photos(self, weak: NDArray[np.bool_]) -> Structure:
+        """The same without some of the photos (by row), nor points that fewer than two see then."""
+        row_of = np.cumsum(~weak) - 1
+        kept = np.flatnonzero(~weak).tolist()
+        ids = tuple(self.image_ids[row] for row in kept)
+        seen = self.observed(~weak[self.image_of])
+        found = replace(
+            seen,
+            cameras={self.camera_of[image]: self.cameras[self.camera_of[image]] for image in ids},
+            camera_of={image: self.camera_of[image] for image in ids},
+            image_ids=ids,
+            names=tuple(self.names[row] for row in kept),
+            cam_from_world=self.cam_from_world[kept],
+            keypoints_px=tuple(self.keypoints_px[row] for row in kept),
+            image_of=row_of[seen.image_of],
+        )
+        return found.with_points(np.bincount(found.point_of, minlength=len(self.points)) >= 2)
 
     def with_points(self, kept: NDArray[np.bool_]) -> Structure:
         """The same with some of the points, and their observations."""

@@ -65,11 +65,10 @@ def test_regions_have_the_triangles_of_all_at_once() -> None:
 def test_a_region_looks_at_few_others(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(ground_regions, "AROUND_M", 25.0)
     squares = town(16)
-    anchors = np.array([lot.anchor_m for lot in squares.lots])
-    outermost = ground_regions._outermost(squares)
+    whole = ground_regions._town(squares)
     for region in ground_regions._regions(squares.every, 60):
         own = sum(len(square.rows) for square in region)
-        every = ground_regions._with_others(squares, region, anchors, outermost)
+        every = ground_regions._with_others(whole, region)
         assert own <= 60
         assert own < sum(len(square.rows) for square in every) <= 4 * own
 

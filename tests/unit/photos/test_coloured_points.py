@@ -10,7 +10,7 @@ from known_structure import known_structure
 from photo_scene import Pose
 from scipy.spatial.transform import Rotation
 
-from veduta.photos.orient import TYPICAL_DISTANCE, oriented, transformed, up_direction
+from veduta.photos.cameras.orient import TYPICAL_DISTANCE, oriented, transformed, up_direction
 from veduta.photos.structure import (
     errors_px,
     model_of,

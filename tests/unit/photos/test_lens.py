@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from known_structure import known_structure
 
-from veduta.photos.lens import CameraKind, Candidate, choose_lens, simplest_of, with_cameras
+from veduta.photos.cameras.lens import CameraKind, Candidate, choose_lens, simplest_of, with_cameras
 from veduta.photos.options import CameraOptions
 from veduta.photos.structure import Structure, adjusted
 
@@ -65,12 +65,30 @@ def test_the_same_seed_chooses_the_same() -> None:
 
 
 def test_simplest_of_what_is_as_good() -> None:
-    noise = np.array([0.01, -0.01, 0.012, -0.009])
-    simple = Candidate(CameraKind("pinhole", "shared", "middle"), 2, 0.50, 0.25 + noise)
-    rich = Candidate(CameraKind("opencv", "shared", "middle"), 6, 0.499, np.full(4, 0.249))
+    rng = np.random.default_rng(2)
+    photo_of = np.repeat(np.arange(8), 50)
+    errors = np.abs(rng.normal(0.0, 0.5, 400))
+    jitter = 0.02 * rng.standard_normal(400)
+    simple = Candidate(CameraKind("pinhole", "shared", "middle"), 2, errors + jitter, photo_of)
+    rich = Candidate(CameraKind("opencv", "shared", "middle"), 6, errors, photo_of)
     assert simplest_of([simple, rich]) is simple
-    poor = Candidate(simple.kind, 2, 0.6, np.full(4, 0.36) + noise)
+    poor = Candidate(simple.kind, 2, 1.3 * errors + jitter, photo_of)
     assert simplest_of([poor, rich]) is rich
+    # A few false matches, which fall better by chance, do not make up for that.
+    lucky = np.where(np.arange(400) % 50 == 0, 9.0, errors)
+    unlucky = np.where(np.arange(400) % 50 == 0, 30.0, errors)
+    poor = Candidate(simple.kind, 2, 1.3 * lucky, photo_of)
+    assert simplest_of([poor, Candidate(rich.kind, 6, unlucky, photo_of)]).kind == rich.kind
+
+
+def test_the_errors_of_one_photo_go_together() -> None:
+    """What is better in one photo alone, by however many observations, is chance."""
+    photo_of = np.repeat(np.arange(6), 200)
+    errors = np.random.default_rng(3).rayleigh(0.5, 1200)
+    worse = np.where(photo_of == 0, 1.2 * errors, errors)
+    simple = Candidate(CameraKind("pinhole", "shared", "middle"), 2, worse, photo_of)
+    rich = Candidate(CameraKind("opencv", "shared", "middle"), 6, errors, photo_of)
+    assert simplest_of([simple, rich]) is simple
 
 
 def test_the_adjustment_finds_the_true_lens() -> None:

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from veduta.imaging.shot import Position
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.matching.pairs import EARTH_RADIUS_M, FEW, choose_pairs
 from veduta.photos.options import MatchOptions
-from veduta.photos.pairs import EARTH_RADIUS_M, FEW, choose_pairs
-from veduta.photos.read import PhotoRecord
 from veduta.run.errors import InputError
 
 
@@ -43,8 +43,20 @@ def test_few_are_all_compared() -> None:
     assert all(first < second for first, second in found.pairs)
 
 
-def test_many_without_gps_follow_their_names() -> None:
+def test_many_that_say_nothing_are_looked_at() -> None:
     found = choose_pairs(photos(FEW + 1), MatchOptions(neighbours=2))
+    assert found.kind == "retrieval"
+    assert "no position and not all have a time" in found.how
+
+
+def test_many_with_a_time_follow_it() -> None:
+    timed = [replace(photo, time=datetime(2020, 1, photo.image_id % 28 + 1)) for photo in
+        photos(FEW + 1)]  # fmt: skip
+    assert choose_pairs(timed, MatchOptions()).kind == "sequence"
+
+
+def test_a_sequence_follows_the_names() -> None:
+    found = choose_pairs(photos(FEW + 1), MatchOptions(neighbours=2, pairs="sequence"))
     assert found.kind == "sequence"
     assert "name" in found.how
     steps = {second - first for first, second in found.pairs}

@@ -10,8 +10,8 @@ from photo_scene import ARC, take_photo, write_photos
 from PIL import Image
 from PIL.ExifTags import IFD, Base
 
-from veduta.photos.call import plan_call
-from veduta.photos.read import read_photos
+from veduta.photos.intake.call import plan_call
+from veduta.photos.intake.read import read_photos
 from veduta.run.errors import InputError
 
 

@@ -1,0 +1,1 @@
+"""The kind of camera, the last adjustment, and the way up."""

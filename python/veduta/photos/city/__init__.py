@@ -1,0 +1,1 @@
+"""A coarse city model: read from files of several formats, as parts in metres."""

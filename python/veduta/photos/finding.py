@@ -1,0 +1,183 @@
+"""From the files to the components: read, features, match, map, cameras."""
+
+from __future__ import annotations
+
+from contextlib import closing
+
+from veduta.photos.cameras.component import FEWEST_POINTS, Component, finish_component
+from veduta.photos.intake.call import Call
+from veduta.photos.intake.from_colmap import HOW, given_model
+from veduta.photos.intake.read import ReadPhotos, read_photos
+from veduta.photos.mapping.mapping import left_out
+from veduta.photos.mapping.settling import Settled, map_settled
+from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
+from veduta.photos.matching.match import (
+    PairRecord,
+    count_keypoints,
+    match_pairs,
+    read_pairs,
+    write_database,
+)
+from veduta.photos.matching.pairs import Pairs, choose_pairs, retrieved_pairs
+from veduta.photos.options import PhotosOptions
+from veduta.photos.report import Told
+from veduta.photos.stages import Stages
+from veduta.photos.structure import structure_of
+from veduta.run.errors import InputError, NotFoundError
+from veduta.run.outputs import writing_to
+from veduta.run.pool import Task, run_tasks
+from veduta.run.progress import StepProgress
+from veduta.run.report import timed_step
+
+FEATURES_MEMORY = 6 * 1024**3
+"""Bytes that all processes together may use while they look for features."""
+_WEAK = f"the last adjustment leaves it fewer than {FEWEST_POINTS} points: it was placed falsely"
+_NOTHING_HANGS = (
+    "Take photos that overlap by more than half with their neighbours, from places that differ:"
+    " turning on the spot shows no depth."
+)
+
+
+def find_components(
+    call: Call,
+    options: PhotosOptions,
+    stages: Stages,
+    told: Told,
+    progress: StepProgress,
+    jobs: int | None,
+) -> list[Component]:
+    """From the files to the components, that with most photos first."""
+    with timed_step(told.steps, "read") as step:
+        read = read_photos(call.sources, progress)
+        told.photos = read.photos
+        told.left += read.set_aside
+        step.counts |= {"photos": len(read.photos), "set aside": len(told.left)}
+        step.rejected.extend(f"{name}: {reason}" for name, reason in told.left)
+        _require_two(call, read)
+    if call.models:
+        return _given(call, read, told)
+    pairs = choose_pairs(read.photos, options.match)
+    with timed_step(told.steps, "features") as step:
+        _features(read, options, stages, progress, jobs)
+    with timed_step(told.steps, "match") as step:
+        pairs = _retrieved(pairs, read, options, stages)
+        told.how = pairs.how
+        told.pairs, told.keypoints = _match(read, pairs, options, stages, progress)
+        told.steps[-2].counts["keypoints"] = sum(told.keypoints)
+        verified = sum(pair.verified > 0 for pair in told.pairs)
+        step.counts |= {"pairs": len(told.pairs), "verified": verified}
+    with timed_step(told.steps, "map") as step:
+        settled = _map(read, options, stages, progress)
+        mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
+        step.counts |= {"components": len(mapped.models), "doubtful pairs": len(told.doubts)}
+        placed = {image for model in mapped.models for image in model.reg_image_ids()}
+        unplaced = left_out(read.photos, placed, told.pairs)
+        told.left += unplaced
+        step.rejected.extend(f"{name}: {reason}" for name, reason in unplaced)
+        if not mapped.models:
+            raise NotFoundError("cameras", "no photos hang together", _NOTHING_HANGS)
+    with timed_step(told.steps, "cameras") as step:
+        groups = {photo.image_id: photo.group for photo in read.photos}
+        names = {photo.image_id: photo.name for photo in read.photos}
+        components = []
+        for number, model in enumerate(mapped.models):
+            progress("cameras", number / len(mapped.models))
+            structure = structure_of(model, names)
+            component = finish_component(structure, options.camera, groups, options.random.seed)
+            weak = sorted({*structure.names} - {*component.structure.names})
+            told.left += [(name, _WEAK) for name in weak]
+            step.rejected.extend(f"{name}: {_WEAK}" for name in weak)
+            components.append(component)
+        step.counts["kinds tried"] = sum(len(component.lens.tried) for component in components)
+    return components
+
+
+def _given(call: Call, read: ReadPhotos, told: Told) -> list[Component]:
+    """The components of the COLMAP model that is given, in place of all steps to there."""
+    with timed_step(told.steps, "given model") as step:
+        given = given_model(call.models, read.photos)
+        told.how, told.pairs, told.keypoints = HOW, list(given.pairs), list(given.keypoints)
+        told.is_given = True
+        told.left += given.left
+        told.notes += given.notes
+        step.counts["components"] = len(given.components)
+        step.rejected.extend(f"{name}: {reason}" for name, reason in given.left)
+    return list(given.components)
+
+
+def _require_two(call: Call, read: ReadPhotos) -> None:
+    if len(read.photos) < 2:
+        raise InputError(
+            call.folder,
+            f"holds {len(read.photos)} photos that can be used, of {len(call.sources)}"
+            + "".join(f"; {name} {reason}" for name, reason in read.set_aside[:3]),
+            "Put at least two photos of the same place into it.",
+        )
+
+
+def _features(
+    read: ReadPhotos,
+    options: PhotosOptions,
+    stages: Stages,
+    progress: StepProgress,
+    jobs: int | None,
+) -> None:
+    """Look for the features of the photos that have none yet, on all cores."""
+    if stages.database().exists():
+        return
+    waiting = [photo for photo in read.photos if not stages.features(photo).exists()]
+    tasks = [
+        Task(
+            photo.name,
+            FeaturesJob(photo.path, options.match, stages.features(photo), photo.mask),
+            memory_of(photo.width_px, photo.height_px, options.match),
+        )
+        for photo in waiting
+    ]
+    done = len(read.photos) - len(tasks)
+    outcomes = run_tasks(
+        run_features, tasks, jobs=jobs, started=lambda task: None, memory_budget=FEATURES_MEMORY
+    )
+    with closing(outcomes):
+        for outcome in outcomes:
+            if outcome.error is not None:
+                raise outcome.error
+            if outcome.value is None:
+                raise RuntimeError(outcome.traceback or outcome.crash)
+            done += 1
+            progress("features", done / len(read.photos))
+
+
+def _retrieved(pairs: Pairs, read: ReadPhotos, options: PhotosOptions, stages: Stages) -> Pairs:
+    """The pairs, with those that the features tell."""
+    if pairs.kind != "retrieval":
+        return pairs
+    files = [stages.features(photo) for photo in read.photos]
+    return retrieved_pairs(pairs, read.photos, files, options.match, options.random.seed)
+
+
+def _match(
+    read: ReadPhotos,
+    pairs: Pairs,
+    options: PhotosOptions,
+    stages: Stages,
+    progress: StepProgress,
+) -> tuple[list[PairRecord], list[int]]:
+    """The verified pairs, and how many keypoints each photo has."""
+    database = stages.database()
+    with writing_to(stages.out):
+        if not database.exists():
+            files = [stages.features(photo) for photo in read.photos]
+            per_photo = options.camera.cameras == "per-photo"
+            write_database(database, read.photos, files, per_photo=per_photo)
+        match_pairs(database, pairs, options.match, options.random.seed, progress)
+    return read_pairs(database, pairs), count_keypoints(database, read.photos)
+
+
+def _map(
+    read: ReadPhotos, options: PhotosOptions, stages: Stages, progress: StepProgress
+) -> Settled:
+    """The components; what a killed run has mapped of them is not mapped again."""
+    ids = [photo.image_id for photo in read.photos]
+    with writing_to(stages.out):
+        return map_settled(stages.database(), stages.mapping(), ids, options.random.seed, progress)

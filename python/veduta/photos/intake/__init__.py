@@ -1,0 +1,1 @@
+"""What a call gives: photos, masks, a film, a model of other software."""

@@ -1,0 +1,134 @@
+"""What a call is asked to do: the files that may be photos and what else is given, not read yet."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+from pydantic import JsonValue
+
+from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
+from veduta.photos.intake.colmap_folder import ModelFiles, models_in
+from veduta.photos.intake.given import NOTHING_ELSE, Given
+from veduta.photos.intake.masks import Mask, masks_in, with_masks
+from veduta.photos.intake.source import Source
+from veduta.photos.intake.video import Video, video_of
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+MOST_PHOTOS = 20_000
+_ADD = "Put at least two photos of the same place into it (JPEG, PNG, TIFF, WebP)."
+
+
+@dataclass(frozen=True)
+class Call:
+    """The photos of a folder in the order of their names.
+
+    folder: what the results are named after; the film where there is no folder.
+    copies: files with the content of an earlier one, as (name, name of the earlier one).
+    unreadable: files that the system does not let us read, as (name, reason).
+    models: the components of a COLMAP model to start from. notes: what else is to be told.
+    """
+
+    folder: Path
+    sources: tuple[Source, ...]
+    copies: tuple[tuple[str, str], ...] = ()
+    unreadable: tuple[tuple[str, str], ...] = ()
+    masks: tuple[Mask, ...] = ()
+    video: Video | None = None
+    models: tuple[ModelFiles, ...] = ()
+    notes: tuple[str, ...] = ()
+
+    def inputs(self) -> JsonValue:
+        """What the result depends on: names and digests."""
+        photos: list[JsonValue] = [[source.name, source.sha256] for source in self.sources]
+        aside: list[JsonValue] = [list(pair) for pair in (*self.copies, *self.unreadable)]
+        masks: list[JsonValue] = [[mask.path.name, mask.sha256] for mask in self.masks]
+        video: JsonValue = None if self.video is None else [self.video.name, self.video.sha256]
+        models: list[JsonValue] = [list(model.sha256) for model in self.models]
+        return [photos, aside, masks, video, models]
+
+
+def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
+    """The photos in a folder, not in folders below it; InputError where there are not two."""
+    _require_sense(folder, given)
+    video = video_of(given.video) if given.video else None
+    models = models_in(given.from_colmap) if given.from_colmap else ()
+    masks = masks_in(given.masks) if given.masks else ()
+    if folder is None:
+        return Call(given.video or Path(), (), masks=masks, video=video)
+    sources, copies, unreadable, files = _found(folder)
+    if len(sources) < 2 and video is None:
+        raise InputError(folder, _too_few(files, len(sources)), _ADD)
+    taken, notes = (sources, ()) if video else with_masks(sources, masks)
+    return Call(folder, taken, copies, unreadable, masks, video, models, notes)
+
+
+def _require_sense(folder: Path | None, given: Given) -> None:
+    if folder is None and given.video is None:
+        raise InputError("DIR", "is not given", "Name a folder of photos, or a film with --video.")
+    if given.from_colmap is None:
+        return
+    if folder is None or given.video is not None:
+        remedy = "Give the photos that the model was made of as DIR, and no --video."
+        raise InputError("--from-colmap", "takes photos, not a film", remedy)
+    if given.masks is not None:
+        remedy = "Leave out --masks: nothing is looked for where a model is given."
+        raise InputError("--masks", "has no use with --from-colmap", remedy)
+
+
+_Pairs = tuple[tuple[str, str], ...]
+
+
+def _found(folder: Path) -> tuple[tuple[Source, ...], _Pairs, _Pairs, int]:
+    """Sources, copies, unreadable files, and how many files there are in all."""
+    sources: list[Source] = []
+    known: dict[str, str] = {}
+    copies: list[tuple[str, str]] = []
+    unreadable: list[tuple[str, str]] = []
+    paths = _paths(folder)
+    for path in paths:
+        try:
+            require_file(path, MAX_FILE_BYTES)
+            digest = file_digest(path)
+        except InputError as error:
+            unreadable.append((path.name, error.fault))
+            continue
+        except OSError as error:
+            unreadable.append((path.name, f"cannot be read ({error.strerror})"))
+            continue
+        first = known.setdefault(digest, path.name)
+        if first != path.name:
+            copies.append((path.name, first))
+        else:
+            sources.append(Source(path.name, path, digest))
+    return tuple(sources), tuple(copies), tuple(unreadable), len(paths)
+
+
+def _paths(folder: Path) -> list[Path]:
+    if not folder.exists():
+        raise InputError(folder, "does not exist", "Name a folder of photos.")
+    if not folder.is_dir():
+        raise InputError(folder, "is a file, not a folder", "Name the folder that it lies in.")
+    try:
+        found = sorted(
+            path
+            for path in folder.iterdir()
+            if path.suffix.lower() in SUFFIXES and not path.name.startswith(".")
+        )
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(folder, fault, "Check its permissions.") from error
+    if len(found) > MOST_PHOTOS:
+        fault = f"holds {len(found)} photos, more than {MOST_PHOTOS}"
+        raise InputError(folder, fault, "Divide them into several folders.")
+    return found
+
+
+def _too_few(files: int, usable: int) -> str:
+    if not files:
+        return "holds no photos"
+    if usable == 0:
+        return "holds no photo that can be read"
+    return "holds one photo" if files == 1 else "holds one photo, if copies are counted once"

@@ -1,0 +1,125 @@
+"""Each component set upright, with its walls, laid into the world where something says where."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.photos.cameras.component import Component
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.options import PhotosOptions
+from veduta.photos.structure import Structure
+from veduta.photos.walls.find_walls import find_walls
+from veduta.photos.walls.step import photo_reader, set_upright
+from veduta.photos.walls.wall import Wall
+from veduta.photos.world.georeference import Georeference, Similarity
+from veduta.photos.world.georeferencing import (
+    Georeferenced,
+    References,
+    georeference,
+    in_the_world,
+)
+from veduta.photos.world.pictures import georef_pictures
+from veduta.run.page import Picture
+from veduta.run.progress import StepProgress
+from veduta.run.report import StepRecord, timed_step
+
+
+@dataclass(frozen=True)
+class Laid:
+    """A component and its walls, in metres of the world where `georef` has something believed.
+
+    pictures: plans of what was tried, for the report.
+    """
+
+    component: Component
+    walls: tuple[Wall, ...]
+    georef: Georeferenced
+    pictures: tuple[Picture, ...] = ()
+
+
+def lay_components(
+    components: Sequence[Component],
+    references: References,
+    photos: Sequence[PhotoRecord],
+    options: PhotosOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> list[Laid]:
+    """Walls of the first component, and of all where a city model is given; then the world."""
+    with timed_step(steps, "walls") as step:
+        upright, walls = [], []
+        for number, component in enumerate(components):
+            progress("walls", number / len(components))
+            upright.append(_upright(component, photos))
+            wanted = number == 0 or references.model is not None
+            walls.append(_walls(upright[-1].structure, options) if wanted else ())
+        step.counts["walls"] = sum(map(len, walls))
+    with timed_step(steps, "georeference") as step:
+        laid = [
+            _laid(component, own, references, photos, options)
+            for component, own in zip(upright, walls, strict=True)
+        ]
+        for number, one in enumerate(laid):
+            step.rejected.extend(
+                f"component {number}, {tried.method}: {tried.why}"
+                for tried in one.georef.tried
+                if not tried.accepted
+            )
+        step.counts["in the world"] = sum(one.georef.accepted is not None for one in laid)
+    return laid
+
+
+def _upright(component: Component, photos: Sequence[PhotoRecord]) -> Component:
+    paths = {photo.image_id: photo.path for photo in photos}
+    return set_upright(component, lambda structure: photo_reader(structure, paths))
+
+
+def _walls(structure: Structure, options: PhotosOptions) -> tuple[Wall, ...]:
+    if options.walls.no_walls:
+        return ()
+    return find_walls(structure, options.walls, options.random.seed)
+
+
+def _laid(
+    component: Component,
+    walls: tuple[Wall, ...],
+    references: References,
+    photos: Sequence[PhotoRecord],
+    options: PhotosOptions,
+) -> Laid:
+    structure = component.structure
+    method, seed = options.world.georef, options.random.seed
+    found = georeference(structure, walls, photos, references, method, seed)
+    pictures: list[Picture] = []
+    for tried in found.tried:
+        model = references.model if tried.method == "model" else None
+        pictures += georef_pictures(structure, walls, tried, model)
+    moved = replace(component, structure=in_the_world(structure, found.accepted))
+    return Laid(moved, walls_in_the_world(walls, found.accepted), found, tuple(pictures))
+
+
+def walls_in_the_world(walls: tuple[Wall, ...], found: Georeference | None) -> tuple[Wall, ...]:
+    """The walls in metres about the origin; as they are where nothing is believed."""
+    if found is None or found.best is None or not found.accepted:
+        return walls
+    return tuple(_moved(wall, found.best.world_from_model) for wall in walls)
+
+
+def _moved(wall: Wall, world: Similarity) -> Wall:
+    """The wall upright in the world through the middle of its height: it may have leant a bit."""
+    middle = 0.5 * (wall.bottom + wall.top)
+    ends: NDArray[np.float64] = np.array([[*wall.start, middle], [*wall.end, middle]])
+    start, end = world.moved(ends)
+    height, half = float(0.5 * (start[2] + end[2])), 0.5 * world.scale * wall.height
+    return replace(
+        wall,
+        start=start[:2],
+        end=end[:2],
+        bottom=height - half,
+        top=height + half,
+        rms=world.scale * wall.rms,
+    )

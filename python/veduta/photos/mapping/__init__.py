@@ -1,0 +1,1 @@
+"""From matches to poses and points, and which matches are doubted."""

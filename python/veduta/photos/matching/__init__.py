@@ -1,0 +1,1 @@
+"""Which photos show the same things: features, pairs, matches, two views."""

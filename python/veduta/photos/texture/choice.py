@@ -1,0 +1,144 @@
+"""Which photo shows each cell of a face: finely, not aside, undisturbed, and with few seams.
+
+What stands before a wall (trees, cars, people) is in no model. Seen from several places it is over
+different parts of the wall: where three or more photos show a cell, one that differs from their
+median is not believed.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
+from veduta.photos.texture.cells import SAMPLES, Sights, by_cell
+
+DIFFERS = 0.08
+"""Difference from the median at which a view shows something else: of sRGB (0..1), the root of the
+mean square over a cell."""
+DIFFERS_TIMES = 2.5
+"""... and it is so many times that of the view in the middle."""
+FEWEST = 3
+MARGIN = 0.06
+"""Closer to the picture's border (share of its smaller side) lenses are blurred and known less."""
+BURNT = 250
+_DISTURBED, _BLIND, _UNSEEN = 3.0, 1.0, 100.0
+_BURNT_COST, _DIFFERENCE_COST, _MARGIN_COST = 1.0, 2.0, 0.3
+SEAM_BASE, SEAM_SLOPE, SEAM_MOST = 0.08, 1.5, 1.0
+ROUNDS = 12
+
+
+@dataclass(frozen=True)
+class Choice:
+    """label: (rows, columns) which of the face's views; -1 where none sees the cell.
+
+    order: (k, rows, columns) the views from best to worst by cell alone, for what the chosen one
+    does not show. usable: (k, rows, columns) which views show the cell undisturbed.
+    """
+
+    label: NDArray[np.int64]
+    order: NDArray[np.int64]
+    usable: NDArray[np.bool_]
+
+
+def signal(sights: Sights, gains: NDArray[np.float64]) -> NDArray[np.float32]:
+    """(k, rows S, columns S, 3) levelled sRGB, 0..1 and above; NaN where unseen."""
+    light = linear_of_srgb(np.arange(256) / 255.0)
+    found = np.empty(sights.colour.shape, dtype=np.float32)
+    for row, view in enumerate(sights.views.tolist()):
+        for channel in range(3):
+            table = srgb_of_linear(light * gains[view, channel]).astype(np.float32)
+            found[row, ..., channel] = table[sights.colour[row, ..., channel]]
+    found[~sights.seen] = np.nan
+    return found
+
+
+def undisturbed(
+    sights: Sights, levelled: NDArray[np.float32]
+) -> tuple[NDArray[np.bool_], NDArray[np.float32]]:
+    """(k, rows, columns) whether each view shows what the others do, and how far it is off.
+
+    Where fewer than `FEWEST` views show a cell nothing can be said: all are believed, 0 off.
+    """
+    seen = sights.seen
+    middle = median_of(levelled)
+    off = ((levelled - middle) ** 2).mean(axis=-1)
+    off = np.where(seen, off, 0.0).astype(np.float32)
+    count = by_cell(seen.astype(np.float32))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        distance = np.sqrt(np.where(count > 0, by_cell(off) / count, np.nan))
+    usual = median_of(distance[..., None])[..., 0]
+    many = (count > 0).sum(axis=0) >= FEWEST
+    with np.errstate(invalid="ignore"):
+        differs = distance > np.maximum(DIFFERS, DIFFERS_TIMES * usual)
+    known = np.where(many & (count > 0), distance, 0.0).astype(np.float32)
+    return np.asarray((count > 0) & ~(differs & many)), known
+
+
+def median_of(values: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Over the first axis, NaN left out; of two in the middle the mean; NaN where all are."""
+    ordered = np.sort(values, axis=0)
+    count = (~np.isnan(ordered)).sum(axis=0)[None]
+    low = np.take_along_axis(ordered, np.maximum((count - 1) // 2, 0), axis=0)[0]
+    high = np.take_along_axis(ordered, np.maximum(count // 2, 0).clip(max=len(values) - 1), axis=0)
+    return np.asarray((low + high[0]) / 2, dtype=np.float32)
+
+
+def choose(
+    sights: Sights,
+    levelled: NDArray[np.float32],
+    believed: NDArray[np.bool_],
+    distance: NDArray[np.float32],
+    enough_px_m2: float,
+) -> Choice:
+    """The choice for a face. enough_px_m2: finer than the texture itself is no gain."""
+    share = sights.share()
+    cost = costs_of(sights, believed, distance, enough_px_m2)
+    colour = cell_colours(levelled, share)
+    shape = (sights.grid.rows, sights.grid.columns)
+    cells = shape[0] * shape[1]
+    label = _core.label_cells(
+        np.ascontiguousarray(np.moveaxis(cost, 0, -1).reshape(cells, -1)),
+        np.ascontiguousarray(np.moveaxis(colour, 0, 2).reshape(cells, -1)),
+        shape,
+        base=SEAM_BASE,
+        slope=SEAM_SLOPE,
+        most=SEAM_MOST,
+        rounds=ROUNDS,
+    ).astype(np.int64)
+    label[(share <= 0).all(axis=0)] = -1
+    order = np.argsort(cost, axis=0, kind="stable")
+    return Choice(label, order, believed)
+
+
+def costs_of(
+    sights: Sights,
+    believed: NDArray[np.bool_],
+    distance: NDArray[np.float32],
+    enough_px_m2: float,
+) -> NDArray[np.float32]:
+    """(k, rows, columns) what each view costs at each cell; small is good."""
+    share = sights.share()
+    fine = np.minimum(sights.density / enough_px_m2, 1.0)
+    cost = 1.0 - fine + _DIFFERENCE_COST * distance + _BLIND * (1.0 - share)
+    cost += _MARGIN_COST * np.clip(1.0 - sights.margin / MARGIN, 0.0, 1.0)
+    burnt = ((sights.colour >= BURNT).any(axis=-1) & sights.seen).astype(np.float32)
+    cost += _BURNT_COST * by_cell(burnt)
+    cost += np.where(believed, 0.0, _DISTURBED)
+    # Cells that nobody sees are free: they take the view of their neighbours.
+    nobody = (share <= 0).all(axis=0)
+    return np.where(nobody, 0.0, np.where(share > 0, cost, _UNSEEN)).astype(np.float32)
+
+
+def cell_colours(levelled: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:
+    """(k, rows, columns, 3) mean of what is seen of each cell; NaN where nothing is."""
+    filled = np.nan_to_num(levelled, nan=0.0)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.where(
+            share[..., None] > 1.0 / (SAMPLES * SAMPLES) / 2,
+            by_cell(filled) / share[..., None],
+            np.nan,
+        ).astype(np.float32)

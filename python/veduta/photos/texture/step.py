@@ -1,0 +1,77 @@
+"""The step `texture` of the pipeline: where photos lie in a city model, its faces get textures."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from veduta.photos.city.model import CityModel
+from veduta.photos.options import TextureOptions
+from veduta.photos.pictures import Pinhole
+from veduta.photos.structure import Structure
+from veduta.photos.texture.files import write_texture_files
+from veduta.photos.texture.recipe import texture_model
+from veduta.photos.texture.report import (
+    texture_line,
+    texture_measures,
+    texture_picture,
+    texture_tables,
+)
+from veduta.photos.texture.sources import views_of
+from veduta.photos.world.georeference import Georeference
+from veduta.place.manifest import PlacePart
+from veduta.run.page import Picture, Table
+from veduta.run.progress import StepProgress
+
+
+@dataclass(frozen=True)
+class Textured:
+    """What was made, for `place.json` and the report."""
+
+    parts: tuple[PlacePart, ...] = ()
+    measures: dict[str, Any] = field(default_factory=dict)
+    line: str = ""
+    tables: tuple[Table, ...] = ()
+    pictures: tuple[Picture, ...] = ()
+
+
+def can_texture(
+    world: Georeference | None, city: CityModel | None, options: TextureOptions
+) -> bool:
+    """Whether there is a model that photos lie in, in its own CRS and about its own origin.
+
+    GPS alone does not say to which facade a photo belongs.
+    """
+    if options.no_texture or city is None or world is None or not world.accepted:
+        return False
+    if world.method == "gps":
+        return False
+    return world.crs == city.crs and world.origin_m == city.origin_m
+
+
+def texture_step(
+    structure: Structure,
+    pinholes: Sequence[Pinhole],
+    pictures: Path,
+    city: CityModel,
+    options: TextureOptions,
+    folder: Path,
+    progress: StepProgress,
+) -> Textured:
+    """Texture the model and write it into the folder; NotFoundError where photos show none of it.
+
+    structure: in metres about the model's origin. pinholes: of its photos' pictures.
+    """
+    views = views_of(structure, pinholes, pictures)
+    model = texture_model(views, city, options, progress)
+    files = write_texture_files(model, folder, progress)
+    measures = texture_measures(model)
+    return Textured(
+        files.parts,
+        measures,
+        texture_line(measures),
+        tuple(texture_tables(model, structure.names)),
+        (texture_picture(model),),
+    )

@@ -1,0 +1,1 @@
+"""Upright rectangles in the points, and a metric picture of each."""

@@ -1,0 +1,100 @@
+"""The steps of the walls in the recipe: set upright, found, pictured, written."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from veduta.formats.gltf import write_glb
+from veduta.imaging.read import read_image
+from veduta.photos.cameras.component import Component
+from veduta.photos.cameras.upright import upright
+from veduta.photos.cameras.vertical_edges import edge_normals
+from veduta.photos.options import WallOptions
+from veduta.photos.structure import Structure
+from veduta.photos.walls.document import Unit, picture_file, walls_document
+from veduta.photos.walls.find_walls import relief_depth
+from veduta.photos.walls.part import MODEL, place_part, walls_part
+from veduta.photos.walls.pictures import ReadPhoto, WallPicture, wall_pictures
+from veduta.photos.walls.wall import Wall
+from veduta.place.manifest import PlacePart
+from veduta.run.atomic import write_bytes
+from veduta.run.progress import StepProgress, no_progress
+
+DOCUMENT = "walls.json"
+
+
+@dataclass(frozen=True)
+class FoundWalls:
+    """The walls of a structure and their pictures, in the same order."""
+
+    walls: tuple[Wall, ...]
+    pictures: tuple[WallPicture, ...]
+
+
+def photo_reader(structure: Structure, paths: Mapping[int, Path]) -> ReadPhoto:
+    """Reads a photo by its row in the structure; paths by image id."""
+
+    def read(row: int) -> NDArray[np.uint8]:
+        return read_image(paths[structure.image_ids[row]]).pixels
+
+    return read
+
+
+def set_upright(component: Component, read: Callable[[Structure], ReadPhoto]) -> Component:
+    """The component turned so that its walls and vertical edges stand upright."""
+    structure = component.structure
+    z = np.array([0.0, 0.0, 1.0])
+    turned, found = upright(structure, edge_normals(structure, z, read(structure)))
+    return replace(component, structure=turned, upright=found)
+
+
+def picture_walls(
+    structure: Structure,
+    walls: tuple[Wall, ...],
+    paths: Mapping[int, Path],
+    options: WallOptions,
+    progress: StepProgress = no_progress,
+) -> FoundWalls:
+    """The walls with their pictures, from the photos at these paths (by image id)."""
+    if not walls:
+        return FoundWalls((), ())
+    pictures = wall_pictures(
+        structure,
+        walls,
+        photo_reader(structure, paths),
+        options.wall_side_px,
+        relief_depth(structure),
+        progress,
+    )
+    return FoundWalls(walls, pictures)
+
+
+def write_walls(
+    found: FoundWalls, structure: Structure, unit: Unit, out: Path, walls: Path
+) -> PlacePart | None:
+    """Write `walls.json` into `out`, pictures and model into `walls`; the part of the place.
+
+    `walls` is published as the folder of that name beside `walls.json`.
+    """
+    document = walls_document(found.walls, found.pictures, structure, unit)
+    write_bytes(out / DOCUMENT, (document.model_dump_json(by_alias=True, indent=2) + "\n").encode())
+    for picture in found.pictures:
+        write_bytes(walls / Path(picture_file(picture.grid.wall)).name, _png(picture.pixels))
+    part = walls_part(found.pictures)
+    if part is None:
+        return None
+    write_glb(part, walls / Path(MODEL).name)
+    return place_part(part)
+
+
+def _png(pixels: NDArray[np.uint8]) -> bytes:
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, format="PNG")
+    return file.getvalue()

@@ -1,0 +1,1 @@
+"""Where a component lies in the world: by control points, a city model, or GPS."""

@@ -1,0 +1,53 @@
+"""Photos that too few points hold are taken out of a component."""
+
+from __future__ import annotations
+
+import numpy as np
+from simulated_street import simulated_street
+
+from veduta.photos.cameras.component import FEWEST_POINTS, without_weak
+from veduta.photos.structure import Structure, errors_px
+
+
+def weakened(structure: Structure, row: int, points: int) -> Structure:
+    """The same with so many observations of one photo."""
+    own = np.flatnonzero(structure.image_of == row)
+    kept = np.ones(len(structure.image_of), dtype=bool)
+    kept[own[points:]] = False
+    return structure.observed(kept)
+
+
+def errors_of(structure: Structure) -> dict[tuple[str, int], float]:
+    """Of each observation, by its photo's name and its keypoint."""
+    names = [structure.names[row] for row in structure.image_of]
+    keys = zip(names, structure.keypoint_of.tolist(), strict=True)
+    return dict(zip(keys, errors_px(structure).tolist(), strict=True))
+
+
+def test_a_weak_photo_goes_and_the_others_stay_as_they_are() -> None:
+    _, _, street = simulated_street(1)
+    structure = weakened(street, 4, FEWEST_POINTS - 1)
+    found = without_weak(structure)
+    assert found.names == tuple(name for name in structure.names if name != "0005.jpg")
+    assert np.array_equal(found.centres(), np.delete(structure.centres(), 4, axis=0))
+    assert set(found.camera_of) == set(found.image_ids)
+    before, after = errors_of(structure), errors_of(found)
+    assert after
+    assert all(before[key] == error for key, error in after.items())
+    assert np.bincount(found.point_of, minlength=len(found.points)).min() >= 2
+    lost = {key for key in before if key not in after}
+    assert {name for name, _ in lost} >= {"0005.jpg"}
+
+
+def test_enough_points_hold_a_photo() -> None:
+    _, _, street = simulated_street(1)
+    structure = weakened(street, 4, FEWEST_POINTS)
+    assert without_weak(structure) is structure
+
+
+def test_where_all_are_weak_nothing_goes() -> None:
+    _, _, street = simulated_street(1)
+    few = street
+    for row in range(40):
+        few = weakened(few, row, 10)
+    assert without_weak(few) is few
