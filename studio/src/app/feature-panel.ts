@@ -13,6 +13,8 @@ export interface ShownFeature {
   readonly table: FeatureTable;
   readonly partName: string;
   readonly severalParts: boolean;
+  /** Whether lengths are metres: else none are told. */
+  readonly scaleKnown: boolean;
   readonly arrangementInvented: boolean;
   readonly photoAddress: string | null;
 }
@@ -160,10 +162,7 @@ export class FeaturePanel extends LitElement {
         <button class="icon-button" aria-label="Close this panel (Esc)" title="Close (Esc)"
           @click=${() => this.#emit("close-panel", null)}>${icons.close}</button>
       </header>
-      <dl class="sizes">
-        <div><dt>Width × height</dt><dd data-field="size">${sizeText(feature.width_m, feature.height_m)}</dd>${seen(feature)}</div>
-        <div><dt>Area</dt><dd data-field="area">${areaText(feature.area_m2)}</dd></div>
-      </dl>
+      ${shown.scaleKnown ? sizes(feature) : html`<p class="note" data-field="scale">How large it is, nothing tells: the scale of the place is unknown.</p>`}
       ${provenance(feature)} ${this.#relations(shown)}
       <section>
         <h3 class="eyebrow">In the photo</h3>
@@ -202,6 +201,13 @@ export class FeaturePanel extends LitElement {
 /** What inferred means where the upper part is in the photo. */
 const PARTLY_SEEN =
   "The photo shows its upper part. That it goes on further down follows, by a rule.";
+
+function sizes(feature: Feature): TemplateResult {
+  return html`<dl class="sizes">
+    <div><dt>Width × height</dt><dd data-field="size">${sizeText(feature.width_m, feature.height_m)}</dd>${seen(feature)}</div>
+    <div><dt>Area</dt><dd data-field="area">${areaText(feature.area_m2)}</dd></div>
+  </dl>`;
+}
 
 function seen(feature: Feature): TemplateResult | typeof nothing {
   const text = seenText(feature.seen_height_m);

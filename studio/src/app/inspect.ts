@@ -24,6 +24,8 @@ export interface Inspection {
   project(point: Vec3): { x: number; y: number } | null;
   /** The photo that is looked through. */
   photo(): { id: string; name: string } | null;
+  /** The photos that lie on the place, and how far each has faded in (0..1). */
+  photosShown(): { id: string; level: number }[];
   /** The photo whose pyramid a click there would choose; CSS pixels of the canvas. */
   photoUnder(x: number, y: number): string | null;
   bounds(): { min: Vec3; max: Vec3 };
@@ -64,18 +66,20 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
         table.rows.map((feature, row) => ({ ...feature, part: name(part, row) })),
       ),
     under: (x, y) => {
-      const hit = viewer.hitAt(x, y);
+      const hit = viewer.picker.hitAt(x, y);
       const feature = hit === null ? undefined : tables[hit.feature.part]?.rows[hit.feature.row];
       return hit === null || feature === undefined
         ? null
         : { feature, point: hit.point, distance_m: hit.distance_m };
     },
-    project: (point) => viewer.project(point),
+    project: (point) => viewer.picker.project(point),
     photo: () => {
       const shot = place.shots[store.value.shot ?? -1];
       return shot === undefined ? null : { id: shot.id, name: shot.name };
     },
-    photoUnder: (x, y) => place.shots[viewer.shotAt(x, y) ?? -1]?.id ?? null,
+    photosShown: () =>
+      viewer.shownPhotos.map(({ index, level }) => ({ id: place.shots[index]?.id ?? "", level })),
+    photoUnder: (x, y) => place.shots[viewer.picker.shotAt(x, y) ?? -1]?.id ?? null,
     bounds: () => viewer.solid.bounds,
     stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
   };

@@ -42,9 +42,10 @@ export class LayersPanel extends LitElement {
     css`
       :host {
         display: block;
-        overflow: auto;
         padding: 16px 12px 12px;
-        scrollbar-width: thin;
+      }
+      :host([hidden]) {
+        display: none;
       }
       .eyebrow {
         padding: 0 8px;

@@ -1,4 +1,4 @@
-/** What is known of the photo that is looked through, and the way to the next one. */
+/** The photo that is looked through or lies on the place: its name, and the ways on from it. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import type { Shot } from "../core/place.ts";
 import { icons } from "./icons.ts";
@@ -9,25 +9,43 @@ export class PhotoPanel extends LitElement {
     shot: { attribute: false },
     number: { type: Number },
     count: { type: Number },
+    through: { type: Boolean },
+    projected: { type: Boolean },
+    cover: { type: Number },
   };
   declare shot: Shot | null;
   declare number: number;
   declare count: number;
+  /** It is looked through. */
+  declare through: boolean;
+  /** It lies on the place, and covers this share of it (0..1). */
+  declare projected: boolean;
+  declare cover: number;
 
   static override styles = [
     theme,
     css`
       :host {
-        display: flex;
-        align-items: center;
-        gap: 14px;
-        padding: 8px 10px 8px 16px;
+        display: block;
+        padding: 8px 10px;
       }
       :host([hidden]) {
         display: none;
       }
-      div {
+      .line {
+        display: flex;
+        align-items: center;
+        gap: 6px;
+      }
+      .name {
+        flex: 1;
         min-width: 0;
+        padding: 0 8px;
+        text-align: left;
+        border-radius: 8px;
+      }
+      button.name:hover {
+        background: var(--hover);
       }
       strong {
         display: block;
@@ -36,13 +54,27 @@ export class PhotoPanel extends LitElement {
         text-overflow: ellipsis;
         white-space: nowrap;
       }
-      span {
+      .name span {
         color: var(--ink-soft);
         font-size: 13px;
         font-variant-numeric: tabular-nums;
+        white-space: nowrap;
       }
       .back svg {
         transform: scaleX(-1);
+      }
+      label {
+        display: flex;
+        align-items: center;
+        gap: 10px;
+        padding: 4px 10px 2px;
+        font-size: 13px;
+        color: var(--ink-soft);
+      }
+      input {
+        flex: 1;
+        min-width: 60px;
+        accent-color: var(--deep);
       }
     `,
   ];
@@ -52,26 +84,41 @@ export class PhotoPanel extends LitElement {
     this.shot = null;
     this.number = 0;
     this.count = 0;
+    this.through = false;
+    this.projected = false;
+    this.cover = 1;
   }
 
   override render(): TemplateResult | typeof nothing {
-    const { shot } = this;
+    const { shot, projected, through } = this;
     if (shot === null) return nothing;
-    return html`
-      <button class="icon-button back" aria-label="The photo before (B)" title="The photo before (B)"
-        @click=${() => this.#emit("step-photo", -1)}>${icons.chevron}</button>
-      <div>
-        <strong data-field="name">${shot.name}</strong>
-        <span data-field="number">Photo ${this.number} of ${this.count}</span>
+    const name = html`<strong data-field="name">${shot.name}</strong>
+      <span data-field="number">Photo ${this.number} of ${this.count}</span>`;
+    const [throwing, leaving] = [
+      projected ? "Take the photo off the place (T)" : "Throw the photo onto the place (T)",
+      through ? "Leave the photo (Esc)" : "Take the photo off the place (Esc)",
+    ];
+    return html`<div class="line">
+        <button class="icon-button back" aria-label="The photo before (B)" title="The photo before (B)"
+          @click=${() => this.#emit("step-photo", -1)}>${icons.chevron}</button>
+        ${through
+          ? html`<div class="name">${name}</div>`
+          : html`<button class="name" title="Look through this photo" @click=${() => this.#emit("look-through", 0)}>${name}</button>`}
+        <button class="icon-button" aria-label="The next photo (N)" title="The next photo (N)"
+          @click=${() => this.#emit("step-photo", 1)}>${icons.chevron}</button>
+        <button class="icon-button" aria-label=${throwing} title=${throwing} aria-pressed=${projected} data-field="project"
+          @click=${() => this.#emit("project-photo", 0)}>${icons.projector}</button>
+        <button class="icon-button" aria-label=${leaving} title=${leaving}
+          @click=${() => this.#emit("close-photo", 0)}>${icons.close}</button>
       </div>
-      <button class="icon-button" aria-label="The next photo (N)" title="The next photo (N)"
-        @click=${() => this.#emit("step-photo", 1)}>${icons.chevron}</button>
-      <button class="icon-button" aria-label="Leave the photo (Esc)" title="Leave the photo (Esc)"
-        @click=${() => this.#emit("close-photo", 0)}>${icons.close}</button>
-    `;
+      ${projected
+        ? html`<label>Photo <input type="range" aria-label="How much the photo covers the place" min="0" max="1" step="0.02"
+              .value=${String(this.cover)}
+              @input=${(event: Event) => this.#emit("cover", Number((event.target as HTMLInputElement).value))} /></label>`
+        : nothing}`;
   }
 
-  #emit(name: "close-photo" | "step-photo", detail: number): void {
+  #emit(name: "close-photo" | "cover" | "look-through" | "project-photo" | "step-photo", detail: number): void {
     this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
   }
 }

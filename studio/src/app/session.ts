@@ -2,7 +2,7 @@
 import type { FeatureTable } from "../core/features.ts";
 import { Fault } from "../core/fault.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
-import type { FeatureRef, StudioState } from "../core/state.ts";
+import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Town } from "../three/town.ts";
 import type { Viewer } from "../three/viewer.ts";
@@ -14,9 +14,13 @@ export interface Session {
   readonly loadSeconds: number;
   /** A place that is streamed; its tables grow as tiles arrive. */
   readonly town: Town | null;
+  /** The layers that the place has beside its classes, in the order of the panel. */
+  readonly records: readonly Layer[];
   /** Of the part, or of the building in a streamed place. */
   nameOf(ref: FeatureRef): string;
   photoAddress(part: number): string | null;
+  /** A photo of the place, no larger than wanted. */
+  readonly bitmap: (index: number, side_px: number) => Promise<ImageBitmap>;
 }
 
 export async function openPlace(
@@ -36,11 +40,12 @@ export async function openPlace(
     import("../three/fetch.ts"),
     import("../three/frusta.ts"),
     import("../three/load.ts"),
+    import("../three/photo-textures.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ loadClouds }, { fetchText }, { Frusta }, { loadParts }, { Town }, { Viewer }] = await drawing;
+  const [{ loadClouds }, { fetchText }, { Frusta }, { loadParts }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
   const grounds = place.parts.filter(({ isGround }) => isGround).map(({ model }) => fileAddress(model, address));
@@ -55,23 +60,47 @@ export async function openPlace(
       : [];
   await town?.open((share) => onProgress(share, "tileset.json"));
   const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
-  const frusta =
-    place.shots.length === 0 ? null : new Frusta(place, address, () => viewer?.invalidate(), onFault);
-  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta }, store);
+  const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
+  const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
+  store.update({ off: firstOff(place) });
+  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {
     place,
     tables: town?.tables ?? parts.map(({ table }) => table),
     town,
+    records: recordsOf(place, town !== null),
     nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,
+    bitmap: async (index, side_px) => {
+      const shot = place.shots[index];
+      if (shot === undefined) throw new Fault(`photo ${index}`, "the place has none of that number", "Reload the page.");
+      return await bitmapOf(shot, address, side_px, "from-image");
+    },
     loadSeconds: (performance.now() - begin) / 1000,
     photoAddress: (index) => {
       const photo = town === null ? (place.parts[index]?.photo ?? null) : null;
       return photo === null ? null : fileAddress(photo, address).href;
     },
   };
+}
+
+/** Walls and a model of the same buildings lie in one another: the model is seen first. */
+function firstOff({ parts, tileset }: Place): ReadonlySet<Layer> {
+  const hasModel = tileset !== null || parts.some(({ layer }) => layer === "model");
+  return new Set(hasModel ? ["walls"] : []);
+}
+
+function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
+  if (clouds.length + shots.length === 0) return [];
+  const has: Readonly<Record<Layer, boolean>> = {
+    model: hasTown || parts.some(({ layer }) => layer === "model"),
+    walls: !hasTown && parts.some(({ layer }) => layer === "walls"),
+    points: clouds.length > 0,
+    cameras: shots.length > 0,
+  };
+  return (["model", "walls", "points", "cameras"] as const).filter((layer) => has[layer]);
 }
 
 function checkWebGL(): void {

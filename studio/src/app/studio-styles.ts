@@ -52,12 +52,25 @@ export const studioStyles = css`
     overflow: hidden;
     text-overflow: ellipsis;
   }
-  veduta-layers {
+  .left {
     position: absolute;
     top: calc(var(--edge) + 66px);
     left: var(--edge);
     width: 252px;
     max-height: calc(100% - 2 * var(--edge) - 66px - 70px);
+    display: flex;
+    flex-direction: column;
+    gap: 10px;
+  }
+  .left > .sheet {
+    overflow: auto;
+    scrollbar-width: thin;
+    min-height: 120px;
+  }
+  .left > veduta-photo-list {
+    flex: 1 1 300px;
+    min-height: 140px;
+    overflow: hidden;
   }
   veduta-toolbar {
     position: absolute;
@@ -77,7 +90,9 @@ export const studioStyles = css`
     top: var(--edge);
     left: 50%;
     transform: translateX(-50%);
+    width: max-content;
     max-width: calc(100% - 2 * var(--edge) - 540px);
+    min-width: 300px;
   }
   .hint {
     position: absolute;
@@ -127,7 +142,7 @@ export const studioStyles = css`
       top: calc(var(--edge) + 62px);
       max-width: calc(100% - 2 * var(--edge));
     }
-    veduta-layers {
+    .left {
       top: calc(var(--edge) + 62px);
       width: min(264px, calc(100% - 2 * var(--edge)));
       max-height: calc(100% - 2 * var(--edge) - 62px - 100px);

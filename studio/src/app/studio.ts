@@ -4,9 +4,8 @@ import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
 import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
-import { type Colouring, INITIAL_STATE, type StudioState, withLayer } from "../core/state.ts";
+import { type Colouring, INITIAL_STATE, type Layer, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
 import { Store } from "../core/store.ts";
-import type { ShownFeature } from "./feature-panel.ts";
 import "./feature-panel.ts";
 import type { HelpDialog } from "./help-dialog.ts";
 import "./help-dialog.ts";
@@ -16,11 +15,15 @@ import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
+import "./photo-list.ts";
 import "./photo-panel.ts";
+import "./records-panel.ts";
 import { openPlace, type Session } from "./session.ts";
+import { shownFeature } from "./shown-feature.ts";
 import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
 import "./toolbar.ts";
+import { hintOf, titleOf } from "./words.ts";
 
 const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
   photo: "class",
@@ -43,6 +46,7 @@ export class Studio extends LitElement {
   declare notice: string;
   readonly #store = new Store<StudioState>(INITIAL_STATE);
   #noticeTimer = 0;
+  #last: number | null = null;
 
   static override styles = [theme, studioStyles];
 
@@ -55,6 +59,9 @@ export class Studio extends LitElement {
     this.notice = "";
     this.#store.subscribe((now, before) => {
       this.requestUpdate();
+      // Whoever walks away from the photos means those that he comes to.
+      if (now.mode !== before.mode) this.#last = null;
+      this.#last = now.shot ?? now.projected ?? this.#last;
       const opened = now.selected !== null && before.selected === null;
       const closed = now.selected === null && before.selected !== null;
       if (opened || closed) void this.#makeRoom();
@@ -109,7 +116,7 @@ export class Studio extends LitElement {
 
   /** On a narrow page the panel covers the place's lower half: move the place up, and back. */
   async #makeRoom(): Promise<void> {
-    if (this.session === null || !matchMedia("(max-width: 720px)").matches) return;
+    if (this.session === null || !isNarrow()) return;
     await this.updateComplete;
     this.#leaveFree(this.session);
     this.session.viewer.recentre();
@@ -120,7 +127,7 @@ export class Studio extends LitElement {
     const { width, height } = this.#canvas.getBoundingClientRect();
     const boxOf = (name: string): DOMRect | null =>
       this.renderRoot.querySelector(name)?.getBoundingClientRect() ?? null;
-    const [brand, layers, tools] = [boxOf(".brand"), boxOf("veduta-layers"), boxOf("veduta-toolbar")];
+    const [brand, layers, tools] = [boxOf(".brand"), boxOf(".left"), boxOf("veduta-toolbar")];
     const panel = boxOf("veduta-feature-panel");
     const below = panel !== null && panel.height > 0 && panel.width > 0.5 * width ? panel.top : null;
     const beside = (box: DOMRect | null): boolean => box !== null && box.width > 0 && box.width < 0.4 * width;
@@ -151,7 +158,7 @@ export class Studio extends LitElement {
 
   #panels(session: Session): TemplateResult {
     const state = this.#store.value;
-    const shown = this.#shown(session);
+    const shown = shownFeature(session, state.selected);
     const coarse = matchMedia("(pointer: coarse)").matches;
     return html`
       <header class="brand sheet">
@@ -161,18 +168,11 @@ export class Studio extends LitElement {
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
-      <veduta-layers class="sheet" ?hidden=${!this.layersOpen || session.tables.length === 0} .tables=${session.tables} .counted=${this.#counted(session)}
-        .hidden_=${state.hidden} .colouring=${state.colouring}
-        @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
-        @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}>
-      </veduta-layers>
+      <div class="left" ?hidden=${!this.layersOpen}>${this.#layers(session)}</div>
       <veduta-feature-panel class="sheet" role="region" aria-label="The selected surface" ?hidden=${shown === null}
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
-      <veduta-photo-panel class="sheet" role="region" aria-label="The photo" ?hidden=${state.shot === null}
-        .shot=${state.shot === null ? null : (session.place.shots[state.shot] ?? null)} .count=${session.place.shots.length}
-        .number=${(state.shot ?? 0) + 1} @close-photo=${() => this.#store.update({ shot: null })}
-        @step-photo=${(event: CustomEvent<number>) => this.#stepPhoto(event.detail)}></veduta-photo-panel>
+      ${this.#photoPanel(session)}
       ${state.mode === "walk" && coarse
         ? html`<veduta-joystick
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
@@ -187,28 +187,43 @@ export class Studio extends LitElement {
     `;
   }
 
+  /** Classes, records and photos: those that the place has. */
+  #layers(session: Session): TemplateResult {
+    const { hidden, colouring, off, point_px, fading, shot, projected } = this.#store.value;
+    const { shots } = session.place;
+    const { records } = session;
+    return html`
+      <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
+        <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
+          @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
+          @point-size=${(event: CustomEvent<number>) => this.#store.update({ point_px: event.detail })}
+          @fading=${(event: CustomEvent<boolean>) => this.#store.update({ fading: event.detail })}></veduta-records>
+        <veduta-layers ?hidden=${session.tables.length === 0} .tables=${session.tables} .counted=${this.#counted(session)}
+          .hidden_=${hidden} .colouring=${colouring}
+          @colouring=${(event: CustomEvent<Colouring>) => this.#store.update({ colouring: event.detail })}
+          @layer=${(event: CustomEvent<{ kind: SemanticClass; visible: boolean }>) => this.#layer(event.detail)}></veduta-layers>
+      </div>
+      ${shots.length === 0 ? nothing : html`<veduta-photo-list class="sheet" .shots=${shots} .bitmap=${session.bitmap}
+          .current=${shot ?? projected} @choose-photo=${(event: CustomEvent<number>) => this.#lookThrough(event.detail)}></veduta-photo-list>`}`;
+  }
+
+  #photoPanel(session: Session): TemplateResult {
+    const { shot, projected, cover } = this.#store.value;
+    const { shots } = session.place;
+    const now = shot ?? projected;
+    return html`<veduta-photo-panel class="sheet" role="region" aria-label="The photo" ?hidden=${now === null}
+      .shot=${now === null ? null : (shots[now] ?? null)} .count=${shots.length} .number=${(now ?? 0) + 1}
+      .through=${shot !== null} .projected=${projected !== null} .cover=${cover}
+      @close-photo=${() => this.#close()} @project-photo=${() => this.#toggleProjection(session)}
+      @look-through=${() => this.#lookThrough(now)}
+      @cover=${(event: CustomEvent<number>) => this.#store.update({ cover: event.detail })}
+      @step-photo=${(event: CustomEvent<number>) => this.#stepPhoto(event.detail)}></veduta-photo-panel>`;
+  }
+
   /** What of a streamed place is drawn now, as the panel counts it. */
   #counted({ town }: Session): Counted | null {
     if (town === null || !this.layersOpen) return null;
     return { classes: town.counts(), provenances: town.provenances() };
-  }
-
-  #shown(session: Session): ShownFeature | null {
-    const { selected } = this.#store.value;
-    if (selected === null) return null;
-    const table = session.tables[selected.part];
-    const feature = table?.rows[selected.row];
-    if (table === undefined || feature === undefined) return null;
-    const part = session.place.parts[selected.part];
-    return {
-      feature,
-      row: selected.row,
-      table,
-      partName: session.nameOf(selected),
-      severalParts: session.town !== null || session.place.parts.length > 1,
-      arrangementInvented: session.town === null && part?.arrangement === "invented",
-      photoAddress: session.photoAddress(selected.part),
-    };
   }
 
   #layer(change: { kind: SemanticClass; visible: boolean }): void {
@@ -218,6 +233,16 @@ export class Studio extends LitElement {
       hidden: withLayer(hidden, change.kind, change.visible),
       selected: !change.visible && row?.class === change.kind ? null : selected,
     });
+  }
+
+  #record({ layer, visible }: { layer: Layer; visible: boolean }): void {
+    this.#store.update({ off: withLayer(this.#store.value.off, layer, visible), selected: null });
+  }
+
+  #lookThrough(shot: number | null): void {
+    // On a narrow page the layers lie over the photo.
+    if (isNarrow()) this.layersOpen = false;
+    this.#store.update(throughPhoto(this.#store.value, shot));
   }
 
   #selectRow(row: number): void {
@@ -265,17 +290,41 @@ export class Studio extends LitElement {
       help: () => this.#help?.toggle(),
       "next-photo": () => this.#stepPhoto(1),
       "previous-photo": () => this.#stepPhoto(-1),
-      close: () => this.#store.update({ selected: null, shot: null }),
+      project: () => this.#toggleProjection(session),
+      fading: () => this.#toggleFading(session),
+      close: () => this.#close(),
     };
     actions[command]();
+  }
+
+  /** First what lies over the picture, then the photo on the surfaces. */
+  #close(): void {
+    const { selected, shot } = this.#store.value;
+    if (selected === null && shot === null) this.#store.update({ projected: null });
+    else this.#store.update({ selected: null, shot: null });
+  }
+
+  /** The photo that one looks or looked through, or else the one that shows most of what is seen. */
+  #toggleProjection({ viewer, place }: Session): void {
+    if (place.shots.length === 0) return;
+    const { projected, shot } = this.#store.value;
+    this.#store.update({ projected: projected === null ? (shot ?? this.#last ?? viewer.nearestPhoto ?? 0) : null });
+  }
+
+  #toggleFading({ place }: Session): void {
+    if (place.shots.length === 0) return;
+    const fading = !this.#store.value.fading;
+    this.#store.update({ fading });
+    this.#say(fading ? "Photos fade in as you walk past" : "Photos do not fade in");
   }
 
   #stepPhoto(step: number): void {
     const count = this.session?.place.shots.length ?? 0;
     if (count === 0) return;
-    const { shot } = this.#store.value;
-    const next = shot === null ? (step > 0 ? 0 : count - 1) : (shot + step + count) % count;
-    this.#store.update({ shot: next, selected: null });
+    const { shot, projected } = this.#store.value;
+    const now = shot ?? projected;
+    const next = now === null ? (step > 0 ? 0 : count - 1) : (now + step + count) % count;
+    this.#lookThrough(next);
   }
 
   #nextColouring(): void {
@@ -323,25 +372,8 @@ export class Studio extends LitElement {
   }
 }
 
-function titleOf(session: Session): string {
-  if (session.town !== null) return "A town of many buildings";
-  const { shots, scaleKnown } = session.place;
-  const parts = session.place.parts.filter(({ isGround }) => !isGround);
-  if (parts.length === 0) {
-    const photos = shots.length === 1 ? "1 photo" : `${shots.length} photos`;
-    return scaleKnown ? photos : `${photos}, scale unknown`;
-  }
-  const first = parts[0]?.name ?? "";
-  return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;
-}
-
-function hintOf(state: StudioState, coarse: boolean, hasPhotos: boolean): string {
-  if (state.mode === "orbit" && hasPhotos) {
-    return coarse ? "Drag to turn, tap a photo to look through it" : "Drag to turn · scroll to zoom · click a photo to look through it";
-  }
-  if (state.mode === "orbit") return coarse ? "Drag to turn, tap a surface to ask" : "Drag to turn · scroll to zoom · click a surface to ask";
-  if (state.mouseLook) return "Move the mouse to look · click to ask · Esc lets go";
-  return coarse ? "Stick to walk, drag to look" : "W A S D to walk · drag to look · Shift to run";
+function isNarrow(): boolean {
+  return matchMedia("(max-width: 720px)").matches;
 }
 
 /** Keys pressed in a field or on a switch belong to it, except those that no control uses. */

@@ -12,6 +12,8 @@ export type Command =
   | "mouse-look"
   | "next-photo"
   | "previous-photo"
+  | "project"
+  | "fading"
   | "help"
   | "close";
 
@@ -46,6 +48,8 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyM"], action: "mouse-look", shown: "M", text: "Look around with the mouse while walking" },
   { codes: ["KeyN"], action: "next-photo", shown: "N", text: "Look through the next photo" },
   { codes: ["KeyB"], action: "previous-photo", shown: "B", text: "Look through the photo before" },
+  { codes: ["KeyT"], action: "project", shown: "T", text: "Throw the photo onto the place, take it off" },
+  { codes: ["KeyV"], action: "fading", shown: "V", text: "Photos fade in as one walks past, or do not" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

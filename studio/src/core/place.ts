@@ -3,6 +3,7 @@ import type { Place as Manifest, PlaceCamera, PlacePart, PlacePoints } from "../
 import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
+import type { Layer } from "./state.ts";
 import type { Vec3 } from "./vector.ts";
 
 export interface Part {
@@ -17,6 +18,8 @@ export interface Part {
   readonly bounds: Box | null;
   /** The ground between the others: one walks on it, and it is not what one comes to see. */
   readonly isGround: boolean;
+  /** With what it is shown and hidden; null for the ground, which is with its class alone. */
+  readonly layer: Layer | null;
 }
 
 /** A cloud of points. */
@@ -56,6 +59,8 @@ export interface Place {
 const MOST_PARTS = 10_000;
 const MOST_CLOUDS = 1000;
 const MOST_SHOTS = 100_000;
+/** The part that holds the walls which `veduta photos` found in the points. */
+const WALLS = "walls";
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 const REMEDY = "Write the place again, for example with `veduta facade`.";
 
@@ -123,15 +128,18 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
   if (!isTransform(transform)) throw bad("transform");
   if (part.arrangement !== "single" && part.arrangement !== "invented") throw bad("arrangement");
   if (!isInside(part.model)) throw bad("model");
+  const id = text("id");
+  const isGround = part.ground === true;
   return {
-    id: text("id"),
+    id,
     name: text("name"),
     model: part.model,
     photo: isInside(part.photo) ? part.photo : null,
     worldFromPart: transform,
     arrangement: part.arrangement,
     bounds: readBounds(part.bounds),
-    isGround: part.ground === true,
+    isGround,
+    layer: isGround ? null : id === WALLS ? "walls" : "model",
   };
 }
 

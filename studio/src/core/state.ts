@@ -2,6 +2,8 @@
 import type { SemanticClass } from "./classes.ts";
 
 export type Mode = "orbit" | "walk";
+/** What of a place is shown beside its classes: the records that it was made from, and the parts. */
+export type Layer = "points" | "cameras" | "walls" | "model";
 export type Colouring = "photo" | "class" | "provenance";
 
 /** A feature of the place: which part, and which row of the part's table. */
@@ -17,6 +19,14 @@ export interface StudioState {
   readonly selected: FeatureRef | null;
   /** The photo that is looked through, by its number in the place. */
   readonly shot: number | null;
+  /** The photo that lies on the surfaces, and how much of them it covers (0..1). */
+  readonly projected: number | null;
+  readonly cover: number;
+  /** Whether photos fade in as one walks past. */
+  readonly fading: boolean;
+  readonly off: ReadonlySet<Layer>;
+  /** Size of a point, CSS pixels. */
+  readonly point_px: number;
   readonly mouseLook: boolean;
 }
 
@@ -26,14 +36,25 @@ export const INITIAL_STATE: StudioState = {
   hidden: new Set(),
   selected: null,
   shot: null,
+  projected: null,
+  cover: 1,
+  fading: true,
+  off: new Set(),
+  point_px: 2.5,
   mouseLook: false,
 };
 
-export function withLayer(
-  hidden: ReadonlySet<SemanticClass>,
-  kind: SemanticClass,
+/** Looking through a photo; one that lies on the surfaces gives way to it. */
+export function throughPhoto(state: StudioState, shot: number | null): Partial<StudioState> {
+  const projected = state.projected === null || shot === null ? state.projected : shot;
+  return { shot, projected, selected: null };
+}
+
+export function withLayer<Kind extends SemanticClass | Layer>(
+  hidden: ReadonlySet<Kind>,
+  kind: Kind,
   visible: boolean,
-): ReadonlySet<SemanticClass> {
+): ReadonlySet<Kind> {
   const next = new Set(hidden);
   if (visible) next.delete(kind);
   else next.add(kind);

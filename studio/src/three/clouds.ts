@@ -1,13 +1,11 @@
 /** Clouds of points, in their own colours. */
-import { type BufferGeometry, Group, Points, PointsMaterial } from "three";
+import { type BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { Fault } from "../core/fault.ts";
-import { drawnFromModel } from "../core/frames.ts";
+import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
 import { fetchBytes } from "./fetch.ts";
 
-/** CSS pixels; points keep their size, so that a cloud is dense from afar and open from near. */
-const POINT_PX = 2.5;
 const MAGIC = "ply";
 const REMEDY = "Write the place again, for example with `veduta photos`.";
 
@@ -33,9 +31,39 @@ export async function loadClouds(
   return group;
 }
 
+/** `px` CSS pixels; points keep their size, so that a cloud is dense from afar and open from near. */
+export function sizePoints(clouds: Group, px: number): void {
+  for (const points of pointsOf(clouds)) points.material.size = px * Math.min(devicePixelRatio, 2);
+}
+
+/** Points of all clouds, evenly taken: three numbers each, world frame. */
+export function samplePoints(clouds: Group, most: number): Float32Array {
+  const all = pointsOf(clouds);
+  const count = all.reduce((sum, { geometry }) => sum + geometry.getAttribute("position").count, 0);
+  const stride = Math.max(1, Math.ceil(count / most));
+  clouds.updateMatrixWorld(true);
+  const sampled: number[] = [];
+  const point = new Vector3();
+  for (const points of all) {
+    const position = points.geometry.getAttribute("position");
+    for (let i = 0; i < position.count; i += stride) {
+      point.fromBufferAttribute(position, i).applyMatrix4(points.matrixWorld);
+      sampled.push(...worldFromDrawn(point.toArray()));
+    }
+  }
+  return new Float32Array(sampled);
+}
+
+function pointsOf(clouds: Group): Points<BufferGeometry, PointsMaterial>[] {
+  const found: Points<BufferGeometry, PointsMaterial>[] = [];
+  clouds.traverse((node) => {
+    if (node instanceof Points) found.push(node as Points<BufferGeometry, PointsMaterial>);
+  });
+  return found;
+}
+
 function makeMaterial(): PointsMaterial {
   return new PointsMaterial({
-    size: POINT_PX * Math.min(devicePixelRatio, 2),
     sizeAttenuation: false,
     vertexColors: true,
     // The photos' colours as they are.

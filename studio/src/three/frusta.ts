@@ -7,6 +7,7 @@ import {
   Group,
   LineBasicMaterial,
   LineSegments,
+  type Material,
   Matrix4,
   Mesh,
   MeshBasicMaterial,
@@ -14,46 +15,40 @@ import {
   PlaneGeometry,
   Quaternion,
   Raycaster,
-  SRGBColorSpace,
-  type Texture,
-  TextureLoader,
   type Vector2,
   Vector3,
 } from "three";
-import { Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldPoint } from "../core/frames.ts";
-import { fileAddress, type Place, type Shot } from "../core/place.ts";
+import { approached } from "../core/photo-choice.ts";
+import type { Place, Shot } from "../core/place.ts";
 import { boundsOfShots, cornersOfShot, depthOfFrusta, fovOfShot } from "../core/shots.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import type { Pose } from "./flight.ts";
+import { CHOSEN_PX, type PhotoTextures } from "./photo-textures.ts";
 
 const LINE = "#c2402f";
 const BASE_OPACITY = 0.16;
+/** Pyramids vanish for an eye that is nearer than this; in shares of their depth. */
+const NEAR = 1.6;
+/** How long a photo takes to appear where one looks through it. */
+const APPEARING_S = 0.35;
 
 export class Frusta {
   readonly group = new Group();
   readonly #shots: readonly Shot[];
-  readonly #manifest: URL;
+  readonly #textures: PhotoTextures;
   readonly #bases: readonly Mesh[];
   readonly #lines: LineSegments;
   readonly #picture: Mesh<BufferGeometry, MeshBasicMaterial>;
   readonly #depth: number;
   readonly #onChange: () => void;
-  readonly #onFault: (fault: Fault) => void;
   #wanted: number | null = null;
 
-  /** `onFault` hears of photos that cannot be loaded: the place is there without them. */
-  constructor(
-    place: Pick<Place, "shots" | "clouds">,
-    manifest: URL,
-    onChange: () => void,
-    onFault: (fault: Fault) => void,
-  ) {
+  constructor(place: Pick<Place, "shots" | "clouds">, textures: PhotoTextures, onChange: () => void) {
     const { shots, clouds } = place;
     this.#shots = shots;
-    this.#manifest = manifest;
+    this.#textures = textures;
     this.#onChange = onChange;
-    this.#onFault = onFault;
     const { min, max } = boundsOfShots(clouds, shots);
     this.#depth = depthOfFrusta(shots, length(subtract(max, min)));
     const pale = new MeshBasicMaterial({
@@ -65,13 +60,12 @@ export class Frusta {
       toneMapped: false,
     });
     this.#bases = shots.map((shot) => new Mesh(this.#baseOf(shot), pale));
-    this.#lines = new LineSegments(
-      this.#edges(),
-      new LineBasicMaterial({ color: LINE, toneMapped: false }),
-    );
+    const sharp = new LineBasicMaterial({ color: LINE, toneMapped: false, transparent: true });
+    for (const material of [pale, sharp]) this.#vanishNearby(material);
+    this.#lines = new LineSegments(this.#edges(), sharp);
     this.#picture = new Mesh(
       new BufferGeometry(),
-      new MeshBasicMaterial({ side: DoubleSide, toneMapped: false }),
+      new MeshBasicMaterial({ side: DoubleSide, toneMapped: false, transparent: true, opacity: 0, depthWrite: false }),
     );
     this.#picture.visible = false;
     this.group.add(this.#lines, ...this.#bases, this.#picture);
@@ -81,6 +75,7 @@ export class Frusta {
   hit(onScreen: Vector2, camera: Camera): number | null {
     const caster = new Raycaster();
     caster.setFromCamera(onScreen, camera);
+    caster.near = NEAR * this.#depth;
     const hit = caster.intersectObjects([...this.#bases], false)[0];
     const index = this.#bases.findIndex((base) => base === hit?.object);
     return index < 0 ? null : index;
@@ -88,25 +83,33 @@ export class Frusta {
 
   /** Shows one photo, whole, in its place; the others' pyramids make room for it. */
   async show(index: number | null): Promise<void> {
+    const before = this.#wanted;
     this.#wanted = index;
     const shot = index === null ? undefined : this.#shots[index];
     this.#lines.visible = shot === undefined;
     for (const base of this.#bases) base.visible = shot === undefined;
     this.#picture.visible = false;
-    this.#picture.material.map?.dispose();
+    if (before !== null) this.#textures.release(before, CHOSEN_PX);
     this.#onChange();
-    if (shot === undefined) return;
-    const texture = await this.#load(shot);
-    if (texture === null || this.#wanted !== index) {
-      texture?.dispose();
-      return;
-    }
+    if (shot === undefined || index === null) return;
+    const texture = await this.#textures.acquire(index, CHOSEN_PX);
+    if (texture === null || this.#wanted !== index) return;
     this.#picture.geometry.dispose();
     this.#picture.geometry = this.#baseOf(shot);
     this.#picture.material.map = texture;
+    this.#picture.material.opacity = 0;
     this.#picture.material.needsUpdate = true;
     this.#picture.visible = true;
     this.#onChange();
+  }
+
+  /** Lets the photo appear; it stays away while it lies on the surfaces. True while it changes. */
+  advance(seconds: number, isProjected: boolean): boolean {
+    if (!this.#picture.visible) return false;
+    const { material } = this.#picture;
+    const { opacity } = material;
+    material.opacity = approached(opacity, isProjected ? 0 : 1, seconds, APPEARING_S);
+    return material.opacity !== opacity;
   }
 
   /** The pose of a photo, with the whole of it in the picture. */
@@ -126,19 +129,6 @@ export class Frusta {
     for (const base of this.#bases) base.geometry.dispose();
     this.#lines.geometry.dispose();
     this.#picture.geometry.dispose();
-    this.#picture.material.map?.dispose();
-  }
-
-  async #load(shot: Shot): Promise<Texture | null> {
-    const address = fileAddress(shot.picture, this.#manifest).href;
-    try {
-      const texture = await new TextureLoader().loadAsync(address);
-      texture.colorSpace = SRGBColorSpace;
-      return texture;
-    } catch {
-      this.#onFault(new Fault(shot.picture, "the photo could not be loaded", "Write the place again."));
-      return null;
-    }
   }
 
   #drawn(shot: Shot, p: Vec3): Vector3 {
@@ -154,6 +144,21 @@ export class Frusta {
     plane.setAttribute("position", new BufferAttribute(position, 3));
     plane.computeBoundingSphere();
     return plane;
+  }
+
+  /** Whoever walks through a pyramid would else see it over everything. */
+  #vanishNearby(material: Material): void {
+    const [from, to] = [NEAR * this.#depth, 2 * NEAR * this.#depth].map((way) => way.toFixed(6));
+    material.onBeforeCompile = (shader) => {
+      shader.vertexShader = shader.vertexShader
+        .replace("#include <common>", "#include <common>\nvarying float vAway;")
+        .replace("#include <project_vertex>", "#include <project_vertex>\nvAway = length(mvPosition.xyz);");
+      shader.fragmentShader = shader.fragmentShader
+        .replace("#include <common>", "#include <common>\nvarying float vAway;")
+        .replace("#include <color_fragment>", `#include <color_fragment>
+          diffuseColor.a *= smoothstep(${from ?? "0.0"}, ${to ?? "1.0"}, vAway);`);
+    };
+    material.customProgramCacheKey = () => `veduta-frusta-${from ?? ""}`;
   }
 
   #edges(): BufferGeometry {

@@ -1,14 +1,19 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
+import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
+import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
-import type { Vec3 } from "../core/vector.ts";
+import type { StudioState } from "../core/state.ts";
 import { Appearance } from "./appearance.ts";
+import { samplePoints, sizePoints } from "./clouds.ts";
 import type { Frusta } from "./frusta.ts";
 import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
 import { OpenSpace } from "./open-space.ts";
+import { PhotoShow } from "./photo-show.ts";
+import type { PhotoTextures } from "./photo-textures.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
 import { Solid, soupOf } from "./solid.ts";
 import type { Town } from "./town.ts";
@@ -16,12 +21,19 @@ import type { Town } from "./town.ts";
 /** Of a town only what is around the person throws shadows; they move when the person has gone far. */
 const SHADE_RADIUS_M = 110;
 const SHADE_STEP_M = 25;
+/** Points that are looked at for what the photos show: of so many pairs in all, and of so many at most. */
+const MOST_PAIRS = 1_500_000;
+const MOST_POINTS = 6000;
+const FEWEST_POINTS = 300;
+/** How far away a photo's subject is taken to be where nothing tells; in shares of the place's size. */
+const USUAL_DEPTH = 0.3;
 
 export interface ViewerContent {
   readonly parts: readonly LoadedPart[];
   readonly town: Town | null;
   readonly clouds: Group;
   readonly frusta: Frusta | null;
+  readonly textures: PhotoTextures | null;
 }
 
 export class Stage {
@@ -29,29 +41,66 @@ export class Stage {
   /** What one meets with: surfaces, or nothing but a space where there are photos alone. */
   readonly solid: Solid | Town | OpenSpace;
   readonly appearance: Appearance;
-  /** The corners of what one comes to see, and the box around them; world frame. */
+  /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
   readonly seen: Box;
+  /** The photos that lie on the place; null where it has none. */
+  readonly photos: PhotoShow | null;
+  readonly #content: ViewerContent;
+  /** What photos can lie on. */
+  readonly #surfaces = new Scene();
   readonly #town: Town | null;
   readonly #scenery: Scenery;
+  #changes = 0;
   #shaded = { centre: new Vector3(Infinity, 0, 0), tiles: -1 };
 
-  constructor(place: Place, { parts, town, clouds, frusta }: ViewerContent) {
+  /** `onChange` is called when something has arrived that is to be drawn. */
+  constructor(place: Place, content: ViewerContent, onChange: () => void) {
+    const { parts, town, clouds, frusta, textures } = content;
+    this.#content = content;
     this.#town = town;
     const ground = parts.filter(({ part }) => part.isGround);
     this.solid = town ?? solidOf(place, parts, ground);
     const told = cornersOfPlace(place);
-    this.corners = told.length > 0 ? told : cornersOf(this.solid.bounds);
-    this.seen = boxOfPoints(this.corners);
+    // A city model may go far beyond what the photos show.
+    const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
+    this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
+    this.seen = boxOfPoints([...this.corners, ...told]);
     const buildings = parts.filter(({ part }) => !part.isGround);
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
     const hasGround = place.parts.some(({ isGround }) => isGround);
     this.#scenery = makeScenery(this.seen, footprints, { hasGround, scaleKnown: place.scaleKnown });
     this.appearance = new Appearance(parts);
     for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
-    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds);
-    for (const { group } of parts) this.scene.add(group);
-    for (const own of [town, frusta]) if (own !== null) this.scene.add(own.group);
+    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces);
+    for (const { group } of parts) this.#surfaces.add(group);
+    if (town !== null) this.#surfaces.add(town.group);
+    if (frusta !== null) this.scene.add(frusta.group);
+    this.photos = textures === null ? null : this.#showOf(place, textures, onChange);
+  }
+
+  /**
+   * What the place shows for photos to lie on. Walls that were found in the points are seldom all that
+   * photos show.
+   */
+  get canvas(): "model" | "walls" | "nothing" {
+    const { parts } = this.#content;
+    const shown = parts.filter(({ group }) => group.visible);
+    if (this.#town?.group.visible === true || shown.some(({ part }) => part.layer !== "walls")) return "model";
+    return shown.length > 0 ? "walls" : "nothing";
+  }
+
+  /** Shows what the person wants to see, and hides the rest. */
+  showLayers(state: StudioState): void {
+    const { parts, clouds, frusta } = this.#content;
+    this.appearance.showLayers(state);
+    for (const { part, group } of parts) group.visible = part.layer === null || !state.off.has(part.layer);
+    if (this.#town !== null) this.#town.group.visible = !state.off.has("model");
+    if (frusta !== null) frusta.group.visible = state.shot !== null || !state.off.has("cameras");
+    clouds.visible = !state.off.has("points");
+    sizePoints(clouds, state.point_px);
+    this.photos?.lookAgain();
+    this.#scenery.sun.shadow.needsUpdate = true;
   }
 
   /** Whether something is still on its way, when it is seen from here. */
@@ -60,9 +109,15 @@ export class Stage {
     return this.#town !== null && this.#stream(this.#town, camera, renderer);
   }
 
-  /** After something was shown or hidden. */
-  redrawShadows(): void {
-    this.#scenery.sun.shadow.needsUpdate = true;
+  #showOf(place: Place, textures: PhotoTextures, onChange: () => void): PhotoShow {
+    const { clouds, shots } = place;
+    const most = Math.max(FEWEST_POINTS, Math.min(MOST_POINTS, MOST_PAIRS / shots.length));
+    const points = samplePoints(this.#content.clouds, most);
+    const [seen, all] = [this.solid.bounds, boundsOfShots(clouds, shots)].map(({ min, max }) => length(subtract(max, min)));
+    const size = Math.max(seen ?? 0, all ?? 0);
+    const depthOf = ({ eye, ahead }: Axes): number =>
+      this.solid.firstHit(eye, ahead, () => true)?.distance_m ?? USUAL_DEPTH * size;
+    return new PhotoShow(shots, textures, this.#surfaces, { points, size, depthOf }, onChange);
   }
 
   /** Fetches what is seen from here, and keeps the shadows around the person. */
@@ -74,6 +129,8 @@ export class Stage {
       this.#scenery.shadeAround(centre, SHADE_RADIUS_M);
       this.#shaded = { centre: camera.position.clone(), tiles: town.tileCount };
     }
+    if (town.changes !== this.#changes) this.photos?.lookAgain();
+    this.#changes = town.changes;
     return town.isLoading;
   }
 }

@@ -76,6 +76,7 @@ export class Town implements Obstacles {
   readonly #solids = new Map<Object3D, Solid>();
   readonly #images = new SharedImages();
   readonly #onChange: () => void;
+  #changes = 0;
   #fault: Fault | null = null;
   #state: StudioState | null = null;
 
@@ -98,7 +99,10 @@ export class Town implements Obstacles {
     this.#tiles.addEventListener("load-error", ({ error, url }) => {
       this.#fault ??= new Fault(String(url), error.message, "Write the place again, or copy it whole.");
     });
-    this.#tiles.addEventListener("tile-visibility-change", onShown);
+    this.#tiles.addEventListener("tile-visibility-change", () => {
+      this.#changes += 1;
+      onShown();
+    });
     for (const kind of ["tile-visibility-change", "needs-update", "load-tileset"] as const) {
       this.#tiles.addEventListener(kind, onChange);
     }
@@ -141,6 +145,11 @@ export class Town implements Obstacles {
   /** Tiles that are drawn now. */
   get tileCount(): number {
     return this.#tiles.visibleTiles.size;
+  }
+
+  /** How often other tiles have been shown than before. */
+  get changes(): number {
+    return this.#changes;
   }
 
   get faceCount(): number {

@@ -1,22 +1,22 @@
 /** Draws the place and moves the camera through it, as the state says. */
-import { PerspectiveCamera, Raycaster, Vector2, Vector3, type WebGLRenderer } from "three";
+import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
 import { Fault } from "../core/fault.ts";
-import { drawnFaces, drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import { drawnFaces, worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
-import type { FeatureRef, StudioState } from "../core/state.ts";
+import { type FeatureRef, type StudioState, throughPhoto } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
 import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
-import type { LoadedPart } from "./load.ts";
 import { OrbitRig } from "./orbit-rig.ts";
+import type { ShownPhoto } from "./photo-show.ts";
+import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
-import type { Hit } from "./solid.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
@@ -41,7 +41,6 @@ export interface ViewerStats {
 export class Viewer {
   readonly #canvas: HTMLCanvasElement;
   readonly #store: Store<StudioState>;
-  readonly #parts: readonly LoadedPart[];
   readonly #town: Town | null;
   readonly #frusta: Frusta | null;
   readonly #renderer: WebGLRenderer;
@@ -50,6 +49,8 @@ export class Viewer {
   readonly #orbit: OrbitRig;
   readonly #walk: WalkRig;
   readonly #pointer: CanvasPointer;
+  /** What is under a point of the canvas. */
+  readonly picker: Picker;
   readonly #resizes: ResizeObserver;
   readonly #held = new Set<Hold>();
   #stick: readonly [number, number] = [0, 0];
@@ -64,19 +65,19 @@ export class Viewer {
   #streak = { frames: 0, seconds: 0 };
 
   constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
-    const { parts, town, frusta } = content;
+    const { town, frusta } = content;
     this.#canvas = canvas;
     this.#store = store;
-    this.#parts = parts;
     this.#renderer = makeRenderer(canvas);
     this.#town = town;
     this.#frusta = frusta;
-    this.#stage = new Stage(place, content);
+    this.#stage = new Stage(place, content, () => this.invalidate());
     const { solid, corners, seen } = this.#stage;
     const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
     this.#walk = new WalkRig(place.start, solid, solid.bounds);
+    this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
       onLook: (dx, dy, captured) => this.#look(dx, dy, captured),
@@ -87,6 +88,7 @@ export class Viewer {
     store.subscribe((now, before) => this.#follow(now, before));
     this.#resize();
     this.#stage.appearance.tint(store.value);
+    this.#stage.showLayers(store.value);
     town?.show(store.value);
     this.goHome();
   }
@@ -119,6 +121,16 @@ export class Viewer {
       triangles: this.solid.faceCount,
       tiles: this.#town?.tileCount ?? 0,
     };
+  }
+
+  /** The photos that lie on the place, and how far each has faded in. */
+  get shownPhotos(): readonly ShownPhoto[] {
+    return this.#stage.photos?.shown ?? [];
+  }
+
+  /** The photo that is most as one sees now. */
+  get nearestPhoto(): number | null {
+    return this.#stage.photos?.nearest(this.pose) ?? null;
   }
 
   /** World frame. */
@@ -182,35 +194,6 @@ export class Viewer {
     this.#pointer.release();
   }
 
-  /** The visible surface under a point of the canvas (CSS pixels). */
-  hitAt(x: number, y: number): Hit | null {
-    const box = this.#canvas.getBoundingClientRect();
-    const caster = new Raycaster();
-    const onScreen = new Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height);
-    caster.setFromCamera(onScreen, this.#camera);
-    return this.solid.firstHit(
-      worldFromDrawn(caster.ray.origin.toArray()),
-      worldFromDrawn(caster.ray.direction.toArray()),
-      (feature) => this.#isVisible(feature),
-    );
-  }
-
-  /** The photo whose pyramid is under a point of the canvas (CSS pixels). */
-  shotAt(x: number, y: number): number | null {
-    if (this.#store.value.shot !== null) return null;
-    const box = this.#canvas.getBoundingClientRect();
-    const onScreen = new Vector2((2 * x) / box.width - 1, 1 - (2 * y) / box.height);
-    return this.#frusta?.hit(onScreen, this.#camera) ?? null;
-  }
-
-  /** Where a point of the world is on the canvas (CSS pixels); null behind the camera. */
-  project(point: Vec3): { x: number; y: number } | null {
-    const box = this.#canvas.getBoundingClientRect();
-    const seen = new Vector3(...drawnFromWorld(point)).project(this.#camera);
-    if (seen.z > 1) return null;
-    return { x: ((seen.x + 1) / 2) * box.width, y: ((1 - seen.y) / 2) * box.height };
-  }
-
   async screenshot(): Promise<Blob> {
     this.#draw();
     return await new Promise((resolve, reject) => {
@@ -223,6 +206,7 @@ export class Viewer {
 
   dispose(): void {
     this.#town?.dispose();
+    this.#stage.photos?.dispose();
     this.#frusta?.dispose();
     cancelAnimationFrame(this.#request);
     this.#resizes.disconnect();
@@ -243,7 +227,8 @@ export class Viewer {
       this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
       this.#pace = paced(this.#pace, seconds);
     }
-    const goesOn = this.#advance(seconds);
+    const moves = this.#advance(seconds);
+    const goesOn = this.#fade(Math.min(seconds, 0.1)) || moves;
     this.#sharpen(goesOn ? sharpnessOf(this.#pace) : 1);
     this.#draw();
     this.#lastFrame_ms = goesOn ? now_ms : null;
@@ -270,6 +255,15 @@ export class Viewer {
     return this.#orbit.advance() || steering;
   }
 
+  /** True while a photo comes or goes. */
+  #fade(seconds: number): boolean {
+    const state = this.#store.value;
+    const { eye, direction } = this.pose;
+    const walks = state.mode === "walk" && state.shot === null && state.fading;
+    const appears = this.#frusta?.advance(seconds, state.projected !== null) ?? false;
+    return (this.#stage.photos?.advance(state, walks ? { eye, direction } : null, seconds) ?? false) || appears;
+  }
+
   #sharpen(share: number): void {
     if (share === this.#sharpness) return;
     this.#sharpness = share;
@@ -280,6 +274,7 @@ export class Viewer {
     this.#keepDepth();
     if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
     this.#renderer.render(this.#stage.scene, this.#camera);
+    this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     this.#frames += 1;
   }
 
@@ -295,10 +290,8 @@ export class Viewer {
   #follow(now: StudioState, before: StudioState): void {
     if (now.mode !== before.mode) this.#changeMode(now.mode);
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
-    if (now.hidden !== before.hidden) {
-      this.#stage.appearance.showLayers(now);
-      this.#stage.redrawShadows();
-    }
+    const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
+    if (shows || now.shot !== before.shot) this.#stage.showLayers(now);
     if (this.#town !== null) this.#town.show(now);
     if (now.selected !== before.selected) this.#outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {
@@ -375,17 +368,9 @@ export class Viewer {
   }
 
   #select(x: number, y: number): void {
-    const shot = this.shotAt(x, y);
-    if (shot !== null) this.#store.update({ shot, selected: null });
-    else this.#store.update({ selected: this.hitAt(x, y)?.feature ?? null });
-  }
-
-  #isVisible(ref: FeatureRef): boolean {
-    const kind =
-      this.#town === null
-        ? (this.#parts[ref.part]?.table.rows[ref.row]?.class ?? null)
-        : this.#town.classOf(ref);
-    return kind !== null && !this.#store.value.hidden.has(kind);
+    const shot = this.picker.shotAt(x, y);
+    if (shot !== null) this.#store.update(throughPhoto(this.#store.value, shot));
+    else this.#store.update({ selected: this.picker.hitAt(x, y)?.feature ?? null });
   }
 
   #resize(): void {

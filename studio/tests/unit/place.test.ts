@@ -36,6 +36,14 @@ describe("reading a place", () => {
     expect(place.parts[0]?.worldFromPart[15]).toBe(1);
   });
 
+  it("tells the walls that were found from the model", () => {
+    const layerOf = (part: Record<string, unknown>): string | null | undefined =>
+      readPlace(manifest({}, part), "place.json").parts[0]?.layer;
+    expect(layerOf({})).toBe("model");
+    expect(layerOf({ id: "walls" })).toBe("walls");
+    expect(layerOf({ ground: true })).toBeNull();
+  });
+
   it("knows the ground, and what else there is to see", () => {
     const ground = { ...(JSON.parse(manifest()) as { parts: object[] }).parts[0], id: "g", ground: true };
     const { parts } = JSON.parse(manifest()) as { parts: object[] };

@@ -1,0 +1,153 @@
+/** Which of the records and the parts of a place are shown, and how. */
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import type { Layer } from "../core/state.ts";
+import { icons } from "./icons.ts";
+import { theme } from "./theme.ts";
+
+const NAMES: Readonly<Record<Layer, string>> = {
+  model: "Model",
+  walls: "Walls found",
+  points: "Points",
+  cameras: "Cameras",
+};
+const SMALLEST_PX = 1;
+const LARGEST_PX = 8;
+
+export class RecordsPanel extends LitElement {
+  static override properties = {
+    layers: { attribute: false },
+    off: { attribute: false },
+    point_px: { type: Number },
+    fading: { type: Boolean },
+  };
+  /** Those that the place has. */
+  declare layers: readonly Layer[];
+  declare off: ReadonlySet<Layer>;
+  declare point_px: number;
+  declare fading: boolean;
+
+  static override styles = [
+    theme,
+    css`
+      :host {
+        display: block;
+        padding: 6px 12px 4px;
+      }
+      :host([hidden]) {
+        display: none;
+      }
+      .eyebrow {
+        padding: 10px 8px 0;
+        margin-bottom: 6px;
+      }
+      ul {
+        list-style: none;
+      }
+      .switch,
+      label {
+        display: flex;
+        align-items: center;
+        gap: 10px;
+        width: 100%;
+        min-height: 36px;
+        padding: 6px 8px;
+        border-radius: 8px;
+        text-align: left;
+      }
+      .switch:hover {
+        background: var(--hover);
+      }
+      .switch span {
+        flex: 1;
+      }
+      .switch[aria-checked="false"] span {
+        color: var(--ink-faint);
+      }
+      .switch[data-layer][aria-checked="false"] span {
+        text-decoration: line-through;
+        text-decoration-thickness: 1px;
+      }
+      .switch svg {
+        width: 18px;
+        height: 18px;
+        color: var(--ink-faint);
+      }
+      .knob {
+        flex: none;
+        width: 30px;
+        height: 18px;
+        padding: 2px;
+        border-radius: 9px;
+        background: #b9c0c5;
+        transition: background 0.15s;
+      }
+      .knob::after {
+        content: "";
+        display: block;
+        width: 14px;
+        height: 14px;
+        border-radius: 50%;
+        background: #fff;
+        transition: transform 0.15s;
+      }
+      [aria-checked="true"] > .knob {
+        background: var(--deep);
+      }
+      [aria-checked="true"] > .knob::after {
+        transform: translateX(12px);
+      }
+      label {
+        color: var(--ink-soft);
+      }
+      input {
+        flex: 1;
+        min-width: 0;
+        accent-color: var(--deep);
+      }
+    `,
+  ];
+
+  constructor() {
+    super();
+    this.layers = [];
+    this.off = new Set();
+    this.point_px = 0;
+    this.fading = false;
+  }
+
+  override render(): TemplateResult {
+    return html`
+      <h2 class="eyebrow">Shown</h2>
+      <ul>
+        ${this.layers.map((layer) => html`<li>${this.#layer(layer)}${layer === "points" ? this.#size() : nothing}</li>`)}
+      </ul>
+      ${this.layers.includes("cameras")
+        ? html`<button class="switch" role="switch" aria-checked=${this.fading}
+            title="While walking, photos that show what you see lie over the place (V)"
+            @click=${() => this.#emit("fading", !this.fading)}>
+            <span>Photos fade in</span><i class="knob"></i></button>`
+        : nothing}
+    `;
+  }
+
+  #size(): TemplateResult {
+    return html`<label>Size <input type="range" aria-label="Size of the points" min=${SMALLEST_PX} max=${LARGEST_PX} step="0.5"
+      .value=${String(this.point_px)} ?disabled=${this.off.has("points")}
+      @input=${(event: Event) => this.#emit("point-size", Number((event.target as HTMLInputElement).value))} /></label>`;
+  }
+
+  #layer(layer: Layer): TemplateResult {
+    const visible = !this.off.has(layer);
+    return html`<button class="switch" role="switch" aria-checked=${visible} data-layer=${layer}
+      title=${visible ? `Hide: ${NAMES[layer]}` : `Show: ${NAMES[layer]}`}
+      @click=${() => this.#emit("record", { layer, visible: !visible })}>
+      <span>${NAMES[layer]}</span>${visible ? icons.eye : icons.eyeOff}
+    </button>`;
+  }
+
+  #emit(name: "record" | "point-size" | "fading", detail: unknown): void {
+    this.dispatchEvent(new CustomEvent(name, { detail }));
+  }
+}
+
+customElements.define("veduta-records", RecordsPanel);
