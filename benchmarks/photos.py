@@ -21,7 +21,7 @@ import pycolmap
 from photos_truth import Centres, centre_errors, colmap_centres, extent, fountain_centres
 from record import Row, record
 
-from veduta.photos.lens import choose_lens, with_cameras
+from veduta.photos.cameras.lens import choose_lens, with_cameras
 from veduta.photos.options import CameraOptions
 from veduta.photos.structure import Structure, adjusted, structure_of
 

@@ -43,16 +43,21 @@ def frame_by_windows(windows: Boxes, size: tuple[int, int]) -> Matrix | None:
     `b` and `r` are fitted to all pairs of windows of one floor and of one column, in widths of the
     picture, by iterated least squares with Geman and McClure's weights. None for too few pairs.
     """
-    width, height = size
-    unit = homography.scaling(1 / width, 1 / width) @ homography.translation(
-        -width / 2, -height / 2
-    )
+    unit = _unit(size)
     boxes = homography.apply(unit, windows.reshape(-1, 2)).reshape(-1, 4)
     rows, columns = _slopes(boxes, 1), _slopes(boxes, 0)
     if rows is None or columns is None:
         return None
     (a, p), (b, r) = (-rows[0], rows[1]), (-columns[0], columns[1])
     return np.array([[1.0, b, 0.0], [a, 1.0, 0.0], [p, r, 1.0]]) @ unit
+
+
+def _unit(size: tuple[int, int]) -> Matrix:
+    """Pixels to widths of the picture from its middle."""
+    width, height = size
+    return homography.scaling(1 / width, 1 / width) @ homography.translation(
+        -width / 2, -height / 2
+    )
 
 
 def _slopes(boxes: Boxes, axis: int) -> NDArray[np.float64] | None:
@@ -92,10 +97,7 @@ def _robust(
 
 def terms(found: Matrix, size: tuple[int, int]) -> NDArray[np.float64]:
     """(4,) a, b, p, r of `frame_by_windows` of any homography that hardly turns the picture."""
-    width, height = size
-    unit = homography.scaling(1 / width, 1 / width) @ homography.translation(
-        -width / 2, -height / 2
-    )
+    unit = _unit(size)
     matrix = found @ np.linalg.inv(unit)
     matrix = matrix / matrix[2, 2]
     matrix = homography.translation(-matrix[0, 2], -matrix[1, 2]) @ matrix

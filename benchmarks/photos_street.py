@@ -1,0 +1,136 @@
+"""Whole runs of `veduta photos` on rendered streets: what is found, and what it takes.
+
+    python benchmarks/photos_street.py [--seeds N] [--sets DIR]
+    python benchmarks/photos_street.py --growth [--sets DIR]
+
+Streets of 40 photos, with radial lenses, changing exposure, noise, and a GPS that is wrong by 5 m.
+`--growth` runs 50, 100, 200 and 300 photos of a block instead, without GPS. Rendered sets are kept
+in `--sets` and used again.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import os
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+import pycolmap
+from photos_truth import Centres, centre_errors, extent
+from record import Row, record
+from street_sets import IMAGES, StreetSet, write_set
+
+SEEDS = 3
+GROWTH = (50, 100, 200, 300)
+BOUND_GIB = 16.0
+NOTES = (
+    "Errors are distances of the camera positions from the known ones after the similarity that"
+    " fits best.",
+    "`all processes GiB`: largest sum of resident sizes of the command and its children, looked at"
+    " twice a second; pages that they share count in each.",
+    "Times are of a machine that may have had other work.",
+)
+
+
+def prepared(made: StreetSet, folder: Path) -> Path:
+    """The set's folder; rendered if it is not there whole."""
+    place = folder / f"{made.place}-{made.seed}-{made.photos}"
+    if not (place / "outlines.geojson").exists():
+        write_set(made, place)
+    return place
+
+
+def run(made: StreetSet, folder: Path) -> Row:
+    """One set through the command, with its time and memory."""
+    place = prepared(made, folder)
+    with tempfile.TemporaryDirectory() as work:
+        out = Path(work) / "out"
+        seconds, peak = _measured(place / IMAGES, out)
+        report = json.loads((out / "report.json").read_text())
+        measures, steps = report["measures"], report["steps"]
+        true = _true_centres(place)
+        found = _centres(out)
+    errors = centre_errors(found, true)
+    return {
+        "set": f"{made.place} {made.seed}",
+        "photos": measures["photos"],
+        "calibrated": measures["calibrated"],
+        "in the largest component": len(found),
+        "mean error m": float(errors.mean()),
+        "largest error m": float(errors.max()),
+        "mean error, ‰ of the cameras' extent": 1000 * float(errors.mean()) / extent(true),
+        "reprojection px": measures["error_px"],
+        "points": measures["points"],
+        "lens": f"{measures['lens']}, {measures['cameras']}, {measures['principal_point']}",
+        "s per photo": seconds / measures["photos"],
+        **{f"{step['name']} s": step["seconds"] for step in steps},
+        "all processes GiB": peak,
+    }
+
+
+def _measured(images: Path, out: Path) -> tuple[float, float]:
+    """Seconds and GiB of one call of the command."""
+    command = [sys.executable, "-m", "veduta.cli.main", "photos", str(images), "-o", str(out)]
+    started, peak = time.perf_counter(), 0.0
+    process = subprocess.Popen([*command, "--quiet"])
+    while process.poll() is None:
+        peak = max(peak, _resident_gib(process.pid))
+        time.sleep(0.5)
+    if process.returncode:
+        raise RuntimeError(f"veduta photos ended with status {process.returncode} on {images}")
+    return time.perf_counter() - started, peak
+
+
+def _resident_gib(pid: int) -> float:
+    """Of a process and all that it started (Linux)."""
+    pages, waiting = 0, [pid]
+    while waiting:
+        one = waiting.pop()
+        try:
+            pages += int(Path(f"/proc/{one}/statm").read_text().split()[1])
+            for task in Path(f"/proc/{one}/task").iterdir():
+                waiting += [int(word) for word in (task / "children").read_text().split()]
+        except (FileNotFoundError, ProcessLookupError):
+            continue
+    return pages * os.sysconf("SC_PAGE_SIZE") / 2**30
+
+
+def _true_centres(place: Path) -> Centres:
+    truth = json.loads((place / "truth.json").read_text())
+    return {photo["name"]: np.array(photo["position_m"]) for photo in truth["photos"]}
+
+
+def _centres(out: Path) -> Centres:
+    model = pycolmap.Reconstruction(out / "sparse" / "0")
+    images = [model.images[number] for number in model.reg_image_ids()]
+    return {image.name: image.projection_center() for image in images}
+
+
+def main() -> None:
+    """Measure streets, or how a block grows."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("--seeds", type=int, default=SEEDS)
+    parser.add_argument("--growth", action="store_true")
+    parser.add_argument("--sets", type=Path)
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as own:
+        folder = given.sets or Path(own)
+        if given.growth:
+            sets = [StreetSet(0, "block", photos, gps=False) for photos in GROWTH]
+            rows = [run(made, folder) for made in sets]
+            largest = max(float(str(row["all processes GiB"])) for row in rows)
+            met = "met" if largest < BOUND_GIB else "**missed**"
+            notes = (*NOTES, f"Bound on memory {BOUND_GIB:.0f} GiB: {met}.")
+            record("photos-growth", rows, notes)
+        else:
+            rows = [run(StreetSet(seed), folder) for seed in range(given.seeds)]
+            record("photos-street", rows, NOTES)
+
+
+if __name__ == "__main__":
+    main()
