@@ -72,7 +72,7 @@ def reconciled(document: FacadeDocument) -> FacadeDocument:
     A document that agrees already comes back as it is, to the last digit.
     """
     before = _before(document)
-    with_metres, moved = _with_metres(document)
+    with_metres, moved = _with_metres(document, before)
     done = _with_rules(with_metres, document, before)
     scale = document.scale.metres_per_px
     edits = Edits(
@@ -132,15 +132,19 @@ def _agree(one: JsonValue, other: JsonValue) -> bool:
     return one == other
 
 
-def _with_metres(document: FacadeDocument) -> tuple[FacadeDocument, list[str]]:
+def _with_metres(document: FacadeDocument, before: _Before) -> tuple[FacadeDocument, list[str]]:
     """The document with all metres as the pixels and the scale say, and the names of what moved."""
     scale, box = document.scale.metres_per_px, document.facade
+    # Small sizes differ by less than the tolerance under another scale; left as they are written
+    # they would tell the old one again when the document is read the next time.
+    rescaled = before.metres_per_px != scale
     moved: list[str] = []
 
     def agreed(name: str, written: float, pixels: float) -> float:
-        if abs(written - pixels * scale) <= TOLERANCE:
+        if abs(written - pixels * scale) > TOLERANCE:
+            moved.append(name)
+        elif not rescaled:
             return written
-        moved.append(name)
         return pixels * scale
 
     facade = box.model_copy(

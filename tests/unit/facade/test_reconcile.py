@@ -272,6 +272,18 @@ def test_the_scale_scales_everything(found: FacadeDocument) -> None:
     assert (found.scale.basis, done.scale.basis) == ("assumed-storey", "edited")
 
 
+def test_a_scale_that_moves_small_sizes_by_millimetres_is_told_once(
+    found: FacadeDocument,
+) -> None:
+    def change(content: Any) -> None:
+        content["scale"]["metres_per_px"] *= 0.99609375
+        content["facade"]["height_px"] = 1.0
+
+    done = after(found, change)
+    for item in done.elements:
+        assert item.width_m == pytest.approx(item.width_px * done.scale.metres_per_px, abs=1e-9)
+
+
 def test_a_roof_that_was_edited_is_not_scaled(found: FacadeDocument) -> None:
     def change(content: Any) -> None:
         content["scale"]["metres_per_px"] *= 2
