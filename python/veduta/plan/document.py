@@ -1,0 +1,187 @@
+"""The plan document (`plan.json`): what was found in the drawings of a house.
+
+Pixel frame of a storey: its cleaned image (mirrored back, upright), x right, y down, origin at the
+upper left corner of the upper left pixel (its centre is at (0.5, 0.5)). Plan frame: metres, x
+right and y up on the page; the same for all storeys, `Sheet.origin_px` lies at (0, 0).
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+Origin = Literal["measured", "inferred", "invented", "edited"]
+"""Drawn on the plan; follows from what is drawn and a rule; on no record; written by a person."""
+WallDrawing = Literal["filled", "hollow", "hatched", "single-line"]
+JunctionType = Literal["end", "straight", "L", "T", "X"]
+DoorType = Literal[
+    "swing", "double", "sliding", "pocket", "folding", "french", "garage", "plain", "unknown"
+]
+WindowType = Literal["single-line", "double-line", "triple-line", "filled", "bay", "unknown"]
+OpeningType = DoorType | WindowType
+RoomUse = Literal[
+    "living", "dining", "kitchen", "bedroom", "bathroom", "toilet", "utility", "storage",
+    "wardrobe", "hall", "corridor", "stairs", "study", "sauna", "garage", "balcony", "terrace",
+    "technical", "other", "unknown",
+]  # fmt: skip
+Metres = Annotated[float, Field(ge=0.0, le=10_000.0)]
+Score = Annotated[float, Field(ge=0.0, le=1.0)]
+Point = tuple[float, float]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(extra="forbid", populate_by_name=True)
+
+
+class Sheet(_Record):
+    """The drawing of one storey, and how its cleaned image lies in the file."""
+
+    file: str = Field(description="file name of the drawing")
+    sha256: str
+    page: int = Field(default=0, description="page of a PDF, from 0")
+    width_px: int
+    height_px: int
+    mirrored: bool = Field(default=False, description="the scan was a mirror image")
+    rotation_rad: float = Field(
+        default=0.0, description="by which the scan was turned to lie straight, counter-clockwise"
+    )
+    clean_from_scan: list[list[float]] = Field(
+        description="3x3 affine matrix, row major; takes pixels of the file to cleaned pixels"
+    )
+    origin_px: Point = Field(description="cleaned pixel at (0, 0) of the plan frame")
+    metres_per_px: Annotated[float, Field(gt=0.0, le=10.0)]
+
+
+class ScaleEvidence(_Record):
+    """One thing on the sheet that says how large a pixel is."""
+
+    kind: Literal["dimension", "area", "line", "bar", "ratio", "door", "given", "assumed"] = Field(
+        description=(
+            "sides of a room; its area; a dimension line; a scale bar; 1:N with a resolution;"
+            " widths of doors; --scale; a guess"
+        )
+    )
+    text: str = Field(default="", description="as it was read")
+    metres_per_px: float
+    sigma: float = Field(gt=0.0, description="standard deviation, as a share of metres_per_px")
+    agrees: bool = Field(description="whether it is within what the result allows")
+
+
+class Scale(_Record):
+    """How large a pixel is, by the vote of all evidence."""
+
+    metres_per_px: float
+    sigma: float = Field(description="standard deviation, as a share of metres_per_px")
+    basis: Literal["evidence", "given", "assumed", "edited"]
+    evidence: list[ScaleEvidence] = []
+
+
+class Junction(_Record):
+    """Where the centre lines of walls meet or end."""
+
+    id: str
+    at_m: Point
+    type: JunctionType
+
+
+class Wall(_Record):
+    """A piece of wall between two junctions. Left and right are those of who goes along it."""
+
+    id: str
+    start: str = Field(description="id of a junction")
+    end: str
+    bulge: float = Field(
+        default=0.0,
+        description="tan of a quarter of the arc's angle, as in DXF: positive bows to the right",
+    )
+    thickness_m: Metres
+    drawing: WallDrawing
+    outer: bool = Field(description="whether one side is outdoors")
+    score: Score
+    origin: Origin = "measured"
+
+
+class Opening(_Record):
+    """A door, a window or a gap in a wall."""
+
+    id: str
+    wall: str
+    kind: Literal["door", "window", "gap"]
+    type: OpeningType = "unknown"
+    along_m: Metres = Field(description="from the wall's start to the opening, on its centre line")
+    width_m: Metres
+    sill_m: Metres = 0.0
+    height_m: Metres = Field(description="from the sill to the lintel")
+    hinge: Literal["start", "end", "both", "none"] = Field(
+        default="none", description="the end of the opening at which its leaf hangs"
+    )
+    swing: Literal["left", "right", "both", "none"] = Field(
+        default="none", description="the side of the wall to which it opens"
+    )
+    score: Score
+    origin: Origin = "measured"
+
+
+class Room(_Record):
+    """A closed space. Outlines are inner faces of walls, counter-clockwise, not closed twice."""
+
+    id: str
+    outline_m: list[Point]
+    holes_m: list[list[Point]] = []
+    area_m2: float
+    use: RoomUse
+    use_score: Score
+    use_origin: Origin = "inferred"
+    name: str = Field(default="", description="as it is written on the plan")
+    outdoors: bool = False
+    walls: list[str] = []
+    openings: list[str] = Field(default=[], description="those that lead in or let in light")
+    mended: bool = Field(default=False, description="whether a gap was closed to make it a room")
+    score: Score
+    origin: Origin = "measured"
+
+
+class Stairs(_Record):
+    """A flight of stairs, as drawn."""
+
+    id: str
+    outline_m: list[Point]
+    treads: int
+    up: Point = Field(description="direction in which it rises, of length 1; (0, 0) if not drawn")
+    score: Score
+    origin: Origin = "measured"
+
+
+class Text(_Record):
+    """A piece of text on the sheet."""
+
+    text: str
+    box_px: list[Point] = Field(description="its four corners, from the upper left, clockwise")
+    score: Score
+
+
+class Storey(_Record):
+    """One floor of the house."""
+
+    name: str
+    elevation_m: float
+    height_m: Metres = Field(description="from its floor to the next one's")
+    sheet: Sheet
+    scale: Scale
+    junctions: list[Junction]
+    walls: list[Wall]
+    openings: list[Opening]
+    rooms: list[Room]
+    stairs: list[Stairs] = []
+    texts: list[Text] = []
+    notes: list[str] = Field(default=[], description="what was assumed, mended or left out")
+
+
+class PlanDocument(_Record):
+    """Everything that was found in the drawings of one house."""
+
+    schema_: Literal["veduta/plan"] = Field(default="veduta/plan", alias="schema")
+    version: Literal[1] = 1
+    storeys: list[Storey]
+    notes: list[str] = []
