@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import cv2
 import numpy as np
@@ -56,7 +56,7 @@ def find_lines(pixels: NDArray[np.uint8], threads: int) -> NDArray[np.float64]:
     `pixels` is (h, w, 3) sRGB. Corners go clockwise from the upper left of the quadrangle; of text
     that runs upwards this is not the upper left of its first letter.
     """
-    found = _engine(threads)(_bgr(pixels), use_det=True, use_cls=False, use_rec=False)
+    found: Any = _engine(threads)(_bgr(pixels), use_det=True, use_cls=False, use_rec=False)
     if found.boxes is None or not len(found.boxes):
         return np.zeros((0, 4, 2))
     return np.asarray(found.boxes, dtype=np.float64)
@@ -64,7 +64,7 @@ def find_lines(pixels: NDArray[np.uint8], threads: int) -> NDArray[np.float64]:
 
 def read_line(strip: NDArray[np.uint8], threads: int) -> Line:
     """What an upright line of text says. `strip` is (h, w, 3) sRGB, h some 48 px."""
-    found = _engine(threads)(_bgr(strip), use_det=False, use_cls=False, use_rec=True)
+    found: Any = _engine(threads)(_bgr(strip), use_det=False, use_cls=False, use_rec=True)
     if not found.txts:
         return Line("", 0.0)
     return Line(str(found.txts[0]).strip(), float(found.scores[0]))

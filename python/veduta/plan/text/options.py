@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
+
+from veduta.run.options import Options
 
 
-class TextOptions(BaseModel):
+class TextOptions(Options):
     """How text is looked for and read."""
-
-    model_config = ConfigDict(frozen=True, extra="forbid")
 
     overview_px: int = Field(
         default=1600, ge=320, le=4000, description="long side at which the whole sheet is searched"

@@ -18,8 +18,8 @@ _LONG = 1.5  # a region this much longer than wide runs along its long side
 def read_texts(pixels: NDArray[np.uint8], options: TextOptions | None = None) -> list[Text]:
     """The text on a sheet.
 
-    `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (`orientation` sees to that).
-    Boxes are in its pixels; corners go clockwise in the direction of reading, from the upper left
+    `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (see
+    `orientation`). Boxes are in its pixels; corners go clockwise in the direction of reading, from the upper left
     corner of the first letter. Regions that say nothing with `options.score` are left out.
     """
     options = options or TextOptions()
@@ -43,8 +43,8 @@ def strip_of(pixels: NDArray[np.uint8], quad: NDArray[np.float64]) -> NDArray[np
 
     The first side of `quad` becomes the top. Cubic interpolation: small text is enlarged by it.
     """
-    across = np.linalg.norm(quad[1] - quad[0]) + np.linalg.norm(quad[2] - quad[3])
-    down = np.linalg.norm(quad[3] - quad[0]) + np.linalg.norm(quad[2] - quad[1])
+    across = float(np.linalg.norm(quad[1] - quad[0]) + np.linalg.norm(quad[2] - quad[3]))
+    down = float(np.linalg.norm(quad[3] - quad[0]) + np.linalg.norm(quad[2] - quad[1]))
     width = int(np.clip(round(LINE_PX * across / max(down, 1e-9)), 8, 60 * LINE_PX))
     corners = np.array([(0, 0), (width, 0), (width, LINE_PX), (0, LINE_PX)], dtype=np.float32)
     matrix = cv2.getPerspectiveTransform(quad.astype(np.float32), corners)

@@ -35,7 +35,7 @@ def find_regions(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np.
         boxes = [found]
         for x, y in _tiles_with_letters(large, found * scale, tile, options.tiles):
             inside = find_lines(large[y : y + tile, x : x + tile], options.threads)
-            boxes.append((inside + (x, y)) / scale)
+            boxes.append((inside + np.array([x, y])) / scale)
         found = np.concatenate(boxes)
     return without_duplicates(found)
 
