@@ -106,7 +106,7 @@ class Canvas:
         mask = np.zeros(self.pixels.shape[:2], np.uint8)
         cv2.fillPoly(mask, self._rings(area), 255, cv2.LINE_AA, SHIFT)
         lines = self.pixels.copy()
-        height, width = mask.shape
+        height, width = self.pixels.shape[:2]
         gap = gap_m * FINE / self.metres_per_px * math.sqrt(2.0)
         for offset in np.arange(-height, width + height, gap):
             low = round(float(offset))

@@ -95,7 +95,8 @@ def room_areas(cells: Sequence[Cell], walls: tuple[Wall, ...]) -> list[Polygon]:
         every = [free] if isinstance(free, Polygon) else list(getattr(free, "geoms", []))
         parts = [part for part in every if isinstance(part, Polygon)]
         largest = max(parts, key=lambda part: part.area)
-        rooms.append(orient(Polygon(largest.exterior.simplify(1e-4))))
+        smooth = LineString(largest.exterior.coords).simplify(1e-4)
+        rooms.append(orient(Polygon(smooth.coords)))
     return rooms
 
 
