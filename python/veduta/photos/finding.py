@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import closing
 
-from veduta.photos.cameras.component import FEWEST_POINTS, Component, finish_component
+from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
 from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
@@ -32,7 +32,6 @@ from veduta.run.report import timed_step
 
 FEATURES_MEMORY = 6 * 1024**3
 """Bytes that all processes together may use while they look for features."""
-_WEAK = f"the last adjustment leaves it fewer than {FEWEST_POINTS} points: it was placed falsely"
 _UNSOLVED = "was placed, but no cameras could be found for its component: {}"
 _NOTHING_HANGS = (
     "Take photos that overlap by more than half with their neighbours, from places that differ:"
@@ -110,8 +109,7 @@ def finish_components(
             faults.append(error)
             left += [(name, _UNSOLVED.format(error.evidence)) for name in structure.names]
             continue
-        weak = sorted({*structure.names} - {*component.structure.names})
-        left += [(name, _WEAK) for name in weak]
+        left += component.left
         components.append(component)
     if not components:
         raise faults[0]
