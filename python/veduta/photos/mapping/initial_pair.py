@@ -30,6 +30,8 @@ NEAR_SHARE = 0.002
 LEAST_ANGLE_DEG = 8.0
 """Median angle between the rays to the points of a pair."""
 HOMOGRAPHY_DRAWS = 500
+MOST_FOR_ANGLE = 1000
+"""Matches that the angle is found from, drawn at random: thousands tell no more."""
 MOST_WEIGHED = 400
 """Pairs that are weighed at most, those with most matches first."""
 
@@ -125,7 +127,8 @@ def weigh(
     ]
     known = all(camera.has_prior_focal_length for camera in cameras)
     planar = _planar_share(own, cameras[1], seed)
-    angle = _angle_deg(cameras, own, seed)
+    drawn = np.random.default_rng(seed).permutation(len(matches))[:MOST_FOR_ANGLE]
+    angle = _angle_deg(cameras, [places[drawn] for places in own], seed)
     return WeighedPair(*pair, len(matches), known, planar, angle)
 
 

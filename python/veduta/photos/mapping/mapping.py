@@ -67,10 +67,12 @@ def map_photos(
         ended.append(found)
         for snapshots in work.glob(f"{_GROWING}*"):
             shutil.rmtree(snapshots)
-    return _by_size(ended)
+    return by_size(ended)
 
 
-def _by_size(grown: Sequence[Grown]) -> Mapped:
+def by_size(grown: Sequence[Grown]) -> Mapped:
+    """Components in their order."""
+
     def place(one: Grown) -> tuple[int, int]:
         return -one.model.num_reg_images(), min(one.model.reg_image_ids())
 
