@@ -14,6 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import substring, unary_union
 
 from veduta.plan.document import Point, Storey, Wall
@@ -92,7 +93,7 @@ def wall_lines(storey: Storey) -> dict[str, WallLine]:
     }
 
 
-def footprint(lines: Iterable[WallLine]) -> Polygon:
+def footprint(lines: Iterable[WallLine]) -> BaseGeometry:
     """What all walls cover together: their strips, mitred where they meet.
 
     The result may be several polygons (a MultiPolygon).

@@ -53,7 +53,8 @@ def _smooth(piece: Polygon) -> Polygon:
     outline = Polygon(piece.exterior)
     closed = outline.buffer(_JOG_M, join_style="mitre").buffer(-_JOG_M, join_style="mitre")
     largest = max(pieces_of(closed), key=lambda one: one.area, default=outline)
-    return orient(Polygon(largest.exterior).simplify(_JOG_M / 2.0))
+    simple = pieces_of(Polygon(largest.exterior).simplify(_JOG_M / 2.0))
+    return orient(simple[0]) if simple else orient(outline)
 
 
 Solid = list[list[NDArray[np.float64]]]

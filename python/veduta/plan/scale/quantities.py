@@ -34,7 +34,28 @@ class Quantity:
 
 _LENGTH_M = (0.3, 100.0)  # sides of rooms and of what dimension lines measure
 _AREA_M2 = (0.3, 5000.0)
-_RATIOS = (10, 20, 25, 30, 40, 48, 50, 60, 75, 96, 100, 125, 150, 192, 200, 250, 300, 400, 500, 1000)
+_RATIOS = (
+    10,
+    20,
+    25,
+    30,
+    40,
+    48,
+    50,
+    60,
+    75,
+    96,
+    100,
+    125,
+    150,
+    192,
+    200,
+    250,
+    300,
+    400,
+    500,
+    1000,
+)
 
 _METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m\b)?"
 _FEET = (
@@ -150,9 +171,7 @@ def _whole(digits: str, unit: str | None) -> Iterator[tuple[str, float, float, f
                 yield "ft", int(digits[:cut]) * FOOT_M + int(inches) * INCH_M, INCH_M, 0.5
 
 
-def _within(
-    kind: Kind, values: tuple[float, ...], step: float, trust: float
-) -> Iterator[Quantity]:
+def _within(kind: Kind, values: tuple[float, ...], step: float, trust: float) -> Iterator[Quantity]:
     low, high = _AREA_M2 if kind == "area" else _LENGTH_M
     if all(low <= value <= high for value in values):
         yield Quantity(kind, values, step, trust)
