@@ -126,6 +126,7 @@ def _leaves(hole: Hole) -> list[NDArray[np.float64]]:
         return []
     side = -1.0 if opening.swing == "right" else 1.0
     left = side * np.array([-way[1], way[0]])
+    start = start + hole.line.half_m * left
     if opening.hinge == "both":
         hung = [(start, way, width / 2.0), (start + width * way, -way, width / 2.0)]
     elif opening.hinge == "end":

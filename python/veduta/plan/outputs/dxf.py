@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 
-import ezdxf.filemanagement
-from ezdxf import options, units
+import ezdxf
+from ezdxf import units
 from ezdxf.document import Drawing as DxfDocument
 from ezdxf.enums import TextEntityAlignment
 from ezdxf.layouts.layout import Modelspace
@@ -29,7 +30,12 @@ _WEIGHT = {"walls": 50, "windows": 25, "doors": 25}
 
 def plan_dxf(drawings: Sequence[Drawing]) -> bytes:
     """The file's content. The first storey lies where the plan has it, the others to its right."""
-    document = ezdxf.filemanagement.new("R2010", setup=True, units=units.M)
+    with _same_bytes():
+        return _plan_dxf(drawings)
+
+
+def _plan_dxf(drawings: Sequence[Drawing]) -> bytes:
+    document = ezdxf.new("R2010", setup=True, units=units.M)
     for layer in LAYERS:
         entry = document.layers.add(_NAMES[layer], lineweight=_WEIGHT.get(layer, 18))
         entry.rgb = rgb(LAYER_COLOURS[layer])
@@ -74,10 +80,16 @@ def _add_labels(space: Modelspace, drawing: Drawing, offset: float, top: float) 
 
 def _content(document: DxfDocument) -> bytes:
     file = io.StringIO()
-    before = options.write_fixed_meta_data_for_testing
-    options.write_fixed_meta_data_for_testing = True  # no time and no random ids: the same bytes
-    try:
-        document.write(file)
-    finally:
-        options.write_fixed_meta_data_for_testing = before
+    document.write(file)
     return document.encode(file.getvalue())
+
+
+@contextmanager
+def _same_bytes() -> Iterator[None]:
+    """No time of writing and no random ids in the file: the same plan gives the same bytes."""
+    before = ezdxf.options.write_fixed_meta_data_for_testing
+    ezdxf.options.write_fixed_meta_data_for_testing = True
+    try:
+        yield
+    finally:
+        ezdxf.options.write_fixed_meta_data_for_testing = before

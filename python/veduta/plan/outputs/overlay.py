@@ -103,7 +103,8 @@ def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> Non
     for label in drawing.labels:
         x, y = _spot(drawing.storey.sheet, label.at_m, scale)
         _haloed(pen, (x, y - 12), label.text, font, _INK)
-        _haloed(pen, (x, y + 12), label.detail, small, _INK)
+        # Pillow's own font has no superscripts.
+        _haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
 
 
 def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
