@@ -12,7 +12,7 @@ import argparse
 import json
 from pathlib import Path
 
-import cv2
+from PIL import Image
 
 from veduta.synthetic.plans.degrade import DEGRADATIONS
 from veduta.synthetic.plans.sets import sheets_of
@@ -36,7 +36,11 @@ def write_set(out: Path, chosen: range, style: str | None, fault: str | None) ->
         for picture, truth in sheets_of(
             seed, BY_NAME[style] if style else None, FAULTS[fault] if fault else None
         ):
-            cv2.imwrite(str(out / truth.file), picture[..., ::-1])
+            image = Image.fromarray(picture)
+            if truth.dpi:
+                image.save(out / truth.file, dpi=(truth.dpi, truth.dpi))
+            else:
+                image.save(out / truth.file)
             text = json.dumps(to_json(truth), indent=1)
             (out / truth.file).with_suffix(".json").write_text(text + "\n")
             count += 1

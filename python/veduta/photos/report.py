@@ -75,6 +75,8 @@ class Told:
     keypoints: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     """What else a person has to know of the run."""
+    marks: list[str] = field(default_factory=list)
+    """Lines of the control points that name photos which are not there."""
     is_given: bool = False
     """Whether other software has made the model."""
     components: list[Component] = field(default_factory=list)
@@ -112,6 +114,7 @@ def measures_of(told: Told) -> dict[str, Any]:
         "cameras": kind.sharing,
         "principal_point": kind.principal_point,
         "seconds": round(sum(step.seconds for step in told.steps), 1),
+        **({"gcp_unknown": told.marks} if told.marks else {}),
         **georef_measures([one.georef for one in told.laid]),
         **({} if told.textured is None else told.textured.measures),
     }
@@ -206,6 +209,7 @@ def _notes(told: Told) -> list[str]:
     in_world = bool(georef) and georef[0].accepted is not None
     notes = [] if in_world else [SCALE_NOTE]
     notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
+    notes += [f"control points, {mark}" for mark in told.marks]
     notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)

@@ -18,9 +18,9 @@ _LONG = 1.5  # a region this much longer than wide runs along its long side
 def read_texts(pixels: NDArray[np.uint8], options: TextOptions | None = None) -> list[Text]:
     """The text on a sheet.
 
-    `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (see
-    `orientation`). Boxes are in its pixels; corners go clockwise in the direction of reading, from the upper left
-    corner of the first letter. Regions that say nothing with `options.score` are left out.
+    `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (see `orientation`). Boxes
+    are in its pixels; corners go clockwise in the direction of reading, from the upper left corner
+    of the first letter. Regions that say nothing with `options.score` are left out.
     """
     options = options or TextOptions()
     pixels = in_colour(pixels)

@@ -11,17 +11,29 @@ from shapely.geometry import Point, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
 
+from veduta.synthetic.plans.annotations import (
+    draw_dimension_lines,
+    draw_ratio,
+    draw_scale_bar,
+    draw_title,
+)
 from veduta.synthetic.plans.bodies import whole_walls
 from veduta.synthetic.plans.canvas import Canvas, Image
+from veduta.synthetic.plans.furniture import draw_things, furnish
 from veduta.synthetic.plans.house import Storey
-from veduta.synthetic.plans.labels import Label, draw_label, labels_of
+from veduta.synthetic.plans.labels import Label, draw_label, label_box, labels_of
 from veduta.synthetic.plans.names import UP
-from veduta.synthetic.plans.openings_drawn import draw_door, draw_window, place_of
+from veduta.synthetic.plans.openings_drawn import draw_door, draw_window
+from veduta.synthetic.plans.places import swept
 from veduta.synthetic.plans.styles import Style
 from veduta.synthetic.plans.walls_drawn import draw_floors, draw_stairs, draw_walls
 
 MARGIN_M = 1.0
 ANNOTATED_MARGIN_M = 2.2
+
+
+def _annotated(style: Style) -> bool:
+    return style.dimension_lines or style.title or style.scale_bar or style.ratio
 
 
 @dataclass(frozen=True)
@@ -44,11 +56,11 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     if style.walls == "single-line":
         storey = with_thin_walls(storey, style.wall_pen_px * metres_per_px)
     left, bottom, right, top = whole_walls(storey.walls).bounds
-    margin = ANNOTATED_MARGIN_M if style.dimension_lines or style.title else MARGIN_M
+    margin = ANNOTATED_MARGIN_M if _annotated(style) else MARGIN_M
     sheet = (left - margin, bottom - margin, right + margin, top + margin)
     canvas = Canvas(sheet, metres_per_px, style.paper)
     draw_floors(canvas, style, storey)
-    busy = swept(storey)
+    busy = kept_free(storey)
     draw_walls(canvas, style, storey)
     for opening in storey.openings:
         draw = draw_window if opening.kind == "window" else draw_door
@@ -56,27 +68,40 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     for stairs in storey.stairs:
         draw_stairs(canvas, style, stairs, UP[style.language])
     labels = labels_of(rng, canvas, style, storey, busy)
+    taken = unary_union([busy, *(label_box(label).buffer(0.04) for label in labels)])
+    draw_things(canvas, style, furnish(rng, storey, style.furniture, taken))
     for label in labels:
         draw_label(canvas, style, label)
-    says = any(label.size for label in labels)
+    _annotate(canvas, style, storey)
+    says = any(label.size for label in labels) or style.dimension_lines or style.scale_bar
     return Sheet(canvas.picture(), canvas.px_from_m, storey, tuple(labels), says)
 
 
-def swept(storey: Storey) -> BaseGeometry:
-    """Where door leaves swing, and where one stands before a door, so that nothing is put there."""
-    pieces: list[BaseGeometry] = []
-    for opening in storey.openings:
-        if opening.kind == "window":
-            continue
-        place = place_of(storey.wall(opening.wall), opening)
-        reach = opening.width_m if opening.hinge != "both" else opening.width_m / 2
-        side = 1.0 if opening.swing == "left" else -1.0
-        if opening.swing != "none":
-            far = side * (place.half_m + reach)
-            pieces.append(place.box(0, opening.width_m, 0.0, far))
-        else:
-            pieces.append(place.box(0, opening.width_m, -place.half_m - 0.3, place.half_m + 0.3))
-    return unary_union(pieces) if pieces else Polygon()
+def _annotate(canvas: Canvas, style: Style, storey: Storey) -> None:
+    """What stands around the house."""
+    left, bottom, right, top = bounds = whole_walls(storey.walls).bounds
+    if style.dimension_lines:
+        draw_dimension_lines(canvas, style, storey, bounds)
+    if style.title:
+        gross = unary_union(
+            [Polygon(ring.coords) for ring in _exteriors(whole_walls(storey.walls))]
+        )
+        draw_title(canvas, style, storey.number, gross.area, ((left + right) / 2, bottom - 1.2))
+    if style.scale_bar:
+        draw_scale_bar(canvas, style, (max(left, right - 5.6), top + 0.35))
+    if style.ratio:
+        draw_ratio(canvas, style, (left + 0.8, top + 0.5))
+
+
+def kept_free(storey: Storey) -> BaseGeometry:
+    """Where doors swing, so that nothing is put there."""
+    return unary_union(
+        [
+            swept(storey.wall(opening.wall), opening)
+            for opening in storey.openings
+            if opening.kind != "window"
+        ]
+    )
 
 
 def with_thin_walls(storey: Storey, thickness_m: float) -> Storey:

@@ -11,6 +11,7 @@ from shapely.geometry import Polygon
 from veduta.synthetic.plans import doors
 from veduta.synthetic.plans.dissect import Box, Cell, cell, corridor_cells, cut
 from veduta.synthetic.plans.house import (
+    DoorType,
     House,
     Language,
     Opening,
@@ -28,6 +29,7 @@ from veduta.synthetic.plans.network import (
     walls_of,
 )
 from veduta.synthetic.plans.outline import with_features
+from veduta.synthetic.plans.places import swept
 from veduta.synthetic.plans.stairs import flight
 from veduta.synthetic.plans.uses import uses_of
 from veduta.synthetic.plans.windows import windows_of
@@ -36,6 +38,13 @@ from veduta.synthetic.seeds import stream
 ATTEMPTS = 60
 LEAST_CORRIDOR_M = 1.15
 WINDOWS: tuple[WindowType, ...] = ("single-line", "double-line", "triple-line", "filled")
+PLACE_ATTEMPTS = 8
+CLASH_M2 = 0.03
+OUTSIDE_DOORS: tuple[tuple[Use, DoorType, float], ...] = (
+    ("garage", "garage", 1.0), ("living", "french", 0.35), ("living", "sliding", 0.5),
+)  # fmt: skip
+"""Where they lead from, of which type, and how often."""
+
 FEATURES = {"corner": 0.15, "bay": 0.22, "bow": 0.12}
 
 
@@ -177,47 +186,53 @@ def _doors(
     ways = doors.way_to_all(walls, uses, root) if root else None
     if ways is None or root is None or (front is None and number == 0):
         return None
-    made: list[Opening] = []
+    placed = _Placed(rng)
     for name, wall in ways:
         other = wall.right if wall.left == name else wall.left
         kind = doors.inner_type(rng, uses[name], uses[other or name])
         into = other if uses[name] in ("toilet", "storage", "wardrobe") else name
-        door = doors.place_door(rng, wall, kind, into, len(made)) or doors.place_door(
-            rng, wall, "swing", into, len(made)
-        )
-        if door is None:
+        if not (placed.put(wall, kind, into) or placed.put(wall, "swing", into)):
             return None
-        made.append(door)
     if front:
         kind = "double" if rng.random() < 0.15 else "swing"
-        door = doors.place_door(rng, front[1], kind, root, len(made)) or doors.place_door(
-            rng, front[1], "swing", root, len(made)
-        )
-        if door is None:
+        if not (placed.put(front[1], kind, root) or placed.put(front[1], "swing", root)):
             return None
-        made.append(door)
-        made += _more_outside(rng, walls, uses, made)
-    return made
+        _more_outside(rng, walls, uses, placed)
+    return placed.doors
+
+
+class _Placed:
+    """Doors so far, none of which swings into another."""
+
+    def __init__(self, rng: np.random.Generator) -> None:
+        self.rng = rng
+        self.doors: list[Opening] = []
+        self.taken: list[Polygon] = []
+
+    def put(self, wall: Wall, kind: DoorType, into: str | None) -> bool:
+        """Place a door in the wall; false where none fits clear of the others."""
+        for _ in range(PLACE_ATTEMPTS):
+            door = doors.place_door(self.rng, wall, kind, into, len(self.doors))
+            if door is None:
+                return False
+            area = swept(wall, door)
+            if not any(area.intersection(other).area > CLASH_M2 for other in self.taken):
+                self.doors.append(door)
+                self.taken.append(area)
+                return True
+        return False
 
 
 def _more_outside(
-    rng: np.random.Generator, walls: Sequence[Wall], uses: dict[str, Use], made: Sequence[Opening]
-) -> list[Opening]:
+    rng: np.random.Generator, walls: Sequence[Wall], uses: dict[str, Use], placed: _Placed
+) -> None:
     """The garage's door and one to the garden."""
-    taken = {door.wall for door in made}
-    more: list[Opening] = []
-    for use, kind, share in (
-        ("garage", "garage", 1.0),
-        ("living", "french", 0.35),
-        ("living", "sliding", 0.5),
-    ):
+    taken = {door.wall for door in placed.doors}
+    for use, kind, share in OUTSIDE_DOORS:
         for room in [name for name, of in uses.items() if of == use]:
             wall = doors.entrance_wall(rng, walls, room)
             if wall is None or wall.id in taken or rng.random() >= share:
                 continue
-            door = doors.place_door(rng, wall, kind, None, len(made) + len(more))  # type: ignore[arg-type]
-            if door is not None:
-                more.append(door)
+            if placed.put(wall, kind, None):
                 taken.add(wall.id)
                 break
-    return more

@@ -11,7 +11,7 @@ FULL: Mapping[Language, Mapping[Use, tuple[str, ...]]] = {
         "living": ("Living Room", "Lounge", "Reception Room", "Sitting Room"),
         "dining": ("Dining Room",), "kitchen": ("Kitchen",),
         "bedroom": ("Bedroom", "Bedroom {n}", "Bed {n}"), "bathroom": ("Bathroom", "Bath"),
-        "toilet": ("WC", "Cloakroom"), "utility": ("Utility", "Laundry"),
+        "toilet": ("WC", "Toilet"), "utility": ("Utility", "Laundry"),
         "storage": ("Store", "Storage"), "wardrobe": ("Closet", "Wardrobe"),
         "hall": ("Hall", "Entrance Hall"), "corridor": ("Landing", "Corridor"),
         "stairs": ("Stairs",), "study": ("Study", "Office"), "sauna": ("Sauna",),
@@ -19,7 +19,7 @@ FULL: Mapping[Language, Mapping[Use, tuple[str, ...]]] = {
     },
     "pt": {
         "living": ("Sala", "Sala de estar"), "dining": ("Sala de jantar",), "kitchen": ("Cozinha",),
-        "bedroom": ("Quarto", "Quarto {n}"), "bathroom": ("Casa de banho", "I.S."),
+        "bedroom": ("Quarto", "Quarto {n}"), "bathroom": ("Casa de banho", "Banho"),
         "toilet": ("WC",), "utility": ("Lavandaria",), "storage": ("Arrumos", "Despensa"),
         "wardrobe": ("Roupeiro",), "hall": ("Hall", "Entrada"), "corridor": ("Corredor",),
         "stairs": ("Escadas",), "study": ("Escritório",), "sauna": ("Sauna",),
@@ -29,7 +29,7 @@ FULL: Mapping[Language, Mapping[Use, tuple[str, ...]]] = {
         "living": ("Séjour", "Salon"), "dining": ("Salle à manger",), "kitchen": ("Cuisine",),
         "bedroom": ("Chambre", "Chambre {n}"), "bathroom": ("Salle de bains", "Salle d'eau"),
         "toilet": ("WC",), "utility": ("Buanderie",), "storage": ("Rangement", "Cellier"),
-        "wardrobe": ("Placard", "Dressing"), "hall": ("Entrée",),
+        "wardrobe": ("Dressing",), "hall": ("Entrée",),
         "corridor": ("Dégagement", "Couloir"), "stairs": ("Escalier",), "study": ("Bureau",),
         "sauna": ("Sauna",), "garage": ("Garage",),
     },
@@ -52,17 +52,27 @@ FULL: Mapping[Language, Mapping[Use, tuple[str, ...]]] = {
 }  # fmt: skip
 
 SHORT: Mapping[Language, Mapping[Use, str]] = {
-    "en": {"bathroom": "Bath", "storage": "St.", "wardrobe": "W", "utility": "Util.", "hall": "Hall",
-           "toilet": "WC", "study": "Study"},
-    "pt": {"bathroom": "I.S.", "storage": "Arr.", "wardrobe": "Roup.", "toilet": "WC", "hall": "Hall",
-           "utility": "Lav."},
-    "fr": {"bathroom": "SDB", "storage": "Rgt", "wardrobe": "Pl.", "toilet": "WC", "corridor": "Dgt",
-           "utility": "Buand."},
-    "de": {"bathroom": "Bad", "storage": "Abst.", "utility": "HWR", "toilet": "WC", "hall": "Diele",
-           "corridor": "Flur", "study": "Arb."},
-    "fi": {"living": "OH", "dining": "RUOK", "kitchen": "K", "bedroom": "MH", "bathroom": "PH",
-           "utility": "KHH", "storage": "VAR", "wardrobe": "VH", "hall": "ET", "corridor": "KÄYT",
-           "sauna": "S", "garage": "AT", "toilet": "WC", "study": "TH"},
+    "en": {
+        "bathroom": "Bath", "storage": "St.", "wardrobe": "W", "utility": "Util.", "hall": "Hall",
+        "toilet": "WC", "study": "Study",
+    },
+    "pt": {
+        "bathroom": "Banho", "storage": "Arr.", "wardrobe": "Roup.", "toilet": "WC",
+        "hall": "Hall", "utility": "Lav.",
+    },
+    "fr": {
+        "bathroom": "SDB", "storage": "Rgt", "wardrobe": "Dress.", "toilet": "WC",
+        "corridor": "Dgt", "utility": "Buand.",
+    },
+    "de": {
+        "bathroom": "Bad", "storage": "Abst.", "utility": "HWR", "toilet": "WC", "hall": "Diele",
+        "corridor": "Flur", "study": "Arb.",
+    },
+    "fi": {
+        "living": "OH", "dining": "RUOK", "kitchen": "K", "bedroom": "MH", "bathroom": "PH",
+        "utility": "KHH", "storage": "VAR", "wardrobe": "VH", "hall": "ET", "corridor": "KÄYT",
+        "sauna": "S", "garage": "AT", "toilet": "WC", "study": "TH",
+    },
 }  # fmt: skip
 STOREYS: Mapping[Language, tuple[str, ...]] = {
     "en": ("Ground Floor", "First Floor", "Second Floor"),

@@ -3,52 +3,17 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
-from shapely.geometry import Polygon
 
 from veduta.synthetic.plans import curves
 from veduta.synthetic.plans.bodies import opening_area
 from veduta.synthetic.plans.canvas import Canvas
 from veduta.synthetic.plans.house import Opening, Wall
+from veduta.synthetic.plans.places import Place, place_of
 from veduta.synthetic.plans.styles import Style
 
 LEAF_M = 0.045
-Spot = NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Place:
-    """An opening on the page: its two jambs on the centre line, along and left, thickness."""
-
-    first: Spot
-    second: Spot
-    along: Spot
-    left: Spot
-    half_m: float
-    width_m: float
-
-    def at(self, along_m: float, left_m: float) -> Spot:
-        """A point so far from the first jamb and so far to the left of the centre line."""
-        return self.first + along_m * self.along + left_m * self.left
-
-    def box(self, low: float, high: float, right: float, left: float) -> Polygon:
-        """A rectangle in these coordinates."""
-        return Polygon(
-            [self.at(low, right), self.at(high, right), self.at(high, left), self.at(low, left)]
-        )
-
-
-def place_of(wall: Wall, opening: Opening) -> Place:
-    """Where an opening of a straight wall lies."""
-    size = curves.wall_length(wall)
-    ends = np.array([opening.along_m, opening.along_m + opening.width_m]) / size
-    first, second = curves.at(wall.start_m, wall.end_m, wall.bulge, ends)
-    along = (second - first) / np.hypot(*(second - first))
-    left = np.array([-along[1], along[0]])
-    return Place(first, second, along, left, wall.thickness_m / 2, opening.width_m)
 
 
 def draw_window(canvas: Canvas, style: Style, wall: Wall, opening: Opening) -> None:
@@ -80,11 +45,11 @@ def draw_window(canvas: Canvas, style: Style, wall: Wall, opening: Opening) -> N
 def draw_door(canvas: Canvas, style: Style, wall: Wall, opening: Opening) -> None:
     """A door of any kind; a plain gap has lines across it in some styles."""
     place = place_of(wall, opening)
-    if style.gap_lines:
+    if style.gap_lines and opening.kind == "door":
         canvas.fill(place.box(0, place.width_m, -place.half_m, place.half_m), (255, 255, 255))
         for side in (-place.half_m, place.half_m):
             canvas.line([place.at(0, side), place.at(place.width_m, side)], 1.0, style.ink)
-        if opening.kind == "door" and opening.type in ("swing", "double", "french"):
+        if opening.type in ("swing", "double", "french"):
             return
     draw = {
         "swing": _swing, "double": _double, "french": _french, "sliding": _sliding,

@@ -84,7 +84,7 @@ def _wet_rooms(
     """Bathroom first, then toilet, utility and the rest among the small rooms."""
     small = [i for i in free if areas[i].area < SMALL_M2 or _narrow(areas[i])]
     small.sort(key=lambda i: -areas[i].area)
-    later: list[Use] = ["utility", "storage", "toilet", "wardrobe", "storage"]
+    later: list[Use] = ["utility", "storage", "toilet", "wardrobe", "bathroom"]
     if language == "fi" and storey == 0:
         later.insert(0, "sauna")
     wanted: list[Use] = ["bathroom", *later]
@@ -92,7 +92,10 @@ def _wet_rooms(
         if areas[i].area < TINY_M2:
             uses[i] = "toilet" if rng.random() < 0.5 and "toilet" not in uses else "storage"
             continue
-        use = wanted.pop(0) if wanted else "storage"
+        if not wanted:
+            uses[i] = "study" if areas[i].area > 4.5 and not _narrow(areas[i]) else "storage"
+            continue
+        use = wanted.pop(0)
         if use == "sauna" and areas[i].area > 6.0:
             use = wanted.pop(0)
         uses[i] = use
