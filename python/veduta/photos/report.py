@@ -315,11 +315,20 @@ def _left(told: Told) -> list[Table]:
 def _kinds(told: Told) -> list[Table]:
     """How the kind of camera was chosen, for each component."""
     note = (
-        "A fifth of the observations was held out, the cameras were adjusted to the others, and"
-        " the error is that of the held-out ones. The first kind is taken that is not worse than"
-        " the best, but for chance."
+        "Observations were held out in five parts, one after the other, the cameras were adjusted"
+        " to the others, and the error is that of the held-out ones. The first kind is taken that"
+        " is not worse than the best, but for chance. What was clearly worse on some parts was not"
+        " tried on all: it saw fewer."
     )
-    columns = ("lens", "cameras", "principal point", "numbers", "held-out error px", "taken")
+    columns = (
+        "lens",
+        "cameras",
+        "principal point",
+        "numbers",
+        "held out",
+        "held-out error px",
+        "taken",
+    )
     tables = []
     for number, component in enumerate(told.components):
         rows = [
@@ -328,6 +337,7 @@ def _kinds(told: Told) -> list[Table]:
                 candidate.kind.sharing,
                 candidate.kind.principal_point,
                 candidate.parameters,
+                len(candidate.errors_px),
                 round(candidate.error_px, 4),
                 "yes" if candidate.kind == component.lens.kind else "",
             ]
