@@ -12,7 +12,7 @@ from scipy.ndimage import minimum_filter
 
 from veduta import _core
 from veduta.photos.cameras.orient import moved_poses
-from veduta.photos.pictures import Pinhole
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.atlas import GUTTER, filled, packed
 from veduta.photos.texture.cells import SAMPLES, Grid, Sights
 from veduta.photos.texture.choice import Choice, median_of

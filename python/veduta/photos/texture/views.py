@@ -18,7 +18,7 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from veduta.photos.city.model import CityModel
-from veduta.photos.pictures import Pinhole
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.faces import Face
 
 STEP_PX = 2
