@@ -18,7 +18,7 @@ from veduta.photos.texture.cells import SAMPLES, Grid, Sights
 from veduta.photos.texture.choice import Choice, median_of
 from veduta.photos.texture.faces import faces_of
 from veduta.photos.texture.files import file_names
-from veduta.photos.texture.levels import gains_of
+from veduta.photos.texture.levels import LightSamples
 from veduta.photos.texture.seams import offsets_of
 from veduta.photos.texture.views import (
     Blockers,
@@ -121,7 +121,7 @@ def test_a_square_of_the_plane_takes_the_colour_of_its_pixel() -> None:
     """Pixels that are 0.1 m apart on the plane, squares of the same size: the picture itself."""
     pixels = np.random.default_rng(1).integers(0, 255, (20, 30, 3)).astype(np.uint8)
     plane = PlaneView(np.array([[10.0, 0, 0], [0, 10.0, 0], [0, 0, 1.0]]), np.zeros(3))
-    np.testing.assert_array_equal(warped([pixels], plane, 0, (20, 30), 0.1), pixels)
+    np.testing.assert_array_equal(warped(pixels, plane, 0, (20, 30), 0.1), pixels)
 
 
 def flat_sights(colours: np.ndarray, views: list[int]) -> Sights:
@@ -131,7 +131,7 @@ def flat_sights(colours: np.ndarray, views: list[int]) -> Sights:
     face = south(faces_of(city_of(box_part("a", (0, 0, 0), (6, 4, 3)))))
     plane = PlaneView(np.eye(3), np.zeros(3))
     ones = np.ones((k, rows, columns), dtype=np.float32)
-    grid = Grid(rows, columns, 0.25, ones[0])
+    grid = Grid(rows, columns, 0.25)
     seen = np.ones(fine.shape[:3], dtype=np.bool_)
     return Sights(face, grid, np.array(views), (plane,) * k, fine, seen, 1e4 * ones, ones)
 
@@ -147,7 +147,10 @@ def test_gains_take_back_known_exposures_despite_a_car() -> None:
         light[0, :2, :8] = 0.02
         srgb = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
         faces.append(flat_sights(np.round(255 * srgb), [first, second]))
-    found = gains_of(4, faces)
+    samples = LightSamples(4, len(faces))
+    for sights in faces:
+        samples.add(sights)
+    found = samples.gains()
     ratio = found[:3] * truth[:3]
     np.testing.assert_allclose(ratio / ratio[0], 1.0, rtol=0.03)
     np.testing.assert_allclose(found[3], 1.0)

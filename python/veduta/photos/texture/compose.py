@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
-from veduta.photos.texture.cells import Sights, level_of
+from veduta.photos.texture.cells import Sights
 from veduta.photos.texture.choice import Choice
-from veduta.photos.texture.store import PictureStore
+from veduta.photos.texture.store import PictureStore, level_of
 from veduta.photos.texture.views import View, seen_at, warped
 
 FEATHER_M = 0.05
@@ -132,8 +132,9 @@ def _coloured(
     """(h, w, 3) levelled sRGB, 0..1 and above, of one view."""
     view = int(sights.views[row])
     seen = sights.share()[row] > 0
-    level = level_of(float(np.median(sights.density[row][seen])), texel_m)
-    pixels = warped(store.levels(view), sights.planes[row], level, shape, texel_m)
+    wanted = level_of(float(np.median(sights.density[row][seen])), texel_m)
+    level, picture = store.levels(view).at(wanted)
+    pixels = warped(picture, sights.planes[row], level, shape, texel_m)
     table = srgb_of_linear(_LINEAR[:, None] * gains[view]).astype(np.float32)
     return np.stack([table[pixels[..., channel], channel] for channel in range(3)], axis=-1)
 

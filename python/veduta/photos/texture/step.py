@@ -11,12 +11,7 @@ from veduta.photos.options import TextureOptions
 from veduta.photos.structure import Structure
 from veduta.photos.texture.files import write_texture_files
 from veduta.photos.texture.recipe import texture_model
-from veduta.photos.texture.report import (
-    texture_line,
-    texture_measures,
-    texture_picture,
-    texture_tables,
-)
+from veduta.photos.texture.report import TextureTold, texture_line
 from veduta.photos.texture.sources import ReadPhoto, views_of
 from veduta.photos.world.georeference import Georeference
 from veduta.place.manifest import PlacePart
@@ -63,12 +58,9 @@ def texture_step(
     """
     views = views_of(structure, read_photo)
     model = texture_model(views, city, options, progress)
-    files = write_texture_files(model, folder, progress)
-    measures = texture_measures(model)
+    told = TextureTold(structure.names, model.gains)
+    files = write_texture_files(model, folder, progress, told.take)
+    measures = told.measures(files.plain)
     return Textured(
-        files.parts,
-        measures,
-        texture_line(measures),
-        tuple(texture_tables(model, structure.names)),
-        (texture_picture(model),),
+        files.parts, measures, texture_line(measures), tuple(told.tables()), (told.picture(),)
     )

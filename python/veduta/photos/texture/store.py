@@ -2,62 +2,97 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.photos.texture.cells import LEVELS
-from veduta.photos.texture.views import Blockers, Nearness, View, pyramid
+from veduta.photos.bounded import Bounded
+from veduta.photos.texture.views import Blockers, Nearness, View
 
-MOST_BYTES = 1024**3
+MOST_BYTES = 512 * 1024**2
+"""Of pictures; of what hides things from them, and of what they show, a quarter each."""
+COARSE_PX = 1600
+"""Longest side of pictures in which views are compared with each other."""
+_SMALLEST_PX = 16
 
 
 @dataclass(frozen=True)
-class _Held:
-    levels: list[NDArray[np.uint8]]
-    nearness: Nearness
-    valid: NDArray[np.bool_] | None
+class Halves:
+    """A picture halved `first` times, and the halves of that.
+
+    A pixel of each lies on every second of the one before.
+    """
+
+    first: int
+    levels: tuple[NDArray[np.uint8], ...]
+
+    def at(self, level: int) -> tuple[int, NDArray[np.uint8]]:
+        """The picture halved so many times, or as nearly as there is; and how many times it is."""
+        near = min(max(level, self.first), self.first + len(self.levels) - 1)
+        return near, self.levels[near - self.first]
 
     @property
-    def size(self) -> int:
-        """Bytes."""
-        extra = 0 if self.valid is None else self.valid.nbytes
-        return sum(level.nbytes for level in self.levels) + self.nearness.nbytes + extra
+    def nbytes(self) -> int:
+        """Of all."""
+        return sum(level.nbytes for level in self.levels)
+
+
+def halves_of(pixels: NDArray[np.uint8], longest_px: int | None = None) -> Halves:
+    """The picture and its halves; without those that are longer than this."""
+    first, levels = 0, [pixels]
+    while min(levels[-1].shape[:2]) >= _SMALLEST_PX:
+        if longest_px is not None and max(levels[-1].shape[:2]) > longest_px:
+            first += 1
+            levels.pop()
+        levels.append(np.asarray(cv2.pyrDown(pixels), dtype=np.uint8))
+        pixels = levels[-1]
+    return Halves(first, tuple(levels))
+
+
+def level_of(density_px_m2: float, pitch_m: float) -> int:
+    """How often a picture is halved for its pixels to be about as far apart as the samples."""
+    per_sample = math.sqrt(max(density_px_m2, 1e-9)) * pitch_m
+    return max(0, round(math.log2(max(per_sample, 1.0))))
 
 
 class PictureStore:
-    """Pictures with their halves and what hides things from them; the oldest in use goes first."""
+    """Pictures with their halves, and what hides things from them; by rows of the views.
 
-    def __init__(self, views: Sequence[View], blockers: Blockers) -> None:
-        self._views, self._blockers = views, blockers
-        self._held: OrderedDict[int, _Held] = OrderedDict()
-        self._bytes = 0
+    longest_px: finer halves are not kept, so that more pictures are.
+    """
 
-    def levels(self, row: int) -> list[NDArray[np.uint8]]:
+    def __init__(
+        self, views: Sequence[View], blockers: Blockers, longest_px: int | None = None
+    ) -> None:
+        self.levels: Bounded[int, Halves] = Bounded(
+            lambda row: halves_of(views[row].pixels(), longest_px), _size, MOST_BYTES
+        )
         """The picture of a view and its halves."""
-        return self._get(row).levels
-
-    def nearness(self, row: int) -> Nearness:
+        self.nearness: Bounded[int, Nearness] = Bounded(
+            lambda row: blockers.nearness(views[row]), _nearness_size, MOST_BYTES // 4
+        )
         """`Blockers.nearness` of a view."""
-        return self._get(row).nearness
-
-    def valid(self, row: int) -> NDArray[np.bool_] | None:
+        self.valid: Bounded[int, NDArray[np.bool_] | None] = Bounded(
+            lambda row: _valid(views[row]), _mask_size, MOST_BYTES // 4
+        )
         """Where a view's picture shows anything; None for all of it."""
-        return self._get(row).valid
 
-    def _get(self, row: int) -> _Held:
-        if row in self._held:
-            self._held.move_to_end(row)
-            return self._held[row]
-        view = self._views[row]
-        valid = None if view.valid is None else view.valid()
-        held = _Held(pyramid(view.pixels(), LEVELS), self._blockers.nearness(view), valid)
-        self._held[row] = held
-        self._bytes += held.size
-        while self._bytes > MOST_BYTES and len(self._held) > 1:
-            _, gone = self._held.popitem(last=False)
-            self._bytes -= gone.size
-        return held
+
+def _valid(view: View) -> NDArray[np.bool_] | None:
+    return None if view.valid is None else view.valid()
+
+
+def _size(halves: Halves) -> int:
+    return halves.nbytes
+
+
+def _nearness_size(nearness: Nearness) -> int:
+    return nearness.nbytes
+
+
+def _mask_size(mask: NDArray[np.bool_] | None) -> int:
+    return 0 if mask is None else mask.nbytes
