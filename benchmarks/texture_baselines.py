@@ -36,9 +36,11 @@ def best_view(views: Sequence[View], city: CityModel, options: TextureOptions) -
         value = np.where(usable, sights.density * share, -1.0)
         label = value.argmax(axis=0)
         label[~usable.any(axis=0)] = -1
-        choice = Choice(label, np.argsort(-value, axis=0, kind="stable"), usable)
+        choice = Choice(
+            label, np.argsort(-value, axis=0, kind="stable"), usable, np.ones_like(sights.seen)
+        )
         none = np.zeros((*label.shape, 3), dtype=np.float32)
-        return compose(sights, choice, none, gains, views, store, texel_m)
+        return compose(sights, choice, none, gains, store, texel_m)
 
     return _model(views, city, options, texture)
 

@@ -94,7 +94,7 @@ def test_what_stands_before_a_wall_hides_it_as_rays_say() -> None:
     plane = plane_view(view, face)
     assert plane is not None
     shape, pitch = (60, 120), 0.05
-    seen = seen_at(view, plane, Blockers(city).nearness(view), None, shape, pitch)
+    seen = seen_at(view, plane, Blockers(city).nearness(view), None, None, shape, pitch)
     x, y = np.meshgrid((np.arange(120) + 0.5) * pitch, (np.arange(60) + 0.5) * pitch)
     points = face.points(np.column_stack([x.ravel(), y.ravel()]))
     ways = points - view.eye
@@ -173,8 +173,9 @@ def test_offsets_make_a_step_between_patches_agree() -> None:
     label = np.zeros((6, 20), dtype=np.int64)
     label[:, 10:] = 1
     usable = np.ones((2, 6, 20), dtype=np.bool_)
+    seen = np.ones((2, 6 * SAMPLES, 20 * SAMPLES), dtype=np.bool_)
     order = np.stack([label, 1 - label])
-    offsets = offsets_of(colours, Choice(label, order, usable))
+    offsets = offsets_of(colours, Choice(label, order, usable, seen))
     levelled = np.take_along_axis(colours, label[None, ..., None], axis=0)[0] + offsets
     steps = np.abs(np.diff(levelled, axis=1))
     assert steps.max() < 0.012

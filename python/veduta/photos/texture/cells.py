@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb
 from veduta.photos.texture.faces import Face
-from veduta.photos.texture.store import Halves, PictureStore, level_of
+from veduta.photos.texture.halves import Halves, level_of
+from veduta.photos.texture.store import PictureStore
 from veduta.photos.texture.views import (
     PlaneView,
     View,
     density,
     plane_view,
-    seen_at,
     warped,
 )
 
@@ -132,9 +132,7 @@ def sights_of(
             if plane is None:
                 continue
             grid = grids.setdefault(number, grid_of(face))
-            mask = seen_at(
-                view, plane, store.nearness(row), store.valid(row), grid.samples, grid.pitch_m
-            )
+            mask = store.seen(row, plane, grid.samples, grid.pitch_m)
             mask &= _facing(view, face, grid)
             mask &= _is_fine(view, plane, grid)
             if mask.mean() > _LEAST_SHARE:

@@ -97,7 +97,7 @@ def texture_model(
 
     def textured(store: PictureStore) -> Iterator[tuple[int, FaceTexture]]:
         for row, sights in lots:
-            yield row, _texture(sights, gains, views, store, texel_m[row])
+            yield row, _texture(sights, gains, store, texel_m[row])
 
     def buildings() -> Iterator[TexturedBuilding]:
         with closing(lots.spool):
@@ -136,7 +136,6 @@ def _gains(photos: int, lots: _Lots, gains: NDArray[np.float64] | None) -> NDArr
 def _texture(
     sights: Sights,
     gains: NDArray[np.float64],
-    views: Sequence[View],
     store: PictureStore,
     texel_m: float,
 ) -> FaceTexture:
@@ -144,7 +143,7 @@ def _texture(
     believed, distance = undisturbed(sights, levelled)
     choice = choose(sights, levelled, believed, distance, texel_m**-2)
     offsets = offsets_of(cell_colours(levelled, sights.share()), choice)
-    return compose(sights, choice, offsets, gains, views, store, texel_m)
+    return compose(sights, choice, offsets, gains, store, texel_m)
 
 
 def _by_building(

@@ -102,17 +102,19 @@ def plane_view(view: View, face: Face) -> PlaneView | None:
 class Nearness:
     """The model in a view: reciprocal depths, 0 in the open, a row and column per `step_px`.
 
-    least, most: (h, w) around each step. triangles: those of the model that rays meet first.
+    least, most: (h, w) around each step. sky: (h, w) rays that go up and meet nothing.
+    triangles: those of the model that rays meet first.
     """
 
     least: NDArray[np.float32]
     most: NDArray[np.float32]
+    sky: NDArray[np.bool_]
     triangles: NDArray[np.int64]
 
     @property
     def nbytes(self) -> int:
         """Of all."""
-        return self.least.nbytes + self.most.nbytes + self.triangles.nbytes
+        return sum(one.nbytes for one in (self.least, self.most, self.sky, self.triangles))
 
 
 class Blockers:
@@ -152,6 +154,7 @@ class Blockers:
         return Nearness(
             np.asarray(cv2.erode(squares, reach), dtype=np.float32),
             np.asarray(cv2.dilate(squares, reach), dtype=np.float32),
+            np.asarray(~met & (rays[:, 2] > 0)).reshape(rows, columns),
             np.unique(found["primID"][met]).astype(np.int64),
         )
 
@@ -161,12 +164,13 @@ def seen_at(
     plane: PlaneView,
     nearness: Nearness,
     valid: NDArray[np.bool_] | None,
+    sky: NDArray[np.bool_] | None,
     shape: tuple[int, int],
     pitch_m: float,
 ) -> NDArray[np.bool_]:
     """(rows, columns) which middles of squares of this pitch the view sees on the plane.
 
-    Not along the outlines of what it sees.
+    Not along the outlines of what it sees. sky: by steps, where the view shows sky instead.
     """
     rows, columns = shape
     x = (np.arange(columns) + 0.5) * pitch_m
@@ -181,11 +185,13 @@ def seen_at(
     row = np.where(seen, down, 0).astype(np.int64)
     if valid is not None:
         seen &= valid[row, column]
+    square = (row // view.step_px, column // view.step_px)
+    if sky is not None:
+        seen &= ~sky[square]
     # The grid's squares are read whole: the plane's own nearness varies over what they cover.
     reach = view.step_px * (REACH_STEPS + 0.5)
     own = 1.0 / safe
     slack = reach * (abs(plane.inverse[0]) + abs(plane.inverse[1])) + NEARER_M * own * own
-    square = (row // view.step_px, column // view.step_px)
     # Beside an outline of the model a pixel may show what lies behind: the sky, another house.
     return np.asarray(
         seen & (nearness.most[square] <= own + slack) & (nearness.least[square] >= own - slack)
