@@ -169,6 +169,15 @@ def test_too_few(tmp_path: Path, scene: Path, files: dict[str, int], words: str)
     assert not (tmp_path / "out").exists()
 
 
+def test_all_at_once_without_focal_lengths(tmp_path: Path, scene: Path) -> None:
+    done = veduta("photos", scene, "-o", tmp_path / "out", "--mapping", "global")
+    assert done.returncode == 2
+    assert "--mapping global: the focal length of 6 of 6 photos is not known" in done.stderr
+    assert "--mapping incremental" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "out" / "place.json").exists()
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("number", "code"),

@@ -34,6 +34,7 @@ def check(words: str) -> None:
         (GIVEN, "--neighbours 3", "--from-colmap"),
         (GIVEN, "--max-side-px 640", "--from-colmap"),
         (GIVEN, "--max-features 600", "--from-colmap"),
+        (GIVEN, "--mapping global", "--from-colmap"),
         ("", "--video-interval-s 2", "--video"),
         ("", "--video-frames 20", "--video"),
         ("--pairs all", "--neighbours 3", "--pairs all"),
