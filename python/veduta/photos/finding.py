@@ -9,6 +9,7 @@ from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
 from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
+from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
@@ -57,6 +58,8 @@ def find_components(
         _require_two(call, read)
     if call.models:
         return _given(call, read, told)
+    if options.map.mapping == "global":
+        require_focal_lengths(read.photos)
     pairs = choose_pairs(read.photos, options.match)
     with timed_step(told.steps, "features") as step:
         _features(read, options, stages, progress, jobs)
@@ -70,6 +73,7 @@ def find_components(
     with timed_step(told.steps, "map") as step:
         settled = _map(read, options, stages, progress)
         mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
+        told.starts = mapped.starts
         step.counts |= {"components": len(mapped.models), "doubtful pairs": len(told.doubts)}
         placed = {image for model in mapped.models for image in model.reg_image_ids()}
         unplaced = left_out(read.photos, placed, told.pairs)
@@ -204,4 +208,11 @@ def _map(
     """The components; what a killed run has mapped of them is not mapped again."""
     ids = [photo.image_id for photo in read.photos]
     with writing_to(stages.out):
-        return map_settled(stages.database(), stages.mapping(), ids, options.random.seed, progress)
+        return map_settled(
+            stages.database(),
+            stages.mapping(),
+            ids,
+            options.random.seed,
+            progress,
+            options.map.mapping,
+        )
