@@ -10,6 +10,7 @@ from typing import Any
 import cv2
 import ezdxf
 import numpy as np
+import shapely
 from ezdxf import path as dxf_path
 from numpy.typing import NDArray
 from plan_data import PLANS, picture
@@ -96,7 +97,7 @@ def _longer(points: Line) -> Line:
 
 
 def _gap(header: Polygon) -> Gap:
-    corners = np.asarray(header.minimum_rotated_rectangle.exterior.coords)[:4]
+    corners = shapely.get_coordinates(header.minimum_rotated_rectangle)[:4]
     first, second = np.hypot(*(corners[1] - corners[0])), np.hypot(*(corners[2] - corners[1]))
     if first < second:
         corners = np.roll(corners, -1, axis=0)
