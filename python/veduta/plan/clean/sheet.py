@@ -65,6 +65,8 @@ def _without_border(ink: NDArray[np.float32]) -> NDArray[np.float32]:
         view = np.rot90(cleared, turn)
         deepest = max(2, round(view.shape[0] * BORDER))
         dark = (view[:deepest] > 0.5).mean(axis=1) > 0.6
-        if dark.any():
-            view[: int(np.nonzero(dark)[0][-1]) + 3] = 0
+        if dark[:2].any():
+            # A strip reaches the edge; a wall near it has paper behind it.
+            light = np.flatnonzero(~dark[1:])
+            view[: int(light[0]) + 4 if len(light) else deepest] = 0
     return cleared
