@@ -10,6 +10,7 @@ from typing import Any
 from pydantic import JsonValue
 
 from veduta.photos.finding import find_components
+from veduta.photos.idle_options import require_effect
 from veduta.photos.intake.call import Call, plan_call
 from veduta.photos.intake.frames import with_frames
 from veduta.photos.intake.given import NOTHING_ELSE, Given
@@ -61,6 +62,7 @@ def run_photos(
 
     folder: None where the photos are the frames of a film alone.
     """
+    require_effect(options, given)
     require_walls(options)
     call = plan_call(folder, given)
     inputs: list[JsonValue] = [call.inputs(), *digests_of(options.world)]
