@@ -81,7 +81,9 @@ def line_width(mask: NDArray[np.bool_]) -> float:
     counts[[0, 39]] = 0
     smooth = counts + 0.5 * (np.roll(counts, 1) + np.roll(counts, -1))
     smooth[[0, 39]] = 0
-    best = int(np.argmax(smooth))
+    # Walls may be as common as lines: the thinnest common width is that of lines.
+    rising = (smooth >= np.roll(smooth, 1)) & (smooth >= np.roll(smooth, -1))
+    best = int(np.argmax(rising & (smooth >= 0.5 * smooth.max())))
     near = np.arange(max(1, best - 1), min(39, best + 2))
     total = counts[near].sum()
     return float((near * counts[near]).sum() / total) if total else 1.0
@@ -97,10 +99,12 @@ def _paper(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
     closed = cv2.morphologyEx(small, cv2.MORPH_CLOSE, disc, borderType=cv2.BORDER_REPLICATE)
     smooth = cv2.GaussianBlur(closed, (0, 0), reach / 4, borderType=cv2.BORDER_REPLICATE)
-    return np.asarray(cv2.resize(smooth, (width, height), interpolation=cv2.INTER_LINEAR), np.float32)
+    return np.asarray(
+        cv2.resize(smooth, (width, height), interpolation=cv2.INTER_LINEAR), np.float32
+    )
 
 
 def _noise(dark: NDArray[np.float32]) -> float:
-    """Standard deviation of the noise (Immerkaer 1996), by the median so that lines do not count."""
+    """Standard deviation of the noise (Immerkaer 1996); by the median, as lines are no noise."""
     kernel = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], dtype=np.float32)
     return float(np.median(np.abs(cv2.filter2D(dark, -1, kernel))) / (6 * 0.6745))

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import reduce
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from veduta.plan.walls.pieces import Piece
 
@@ -18,25 +20,28 @@ SAME_DIRECTION_RAD = np.radians(4.0)
 SAME_LINE = 0.3
 """Centre lines of one wall are apart by at most this part of its thickness."""
 
+FARTHEST = 30.0
+"""Pieces farther apart than so many thicknesses are two walls, even with ink between them."""
+
 SAME_THICKNESS = 1.45
 """Thicknesses of one wall differ by at most this factor."""
 
 
 def joined(pieces: list[Piece], solid: NDArray[np.bool_]) -> list[Piece]:
-    """Upright, collinear pieces joined where the mask is solid between them; long ones first."""
-    waiting = sorted((_upright(one) for one in pieces), key=lambda one: -one.length_px)
-    done: list[Piece] = []
-    while waiting:
-        whole = waiting.pop(0)
-        growing = True
-        while growing:
-            growing = False
-            for index, other in enumerate(waiting):
-                if _one_wall(whole, other, solid):
-                    whole = merged(whole, waiting.pop(index))
-                    growing = True
-                    break
-        done.append(whole)
+    """Upright, collinear pieces joined where the mask is solid between them."""
+    upright = [_upright(one) for one in pieces]
+    if not upright:
+        return []
+    mask = solid.view(np.uint8)
+    pairs = [pair for pair in _collinear_pairs(upright) if _solid_between(*pair, upright, mask)]
+    rows, columns = np.array(pairs, dtype=int).reshape(-1, 2).T
+    count = len(upright)
+    graph = coo_matrix((np.ones(len(rows), np.int8), (rows, columns)), shape=(count, count))
+    labels = connected_components(graph, directed=False)[1]
+    done = []
+    for label in range(labels.max() + 1):
+        group = [upright[index] for index in np.flatnonzero(labels == label)]
+        done.append(reduce(merged, sorted(group, key=lambda one: -one.length_px)))
     return [one for one in done if not _inside_another(one, done)]
 
 
@@ -83,13 +88,16 @@ def gap_between(first: Piece, second: Piece) -> float:
 
 
 def solid_share(
-    solid: NDArray[np.bool_], start: NDArray[np.float64], end: NDArray[np.float64]
+    solid: NDArray[np.bool_] | NDArray[np.uint8],
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
 ) -> float:
     """The part of a line that lies on the mask."""
     count = max(2, int(np.hypot(*(end - start))) + 1)
-    points = np.linspace(start, end, count) - 0.5
-    values = map_coordinates(solid.astype(np.uint8), points.T[::-1], order=0, mode="constant")
-    return float(values.mean())
+    points = np.floor(np.linspace(start, end, count)).astype(int)
+    x = np.clip(points[:, 0], 0, solid.shape[1] - 1)
+    y = np.clip(points[:, 1], 0, solid.shape[0] - 1)
+    return float((solid[y, x] > 0).mean())
 
 
 def _upright(piece: Piece) -> Piece:
@@ -106,25 +114,52 @@ def _upright(piece: Piece) -> Piece:
     return piece
 
 
-def _one_wall(whole: Piece, other: Piece, solid: NDArray[np.bool_]) -> bool:
-    thick = max(whole.thickness_px, other.thickness_px)
-    thin = min(whole.thickness_px, other.thickness_px)
-    gap = gap_between(whole, other)
-    if gap > 60 * thick or thick > SAME_THICKNESS * thin + 2:
-        return False
-    if offset_between(whole, other) > max(1.5, SAME_LINE * thin):
-        return False
+def _collinear_pairs(pieces: list[Piece]) -> list[tuple[int, int]]:
+    """Pairs that may be one wall: direction, line and thickness agree, and no other lies between.
+
+    For each piece, the nearest one ahead and behind.
+    """
+    start = np.array([one.start for one in pieces])
+    end = np.array([one.end for one in pieces])
+    thick = np.array([one.thickness_px for one in pieces])
+    length = np.array([one.length_px for one in pieces])
+    direction = (end - start) / np.maximum(length, 1e-9)[:, None]
+    middle = (start + end) / 2
+    thicker = np.maximum(thick[:, None], thick[None])
+    thinner = np.minimum(thick[:, None], thick[None])
+    longer = length[:, None] >= length[None]
+    apart = middle[None] - start[:, None]
+    beside = np.abs(direction[:, None, 0] * apart[..., 1] - direction[:, None, 1] * apart[..., 0])
+    turn = np.abs(
+        direction[:, None, 0] * direction[None, :, 1]
+        - direction[:, None, 1] * direction[None, :, 0]
+    )
     # The direction of a stub says little.
-    allowed = SAME_DIRECTION_RAD if other.length_px > 3 * thick else 3 * SAME_DIRECTION_RAD
-    if angle_between(whole, other) > allowed:
-        return False
-    if gap <= 2:
+    stub = np.minimum(length[:, None], length[None]) < 3 * thicker
+    allowed = np.sin(np.where(stub, 3, 1) * SAME_DIRECTION_RAD)
+    fits = (
+        longer
+        & (thicker <= SAME_THICKNESS * thinner + 2)
+        & (beside <= np.maximum(1.5, SAME_LINE * thinner))
+        & (turn <= allowed)
+    )
+    np.fill_diagonal(fits, False)
+    found = []
+    for first, second in np.argwhere(fits):
+        gap = gap_between(pieces[first], pieces[second])
+        if gap <= FARTHEST * thicker[first, second]:
+            found.append((int(first), int(second)))
+    return found
+
+
+def _solid_between(first: int, second: int, pieces: list[Piece], mask: NDArray[np.uint8]) -> bool:
+    one, other = pieces[first], pieces[second]
+    if gap_between(one, other) <= 2:
         return True
-    ends = np.array([other.start, other.end])
-    mine = np.array([whole.start, whole.end])
+    ends, mine = np.array([other.start, other.end]), np.array([one.start, one.end])
     distance = np.linalg.norm(ends[:, None] - mine[None], axis=2)
     which, whose = np.unravel_index(int(np.argmin(distance)), (2, 2))
-    return solid_share(solid, ends[which], mine[whose]) > 0.93
+    return solid_share(mask, ends[which], mine[whose]) > 0.93
 
 
 def _inside_another(piece: Piece, pieces: list[Piece]) -> bool:
@@ -136,8 +171,10 @@ def _inside_another(piece: Piece, pieces: list[Piece]) -> bool:
         ends = np.array([piece.start, piece.end]) - other.start
         beside, along = np.abs(ends @ normal), ends @ other.direction
         half = other.thickness_px / 2
-        if (beside <= half + 1).all() and along.min() >= -half and along.max() <= (
-            other.length_px + half
+        if (
+            (beside <= half + 1).all()
+            and along.min() >= -half
+            and along.max() <= (other.length_px + half)
         ):
             return True
     return False

@@ -38,13 +38,18 @@ class Piece:
         return np.asarray((self.end - self.start) / max(self.length_px, 1e-9))
 
 
-def straight_pieces(tracks: list[Track], drawing: WallDrawing = "filled") -> list[Piece]:
-    """The straight pieces of all bands; each band is parted where its centre line turns."""
+def straight_pieces(
+    tracks: list[Track], least_px: float = 0.0, drawing: WallDrawing = "filled"
+) -> list[Piece]:
+    """The straight pieces of all bands that are at least so thick.
+
+    Each band is parted where its centre line turns.
+    """
     found = []
     for track in tracks:
         for first, last in _parted(track):
             piece = _fitted(track, first, last, drawing)
-            if piece is not None:
+            if piece is not None and piece.thickness_px >= least_px:
                 found.append(piece)
     return found
 
@@ -74,7 +79,9 @@ def _fitted(track: Track, first: int, last: int, drawing: WallDrawing) -> Piece 
     middle = (track.low[first:last] + track.high[first:last]) / 2
     if len(along) < 3:
         return None
-    slope, offset = np.polyfit(along - along.mean(), middle, 1)
+    centred = along - along.mean()
+    slope = float(centred @ middle / max(float(centred @ centred), 1e-9))
+    offset = float(middle.mean())
     breadth = float(np.median(track.high[first:last] - track.low[first:last]))
     thickness = breadth / float(np.hypot(1, slope))
     span = np.array([along[0] - 0.5, along[-1] + 0.5])

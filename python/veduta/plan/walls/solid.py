@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from veduta.plan.walls.runs import run_lengths, run_lengths_down
 
 LEAST_SHARE = 0.25
-"""Walls of the largest thickness are together at least this part of the drawing's half perimeter."""
+"""The thickest walls are together at least this part of the drawing's half perimeter."""
 
 THINNEST_WALL = 0.3
 """The thinnest wall is at least this part of the thickest common one."""

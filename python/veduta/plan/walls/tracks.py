@@ -105,6 +105,8 @@ def _links(
             & (np.abs(top[other] - top[mine]) <= jitter_px)
             & (np.abs(bottom[other] - bottom[mine]) <= jitter_px)
         )
+        if pairs_first:  # one goes on to one
+            near &= ~np.isin(mine, pairs_first[0])
         pairs_first.append(mine[near])
         pairs_second.append(other[near])
     return np.concatenate(pairs_first), np.concatenate(pairs_second)

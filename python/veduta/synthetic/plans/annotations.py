@@ -33,7 +33,10 @@ def draw_dimension_lines(
 
 
 def _chain(
-    ends: Sequence[tuple[tuple[float, float], tuple[float, float]]], axis: int, low: float, high: float
+    ends: Sequence[tuple[tuple[float, float], tuple[float, float]]],
+    axis: int,
+    low: float,
+    high: float,
 ) -> list[float]:
     """Places along an axis: both faces, and the centres of long walls across it."""
     across: dict[float, float] = {}
@@ -78,13 +81,25 @@ def draw_scale_bar(canvas: Canvas, style: Style, corner: tuple[float, float]) ->
         bar = [(x + start, y), (x + start + 1, y), (x + start + 1, y + 0.1), (x + start, y + 0.1)]
         canvas.line(bar, 0.8 * style.pen_px, style.ink, True)
         if start % 2 == 0:
-            canvas.line([(x + start, y + 0.05), (x + start + 1, y + 0.05)], 0.08 / canvas.metres_per_px, style.ink)
+            canvas.line(
+                [(x + start, y + 0.05), (x + start + 1, y + 0.05)],
+                0.08 / canvas.metres_per_px,
+                style.ink,
+            )
     for mark in (0, 1, 5):
         text = f"{mark} m" if mark == 5 else str(mark)
-        canvas.text(text, (x + mark, y + 0.14 + 0.6 * height * canvas.metres_per_px), height, style.font, style.ink)
+        canvas.text(
+            text,
+            (x + mark, y + 0.14 + 0.6 * height * canvas.metres_per_px),
+            height,
+            style.font,
+            style.ink,
+        )
 
 
-def draw_title(canvas: Canvas, style: Style, number: int, area_m2: float, at: tuple[float, float]) -> None:
+def draw_title(
+    canvas: Canvas, style: Style, number: int, area_m2: float, at: tuple[float, float]
+) -> None:
     """The storey's name and its floor area, centred."""
     height = float(np.clip(0.3 / canvas.metres_per_px, 15.0, 32.0))
     name = STOREYS[style.language][number]

@@ -55,7 +55,9 @@ def cell(box: Box, use: Use | None = None) -> Cell:
     return Cell(corners, (0.0,) * 4, use)
 
 
-def steps(rng: np.random.Generator, low: float, high: float, least: float, most: float) -> list[float]:
+def steps(
+    rng: np.random.Generator, low: float, high: float, least: float, most: float
+) -> list[float]:
     """Places from low to high that part it into pieces of about least to most metres."""
     places = [low]
     while high - places[-1] > most:
@@ -130,11 +132,25 @@ def _with_closet(rng: np.random.Generator, box: Box, door_below: bool) -> list[C
     b, x = box, round(box.right - wide, 2)
     if door_below:
         y = round(b.top - deep, 2)
-        outline = ((b.left, b.bottom), (b.right, b.bottom), (b.right, y), (x, y), (x, b.top), (b.left, b.top))
+        outline = (
+            (b.left, b.bottom),
+            (b.right, b.bottom),
+            (b.right, y),
+            (x, y),
+            (x, b.top),
+            (b.left, b.top),
+        )
         closet = cell(Box(x, y, b.right, b.top), "wardrobe")
     else:
         y = round(b.bottom + deep, 2)
-        outline = ((b.left, b.bottom), (x, b.bottom), (x, y), (b.right, y), (b.right, b.top), (b.left, b.top))
+        outline = (
+            (b.left, b.bottom),
+            (x, b.bottom),
+            (x, y),
+            (b.right, y),
+            (b.right, b.top),
+            (b.left, b.top),
+        )
         closet = cell(Box(x, b.bottom, b.right, y), "wardrobe")
     return [Cell(outline, (0.0,) * 6), closet]
 

@@ -100,7 +100,9 @@ def _fit(
         for free in (area.difference(busy), area):
             spot = _spot(free, wide * canvas.metres_per_px, high * canvas.metres_per_px)
             if spot is not None:
-                return Label(room.id, text, printed, ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2), spot)
+                return Label(
+                    room.id, text, printed, ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2), spot
+                )
     return None
 
 

@@ -17,7 +17,9 @@ BAY_SIDE_M = 3.0
 CUT_SIDE_M = 2.6
 
 
-def with_features(rng: np.random.Generator, cells: Sequence[Cell], shares: dict[str, float]) -> list[Cell]:
+def with_features(
+    rng: np.random.Generator, cells: Sequence[Cell], shares: dict[str, float]
+) -> list[Cell]:
     """The cells with a bay, a bow or a cut corner, each with its probability in `shares`.
 
     Only sides that lie wholly outdoors change, so no neighbour has to follow.
@@ -30,7 +32,8 @@ def with_features(rng: np.random.Generator, cells: Sequence[Cell], shares: dict[
         places = [
             (index, side)
             for index, cell in enumerate(changed)
-            if cell.use not in ("stairs", "wardrobe", "corridor", "garage") and len(cell.corners) == 4
+            if cell.use not in ("stairs", "wardrobe", "corridor", "garage")
+            and len(cell.corners) == 4
             for side in range(4)
             if _is_outdoors(cell, side, outside)
         ]

@@ -32,7 +32,9 @@ class Place:
 
     def box(self, low: float, high: float, right: float, left: float) -> Polygon:
         """A rectangle in these coordinates."""
-        return Polygon([self.at(low, right), self.at(high, right), self.at(high, left), self.at(low, left)])
+        return Polygon(
+            [self.at(low, right), self.at(high, right), self.at(high, left), self.at(low, left)]
+        )
 
 
 def place_of(wall: Wall, opening: Opening) -> Place:
