@@ -12,6 +12,7 @@ from photo_scene import ARC, write_photos
 from veduta.photos.intake.call import plan_call
 from veduta.photos.intake.read import read_photos
 from veduta.photos.mapping.growing import read_snapshot, write_snapshot
+from veduta.photos.mapping.grown import Grown
 from veduta.photos.mapping.mapping import map_photos
 from veduta.photos.matching.features import FeaturesJob, run_features
 from veduta.photos.matching.match import match_pairs, write_database
@@ -58,7 +59,7 @@ def test_it_goes_on_from_its_snapshot(database: Path, tmp_path: Path, most: int)
     (snapshots,) = (tmp_path / "map").iterdir()
     kept = read_snapshot(snapshots)
     assert kept is not None
-    assert kept.num_reg_images() == most
+    assert kept.model.num_reg_images() == most
 
     told: list[int] = []
     mapped = map_photos(
@@ -87,6 +88,6 @@ def test_half_a_snapshot_is_none(tmp_path: Path) -> None:
     assert read_snapshot(tmp_path / "none") is None
     (tmp_path / "here" / ".1.x.tmp").mkdir(parents=True)
     assert read_snapshot(tmp_path / "here") is None
-    write_snapshot(pycolmap.Reconstruction(), tmp_path / "here")
-    write_snapshot(pycolmap.Reconstruction(), tmp_path / "here")
+    write_snapshot(Grown(pycolmap.Reconstruction(), None), tmp_path / "here")
+    write_snapshot(Grown(pycolmap.Reconstruction(), None), tmp_path / "here")
     assert [path.name for path in (tmp_path / "here").iterdir()] == ["2"]

@@ -1,17 +1,22 @@
 """Lens model, principal point and sharing of cameras, chosen by observations that no fit has seen.
 
-A fifth of the observations of long tracks is held out. For each candidate the bundle is adjusted
-to the others, and the points that it gives are projected into the photos of the held-out ones. A
-model that is too poor leaves them far from where they were seen, and so does one that follows the
-noise. The simplest candidate is taken that is not worse than the best by more than two standard
-errors of their difference. Photos, and not observations, count as independent there, because the
-errors of one photo go together; two and not one, because the best of a dozen is best by chance.
+The observations of long tracks are held out in five parts, one part after the other (k-fold cross
+validation; Stone, 1974). For each candidate the bundle is adjusted to the others, and the points
+that it gives are projected into the photos of the held-out ones. A model that is too poor leaves
+them far from where they were seen, and so does one that follows the noise. The simplest candidate
+is taken that is not worse than the best by more than two standard errors of their difference.
+Photos, and not observations, count as independent there, because the errors of one photo go
+together; two and not one, because the best of a dozen is best by chance. Candidates that are
+clearly worse after some parts are not tried on further ones (a race; Maron and Moore, 1994).
 
 What a held-out observation costs is bounded (Geman and McClure): false matches, and points whose
 place is known badly, leave errors of many pixels whatever the camera, and with squared errors
-their chance decides. On 28 sets whose cameras are known the squares with one standard error chose
-right in 23, this in 25, and the misses are tangential terms that 15 photos hardly show; on 40
-rendered photos of one radial lens the squares saw a camera in each photo.
+their chance decides. The adjustment bounds them, too (Cauchy's loss): with squares it had not
+settled after a hundred steps, because points of false matches ran off to infinity.
+
+One part alone is too few: in it, the tangential terms of one camera of 24 photos are worth two
+standard errors, though to all observations they are worth about 140 in chi square; 26 of 30
+simulated sets came out right.
 
 The principal point may only leave the middle where several photos share a camera. One photo alone
 cannot tell it from a turn of the camera: on fountain-P11 free ones for each photo move the cameras
