@@ -21,7 +21,9 @@ def test_the_notes_name_photos_and_reasons() -> None:
         "the map of A begins with 2.jpg and 3.jpg: 1,500 matches, of which a homography explains"
         " 31%, and rays 12° apart"
     )
-    assert "B begins with 5.jpg and 6.jpg: the engine chose them, for no pair meets" in second
+    assert (
+        "B begins with 5.jpg and 6.jpg: the engine chose them, for of 9 pairs none meets" in second
+    )
     assert "a homography explains 93% of the matches" in second
 
 
