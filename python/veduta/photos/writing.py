@@ -16,6 +16,7 @@ from veduta.photos.pictures import write_pictures
 from veduta.photos.placing import CLOUD, PICTURES, POINTS, place_of
 from veduta.photos.report import Told, failure_report, photos_report
 from veduta.photos.structure import Structure, model_of
+from veduta.photos.texture.files import PARTS, TEXTURES
 from veduta.photos.texture.step import can_texture, texture_step
 from veduta.photos.walls.document import WALLS, Unit
 from veduta.photos.walls.step import picture_walls, write_walls
@@ -70,6 +71,9 @@ def write_results(
     opened.publish(SPARSE, key, sparse)
     opened.publish(PICTURES, key, pictures)
     opened.publish(WALLS, key, walls)
+    for item in (TEXTURES, PARTS):  # without textures what a former call left there goes
+        (work / item).mkdir(exist_ok=True)
+        opened.publish(item, key, work / item)
     summary = {**report.measures, "left": [list(pair) for pair in told.left]}
     opened.publish(CALL, key, work, summary)
 
@@ -104,7 +108,7 @@ def write_failure(opened: OutFolder, key: str, told: Told, error: NotFoundError)
     failure = Failure(subject=told.folder, kind="not-found", reason=str(error))
     work = opened.work_folder(CALL)
     _write_report(*failure_report(told, failure), opened, work)
-    for item in (SPARSE, PICTURES, WALLS):
+    for item in (SPARSE, PICTURES, WALLS, TEXTURES, PARTS):
         opened.publish(item, key, opened.work_folder(item))
     opened.publish(CALL, key, work, {"left": [list(pair) for pair in told.left]}, failure)
 
