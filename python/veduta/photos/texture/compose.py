@@ -24,7 +24,7 @@ NEAR_M = 0.4
 """Over so much of a distance from what was seen its colour fades to that of the face."""
 BLUR_M, MOST_BLUR = 0.1, 12.0
 """Deviation of the blur of such colours (m), at most so many texels: else they are streaks."""
-RIM_TEXELS = 1
+RIM_TEXELS = 2
 _LEAST_WEIGHT = 1e-3
 _LINEAR = linear_of_srgb(np.arange(256) / 255.0)
 
