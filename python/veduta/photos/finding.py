@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from contextlib import closing
 
-from veduta.photos.cameras.component import FEWEST_POINTS, Component, finish_component
+from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
 from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
+from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
@@ -32,7 +33,6 @@ from veduta.run.report import counted, timed_step
 
 FEATURES_MEMORY = 6 * 1024**3
 """Bytes that all processes together may use while they look for features."""
-_WEAK = f"the last adjustment leaves it fewer than {FEWEST_POINTS} points: it was placed falsely"
 _UNSOLVED = "was placed, but no cameras could be found for its component: {}"
 _NOTHING_HANGS = (
     "Take photos that overlap by more than half with their neighbours, from places that differ:"
@@ -58,6 +58,8 @@ def find_components(
         _require_two(call, read)
     if call.models:
         return _given(call, read, told)
+    if options.map.mapping == "global":
+        require_focal_lengths(read.photos)
     pairs = choose_pairs(read.photos, options.match)
     with timed_step(told.steps, "features") as step:
         _features(read, options, stages, progress, jobs)
@@ -71,6 +73,7 @@ def find_components(
     with timed_step(told.steps, "map") as step:
         settled = _map(read, options, stages, progress)
         mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
+        told.starts = mapped.starts
         step.counts |= {"components": len(mapped.models), "doubtful pairs": len(told.doubts)}
         placed = {image for model in mapped.models for image in model.reg_image_ids()}
         unplaced = left_out(read.photos, placed, told.pairs)
@@ -110,8 +113,7 @@ def finish_components(
             faults.append(error)
             left += [(name, _UNSOLVED.format(error.evidence)) for name in structure.names]
             continue
-        weak = sorted({*structure.names} - {*component.structure.names})
-        left += [(name, _WEAK) for name in weak]
+        left += component.left
         components.append(component)
     if not components:
         raise faults[0]
@@ -206,4 +208,11 @@ def _map(
     """The components; what a killed run has mapped of them is not mapped again."""
     ids = [photo.image_id for photo in read.photos]
     with writing_to(stages.out):
-        return map_settled(stages.database(), stages.mapping(), ids, options.random.seed, progress)
+        return map_settled(
+            stages.database(),
+            stages.mapping(),
+            ids,
+            options.random.seed,
+            progress,
+            options.map.mapping,
+        )

@@ -65,7 +65,8 @@ class Stages:
 
     def mapping(self) -> Path:
         """Components that are mapped, pairs that are doubted, and snapshots."""
-        return self.database().with_suffix(".mapping")
+        kind = self.options.map.mapping
+        return self.database().with_suffix(f".{kind}.mapping")
 
     def drop(self) -> None:
         """The run is finished: none of it is needed any more."""
