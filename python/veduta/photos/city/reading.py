@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +24,7 @@ from veduta.photos.options import ModelOptions
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
+Kind = Literal["an OBJ mesh", "CityGML", "CityJSON", "a file of outlines"]
 MOST_EXTENT_M = 100_000.0
 MOST_NAMED = 3
 
@@ -35,15 +37,17 @@ def read_city_model(path: Path, options: ModelOptions) -> CityModel:
     except OSError as error:
         fault = f"cannot be read ({error.strerror})"
         raise InputError(path, fault, "Check its name and its permissions.") from error
-    suffix = path.suffix.lower()
-    if suffix == ".obj":
-        file = _of_mesh(path, options)
-    elif suffix in (".gml", ".xml", ".citygml") or head.lstrip().startswith(b"<"):
-        file = read_citygml(path)
-    elif suffix in SEQUENCES or (head.lstrip().startswith(b"{") and is_city(path)):
-        file = read_cityjson(path)
-    else:
-        file = read_outlines(path, options)
+    kind = _kind(path, head)
+    _require_effect(path, kind, options)
+    match kind:
+        case "an OBJ mesh":
+            file = _of_mesh(path, options)
+        case "CityGML":
+            file = read_citygml(path)
+        case "CityJSON":
+            file = read_cityjson(path)
+        case "a file of outlines":
+            file = read_outlines(path, options)
     if not file.buildings:
         reason = f" ({file.left[0][0]}: {file.left[0][1]})" if file.left else ""
         raise InputError(path, f"has no building that can be used{reason}", "Give another model.")
@@ -54,6 +58,30 @@ def read_city_model(path: Path, options: ModelOptions) -> CityModel:
 def _head(path: Path) -> bytes:
     with path.open("rb") as file:
         return file.read(1024).removeprefix(b"\xef\xbb\xbf")
+
+
+def _kind(path: Path, head: bytes) -> Kind:
+    suffix = path.suffix.lower()
+    if suffix == ".obj":
+        return "an OBJ mesh"
+    if suffix in (".gml", ".xml", ".citygml") or head.lstrip().startswith(b"<"):
+        return "CityGML"
+    if suffix in SEQUENCES or (head.lstrip().startswith(b"{") and is_city(path)):
+        return "CityJSON"
+    return "a file of outlines"
+
+
+def _require_effect(path: Path, kind: Kind, options: ModelOptions) -> None:
+    """InputError for an option that is about models of another kind than this."""
+    about: tuple[tuple[str, object, Kind], ...] = (
+        ("--model-up", None if options.model_up == "auto" else options.model_up, "an OBJ mesh"),
+        ("--height-attribute", options.height_attribute, "a file of outlines"),
+        ("--layer", options.layer, "a file of outlines"),
+    )
+    for name, value, wanted in about:
+        if value is not None and kind != wanted:
+            fault = f"has no effect: it is about {wanted}, and {path} is {kind}"
+            raise InputError(name, fault, "Leave it out, or give another --model.")
 
 
 def _model(path: Path, file: CityFile, crs: str) -> CityModel:

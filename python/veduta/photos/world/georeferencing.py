@@ -75,8 +75,6 @@ def read_references(options: ModelOptions) -> References:
         if options.georef == method and given is None:
             fault = f"asks for --{method}, which is not given"
             raise InputError(f"--georef {method}", fault, f"Add --{method} FILE.")
-    if options.crs is not None and options.model is None:
-        raise InputError("--crs", "is about a city model", "Give --model, too.")
     model = None if options.model is None else read_city_model(options.model, options)
     control = None if options.gcp is None else read_control(options.gcp)
     if model is not None and control is not None:

@@ -1,0 +1,1 @@
+"""What rooms are for: by the words in them, else by their size and neighbours."""

@@ -1,0 +1,161 @@
+"""The scale of a sheet from all that is written and drawn on it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.document import Scale, ScaleEvidence, Text
+from veduta.plan.scale.assumed import assumed_scale, door_voter
+from veduta.plan.scale.bars import bar_voters
+from veduta.plan.scale.dimension_lines import line_voters
+from veduta.plan.scale.evidence import Voter
+from veduta.plan.scale.options import VoteOptions
+from veduta.plan.scale.ratios import ratio_voters
+from veduta.plan.scale.room_sizes import room_voters
+from veduta.plan.scale.vote import take_vote
+from veduta.plan.scale.width_rule import width_rule_voters
+from veduta.run.errors import InputError
+
+_RIVAL = 0.5  # a second group with so many of the votes is told of
+_GIVEN_SIGMA = 0.001
+_DISAGREES = 0.03  # a given scale that differs so much from the sheet's own is told of
+
+
+@dataclass(frozen=True)
+class DrawnSizes:
+    """What the drawing shows, in pixels of the cleaned image.
+
+    `rooms` are outlines (n, 2); `doors` widths of openings for doors; `walls` thicknesses; `ink`
+    (h, w), 0 paper to 1 ink; `dpi` the resolution that the file states, None where it does not.
+    """
+
+    rooms: Sequence[NDArray[np.float64]]
+    doors: Sequence[float]
+    walls: Sequence[float]
+    ink: NDArray[np.float32]
+    dpi: float | None = None
+    texts: Sequence[Text] = field(default=())
+
+
+def estimate_scale(
+    sizes: DrawnSizes, given: float | None = None, options: VoteOptions | None = None
+) -> Scale:
+    """The scale by the vote of all evidence; `given` (metres per pixel) goes before it.
+
+    Without any evidence it is assumed from doors, else walls, else the size of the drawing, and
+    its basis says so. Raises `InputError` where `given` is no size of a pixel.
+    """
+    options = options or VoteOptions()
+    if given is not None and not 1e-6 < given < 10.0:
+        raise InputError("--scale", f"{given} m is no size of a pixel", "Give 0.000001 to 10 m.")
+    voters = find_voters(sizes, options)
+    if given is not None:
+        return _given(given, voters)
+    doors = door_voter(sizes.doors, options)
+    if not voters:
+        return _assumed(doors, sizes, options)
+    return _voted([*voters, doors] if doors else voters)
+
+
+def find_voters(sizes: DrawnSizes, options: VoteOptions) -> list[Voter]:
+    """All that the sheet says of its scale."""
+    texts, rooms = list(sizes.texts), list(sizes.rooms)
+    return [
+        *room_voters(texts, rooms, options.blur_px),
+        *line_voters(texts, sizes.ink, options.blur_px),
+        *bar_voters(texts),
+        *ratio_voters(texts, sizes.dpi),
+        *width_rule_voters(texts, rooms, sizes.ink),
+    ]
+
+
+def scale_notes(scale: Scale) -> list[str]:
+    """What a reader must know of a scale: that it was assumed, or that evidence disagrees."""
+    notes = []
+    if scale.basis == "assumed":
+        notes.append(
+            f"Nothing on the sheet says its scale. {scale.evidence[0].text}: sizes may be wrong by"
+            f" {200 * scale.sigma:.0f} %. --scale sets it."
+        )
+    against = [one for one in scale.evidence if not one.agrees and one.kind != "door"]
+    said = [one for one in scale.evidence if one.kind != "door"]
+    if against:
+        named = "; ".join(
+            f"{one.text} ({100 * (one.metres_per_px / scale.metres_per_px - 1):+.1f} %)"
+            for one in against[:5]
+        )
+        notes.append(f"{len(against)} of {len(said)} sizes on the sheet disagree: {named}.")
+    return notes
+
+
+def _voted(voters: list[Voter]) -> Scale:
+    verdict = take_vote(voters)
+    evidence = [
+        ScaleEvidence(
+            kind=voter.kind,
+            text=voter.text,
+            metres_per_px=float(np.exp(chosen.log_mpp)),
+            sigma=chosen.sigma,
+            agrees=agrees,
+        )
+        for voter, chosen, agrees in zip(voters, verdict.chosen, verdict.agrees, strict=True)
+    ]
+    # Two scales with much the same support: which of them it is, is not known.
+    doubt = verdict.rival_mpp is not None and verdict.rival_share >= _RIVAL
+    return Scale(
+        metres_per_px=verdict.metres_per_px,
+        sigma=max(verdict.sigma, 0.1) if doubt else verdict.sigma,
+        basis="evidence",
+        evidence=evidence,
+    )
+
+
+def _given(metres_per_px: float, voters: list[Voter]) -> Scale:
+    own = _voted(voters).evidence if voters else []
+    first = ScaleEvidence(
+        kind="given", metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, agrees=True
+    )
+    judged = [
+        one.model_copy(
+            update={
+                "agrees": abs(one.metres_per_px / metres_per_px - 1.0)
+                <= max(3.0 * one.sigma, _DISAGREES)
+            }
+        )
+        for one in own
+    ]
+    return Scale(
+        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
+    )
+
+
+def _assumed(doors: Voter | None, sizes: DrawnSizes, options: VoteOptions) -> Scale:
+    if doors is not None:
+        reading = doors.hypotheses[0]
+        evidence = ScaleEvidence(
+            kind="door",
+            text=f"{doors.text}, taken for {options.door_m} m",
+            metres_per_px=float(np.exp(reading.log_mpp)),
+            sigma=reading.sigma,
+            agrees=True,
+        )
+    else:
+        evidence = assumed_scale(sizes.walls, _extent(sizes.ink), options)
+    return Scale(
+        metres_per_px=evidence.metres_per_px,
+        sigma=evidence.sigma,
+        basis="assumed",
+        evidence=[evidence],
+    )
+
+
+def _extent(ink: NDArray[np.float32]) -> float:
+    """Long side of the rectangle around all ink, in pixels; of the sheet where it is blank."""
+    rows, columns = np.nonzero(ink.max(axis=1) > 0.5)[0], np.nonzero(ink.max(axis=0) > 0.5)[0]
+    if not len(rows):
+        return float(max(ink.shape))
+    return float(max(np.ptp(rows), np.ptp(columns)) + 1)

@@ -1,0 +1,1 @@
+"""House plans with known truth: laid out by a seed, drawn in many styles, and scanned badly."""
