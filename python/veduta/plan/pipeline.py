@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.house.build import build_house
@@ -19,7 +20,7 @@ from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
-from veduta.run.errors import InputError, NotFoundError
+from veduta.run.errors import NotFoundError
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task
@@ -145,11 +146,8 @@ def _document(
 ) -> tuple[PlanDocument, list[Pixels], list[str]]:
     """The document and the cleaned drawings, with what is to be said of them."""
     if checked is None:
-        raise InputError(
-            call.paths[0],
-            "is a drawing, and drawings are not read yet",
-            f"Give a {DOCUMENT}: docs/plan.md says what is in one.",
-        )
+        read = read_drawings(call.paths, options, steps, progress)
+        return read.document, read.sheets, []
     progress("load", 0.0)
     with timed_step(steps, "load") as step:
         sheets, notes = load_sheets(call.paths[0].parent, checked)

@@ -114,7 +114,7 @@ class _Model:
         header.file_name.name = "house.ifc"
         header.file_name.originating_system = f"Veduta {veduta.__version__}"
         header.file_name.preprocessor_version = f"Veduta {veduta.__version__}"
-        text: str = self.file.to_string()
+        text: str = self.file.to_string()  # type: ignore[no-untyped-call]
         return text.encode()
 
     def _project(self) -> tuple[Entity, Entity]:

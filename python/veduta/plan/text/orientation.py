@@ -17,8 +17,8 @@ from veduta.plan.names.vocabulary import meanings
 from veduta.plan.scale.quantities import read_quantities
 from veduta.plan.text.engine import Line, read_line
 from veduta.plan.text.options import TextOptions
-from veduta.plan.text.reading import in_colour, strip_of
-from veduta.plan.text.regions import find_regions
+from veduta.plan.text.regions import find_overview
+from veduta.plan.text.strips import in_colour, strip_of
 
 _REGIONS = 10  # so many regions are read in eight positions: 80 lines, some 3 s on two cores
 _FIRST = 5  # so many are read as they stand; where they make sense, that is all
@@ -46,17 +46,24 @@ class Position:
         return not self.mirrored and self.quarter_turns == 0
 
 
-def find_position(pixels: NDArray[np.uint8], options: TextOptions | None = None) -> Position:
-    """The position in which the text of a scan (h, w, 3) or (h, w) reads best."""
+def find_position(
+    pixels: NDArray[np.uint8],
+    options: TextOptions | None = None,
+    overview: NDArray[np.float64] | None = None,
+) -> Position:
+    """The position in which the text of a scan (h, w, 3) or (h, w) reads best.
+
+    `overview` (n, 4, 2) is what `find_overview` gave, where it was called before.
+    """
     options = options or TextOptions()
     pixels = in_colour(pixels)
-    regions = _telling(find_regions(pixels, options.model_copy(update={"tiles": 0})))
-    first = [_read_at(pixels, quad, False, 0, options.threads) for quad in regions[:_FIRST]]
+    telling = _telling(find_overview(pixels, options) if overview is None else overview)
+    first = [_read_at(pixels, quad, False, 0, options.threads) for quad in telling[:_FIRST]]
     as_it_is = sum(map(_weight, first))
-    if not regions or sum(map(_makes_sense, first)) * 2 > len(first):
+    if not telling or sum(map(_makes_sense, first)) * 2 > len(first):
         return Position(False, 0, as_it_is, as_it_is)
     scores = {
-        (mirrored, turns): _position_score(pixels, regions, mirrored, turns, options.threads)
+        (mirrored, turns): _position_score(pixels, telling, mirrored, turns, options.threads)
         for mirrored in (False, True)
         for turns in range(4)
     }
