@@ -113,6 +113,7 @@ def test_a_mask_of_another_size(tmp_path: Path, scene: Path) -> None:
     assert done.returncode == 2
     assert "view2.png: is 99 x 77 px, and its photo view2.png 480 x 360 px" in done.stderr
     assert "Save the mask in the size" in done.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_all_the_same_photo(tmp_path: Path) -> None:

@@ -79,3 +79,4 @@ def test_references_that_cannot_be_used(tmp_path: Path, scene: Path) -> None:
         done = veduta("photos", scene, "-o", tmp_path / "out", *arguments)
         assert done.returncode == 2
         assert told in done.stderr
+        assert not (tmp_path / "out").exists()

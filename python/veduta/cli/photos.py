@@ -51,6 +51,8 @@ def _tell(result: PhotosResult) -> None:
         print(f"and {len(result.left) - MOST_NAMED} more left out: {out / 'report.html'}")
     tell_kept(out, result.edited, result.foreign, up_to_date=result.up_to_date)
     if result.failure is None:
+        for mark in result.measures.get("gcp_unknown", ())[:MOST_NAMED]:
+            print(f"control points, {mark}")
         print(summary_line(result.measures))
         for refused in result.measures.get("georef_refused", ()):
             print(f"not laid into the world by {refused}")

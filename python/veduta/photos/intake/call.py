@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from pydantic import JsonValue
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.photos.intake.colmap_folder import ModelFiles, models_in
 from veduta.photos.intake.given import NOTHING_ELSE, Given
-from veduta.photos.intake.masks import Mask, masks_in, with_masks
+from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
 from veduta.photos.intake.source import Source
 from veduta.photos.intake.video import Video, video_of
 from veduta.run.digests import file_digest
@@ -56,6 +57,8 @@ def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
     video = video_of(given.video) if given.video else None
     models = models_in(given.from_colmap) if given.from_colmap else ()
     masks = masks_in(given.masks) if given.masks else ()
+    if video is not None:
+        _require_sizes(masks, video)
     if folder is None:
         return Call(given.video or Path(), (), masks=masks, video=video)
     sources, copies, unreadable, files = _found(folder)
@@ -76,6 +79,14 @@ def _require_sense(folder: Path | None, given: Given) -> None:
     if given.masks is not None:
         remedy = "Leave out --masks: nothing is looked for where a model is given."
         raise InputError("--masks", "has no use with --from-colmap", remedy)
+
+
+def _require_sizes(masks: Sequence[Mask], video: Video) -> None:
+    """InputError for a mask of another size than the frames: said before the film is read."""
+    for mask in masks:
+        frame = f"{mask.path.stem.lower().removesuffix('.jpg')}.jpg"
+        if video.is_frame_name(frame):
+            read_mask(mask.path, frame, video.size_px)
 
 
 _Pairs = tuple[tuple[str, str], ...]

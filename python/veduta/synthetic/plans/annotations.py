@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -33,7 +34,10 @@ def draw_dimension_lines(
 
 
 def _chain(
-    ends: Sequence[tuple[tuple[float, float], tuple[float, float]]], axis: int, low: float, high: float
+    ends: Sequence[tuple[tuple[float, float], tuple[float, float]]],
+    axis: int,
+    low: float,
+    high: float,
 ) -> list[float]:
     """Places along an axis: both faces, and the centres of long walls across it."""
     across: dict[float, float] = {}
@@ -62,7 +66,7 @@ def _row(canvas: Canvas, style: Style, places: Sequence[float], at: float, uprig
         canvas.line([spot(place, -1.6 * TICK_M), spot(place, 1.6 * TICK_M)], pen, style.ink)
     height = float(np.clip(0.17 / canvas.metres_per_px, 9.0, 18.0))
     lift = 0.75 * height * canvas.metres_per_px + 0.02
-    for low, high in zip(places, places[1:]):
+    for low, high in pairwise(places):
         text = f"{high - low:.2f}"
         if style.sizes in ("comma", "area"):
             text = text.replace(".", ",")
@@ -78,13 +82,25 @@ def draw_scale_bar(canvas: Canvas, style: Style, corner: tuple[float, float]) ->
         bar = [(x + start, y), (x + start + 1, y), (x + start + 1, y + 0.1), (x + start, y + 0.1)]
         canvas.line(bar, 0.8 * style.pen_px, style.ink, True)
         if start % 2 == 0:
-            canvas.line([(x + start, y + 0.05), (x + start + 1, y + 0.05)], 0.08 / canvas.metres_per_px, style.ink)
+            canvas.line(
+                [(x + start, y + 0.05), (x + start + 1, y + 0.05)],
+                0.08 / canvas.metres_per_px,
+                style.ink,
+            )
     for mark in (0, 1, 5):
         text = f"{mark} m" if mark == 5 else str(mark)
-        canvas.text(text, (x + mark, y + 0.14 + 0.6 * height * canvas.metres_per_px), height, style.font, style.ink)
+        canvas.text(
+            text,
+            (x + mark, y + 0.14 + 0.6 * height * canvas.metres_per_px),
+            height,
+            style.font,
+            style.ink,
+        )
 
 
-def draw_title(canvas: Canvas, style: Style, number: int, area_m2: float, at: tuple[float, float]) -> None:
+def draw_title(
+    canvas: Canvas, style: Style, number: int, area_m2: float, at: tuple[float, float]
+) -> None:
     """The storey's name and its floor area, centred."""
     height = float(np.clip(0.3 / canvas.metres_per_px, 15.0, 32.0))
     name = STOREYS[style.language][number]

@@ -63,7 +63,13 @@ class Canvas:
     ) -> None:
         """A polyline of a pen so many pixels wide."""
         cv2.polylines(
-            self.pixels, [self._fixed(points)], closed, colour, self._pen(width_px), cv2.LINE_AA, SHIFT
+            self.pixels,
+            [self._fixed(points)],
+            closed,
+            colour,
+            self._pen(width_px),
+            cv2.LINE_AA,
+            SHIFT,
         )
 
     def dashed(
@@ -89,13 +95,18 @@ class Canvas:
             )
 
     def hatch(
-        self, area: BaseGeometry, gap_m: float, width_px: float, colour: Colour, crossed: bool = False
+        self,
+        area: BaseGeometry,
+        gap_m: float,
+        width_px: float,
+        colour: Colour,
+        crossed: bool = False,
     ) -> None:
         """Lines at 45 degrees within polygons."""
         mask = np.zeros(self.pixels.shape[:2], np.uint8)
         cv2.fillPoly(mask, self._rings(area), 255, cv2.LINE_AA, SHIFT)
         lines = self.pixels.copy()
-        height, width = mask.shape
+        height, width = self.pixels.shape[:2]
         gap = gap_m * FINE / self.metres_per_px * math.sqrt(2.0)
         for offset in np.arange(-height, width + height, gap):
             low = round(float(offset))
@@ -133,17 +144,24 @@ class Canvas:
         size = round(height_px * FINE)
         wide, high = text_size_px(text, height_px, font, weight)
         pad = size
-        patch = np.full((round(high * FINE) + 2 * pad, round(wide * FINE) + 2 * pad, 3), 255, np.uint8)
+        patch = np.full(
+            (round(high * FINE) + 2 * pad, round(wide * FINE) + 2 * pad, 3), 255, np.uint8
+        )
         cv2.putText(patch, text, (pad, pad + round(size * 0.8)), (0, 0, 0), face, size, weight)
         if not upright:
             patch = np.rot90(patch).copy()
-        x, y = (self._fixed([centre_m])[0] / 2**SHIFT).round().astype(int)
+        x, y = (round(value / 2**SHIFT) for value in self._fixed([centre_m])[0].tolist())
         self._stamp(patch, x - patch.shape[1] // 2, y - patch.shape[0] // 2, colour)
 
     def _stamp(self, patch: Image, left: int, top: int, colour: Colour) -> None:
         """Ink of a black-on-white patch laid onto the sheet; what sticks out is cut."""
         height, width = self.pixels.shape[:2]
-        x0, y0, x1, y1 = max(left, 0), max(top, 0), min(left + patch.shape[1], width), min(top + patch.shape[0], height)
+        x0, y0, x1, y1 = (
+            max(left, 0),
+            max(top, 0),
+            min(left + patch.shape[1], width),
+            min(top + patch.shape[0], height),
+        )
         if x1 <= x0 or y1 <= y0:
             return
         ink = 1.0 - patch[y0 - top : y1 - top, x0 - left : x1 - left].astype(np.float32) / 255.0

@@ -65,7 +65,12 @@ def _warped(picture: Image, affine: Affine, size: tuple[int, int], paper: Colour
     shift = np.array([[1.0, 0.0, 0.5], [0.0, 1.0, 0.5], [0.0, 0.0, 1.0]])
     matrix = (np.linalg.inv(shift) @ affine @ shift)[:2]
     warped = cv2.warpAffine(
-        picture, matrix, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_CONSTANT, borderValue=paper
+        picture,
+        matrix,
+        size,
+        flags=cv2.INTER_CUBIC,
+        borderMode=cv2.BORDER_CONSTANT,
+        borderValue=paper,
     )
     return np.asarray(warped, np.uint8)
 
@@ -98,7 +103,7 @@ def yellowed(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[Image
 def uneven_light(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[Image, Affine]:
     """Photographed by a lamp at one side, with a soft shadow."""
     height, width = picture.shape[:2]
-    y, x = np.mgrid[0:1:height * 1j, 0:1:width * 1j].astype(np.float32)
+    y, x = np.mgrid[0 : 1 : height * 1j, 0 : 1 : width * 1j].astype(np.float32)
     angle = rng.uniform(0, 2 * math.pi)
     ramp = (x - 0.5) * math.cos(angle) + (y - 0.5) * math.sin(angle)
     edge = rng.uniform(-0.2, 0.2)
@@ -110,8 +115,9 @@ def uneven_light(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[I
 def jpeg(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[Image, Affine]:
     """Compressed too far."""
     quality = int(rng.integers(12, 30))
-    _, data = cv2.imencode(".jpg", picture[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
-    return np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1], np.uint8), np.eye(3)
+    data = cv2.imencode(".jpg", picture[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
+    back = np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR), np.uint8)
+    return np.ascontiguousarray(back[..., ::-1]), np.eye(3)
 
 
 def mirrored(_: np.random.Generator, picture: Image, __: Colour) -> tuple[Image, Affine]:
@@ -157,7 +163,9 @@ def folded(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[Image, 
 def photocopied(rng: np.random.Generator, picture: Image, paper: Colour) -> tuple[Image, Affine]:
     """A copy of a copy: crooked, blurred, black or white only, with specks."""
     turned, affine = skew(rng, picture, paper)
-    grey = cv2.GaussianBlur(cv2.cvtColor(turned, cv2.COLOR_RGB2GRAY), (0, 0), 1.0).astype(np.float32)
+    grey = cv2.GaussianBlur(cv2.cvtColor(turned, cv2.COLOR_RGB2GRAY), (0, 0), 1.0).astype(
+        np.float32
+    )
     grey += 18.0 * grain(rng, (grey.shape[0], grey.shape[1]))
     dark_paper = sum(paper) < 300
     limit = 128.0 if dark_paper else rng.uniform(140, 190)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -55,7 +56,9 @@ def cell(box: Box, use: Use | None = None) -> Cell:
     return Cell(corners, (0.0,) * 4, use)
 
 
-def steps(rng: np.random.Generator, low: float, high: float, least: float, most: float) -> list[float]:
+def steps(
+    rng: np.random.Generator, low: float, high: float, least: float, most: float
+) -> list[float]:
     """Places from low to high that part it into pieces of about least to most metres."""
     places = [low]
     while high - places[-1] > most:
@@ -111,7 +114,7 @@ def band(rng: np.random.Generator, box: Box, door_below: bool, spare: Box | None
     left = spare.right if spare else box.left
     places = steps(rng, left, box.right, 1.7, 4.6)
     cells: list[Cell] = []
-    for start, end in zip(places, places[1:]):
+    for start, end in pairwise(places):
         piece = Box(start, box.bottom, end, box.top)
         if piece.height > 3.4 and 1.7 <= piece.width <= 3.4 and rng.random() < 0.4:
             share = rng.uniform(0.4, 0.6)
@@ -130,11 +133,25 @@ def _with_closet(rng: np.random.Generator, box: Box, door_below: bool) -> list[C
     b, x = box, round(box.right - wide, 2)
     if door_below:
         y = round(b.top - deep, 2)
-        outline = ((b.left, b.bottom), (b.right, b.bottom), (b.right, y), (x, y), (x, b.top), (b.left, b.top))
+        outline = (
+            (b.left, b.bottom),
+            (b.right, b.bottom),
+            (b.right, y),
+            (x, y),
+            (x, b.top),
+            (b.left, b.top),
+        )
         closet = cell(Box(x, y, b.right, b.top), "wardrobe")
     else:
         y = round(b.bottom + deep, 2)
-        outline = ((b.left, b.bottom), (x, b.bottom), (x, y), (b.right, y), (b.right, b.top), (b.left, b.top))
+        outline = (
+            (b.left, b.bottom),
+            (x, b.bottom),
+            (x, y),
+            (b.right, y),
+            (b.right, b.top),
+            (b.left, b.top),
+        )
         closet = cell(Box(x, b.bottom, b.right, y), "wardrobe")
     return [Cell(outline, (0.0,) * 6), closet]
 

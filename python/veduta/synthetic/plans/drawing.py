@@ -83,7 +83,9 @@ def _annotate(canvas: Canvas, style: Style, storey: Storey) -> None:
     if style.dimension_lines:
         draw_dimension_lines(canvas, style, storey, bounds)
     if style.title:
-        gross = unary_union([Polygon(ring.coords) for ring in _exteriors(whole_walls(storey.walls))])
+        gross = unary_union(
+            [Polygon(ring.coords) for ring in _exteriors(whole_walls(storey.walls))]
+        )
         draw_title(canvas, style, storey.number, gross.area, ((left + right) / 2, bottom - 1.2))
     if style.scale_bar:
         draw_scale_bar(canvas, style, (max(left, right - 5.6), top + 0.35))

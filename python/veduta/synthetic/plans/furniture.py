@@ -22,7 +22,7 @@ OFF_WALL_M = 0.03
 
 @dataclass(frozen=True)
 class Thing:
-    """Something that stands with its back against a wall, `wide` along it and `deep` into the room."""
+    """Stands with its back against a wall, `wide` along it and `deep` into the room."""
 
     symbol: str
     wide: float
@@ -55,7 +55,11 @@ SOFA, TABLE, SHELF = Thing("sofa", 2.0, 0.85), Thing("table", 1.5, 1.5), Thing("
 COUNTER, FRIDGE = Thing("counter", 2.1, 0.6, True), Thing("fridge", 0.6, 0.6, True)
 TOILET, BASIN = Thing("toilet", 0.4, 0.66, True), Thing("basin", 0.55, 0.45, True)
 TUB, SHOWER = Thing("tub", 1.65, 0.72, True), Thing("shower", 0.85, 0.85, True)
-WASHER, BENCH, CAR = Thing("washer", 0.6, 0.6, True), Thing("bench", 1.6, 0.6, True), Thing("car", 1.8, 4.2)
+WASHER, BENCH, CAR = (
+    Thing("washer", 0.6, 0.6, True),
+    Thing("bench", 1.6, 0.6, True),
+    Thing("car", 1.8, 4.2),
+)
 WANTED: Mapping[Use, tuple[Thing, ...]] = {
     "living": (SOFA, TABLE, SHELF, Thing("sofa", 0.9, 0.85)), "dining": (TABLE, SHELF),
     "kitchen": (COUNTER, FRIDGE, TABLE), "bedroom": (BED, CLOSET, TWIN, DESK),

@@ -94,13 +94,17 @@ def _fit(
     size = size_text(style.sizes, room, area)
     for name, printed in ((names[0], size), (names[1], size), (names[1], "")):
         text = name.upper() if style.capitals else name
-        wide = max(text_size_px(text, height, style.font, style.weight)[0],
-                   text_size_px(printed, 0.85 * height, style.font, style.weight)[0] if printed else 0)  # fmt: skip
+        wide = text_size_px(text, height, style.font, style.weight)[0]
+        if printed:
+            below = text_size_px(printed, 0.85 * height, style.font, style.weight)[0]
+            wide = max(wide, below)
         high = height * (2.2 if printed else 1.1)
         for free in (area.difference(busy), area):
             spot = _spot(free, wide * canvas.metres_per_px, high * canvas.metres_per_px)
             if spot is not None:
-                return Label(room.id, text, printed, ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2), spot)
+                return Label(
+                    room.id, text, printed, ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2), spot
+                )
     return None
 
 

@@ -10,7 +10,17 @@ from shapely.geometry import Polygon
 
 from veduta.synthetic.plans import doors
 from veduta.synthetic.plans.dissect import Box, Cell, cell, corridor_cells, cut
-from veduta.synthetic.plans.house import DoorType, House, Language, Opening, Room, Storey, Use, Wall, WindowType
+from veduta.synthetic.plans.house import (
+    DoorType,
+    House,
+    Language,
+    Opening,
+    Room,
+    Storey,
+    Use,
+    Wall,
+    WindowType,
+)
 from veduta.synthetic.plans.network import (
     Thickness,
     cell_area,
@@ -70,7 +80,9 @@ def _frame(rng: np.random.Generator, storeys: int) -> Frame:
         wide, high = round(rng.uniform(6.5, 12.0), 2), round(rng.uniform(6.0, 10.0), 2)
         return Frame(Box(0.0, 0.0, wide, high), None, None, thickness, windows)
     wide = round(rng.uniform(8.0, 15.0), 2)
-    below, across, above = (round(rng.uniform(*size), 2) for size in ((2.8, 4.6), (1.5, 2.0), (2.8, 4.6)))
+    below, across, above = (
+        round(rng.uniform(*size), 2) for size in ((2.8, 4.6), (1.5, 2.0), (2.8, 4.6))
+    )
     corridor = Box(0.0, below, wide, round(below + across, 2))
     if rng.random() < 0.5 and wide > 9.5:
         left = round(rng.uniform(2.4, 3.2), 2) if rng.random() < 0.5 and storeys == 1 else 0.0
@@ -80,7 +92,9 @@ def _frame(rng: np.random.Generator, storeys: int) -> Frame:
     stairs = None
     if storeys > 1:
         length = round(rng.uniform(2.9, 3.6), 2)
-        stairs = Box(0.0, corridor.top, round(rng.uniform(1.2, 1.5), 2), round(corridor.top + length, 2))
+        stairs = Box(
+            0.0, corridor.top, round(rng.uniform(1.2, 1.5), 2), round(corridor.top + length, 2)
+        )
         if box.top - stairs.top < 1.4:
             stairs = Box(0.0, corridor.top, stairs.right, box.top)
     return Frame(box, corridor, stairs, thickness, windows)
@@ -95,7 +109,9 @@ def _cells(rng: np.random.Generator, frame: Frame, number: int) -> list[Cell]:
         box = frame.box
         deep = round(rng.uniform(3.2, 3.8), 2)
         top = round(rng.uniform(5.2, 6.2), 2)
-        cells.append(cell(Box(box.right, box.bottom, box.right + deep, min(top, box.top)), "garage"))
+        cells.append(
+            cell(Box(box.right, box.bottom, box.right + deep, min(top, box.top)), "garage")
+        )
     return with_features(rng, cells, FEATURES)
 
 

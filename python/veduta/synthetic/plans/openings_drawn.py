@@ -23,7 +23,9 @@ def draw_window(canvas: Canvas, style: Style, wall: Wall, opening: Opening) -> N
     low, high = opening.along_m / size, (opening.along_m + opening.width_m) / size
     half = wall.thickness_m / 2
     if opening.type == "filled":
-        pale = tuple(round(0.75 * p + 0.25 * i) for p, i in zip(style.paper, style.ink, strict=True))
+        pale = tuple(
+            round(0.75 * p + 0.25 * i) for p, i in zip(style.paper, style.ink, strict=True)
+        )
         canvas.fill(area, (pale[0], pale[1], pale[2]))
         canvas.outline(area, style.pen_px, style.ink)
         return
@@ -70,7 +72,9 @@ def _leaf(
         slab = place.box(hinge_m, hinge_m + thick, base, tip)
         canvas.outline(slab, style.pen_px, style.ink)
     else:
-        canvas.line([place.at(hinge_m, base), place.at(hinge_m, tip)], style.pen_px + 0.5, style.ink)
+        canvas.line(
+            [place.at(hinge_m, base), place.at(hinge_m, tip)], style.pen_px + 0.5, style.ink
+        )
     angles = np.linspace(0.0, math.pi / 2, 24)
     arc = [
         place.at(hinge_m + towards * size * math.sin(a), base + side * size * math.cos(a))

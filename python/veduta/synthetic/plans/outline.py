@@ -17,7 +17,9 @@ BAY_SIDE_M = 3.0
 CUT_SIDE_M = 2.6
 
 
-def with_features(rng: np.random.Generator, cells: Sequence[Cell], shares: dict[str, float]) -> list[Cell]:
+def with_features(
+    rng: np.random.Generator, cells: Sequence[Cell], shares: dict[str, float]
+) -> list[Cell]:
     """The cells with a bay, a bow or a cut corner, each with its probability in `shares`.
 
     Only sides that lie wholly outdoors change, so no neighbour has to follow.
@@ -26,11 +28,15 @@ def with_features(rng: np.random.Generator, cells: Sequence[Cell], shares: dict[
     for feature, change in (("corner", _cut_corner), ("bay", _bay), ("bow", _bow)):
         if rng.random() >= shares.get(feature, 0.0):
             continue
-        outside = unary_union([Polygon(cell.corners) for cell in cells]).exterior
+        whole = unary_union([Polygon(cell.corners) for cell in cells])
+        if not isinstance(whole, Polygon):
+            return changed
+        outside = LineString(whole.exterior.coords)
         places = [
             (index, side)
             for index, cell in enumerate(changed)
-            if cell.use not in ("stairs", "wardrobe", "corridor", "garage") and len(cell.corners) == 4
+            if cell.use not in ("stairs", "wardrobe", "corridor", "garage")
+            and len(cell.corners) == 4
             for side in range(4)
             if _is_outdoors(cell, side, outside)
         ]

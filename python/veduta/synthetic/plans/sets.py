@@ -6,9 +6,11 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from veduta.synthetic.plans.annotations import RATIO
 from veduta.synthetic.plans.canvas import Image
 from veduta.synthetic.plans.degrade import DEGRADATIONS, Degradation
 from veduta.synthetic.plans.drawing import draw_sheet
+from veduta.synthetic.plans.labels import INCH_M
 from veduta.synthetic.plans.layout import make_house
 from veduta.synthetic.plans.styles import STYLES, Style
 from veduta.synthetic.plans.truth_file import SheetTruth
@@ -47,6 +49,8 @@ def sheets_of(
         sheet = draw_sheet(storey, style, stream(seed, f"sheet {storey.number}"))
         rng = stream(seed, f"scan {storey.number}")
         picture, scan_from_px = fault.apply(rng, sheet.picture, style.paper)
+        affine = np.asarray(scan_from_px @ sheet.px_from_m)
+        px_per_m = float(abs(np.linalg.det(affine[:2, :2])) ** 0.5)
         truth = SheetTruth(
             f"{seed:05d}-{storey.number}.png",
             seed,
@@ -54,8 +58,9 @@ def sheets_of(
             fault.name,
             unseen,
             style.walls,
-            np.asarray(scan_from_px @ sheet.px_from_m),
+            affine,
             sheet.says_scale,
+            px_per_m * INCH_M * RATIO if style.ratio else None,
             sheet.storey,
         )
         yield picture, truth

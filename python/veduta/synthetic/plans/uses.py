@@ -56,7 +56,9 @@ def _day_rooms(
 
     def best(low: float, high: float) -> int | None:
         fitting = [
-            i for i in free if uses[i] is None and low <= areas[i].area <= high and not _narrow(areas[i])
+            i
+            for i in free
+            if uses[i] is None and low <= areas[i].area <= high and not _narrow(areas[i])
         ]
         near = [i for i in fitting if i in beside[living]]
         choice = near or fitting

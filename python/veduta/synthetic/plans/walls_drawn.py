@@ -65,13 +65,19 @@ def draw_stairs(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None
     for index in range(stairs.treads + 1):
         share = index / stairs.treads
         at = low + share * (high - low)
-        line = [(at[0], low[1]), (at[0], high[1])] if along_x else [(low[0], at[1]), (high[0], at[1])]
+        line = (
+            [(at[0], low[1]), (at[0], high[1])] if along_x else [(low[0], at[1]), (high[0], at[1])]
+        )
         canvas.line(line, style.pen_px * 0.8, style.ink)
     middle, up = (low + high) / 2, np.array(stairs.up)
     reach = (high - low)[0 if along_x else 1] * 0.42
     tip, tail = middle + up * reach, middle - up * reach
     across = np.array([-up[1], up[0]])
     canvas.line([tail, tip], style.pen_px, style.ink)
-    canvas.line([tip - 0.18 * up + 0.1 * across, tip, tip - 0.18 * up - 0.1 * across], style.pen_px, style.ink)
+    canvas.line(
+        [tip - 0.18 * up + 0.1 * across, tip, tip - 0.18 * up - 0.1 * across],
+        style.pen_px,
+        style.ink,
+    )
     foot = tail + 0.25 * across
     canvas.text(word, (float(foot[0]), float(foot[1])), 9.0, style.font, style.ink)

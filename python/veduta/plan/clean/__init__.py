@@ -1,0 +1,1 @@
+"""A sheet laid straight, with its ink told from its paper."""

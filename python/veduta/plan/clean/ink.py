@@ -1,0 +1,110 @@
+"""Ink told from paper: uneven light, yellowed or coloured paper, white lines on black."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+LIGHT_SIDE_PX = 320
+"""The light is estimated on a reduced sheet of this side: it changes slowly."""
+
+LIGHT_REACH = 1 / 11
+"""Paper is looked for within this share of the side: more than the widest solid wall."""
+
+LEAST_CONTRAST = 0.2
+"""Fainter than this share of the darkest ink is no line: shaded floors and JPEG's rings are not."""
+
+NOISY = 0.03
+"""Standard deviation of the noise, as a share of black, from which a sheet is smoothed first."""
+
+
+def is_negative(pixels: NDArray[np.uint8]) -> bool:
+    """Whether (h, w, 3) pixels are light lines on black, as CAD programs show them."""
+    return bool(np.median(pixels[::7, ::7].max(axis=2)) < 80)
+
+
+def darkness(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """(h, w) of how much darker than the paper around it each pixel is, 0 to 1.
+
+    The darkest channel counts, so that red and blue lines are as dark as black ones. The paper's
+    brightness is the largest one around, per channel: yellowed paper and shades divide out.
+    """
+    paper = _paper(pixels)
+    dark = np.zeros(pixels.shape[:2], dtype=np.float32)
+    for channel in range(3):
+        here = pixels[..., channel].astype(np.float32)
+        np.maximum(dark, 1.0 - here / np.maximum(paper[..., channel], 1.0), out=dark)
+    if _noise(dark) > NOISY:
+        dark = np.asarray(cv2.medianBlur(dark, 3), dtype=np.float32)
+    return dark
+
+
+def ink_of(dark: NDArray[np.float32]) -> NDArray[np.float32]:
+    """Darkness over that of the sheet's darkest lines: (h, w) float32 in 0 to 1."""
+    seen = dark[dark > LEAST_CONTRAST]
+    full = float(np.percentile(seen, 85)) if seen.size > 50 else 1.0
+    return np.asarray(np.clip(dark / max(full, LEAST_CONTRAST), 0, 1), dtype=np.float32)
+
+
+def marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bool_]:
+    """The (h, w) mask of ink: above half of the darkest ink within some line widths.
+
+    A local threshold (as that of Bernsen 1986), so that faint lines count where no dark one is
+    near, and the blur around dark ones does not.
+    """
+    reach = 2 * max(2, round(line_px)) + 1
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
+    darkest = cv2.blur(cv2.dilate(ink, disc), (reach, reach))
+    return np.asarray(ink > np.maximum(0.5 * darkest, LEAST_CONTRAST), dtype=np.bool_)
+
+
+def faint_marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bool_]:
+    """The (h, w) mask of thin lines, also pale ones: what stands out from both of its sides.
+
+    White top-hat above four times the noise; for the thin lines of door leaves and arcs, where
+    a wall's blurred edge does not matter.
+    """
+    reach = 2 * round(1.5 * line_px) + 3
+    stands_out = cv2.morphologyEx(ink, cv2.MORPH_TOPHAT, np.ones((reach, reach), np.uint8))
+    least = float(np.clip(4 * _noise(ink), 0.05, LEAST_CONTRAST))
+    return np.asarray(stands_out > least, dtype=np.bool_) | marks(ink, line_px)
+
+
+def line_width(mask: NDArray[np.bool_]) -> float:
+    """The usual width of thin lines: the commonest short run of ink, along rows and columns."""
+    counts = np.zeros(40)
+    for grid in (mask, mask.T):
+        edges = np.diff(np.pad(grid.astype(np.int8), ((0, 0), (1, 1))), axis=1)
+        starts, ends = np.nonzero(edges == 1)[1], np.nonzero(edges == -1)[1]
+        counts += np.bincount(np.minimum(ends - starts, 39), minlength=40)[:40]
+    counts[[0, 39]] = 0
+    smooth = counts + 0.5 * (np.roll(counts, 1) + np.roll(counts, -1))
+    smooth[[0, 39]] = 0
+    # Walls may be as common as lines: the thinnest common width is that of lines.
+    rising = (smooth >= np.roll(smooth, 1)) & (smooth >= np.roll(smooth, -1))
+    best = int(np.argmax(rising & (smooth >= 0.5 * smooth.max())))
+    near = np.arange(max(1, best - 1), min(39, best + 2))
+    total = counts[near].sum()
+    return float((near * counts[near]).sum() / total) if total else 1.0
+
+
+def _paper(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
+    """(h, w, 3) brightness of the paper under the ink."""
+    height, width = pixels.shape[:2]
+    shrink = min(1.0, LIGHT_SIDE_PX / max(height, width))
+    size = (max(2, round(width * shrink)), max(2, round(height * shrink)))
+    small = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA)
+    reach = 2 * round(max(size) * LIGHT_REACH / 2) + 1
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
+    closed = cv2.morphologyEx(small, cv2.MORPH_CLOSE, disc, borderType=cv2.BORDER_REPLICATE)
+    smooth = cv2.GaussianBlur(closed, (0, 0), reach / 4, borderType=cv2.BORDER_REPLICATE)
+    return np.asarray(
+        cv2.resize(smooth, (width, height), interpolation=cv2.INTER_LINEAR), np.float32
+    )
+
+
+def _noise(dark: NDArray[np.float32]) -> float:
+    """Standard deviation of the noise (Immerkaer 1996); by the median, as lines are no noise."""
+    kernel = np.array([[1, -2, 1], [-2, 4, -2], [1, -2, 1]], dtype=np.float32)
+    return float(np.median(np.abs(cv2.filter2D(dark, -1, kernel))) / (6 * 0.6745))

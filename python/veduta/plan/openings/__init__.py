@@ -1,0 +1,1 @@
+"""Doors, windows and gaps: where walls are interrupted, and by what drawing."""

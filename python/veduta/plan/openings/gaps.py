@@ -1,0 +1,115 @@
+"""Where walls are interrupted: from an end of a wall on to the next wall in its line."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.walls.pieces import Piece
+
+PARALLEL_RAD = np.radians(7.0)
+CROSSING_RAD = np.radians(25.0)
+BESIDE = 0.55
+"""Walls on both sides of an opening lie beside each other by at most this part of a thickness."""
+
+FARTHEST = 60.0
+"""Openings are at most so many wall thicknesses wide (a garage door in a thin wall)."""
+
+
+@dataclass(frozen=True)
+class Gap:
+    """An interruption from an end of wall `piece` to `target`: its end, or its side.
+
+    `start` and `end` (2,) lie on the centre line of `piece`; the end is on the target's face.
+    `at_end` says which end of the piece this is (else its start).
+    """
+
+    piece: int
+    at_end: bool
+    target: int
+    to_side: bool
+    start: NDArray[np.float64]
+    end: NDArray[np.float64]
+    thickness_px: float
+
+    @property
+    def width_px(self) -> float:
+        """From wall to wall."""
+        return float(np.hypot(*(self.end - self.start)))
+
+
+def find_gaps(pieces: list[Piece]) -> list[Gap]:
+    """The nearest wall ahead of each end of each piece, where it is not touching already."""
+    found: dict[tuple[object, ...], Gap] = {}
+    for index in range(len(pieces)):
+        for at_end in (False, True):
+            gap = _ahead(pieces, index, at_end)
+            if gap is None:
+                continue
+            if gap.to_side:
+                found[(index, at_end)] = gap
+            else:
+                found.setdefault(tuple(sorted((gap.piece, gap.target))), gap)
+    return list(found.values())
+
+
+def _ahead(pieces: list[Piece], index: int, at_end: bool) -> Gap | None:
+    piece = pieces[index]
+    origin = piece.end if at_end else piece.start
+    ray = piece.direction if at_end else -piece.direction
+    best: tuple[float, int, bool] | None = None
+    for other_index, other in enumerate(pieces):
+        if other_index == index:
+            continue
+        for distance, to_side in (_to_end(piece, origin, ray, other), _to_side(origin, ray, other)):
+            near = max(3.0, 0.3 * piece.thickness_px)
+            if distance is None or distance <= -max(near, other.thickness_px):
+                continue
+            if best is None or distance < best[0]:
+                best = (distance, other_index, to_side)
+    if best is None:
+        return None
+    distance, target, to_side = best
+    other = pieces[target]
+    thickness = piece.thickness_px if to_side else min(piece.thickness_px, other.thickness_px)
+    if distance <= max(3.0, 0.3 * thickness) or distance > FARTHEST * thickness:
+        return None
+    return Gap(index, at_end, target, to_side, origin, origin + distance * ray, thickness)
+
+
+def _to_end(
+    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], other: Piece
+) -> tuple[float | None, bool]:
+    """How far ahead a collinear piece begins."""
+    cross = abs(ray[0] * other.direction[1] - ray[1] * other.direction[0])
+    if cross > np.sin(PARALLEL_RAD):
+        return None, False
+    ends = np.array([other.start, other.end]) - origin
+    along = ends @ ray
+    nearest = int(np.argmin(along))
+    beside = abs(ray[0] * ends[nearest, 1] - ray[1] * ends[nearest, 0])
+    thick = max(piece.thickness_px, other.thickness_px)
+    if beside > max(3.0, BESIDE * thick) or along.max() < 0:
+        return None, False
+    return float(along[nearest]), False
+
+
+def _to_side(
+    origin: NDArray[np.float64], ray: NDArray[np.float64], other: Piece
+) -> tuple[float | None, bool]:
+    """How far ahead the face of a crossing piece lies."""
+    cross = ray[0] * other.direction[1] - ray[1] * other.direction[0]
+    if abs(cross) < np.sin(CROSSING_RAD):
+        return None, True
+    apart = other.start - origin
+    distance = (apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross
+    along = (apart[0] * ray[1] - apart[1] * ray[0]) / cross
+    slack = other.thickness_px
+    if not -slack <= along <= other.length_px + slack:
+        return None, True
+    half = other.thickness_px / 2 / abs(cross)
+    if distance < -half - 3:
+        return None, True
+    return float(distance - half), True

@@ -1,0 +1,79 @@
+"""The recipe of reading: the picture of a storey in, its walls, openings and rooms out.
+
+The order: straighten, tell ink from paper, find solid strokes, follow them into pieces, look for
+openings between the pieces, join them into axes, let those meet, and close rooms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.clean import ink as inks
+from veduta.plan.clean.sheet import TextReader, clean_sheet
+from veduta.plan.document import Text
+from veduta.plan.drawing_out import drawn_from
+from veduta.plan.drawn import Cleaned, Drawn
+from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.gaps import find_gaps
+from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.walls.axes import axes_of
+from veduta.plan.walls.find import Found, find_walls
+
+
+def read_storey(
+    pixels: NDArray[np.uint8],
+    texts: Sequence[Text] | TextReader | None = None,
+    metres_per_px_hint: float | None = None,
+) -> Drawn:
+    """Walls, openings and rooms of one storey from (h, w, 3) sRGB pixels.
+
+    `texts` are in pixels of the given picture, or a function that reads them from a cleaned one.
+    `metres_per_px_hint` is of the given picture; without it, sizes count in wall thicknesses.
+    Raises NotFoundError where the picture shows no plan.
+    """
+    cleaned = clean_sheet(pixels)
+    found_texts = texts_of(cleaned, texts)
+    return read_cleaned(cleaned, found_texts, metres_per_px_hint)
+
+
+def read_cleaned(
+    cleaned: Cleaned, texts: Sequence[Text] = (), metres_per_px_hint: float | None = None
+) -> Drawn:
+    """As `read_storey`, of a cleaned sheet; texts are in its pixels."""
+    found = find_walls(cleaned, texts)
+    sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
+    judged = judge_gaps(found, sheet)
+    axes = axes_of(found.pieces, judged)
+    return drawn_from(cleaned, found, axes, texts)
+
+
+def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
+    """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
+    gaps = find_gaps(found.pieces)
+    seen = [look_at(gap, sheet) for gap in gaps]
+    first = [judge(gap, view, found.thin_px, None) for gap, view in zip(gaps, seen, strict=True)]
+    kept = [one.gap for one in first if one is not None]
+    outer = leads_outdoors(gaps, found.pieces, kept, sheet.ink.shape)
+    second = [
+        judge(gap, view, found.thin_px, out)
+        for gap, view, out in zip(gaps, seen, outer, strict=True)
+    ]
+    return [one for one in second if one is not None]
+
+
+def texts_of(cleaned: Cleaned, texts: Sequence[Text] | TextReader | None) -> tuple[Text, ...]:
+    """Texts in cleaned pixels, moved there or read there."""
+    if texts is None:
+        return cleaned.texts or ()
+    if callable(texts):
+        return tuple(texts(cleaned.pixels))
+    linear, offset = cleaned.clean_from_scan[:2, :2], cleaned.clean_from_scan[:2, 2]
+    moved = []
+    for text in texts:
+        corners = np.array(text.box_px) @ linear.T + offset
+        moved.append(text.model_copy(update={"box_px": [(float(x), float(y)) for x, y in corners]}))
+    return tuple(moved)

@@ -1,0 +1,1 @@
+"""Rooms: the spaces that walls and openings close."""

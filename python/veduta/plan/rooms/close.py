@@ -1,0 +1,89 @@
+"""Rooms: what the bodies of walls, openings included, enclose."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import affinity, set_precision, unary_union
+from shapely.geometry import Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
+
+LEAST_WIDTH = 2.2
+"""A room is at least so many (thin) wall thicknesses wide: shafts and slots are none."""
+
+
+@dataclass(frozen=True)
+class Space:
+    """A closed space: outline and holes, (n, 2) pixels; the outline counter-clockwise as seen."""
+
+    outline_px: NDArray[np.float64]
+    holes_px: tuple[NDArray[np.float64], ...]
+
+    def polygon(self) -> Polygon:
+        """As a polygon in pixels."""
+        return Polygon(self.outline_px, self.holes_px)
+
+
+def wall_body(
+    start: NDArray[np.float64],
+    end: NDArray[np.float64],
+    thickness_px: float,
+    more_px: tuple[float, float],
+) -> Polygon:
+    """The rectangle of a wall, prolonged by `more_px` at its start and end."""
+    run = end - start
+    length = float(np.hypot(*run))
+    angle = float(np.degrees(np.arctan2(run[1], run[0])))
+    half = thickness_px / 2
+    upright = box(-more_px[0], -half, length + more_px[1], half)
+    turned = affinity.rotate(upright, angle, origin=(0, 0))
+    return affinity.translate(turned, float(start[0]), float(start[1]))
+
+
+def closed_spaces(bodies: list[Polygon], thin_px: float) -> list[Space]:
+    """The spaces that the bodies enclose, large ones first; walls that stand free are holes."""
+    # Bodies that touch by rounding only are one wall.
+    whole = unary_union(
+        [set_precision(body.buffer(0.6, join_style="mitre"), 1e-3) for body in bodies]
+    )
+    found = []
+    parts = [part for part in getattr(whole, "geoms", [whole]) if isinstance(part, Polygon)]
+    for part in parts:
+        for ring in part.interiors:
+            inside = Polygon(ring)
+            islands = [other for other in parts if other is not part and inside.contains(other)]
+            free = inside.difference(unary_union([Polygon(one.exterior) for one in islands]))
+            found += _rooms_of(free, thin_px)
+    return sorted(found, key=lambda one: -one.polygon().area)
+
+
+def contains(space: Space, point: NDArray[np.float64]) -> bool:
+    """Whether a point lies in it."""
+    return bool(space.polygon().contains(Point(*point)))
+
+
+def _rooms_of(free: BaseGeometry, thin_px: float) -> list[Space]:
+    rooms = []
+    for polygon in getattr(free, "geoms", [free]):
+        if not isinstance(polygon, Polygon) or polygon.is_empty:
+            continue
+        grown = polygon.buffer(0.6, join_style="mitre").simplify(0.4)
+        if not isinstance(grown, Polygon) or grown.buffer(-LEAST_WIDTH / 2 * thin_px).is_empty:
+            continue
+        rooms.append(Space(_ring(grown.exterior.coords, True), _holes(grown)))
+    return rooms
+
+
+def _holes(polygon: Polygon) -> tuple[NDArray[np.float64], ...]:
+    return tuple(_ring(ring.coords, False) for ring in polygon.interiors)
+
+
+def _ring(coords: object, counter_clockwise: bool) -> NDArray[np.float64]:
+    """Open ring; counter-clockwise as one sees it, where y points down."""
+    ring = np.array(coords, dtype=float)[:-1]
+    x, y = ring.T
+    signed = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
+    # With y down, a positive sum goes clockwise as seen.
+    return ring[::-1].copy() if (signed > 0) == counter_clockwise else ring

@@ -1,0 +1,82 @@
+"""Axes of walls: pieces in one line joined over their openings, as long as the wall goes on."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from functools import reduce
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.openings.classify import Judged
+from veduta.plan.walls.join import SAME_THICKNESS, merged
+from veduta.plan.walls.pieces import Piece
+
+
+@dataclass(frozen=True)
+class OnAxis:
+    """An opening on an axis, from `first` to `last` pixels from its start.
+
+    `along`: whether the gap runs in the axis's direction.
+    """
+
+    judged: Judged
+    first: float
+    last: float
+    along: bool
+
+
+@dataclass(frozen=True)
+class Axis:
+    """A wall's whole centre line with its openings, before it is parted at junctions."""
+
+    line: Piece
+    openings: tuple[OnAxis, ...]
+
+
+def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
+    """Pieces joined over their openings; one that ends at a crossing wall prolongs its own."""
+    parent = list(range(len(pieces)))
+    for one in judged:
+        if not one.gap.to_side and _alike(pieces[one.gap.piece], pieces[one.gap.target]):
+            parent[_root(parent, one.gap.piece)] = _root(parent, one.gap.target)
+    groups: dict[int, list[int]] = {}
+    for index in range(len(pieces)):
+        groups.setdefault(_root(parent, index), []).append(index)
+    axes = []
+    for members in groups.values():
+        inside = set(members)
+        lines = sorted((pieces[index] for index in members), key=lambda one: -one.length_px)
+        line = reduce(merged, lines)
+        mine = [one for one in judged if one.gap.piece in inside]
+        for one in mine:
+            line = _prolonged(line, one.gap.start, one.gap.end)
+        axes.append(Axis(line, tuple(_placed(line, one) for one in mine)))
+    return axes
+
+
+def _root(parent: list[int], index: int) -> int:
+    while parent[index] != index:
+        parent[index] = parent[parent[index]]
+        index = parent[index]
+    return index
+
+
+def _alike(first: Piece, second: Piece) -> bool:
+    thick = max(first.thickness_px, second.thickness_px)
+    return thick <= SAME_THICKNESS * min(first.thickness_px, second.thickness_px) + 2
+
+
+def _prolonged(line: Piece, *points: NDArray[np.float64]) -> Piece:
+    along = np.array([(point - line.start) @ line.direction for point in points])
+    low, high = min(0.0, float(along.min())), max(line.length_px, float(along.max()))
+    return replace(
+        line, start=line.start + low * line.direction, end=line.start + high * line.direction
+    )
+
+
+def _placed(line: Piece, judged: Judged) -> OnAxis:
+    first = float((judged.gap.start - line.start) @ line.direction)
+    last = float((judged.gap.end - line.start) @ line.direction)
+    return OnAxis(judged, min(first, last), max(first, last), along=first <= last)

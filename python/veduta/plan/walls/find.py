@@ -1,0 +1,76 @@
+"""Walls of a cleaned sheet as straight pieces, whatever way they are drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.clean import ink as inks
+from veduta.plan.document import Text
+from veduta.plan.drawn import Cleaned
+from veduta.plan.walls.join import joined
+from veduta.plan.walls.pieces import Piece, straight_pieces
+from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
+from veduta.plan.walls.tracks import find_tracks
+from veduta.run.errors import NotFoundError
+
+MOST_PIECES = 1500
+"""More short strokes are a photo or a texture, and would take minutes."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """Pieces of wall, the mask that they were found in, and how thick walls are."""
+
+    pieces: list[Piece]
+    solid: NDArray[np.bool_]
+    thickness: Thickness
+    thin_px: float
+
+
+def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
+    """Find the pieces; NotFoundError where no strokes are walls."""
+    ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
+    thickness = wall_thickness(ink, cleaned.line_px)
+    if thickness is None:
+        raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
+    solid = thick_strokes(ink, thickness)
+    pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px)
+    if len(pieces) > MOST_PIECES:
+        pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
+    whole = [one for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    if not whole:
+        raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
+    return Found(whole, solid, thickness, thin_thickness(whole))
+
+
+def thin_thickness(pieces: Sequence[Piece]) -> float:
+    """The thickness of thin walls: a quarter of the length of all walls is no thicker."""
+    thick = np.array([one.thickness_px for one in pieces])
+    length = np.array([one.length_px for one in pieces])
+    order = np.argsort(thick)
+    total = np.cumsum(length[order])
+    return float(thick[order][np.searchsorted(total, 0.25 * total[-1])])
+
+
+def without_texts(mask: NDArray[np.bool_], texts: Sequence[Text]) -> NDArray[np.bool_]:
+    """The mask without connected ink that lies in boxes of text."""
+    if not texts:
+        return mask
+    boxes = np.zeros(mask.shape, np.uint8)
+    for text in texts:
+        cv2.fillPoly(boxes, [np.round(np.array(text.box_px)).astype(np.int32)], 1)
+    count, labels = cv2.connectedComponents(mask.astype(np.uint8), connectivity=8)
+    total = np.bincount(labels.ravel(), minlength=count)
+    inside = np.bincount(labels[boxes > 0], minlength=count)
+    letters = inside > 0.8 * total
+    letters[0] = False
+    return np.asarray(mask & ~letters[labels], dtype=np.bool_)
+
+
+def _is_wall(piece: Piece, thickness: Thickness) -> bool:
+    return piece.length_px >= max(0.5 * piece.thickness_px, thickness.least_px)

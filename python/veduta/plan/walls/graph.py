@@ -1,0 +1,162 @@
+"""The graph of walls: axes meet at junctions, and are parted there."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.document import JunctionType
+from veduta.plan.walls.axes import Axis, OnAxis
+
+MEET_RAD = np.radians(12)
+REACH = 0.45
+"""A wall ends at another one if so many of its thicknesses are missing, or less."""
+
+STRAIGHT_RAD = np.radians(15)
+
+
+@dataclass(frozen=True)
+class Edge:
+    """A piece of wall between nodes, its axis, and the stretch of the axis that it is."""
+
+    first: int
+    second: int
+    axis: int
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Graph:
+    """Nodes (n, 2) and edges; types of the nodes by how many walls meet, and how."""
+
+    nodes: NDArray[np.float64]
+    edges: tuple[Edge, ...]
+    types: tuple[JunctionType, ...]
+
+
+def wall_graph(axes: Sequence[Axis]) -> Graph:
+    """Let axes end at those that they reach, and part them where they meet."""
+    stops: list[list[tuple[float, int]]] = [[] for _ in axes]
+    points: list[NDArray[np.float64]] = []
+    for first in range(len(axes)):
+        for second in range(first + 1, len(axes)):
+            meeting = _meeting(axes[first], axes[second])
+            if meeting is not None:
+                point, along_first, along_second = meeting
+                stops[first].append((along_first, len(points)))
+                stops[second].append((along_second, len(points)))
+                points.append(point)
+    for index, axis in enumerate(axes):
+        _with_ends(axis, stops[index], points)
+    nodes, alias = _clustered(points, axes, stops)
+    edges: dict[tuple[int, int], Edge] = {}
+    for index in range(len(axes)):
+        ordered = sorted(stops[index])
+        for (low, one), (high, other) in zip(ordered, ordered[1:], strict=False):
+            ends = (alias[one], alias[other])
+            key = (min(ends), max(ends))
+            if ends[0] != ends[1] and key not in edges:
+                edges[key] = Edge(ends[0], ends[1], index, low, high)
+    kept = tuple(edges.values())
+    return Graph(nodes, kept, tuple(_type(node, nodes, kept) for node in range(len(nodes))))
+
+
+def openings_on(edge: Edge, axis: Axis) -> list[OnAxis]:
+    """The openings of the axis whose middle lies on this edge."""
+    return [one for one in axis.openings if edge.low <= (one.first + one.last) / 2 < edge.high]
+
+
+def _meeting(first: Axis, second: Axis) -> tuple[NDArray[np.float64], float, float] | None:
+    """Where two axes cross or touch: the point, and how far along each."""
+    one, other = first.line, second.line
+    cross = one.direction[0] * other.direction[1] - one.direction[1] * other.direction[0]
+    if abs(cross) < np.sin(MEET_RAD):
+        return _end_to_end(first, second)
+    apart = other.start - one.start
+    along = float((apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross)
+    beyond = float((apart[0] * one.direction[1] - apart[1] * one.direction[0]) / cross)
+    reach = (other.thickness_px / 2 + REACH * one.thickness_px) / abs(cross) + 2
+    reach_other = (one.thickness_px / 2 + REACH * other.thickness_px) / abs(cross) + 2
+    if not -reach <= along <= one.length_px + reach:
+        return None
+    if not -reach_other <= beyond <= other.length_px + reach_other:
+        return None
+    return one.start + along * one.direction, along, beyond
+
+
+def _end_to_end(first: Axis, second: Axis) -> tuple[NDArray[np.float64], float, float] | None:
+    """Walls of different thickness or slightly different direction that touch with their ends."""
+    one, other = first.line, second.line
+    thick = max(one.thickness_px, other.thickness_px)
+    for mine, along in ((one.start, 0.0), (one.end, one.length_px)):
+        for its, beyond in ((other.start, 0.0), (other.end, other.length_px)):
+            away = its - mine
+            outward = -one.direction if along == 0.0 else one.direction
+            ahead = float(away @ outward)
+            beside = abs(float(away[0] * outward[1] - away[1] * outward[0]))
+            if -0.5 * thick <= ahead <= REACH * thick + 2 and beside <= 0.6 * thick:
+                longer = mine if one.length_px >= other.length_px else its
+                return np.asarray(longer, dtype=float), along, beyond
+    return None
+
+
+def _with_ends(
+    axis: Axis, stops: list[tuple[float, int]], points: list[NDArray[np.float64]]
+) -> None:
+    """Add the ends of the axis where no other wall is near."""
+    near = 1.2 * axis.line.thickness_px
+    length = axis.line.length_px
+    at = [along for along, _ in stops]
+    if not any(along < near for along in at):
+        stops.append((0.0, len(points)))
+        points.append(axis.line.start)
+    if not any(along > length - near for along in at) or len(stops) < 2:
+        stops.append((length, len(points)))
+        points.append(axis.line.end)
+
+
+def _clustered(
+    points: list[NDArray[np.float64]],
+    axes: Sequence[Axis],
+    stops: Sequence[Sequence[tuple[float, int]]],
+) -> tuple[NDArray[np.float64], list[int]]:
+    """Meeting points on one axis that are nearer than half its thickness are one junction."""
+    parent = list(range(len(points)))
+
+    def root(index: int) -> int:
+        while parent[index] != index:
+            parent[index] = parent[parent[index]]
+            index = parent[index]
+        return index
+
+    for axis, here in zip(axes, stops, strict=True):
+        ordered = sorted(here)
+        for (low, one), (high, other) in zip(ordered, ordered[1:], strict=False):
+            if high - low < max(2.0, 0.5 * axis.line.thickness_px):
+                parent[root(one)] = root(other)
+    roots = sorted({root(index) for index in range(len(points))})
+    number = {one: place for place, one in enumerate(roots)}
+    alias = [number[root(index)] for index in range(len(points))]
+    nodes = np.zeros((len(roots), 2))
+    count = np.zeros(len(roots))
+    for index, point in enumerate(points):
+        nodes[alias[index]] += point
+        count[alias[index]] += 1
+    return nodes / np.maximum(count, 1)[:, None], alias
+
+
+def _type(node: int, nodes: NDArray[np.float64], edges: Sequence[Edge]) -> JunctionType:
+    away = []
+    for edge in edges:
+        if node in (edge.first, edge.second):
+            run = nodes[edge.second if edge.first == node else edge.first] - nodes[node]
+            away.append(run / max(float(np.hypot(*run)), 1e-9))
+    if len(away) <= 1:
+        return "end"
+    if len(away) == 2:
+        return "straight" if float(away[0] @ away[1]) < -np.cos(STRAIGHT_RAD) else "L"
+    return "T" if len(away) == 3 else "X"

@@ -1,0 +1,80 @@
+"""Where a sheet is solid wall: thick strokes told from thin lines."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.walls.runs import run_lengths, run_lengths_down
+
+LEAST_SHARE = 0.25
+"""The thickest walls are together at least this part of the drawing's half perimeter."""
+
+THINNEST_WALL = 0.3
+"""The thinnest wall is at least this part of the thickest common one."""
+
+LEAST_OVER_LINE = 1.6
+"""Walls are at least so many times as thick as lines."""
+
+
+LEAST_MARK = 4.0
+"""Connected ink is part of the house if so many times as long as its walls are thick."""
+
+
+@dataclass(frozen=True)
+class Thickness:
+    """Of walls on a sheet, in pixels: the thinnest that counts, and the thickest common one."""
+
+    least_px: float
+    most_px: float
+
+
+def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
+    """How thick the solid walls of a mask of ink are; None where there are no thick strokes.
+
+    Lengths of straight strokes by thickness: at each pixel the shorter of its two runs, where the
+    longer is three times as long.
+    """
+    across, down = run_lengths(ink), run_lengths_down(ink)
+    thin, long = np.minimum(across, down), np.maximum(across, down)
+    stroke = ink & (long >= 3 * thin)
+    counts = np.bincount(thin[stroke], minlength=4).astype(float)
+    lengths = counts / np.maximum(1, np.arange(len(counts)))
+    extent = _half_perimeter(ink)
+    at_least = np.cumsum(lengths[::-1])[::-1]
+    thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
+    most = float(thick[-1]) if len(thick) else 0.0
+    least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
+    if most < 2 * line_px or most < least:
+        return None
+    return Thickness(least, most)
+
+
+def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bool_]:
+    """The mask of what is at least as thick as the thinnest wall, and no letter."""
+    reach = max(2, round(0.85 * thickness.least_px))
+    square = np.ones((reach, reach), np.uint8)
+    grey = ink.astype(np.uint8)
+    disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
+    # A square keeps the corners of upright walls, a disc follows slanted ones.
+    opened = cv2.morphologyEx(grey, cv2.MORPH_OPEN, square)
+    opened |= cv2.morphologyEx(grey, cv2.MORPH_OPEN, disc)
+    return opened.astype(np.bool_) & _large(ink, LEAST_MARK * thickness.most_px)
+
+
+def _large(ink: NDArray[np.bool_], least_px: float) -> NDArray[np.bool_]:
+    """Connected ink of at least that size: letters, arrows and specks are smaller."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(ink.astype(np.uint8), connectivity=8)
+    keep = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT]) >= least_px
+    keep[0] = False
+    return np.asarray(keep[labels], dtype=np.bool_)
+
+
+def _half_perimeter(ink: NDArray[np.bool_]) -> float:
+    rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
+    if len(rows) == 0:
+        return 1.0
+    return float(rows[-1] - rows[0] + columns[-1] - columns[0] + 2)
