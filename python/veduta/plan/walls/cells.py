@@ -19,6 +19,9 @@ NARROW = 0.04
 PANE_BREADTH = 1.45
 """The band is so many times as broad as a pane with its two lines, or more."""
 
+SMALL_SHARE = 0.5
+"""Walls are hatched if so much of the area of all narrow cells is in short ones."""
+
 PANE_LENGTH = 1.7
 """A pane is so many times as long as its wall is thick; cells of hatching are shorter."""
 
@@ -39,14 +42,18 @@ def fill_cells(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     right, bottom = left + stats[:, cv2.CC_STAT_WIDTH], top + stats[:, cv2.CC_STAT_HEIGHT]
     narrow &= (left > 0) & (top > 0) & (right < width) & (bottom < height)
     filled = ink | narrow[labels]
-    band = 2 * _most(cv2.distanceTransform(filled.astype(np.uint8), cv2.DIST_L2, 3), labels, count)
+    # A cell beside the middle of a band must see how broad the band is there.
+    depth = cv2.distanceTransform(filled.astype(np.uint8), cv2.DIST_L2, 3)
+    reach = 2 * round(0.25 * NARROW * extent) + 1
+    depth = cv2.dilate(depth, np.ones((reach, reach), np.uint8))
+    band = 2 * _usual(np.asarray(depth, np.float32), inside, breadth, labels)
     long_side = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
-    pane = (
-        narrow
-        & (band > PANE_BREADTH * (breadth + 2 * line_px))
-        & (long_side > PANE_LENGTH * band)
-        & (stats[:, cv2.CC_STAT_AREA] > 0.6 * (breadth * long_side - breadth**2))
-    )
+    area = stats[:, cv2.CC_STAT_AREA]
+    long = long_side > PANE_LENGTH * band
+    small = float(area[narrow & ~long].sum()) > SMALL_SHARE * float(area[narrow].sum())
+    # Among small cells any long one is a pane; among long ones only what lies side by side.
+    broader = small | (band > PANE_BREADTH * (breadth + 2 * line_px))
+    pane = narrow & long & broader & (area > 0.6 * (breadth * long_side - breadth**2))
     return np.asarray(filled & ~pane[labels], dtype=np.bool_)
 
 
@@ -65,6 +72,18 @@ def _most(
     order = np.zeros(count)
     np.maximum.at(order, labels.ravel(), values.ravel())
     return order
+
+
+def _usual(
+    values: NDArray[np.float32],
+    inside: NDArray[np.float32],
+    breadth: NDArray[np.float64],
+    labels: NDArray[np.int32],
+) -> NDArray[np.float64]:
+    """The mean of values along the middle of each cell, whatever stands beside a part of it."""
+    ridge = (inside > 0) & (inside >= 0.35 * breadth[labels])
+    total = np.bincount(labels[ridge], weights=values[ridge], minlength=len(breadth))
+    return total / np.maximum(1, np.bincount(labels[ridge], minlength=len(breadth)))
 
 
 def _longer_side(ink: NDArray[np.bool_]) -> float:

@@ -14,6 +14,7 @@ from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
 from veduta.plan.walls.cells import fill_cells, stroke_length
 from veduta.plan.walls.join import joined
+from veduta.plan.walls.measure import measured
 from veduta.plan.walls.pieces import Piece, straight_pieces
 from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
 from veduta.plan.walls.tracks import find_tracks
@@ -47,7 +48,9 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
-    whole = [one for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    # What was filled in is as solid as ink.
+    soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
+    whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness(whole))
@@ -64,8 +67,9 @@ def choose_drawing(
     plain = wall_thickness(ink, line_px)
     filled = fill_cells(connected(ink), line_px)
     full = wall_thickness(filled, line_px)
-    solid_length = stroke_length(ink, plain.least_px) if plain else 0.0
-    if full is not None and stroke_length(filled, full.least_px) > MORE_WALL * solid_length:
+    least = 0.9 * full.least_px if full else 0.0
+    solid_length = stroke_length(ink, least) if plain else 0.0
+    if full is not None and stroke_length(filled, least) > MORE_WALL * solid_length:
         share = float((filled & ~ink).sum() / max(1, filled.sum()))
         return filled, full, "hollow" if share > 0.45 else "hatched"
     if plain is None:
@@ -107,4 +111,7 @@ def without_texts(mask: NDArray[np.bool_], texts: Sequence[Text]) -> NDArray[np.
 
 
 def _is_wall(piece: Piece, thickness: Thickness) -> bool:
-    return piece.length_px >= max(0.5 * piece.thickness_px, thickness.least_px)
+    # Corners of blobs look like short slanted strokes.
+    upright = float(np.abs(piece.direction).max()) > 1 - 1e-9
+    aspect = 0.5 if upright else 1.2
+    return piece.length_px >= max(aspect * piece.thickness_px, thickness.least_px)
