@@ -82,14 +82,28 @@ def _draw(picture: NDArray[np.uint8], shape: Shape, sheet: Sheet, scale: float) 
     lines = [_at(sheet, line, scale) for line in shape.lines]
     opacity = _OPACITY.get(shape.layer)
     if opacity is not None:
-        mask = np.zeros(picture.shape[:2], dtype=np.uint8)
-        cv2.fillPoly(mask, rings, 255, cv2.LINE_AA, _SHIFT)
-        share = (opacity / 255.0) * mask[..., None]
-        picture[:] = (picture * (1.0 - share) + np.array(colour) * share).astype(np.uint8)
+        _fill(picture, rings, colour, opacity)
     if shape.layer != "rooms":
         width = 3 if shape.layer in {"doors", "windows"} else 2
         cv2.polylines(picture, rings, True, colour, width, cv2.LINE_AA, _SHIFT)
         cv2.polylines(picture, lines, False, colour, width, cv2.LINE_AA, _SHIFT)
+
+
+def _fill(
+    picture: NDArray[np.uint8], rings: list[NDArray[np.int32]], colour: Rgb, opacity: float
+) -> None:
+    """Tint what lies within the rings; only the box around them is looked at."""
+    corners = np.concatenate(rings) >> _SHIFT
+    left, top = np.maximum(corners.min(axis=0) - 1, 0).tolist()
+    right, bottom = (corners.max(axis=0) + 2).tolist()
+    part = picture[top:bottom, left:right]
+    if part.size == 0:
+        return
+    mask = np.zeros(part.shape[:2], dtype=np.uint8)
+    moved = [ring - np.array([left, top], dtype=np.int32) * (1 << _SHIFT) for ring in rings]
+    cv2.fillPoly(mask, moved, 255, cv2.LINE_AA, _SHIFT)
+    share = (opacity / 255.0) * mask[..., None].astype(np.float32)
+    part[:] = (part * (1.0 - share) + np.array(colour, dtype=np.float32) * share).astype(np.uint8)
 
 
 def _at(sheet: Sheet, points_m: NDArray[np.float64], scale: float) -> NDArray[np.int32]:
