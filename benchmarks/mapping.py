@@ -4,7 +4,7 @@
 
 Reads `photos/` of $VEDUTA_DATA (else ../shared/data); the street is rendered (20 photos). Features
 are few (1,000 px, 3,000 a photo), so that a map takes seconds. Databases are kept in `--work` and
-used again. The same matches are mapped in each way, and adjusted in the end as `veduta photos` does.
+used again. The same matches are mapped in each way, and adjusted in the end as by `veduta photos`.
 """
 
 from __future__ import annotations

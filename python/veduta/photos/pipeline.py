@@ -18,6 +18,7 @@ from veduta.photos.laying import lay_components
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import COMMAND, VERSION, Stages
+from veduta.photos.world.control_adjust import adjust_components
 from veduta.photos.world.control_marks import unknown_marks
 from veduta.photos.world.georeferencing import digests_of, read_references, require_walls
 from veduta.photos.writing import write_failure, write_results
@@ -115,6 +116,10 @@ def _make(
         publish_frames(call, opened, key)
         write_failure(opened, key, told, error)
     else:
+        if references.control is not None and not told.is_given:
+            with timed_step(steps, "control points") as step:
+                components, notes = adjust_components(components, references.control, step)
+                told.notes += notes
         laid = lay_components(components, references, told.photos, options, steps, progress)
         publish_frames(call, opened, key)
         write_results(laid, references, told, opened, key, progress)

@@ -48,7 +48,7 @@ FILES = (
     ("georef.json", "where the place lies in the world, how well that is known, and why"),
     ("model.city.json", "the city model with textures, where photos lie in one (CityJSON)"),
     ("textures/", "its pictures, and of each a mask: white where no photo shows it"),
-    ("parts/", "its buildings, a file each (glTF binary)"),
+    ("parts/", "its textured buildings, a file each, and the others together (glTF binary)"),
     ("tileset.json", "all its buildings, for viewers of 3D Tiles"),
     ("place.json", "points, cameras, walls and the textured model, for `veduta view`"),
 )

@@ -6,7 +6,7 @@ on. `adjusted` hands them to the engine's bundle adjustment and takes the result
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -222,13 +222,18 @@ def model_of(structure: Structure) -> pycolmap.Reconstruction:
 
 
 def adjusted(
-    structure: Structure, *, free_principal_point: bool, false_matches: bool = False
+    structure: Structure,
+    *,
+    free_principal_point: bool,
+    false_matches: bool = False,
+    fixed: Sequence[int] = (),
 ) -> Structure:
     """Cameras, poses and points after bundle adjustment; the observations stay.
 
     false_matches: whether there may be some, so that errors of more than `CAUCHY_PX` count less
     (Cauchy's loss). With squares, the points of a few false matches run off to infinity, and the
-    cameras follow them for as long as one lets them.
+    cameras follow them for as long as one lets them. fixed: image ids of photos whose camera and
+    pose stay; they settle the frame, too.
     NotFoundError where it gives no solution.
     """
     quiet_engine()
@@ -243,7 +248,11 @@ def adjusted(
     config = pycolmap.BundleAdjustmentConfig()
     for image in structure.image_ids:
         config.add_image(image)
-    config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)
+    for image in fixed:
+        config.set_constant_cam_intrinsics(structure.camera_of[image])
+        config.set_constant_rig_from_world_pose(model.images[image].frame_id)
+    if not fixed:
+        config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)
     summary = pycolmap.create_default_bundle_adjuster(options, config, model).solve()
     if not summary.is_solution_usable():
         raise NotFoundError(

@@ -10,8 +10,9 @@ from veduta.formats.laz import write_laz
 from veduta.formats.place_json import write_place
 from veduta.formats.ply import write_points
 from veduta.photos.cameras.component import Component
+from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.laying import Laid
-from veduta.photos.pictures import Pinhole, write_pictures
+from veduta.photos.pictures import write_pictures
 from veduta.photos.placing import CLOUD, PICTURES, POINTS, place_of
 from veduta.photos.report import Told, failure_report, photos_report
 from veduta.photos.structure import Structure, model_of
@@ -41,22 +42,21 @@ def write_results(
 ) -> None:
     """Write everything that lies in OUT; the first component is the place."""
     first = laid[0]
-    pictures = opened.work_folder(PICTURES)
+    pictures, read_photo = opened.work_folder(PICTURES), DecodedPhotos(told.photos)
     with timed_step(told.steps, "pictures"), writing_to(opened.path):
         structure, cameras = write_pictures(
-            first.component.structure, told.photos, pictures, progress
+            first.component.structure, read_photo, pictures, progress
         )
     told.laid = [replace(first, component=replace(first.component, structure=structure)), *laid[1:]]
     told.components = [one.component for one in told.laid]
     with timed_step(told.steps, "pictures of walls") as step:
-        paths = {photo.image_id: photo.path for photo in told.photos}
-        told.walls = picture_walls(structure, first.walls, paths, told.options.walls, progress)
+        told.walls = picture_walls(structure, first.walls, read_photo, told.options.walls, progress)
         step.counts["pictures"] = len(told.walls.pictures)
     sparse, walls = opened.work_folder(SPARSE), opened.work_folder(WALLS)
     work = opened.work_folder(CALL)
     world = first.georef.accepted
     with writing_to(opened.path):
-        _texture(structure, cameras, world, references, pictures, told, work, progress)
+        _texture(structure, read_photo, world, references, told, work, progress)
     with timed_step(told.steps, "write"), writing_to(opened.path):
         _write_models(told.components, sparse)
         crs, origin = (None, (0.0, 0.0, 0.0)) if world is None else (world.crs, world.origin_m)
@@ -80,10 +80,9 @@ def write_results(
 
 def _texture(
     structure: Structure,
-    cameras: Sequence[Pinhole],
+    read_photo: DecodedPhotos,
     world: Georeference | None,
     references: References,
-    pictures: Path,
     told: Told,
     work: Path,
     progress: StepProgress,
@@ -95,7 +94,7 @@ def _texture(
     with timed_step(told.steps, "texture") as step:
         try:
             told.textured = texture_step(
-                structure, cameras, pictures, city, told.options.texture, work, progress
+                structure, read_photo, city, told.options.texture, work, progress
             )
         except NotFoundError as error:
             told.notes.append(f"no textures: {error}")

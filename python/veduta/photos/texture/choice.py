@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -21,6 +22,8 @@ DIFFERS = 0.08
 mean square over a cell."""
 DIFFERS_TIMES = 2.5
 """... and it is so many times that of the view in the middle."""
+SAMPLE_DIFFERS = 0.12
+"""... of one sample's channels (sRGB, 0..1), beyond what the median has around it."""
 FEWEST = 3
 MARGIN = 0.06
 """Closer to the picture's border (share of its smaller side) lenses are blurred and known less."""
@@ -36,12 +39,14 @@ class Choice:
     """label: (rows, columns) which of the face's views; -1 where none sees the cell.
 
     order: (k, rows, columns) the views from best to worst by cell alone, for what the chosen one
-    does not show. usable: (k, rows, columns) which views show the cell undisturbed.
+    does not show. usable: (k, rows, columns) which views show the cell undisturbed. clear: (k, rows
+    S, columns S) the same of samples: a leaf or a bumper is smaller than a cell.
     """
 
     label: NDArray[np.int64]
     order: NDArray[np.int64]
     usable: NDArray[np.bool_]
+    clear: NDArray[np.bool_]
 
 
 def signal(sights: Sights, gains: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -111,7 +116,30 @@ def choose(
     ).astype(np.int64)
     label[(share <= 0).all(axis=0)] = -1
     order = np.argsort(cost, axis=0, kind="stable")
-    return Choice(label, order, believed)
+    return Choice(label, order, believed, clear_samples(sights, levelled))
+
+
+def clear_samples(sights: Sights, levelled: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """(k, rows S, columns S) where each view shows about what the median of all does.
+
+    Edges may lie a sample off: a view is compared with all that the median has around. Where fewer
+    than `FEWEST` views see a sample, or none is near the median, all are believed.
+    """
+    middle = median_of(levelled)
+    around = np.ones((3, 3), dtype=np.uint8)
+    low = cv2.erode(np.nan_to_num(middle, nan=np.inf), around)
+    high = cv2.dilate(np.nan_to_num(middle, nan=-np.inf), around)
+    many = sights.seen.sum(axis=0) >= FEWEST
+    other = np.zeros(sights.seen.shape, dtype=np.bool_)
+    for k, own in enumerate(levelled):
+        with np.errstate(invalid="ignore"):
+            off = np.maximum(low - own, own - high).max(axis=-1)
+            differs = (many & sights.seen[k] & (off > SAMPLE_DIFFERS)).astype(np.uint8)
+        # A sample alone is noise; what lies beside those that differ is a part of the same thing.
+        differs = cv2.morphologyEx(differs, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
+        other[k] = cv2.dilate(differs, around) > 0
+    shown = (sights.seen & ~other).any(axis=0)
+    return ~(other & shown)
 
 
 def costs_of(
