@@ -26,6 +26,7 @@ def check(words: str) -> None:
 @pytest.mark.parametrize(
     ("beside", "idle", "named"),
     [
+        (GIVEN, "--mapping global", "--from-colmap"),
         (GIVEN, "--lens radial", "--from-colmap"),
         (GIVEN, "--cameras shared", "--from-colmap"),
         (GIVEN, "--principal-point free", "--from-colmap"),
