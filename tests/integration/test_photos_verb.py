@@ -141,13 +141,13 @@ def test_photos_that_give_nothing(tmp_path: Path, kind: str) -> None:
     else:  # the camera only turns
         eye = ARC[2].eye
         write_photos(folder, tuple(Pose(eye, (0.5, 0.5 + 0.3 * n, 1.4)) for n in range(3)))
-    done = veduta("photos", folder, "-o", tmp_path / "out", *CAMERAS)
+    done = veduta("photos", folder, "-o", tmp_path / "out", *QUICK)
     assert done.returncode == 3
     assert "no photos hang together" in done.stderr
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["state"] == "failed"
     assert not (tmp_path / "out" / "place.json").exists()
-    again = veduta("photos", folder, "-o", tmp_path / "out", *CAMERAS)
+    again = veduta("photos", folder, "-o", tmp_path / "out", *QUICK)
     assert (again.returncode, "up to date" in again.stdout) == (3, True)
 
 
@@ -190,7 +190,7 @@ def test_killed_in_the_middle(
 ) -> None:
     out = tmp_path / "out"
     stages = out / ".veduta" / "photos"
-    with running("photos", scene, "-o", out, *CAMERAS, "--jobs", "2") as run:
+    with running("photos", scene, "-o", out, *QUICK, "--jobs", "2") as run:
         wait_for(lambda: len(list(stages.glob("features-*.npz"))) >= 2)
         children = started_by(run.pid)
         run.send_signal(number)
@@ -204,7 +204,7 @@ def test_killed_in_the_middle(
     stamps = {path.name: path.stat().st_mtime_ns for path in stages.glob("features-*.npz")}
     assert stamps
 
-    with running("photos", scene, "-o", out, *CAMERAS, "--jobs", "2") as run:
+    with running("photos", scene, "-o", out, *QUICK, "--jobs", "2") as run:
         wait_for(lambda: len(list(stages.glob("features-*.npz"))) == len(ARC))
         kept = {name: (stages / name).stat().st_mtime_ns for name in stamps}
         run.communicate(timeout=DEADLINE_S)
@@ -218,13 +218,13 @@ def test_killed_while_it_maps(tmp_path: Path, scene: Path) -> None:
     """What was matched is kept, and the next run ends with all photos."""
     out = tmp_path / "out"
     stages = out / ".veduta" / "photos"
-    with running("photos", scene, "-o", out, *CAMERAS) as run:
+    with running("photos", scene, "-o", out, *QUICK) as run:
         wait_for(lambda: any(stages.glob("*.mapping/round-0/growing-*/[0-9]*")))
         run.send_signal(signal.SIGKILL)
         run.communicate(timeout=DEADLINE_S)
     assert run.returncode == -signal.SIGKILL
     assert len(list(stages.glob("matches-*.db"))) == 1
-    done = veduta("photos", scene, "-o", out, *CAMERAS)
+    done = veduta("photos", scene, "-o", out, *QUICK)
     assert done.returncode == 0, done.stderr
     assert "6 of 6 photos calibrated" in done.stdout
     assert centre_errors_mm(out).mean() < 20.0
