@@ -18,7 +18,9 @@ from veduta.plan.text.engine import find_lines
 from veduta.plan.text.options import TextOptions
 
 _OVERLAP = 0.15  # of a tile: a line of text on a border is whole in one of the two
-_LETTER_PX = (7, 60)  # height of letters, in pixels of the tile
+_FINER = 4.0  # a tile over the overview
+_LETTER_PX = (6, 60)  # height of letters, in pixels of the tile
+_CLEAR_PX = 12.0  # height of a region that the overview shows well
 _TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
 
@@ -30,9 +32,9 @@ def find_overview(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np
     """
     factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
     found = find_lines(_resized(pixels, factor), options.threads) / factor
-    sides = np.linalg.norm(found - np.roll(found, -1, axis=1), axis=2)
     # What is taller is a drawing that looks like text from afar, and would hide the text in it.
-    return found[sides.min(axis=1, initial=np.inf) < _TALLEST * max(pixels.shape)]
+    kept = _short_sides(found) < _TALLEST * max(pixels.shape)
+    return np.asarray(found[kept], dtype=np.float64)
 
 
 def find_regions(
@@ -46,14 +48,23 @@ def find_regions(
     factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
     if factor < 1.0 and options.tiles:
         tile = int(options.tile_px)
-        scale = max(factor, min(1.0, 2.5 * factor))
+        scale = min(1.0, _FINER * factor)
         large = _resized(pixels, scale)
-        boxes = [found]
-        for x, y in _tiles_with_letters(large, found * scale, tile, options.tiles):
+        clear = _short_sides(found) * factor >= _CLEAR_PX
+        boxes, seen = [], np.zeros(len(found), dtype=bool)
+        for x, y in _tiles_with_letters(large, found[clear] * scale, tile, options.tiles):
             inside = find_lines(large[y : y + tile, x : x + tile], options.threads)
             boxes.append((inside + np.array([x, y])) / scale)
-        found = np.concatenate(boxes)
+            centres = found.mean(axis=1) * scale
+            seen |= np.all((centres >= (x, y)) & (centres < (x + tile, y + tile)), axis=1)
+        # What was small in the overview is as the tile has it: lines there run into one another.
+        found = np.concatenate([found[clear | ~seen], *boxes])
     return without_duplicates(found)
+
+
+def _short_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
+    sides = np.linalg.norm(quads - np.roll(quads, -1, axis=1), axis=2)
+    return np.asarray(sides.min(axis=1, initial=np.inf), dtype=np.float64)
 
 
 def overview_factor(size_px: tuple[int, int], options: TextOptions) -> float:
