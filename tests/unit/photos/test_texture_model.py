@@ -50,7 +50,7 @@ def test_a_painted_front_comes_back_levelled() -> None:
     model = textured(wall)
     texture = front_of(next(model.buildings))
     assert texture.pixels.shape == wall.paint.shape
-    assert texture.seen_share > 0.95
+    assert texture.seen_share > 0.9
     assert np.median(off(wall, texture)) < 0.03
     assert np.quantile(off(wall, texture), 0.99) < 0.15
     levelled = model.gains * wall.gains[:, None]

@@ -12,10 +12,11 @@ from scipy.ndimage import minimum_filter
 
 from veduta import _core
 from veduta.photos.cameras.orient import moved_poses
+from veduta.photos.choosing import median_of
 from veduta.photos.straight import Pinhole
 from veduta.photos.texture.atlas import GUTTER, filled, packed
 from veduta.photos.texture.cells import SAMPLES, Grid, Sights
-from veduta.photos.texture.choice import Choice, median_of
+from veduta.photos.texture.choice import Choice
 from veduta.photos.texture.faces import faces_of
 from veduta.photos.texture.files import file_names
 from veduta.photos.texture.levels import LightSamples

@@ -22,6 +22,9 @@ FEATHER_M = 0.05
 FEATHER_TEXELS = 2.0
 NEAR_M = 0.4
 """Over so much of a distance from what was seen its colour fades to that of the face."""
+BLUR_M, MOST_BLUR = 0.1, 12.0
+"""Deviation of the blur of such colours (m), at most so many texels: else they are streaks."""
+RIM_TEXELS = 2
 _LEAST_WEIGHT = 1e-3
 _LINEAR = linear_of_srgb(np.arange(256) / 255.0)
 
@@ -160,16 +163,30 @@ def _finished(
     texel_m: float,
     used: tuple[int, ...],
 ) -> FaceTexture:
-    seen = weight >= _LEAST_WEIGHT
+    seen = _without_rim(weight >= _LEAST_WEIGHT)
     inside = sights.face.inside(weight.shape, texel_m)
     colour = sum_ / np.maximum(weight, 1e-9)[..., None]
     pixels = np.round(np.clip(colour, 0.0, 1.0) * 255.0).astype(np.uint8)
     if seen.any() and not seen.all():
         shown = seen & inside if (seen & inside).any() else seen
-        middle = np.median(pixels[shown], axis=0).astype(np.float32)
-        nearest, distance = nearest_marked(seen)
-        fades = np.exp(-distance[~seen] * (texel_m / NEAR_M))[:, None]
-        beside = pixels[seen][nearest[~seen]]
-        pixels[~seen] = np.round(middle + fades * (beside - middle)).astype(np.uint8)
+        pixels[~seen] = _invented(pixels, seen, shown, texel_m)[~seen]
     share = float((seen & inside).sum() / max(1, int(inside.sum())))
     return FaceTexture(pixels, ~seen, texel_m, share, used)
+
+
+def _without_rim(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """What is seen, but for texels beside what is not: they are mixed with what hides it."""
+    square = np.ones((2 * RIM_TEXELS + 1, 2 * RIM_TEXELS + 1), dtype=np.uint8)
+    inner = cv2.erode(seen.astype(np.uint8), square, borderValue=1) > 0
+    return np.asarray(inner) if inner.any() else seen
+
+
+def _invented(
+    pixels: NDArray[np.uint8], seen: NDArray[np.bool_], shown: NDArray[np.bool_], texel_m: float
+) -> NDArray[np.uint8]:
+    """The colours beside what was seen, blurred, and fading to that of the face."""
+    middle = np.median(pixels[shown], axis=0).astype(np.float32)
+    nearest, distance = nearest_marked(seen)
+    beside = cv2.GaussianBlur(pixels[seen][nearest], (0, 0), min(MOST_BLUR, BLUR_M / texel_m))
+    fades = np.exp(-distance * (texel_m / NEAR_M))[..., None]
+    return np.asarray(np.round(middle + fades * (beside - middle)), dtype=np.uint8)
