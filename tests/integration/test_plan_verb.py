@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 
 import pytest
+from PIL import Image
 from sample_plan import sample_plan
 from test_validators import validate_gltf
 
@@ -76,3 +77,14 @@ def test_documents_and_drawings_do_not_go_together(tmp_path: Path, document: Pat
     drawing.write_bytes(b"")
     with pytest.raises(InputError, match="is a document among other inputs"):
         run_plan([document, drawing], tmp_path / "out", PlanOptions(), Progress(quiet=True))
+
+
+def test_a_blank_drawing_ends_in_a_report_that_says_so(tmp_path: Path) -> None:
+    drawing = tmp_path / "blank.png"
+    Image.new("RGB", (400, 300), "white").save(drawing)
+    result = run_plan([drawing], tmp_path / "out", PlanOptions(), Progress(quiet=True))
+    assert result.exit_code == 3
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["state"] == "failed"
+    assert "blank" in report["failures"][0]["reason"]
+    assert not (tmp_path / "out" / "house.glb").exists()

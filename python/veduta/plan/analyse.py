@@ -21,6 +21,7 @@ from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
 from veduta.plan.options import PlanOptions
 from veduta.plan.reading import read_storey
+from veduta.plan.registering import registered
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
 from veduta.plan.sheets import Pixels
 from veduta.plan.text.sheet_text import SheetText, read_sheet
@@ -51,7 +52,7 @@ def read_drawings(
         storey, pixels = _read_one(path, name, elevation, options, steps, progress)
         storeys.append(storey)
         sheets.append(pixels)
-    return ReadPlan(PlanDocument(storeys=storeys), sheets)
+    return ReadPlan(PlanDocument(storeys=registered(storeys)), sheets)
 
 
 def _read_one(

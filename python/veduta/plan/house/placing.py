@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from shapely.geometry import Point
 
 from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start, Vector
 from veduta.plan.house.build import House
@@ -36,11 +37,11 @@ def place_of(house: House, model: str, document: str | None, options: HouseOptio
 
 def _start(space: Space) -> Start:
     """Before the front door, looking at it; where there is none, before the whole house."""
-    doors = [hole for hole in space.holes if _outside(hole) and hole.opening.kind == "door"]
+    doors = [hole for hole in space.holes if _outside(hole, space) and hole.opening.kind == "door"]
     if doors:
         door = max(doors, key=lambda hole: (hole.opening.type != "garage", hole.opening.score))
         middle = door.start + door.along * door.width_m / 2.0
-        away = middle + AWAY_M * _outside(door) * np.array([-door.along[1], door.along[0]])
+        away = middle + AWAY_M * _outside(door, space) * np.array([-door.along[1], door.along[0]])
         return Start(eye=_at(away, EYE_M), target=_at(middle, EYE_M - 0.3))
     left, bottom, right, top = space.slab.bounds
     middle = np.array([(left + right) / 2.0, (bottom + top) / 2.0])
@@ -48,10 +49,14 @@ def _start(space: Space) -> Start:
     return Start(eye=_at(middle - [0.0, size + AWAY_M], EYE_M), target=_at(middle, EYE_M))
 
 
-def _outside(hole: Hole) -> int:
+def _outside(hole: Hole, space: Space) -> int:
     """+1 where the left of an opening is outdoors and its right is not, -1 the other way, or 0."""
-    left, right = (room is None or room.outdoors for room in (hole.left, hole.right))
-    return int(left) - int(right)
+    middle = hole.start + hole.along * hole.width_m / 2.0
+    left = np.array([-hole.along[1], hole.along[0]]) * (hole.line.half_m + 0.1)
+    on_left, on_right = (
+        not space.covered.covers(Point(middle + side * left)) for side in (1.0, -1.0)
+    )
+    return int(on_left) - int(on_right)
 
 
 def _at(point: np.ndarray, height_m: float) -> Vector:
