@@ -151,7 +151,9 @@ def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
     }
 
 
-def _facts(room: DrawnRoom, drawn: Drawn, kinds: Mapping[str, str], metres_per_px: float) -> RoomFacts:
+def _facts(
+    room: DrawnRoom, drawn: Drawn, kinds: Mapping[str, str], metres_per_px: float
+) -> RoomFacts:
     shape = Polygon(room.outline_px)
     around = Counter("window" if kinds[name] == "window" else "door" for name in room.openings)
     stairs = any(shape.contains(Polygon(one.outline_px).centroid) for one in drawn.stairs)
