@@ -1,11 +1,13 @@
 """How well plans are read: walls, openings, rooms and scale, on drawn and on real ones.
 
     python benchmarks/plan.py [synthetic] [mlstruct] [zind] [uk] [cubicasa] [dxf]
-                              [--seeds A..B] [--jobs N] [--pictures DIR]
+                              [--seeds A..B] [--jobs N] [--pictures DIR] [--house]
 
-The synthetic plans are `veduta.synthetic.plans` (seeds 10000 to 10199 unless told); the real ones
-are `plans/` of $VEDUTA_DATA (else ../shared/data). Only a run over all is kept. `--pictures` writes
-sheets of overlays: of other people's pixels, so never into the repository.
+The synthetic plans are `veduta.synthetic.plans` (seeds 10000 to 10199 unless told), read to their
+document; with `--house` they go through the whole verb. The real ones are `plans/` of $VEDUTA_DATA
+(else ../shared/data) and always go through the whole verb, whose time is given. Only a run over all
+is kept. `--pictures` writes sheets of overlays: of other people's pixels, so never into the
+repository.
 """
 
 from __future__ import annotations
@@ -65,7 +67,9 @@ class Judged:
     score: Score
 
 
-def judge_synthetic(chosen: Sequence[int], jobs: int, pictures: Path | None) -> list[Judged]:
+def judge_synthetic(
+    chosen: Sequence[int], jobs: int, pictures: Path | None, house: bool
+) -> list[Judged]:
     """Draw the plans of these seeds, read and score them."""
     with tempfile.TemporaryDirectory() as folder:
         truths: list[SheetTruth] = []
@@ -74,7 +78,7 @@ def judge_synthetic(chosen: Sequence[int], jobs: int, pictures: Path | None) -> 
                 save_sheet(Path(folder) / truth.file, picture, truth)
                 truths.append(truth)
         paths = [Path(folder) / truth.file for truth in truths]
-        readings = read_plans(paths, jobs)
+        readings = read_plans(paths, jobs, house)
         judged: list[Judged] = []
         cells: list[tuple[str, Pixels]] = []
         for path, truth, reading in zip(paths, truths, readings, strict=True):
@@ -159,6 +163,9 @@ def main() -> None:
     parser.add_argument("--seeds", type=seeds, default=TEST_SEEDS)
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--pictures", type=Path)
+    parser.add_argument(
+        "--house", action="store_true", help="synthetic: the house too, not only plan.json"
+    )
     arguments = parser.parse_args()
     every = ["synthetic", *REAL]
     unknown = set(arguments.sets) - set(every)
@@ -167,7 +174,9 @@ def main() -> None:
     chosen = arguments.sets or every
     rows: list[Row] = []
     if "synthetic" in chosen:
-        judged = judge_synthetic(arguments.seeds, arguments.jobs, arguments.pictures)
+        judged = judge_synthetic(
+            arguments.seeds, arguments.jobs, arguments.pictures, arguments.house
+        )
         rows += synthetic_rows(judged)
     for name, measure in REAL.items():
         if name in chosen:

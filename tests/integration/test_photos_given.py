@@ -123,7 +123,7 @@ def test_all_the_same_photo(tmp_path: Path) -> None:
         Image.fromarray(take_photo(ARC[0])).save(path, quality=quality)
     done = veduta("photos", tmp_path / "photos", "-o", tmp_path / "out")
     assert done.returncode == 2
-    assert "holds 1 photos that can be used, of 3" in done.stderr
+    assert "holds 1 photo that can be used, of 3" in done.stderr
     assert "shows the same picture as 60.jpg" in done.stderr
 
 

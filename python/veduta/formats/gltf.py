@@ -10,7 +10,6 @@ Meshes that stand many times are nodes of their own (`gltf_instances`), and so i
 
 from __future__ import annotations
 
-import io
 import json
 import math
 import struct
@@ -20,12 +19,12 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.formats.gltf_instances import add_instances
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
+from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.material import Texture
 from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
@@ -271,14 +270,9 @@ def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int
 @lru_cache(maxsize=32)
 def _jpeg(texture: Texture) -> bytes:
     """Encoded once for all models of a process."""
-    memory = io.BytesIO()
-    image = Image.fromarray(texture.pixels)
-    image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    return memory.getvalue()
+    return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
 
 
 @lru_cache(maxsize=32)
 def _mask_png(texture: Texture) -> bytes:
-    memory = io.BytesIO()
-    Image.fromarray(texture.invented.astype(np.uint8) * 255).convert("1").save(memory, "PNG")
-    return memory.getvalue()
+    return mask_bytes(texture.invented)

@@ -29,7 +29,7 @@ from veduta.run.errors import InputError, NotFoundError
 from veduta.run.outputs import writing_to
 from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import StepProgress, no_progress
-from veduta.run.report import timed_step
+from veduta.run.report import counted, timed_step
 
 FEATURES_MEMORY = 6 * 1024**3
 """Bytes that all processes together may use while they look for features."""
@@ -137,7 +137,7 @@ def _require_two(call: Call, read: ReadPhotos) -> None:
     if len(read.photos) < 2:
         raise InputError(
             call.folder,
-            f"holds {len(read.photos)} photos that can be used, of {len(call.sources)}"
+            f"holds {counted(len(read.photos), 'photo')} that can be used, of {len(call.sources)}"
             + "".join(f"; {name} {reason}" for name, reason in read.set_aside[:3]),
             "Put at least two photos of the same place into it.",
         )

@@ -37,7 +37,7 @@ def _why(start: Start) -> str:
             f"no map grew from the {counted(start.refused, 'pair')} that"
             f" {'meets' if start.refused == 1 else 'meet'} the conditions of the thesis"
             if start.refused
-            else "no pair meets the conditions of the thesis"
+            else f"of {counted(start.passed_over, 'pair')} none meets the conditions of the thesis"
         )
         return f"the engine chose them, for {tried}" + (f" ({pair.fault})" if pair.fault else "")
     refused = f", from {counted(start.refused, 'better pair')} no map grew" if start.refused else ""

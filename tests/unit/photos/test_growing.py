@@ -16,13 +16,19 @@ from veduta.photos.mapping.doubt import Doubt, database_without
 from veduta.photos.mapping.growing import read_snapshot, write_snapshot
 from veduta.photos.mapping.grown import Grown
 from veduta.photos.mapping.initial_pair import weighed_pair
-from veduta.photos.mapping.mapping import map_photos
+from veduta.photos.mapping.mapping import Mapped, map_photos
 
 IDS = tuple(range(1, len(ARC) + 1))
 
 
 class KilledError(Exception):
     """Stands for the end of the process."""
+
+
+@pytest.fixture(scope="module")
+def whole(arc_matches: Path, tmp_path_factory: pytest.TempPathFactory) -> Mapped:
+    """What nothing stopped."""
+    return map_photos(arc_matches, tmp_path_factory.mktemp("whole"), IDS, 0)
 
 
 def centres(model: pycolmap.Reconstruction) -> np.ndarray:
@@ -33,7 +39,9 @@ def centres(model: pycolmap.Reconstruction) -> np.ndarray:
 
 
 @pytest.mark.parametrize("most", [2, 4, 5])
-def test_it_goes_on_from_its_snapshot(arc_matches: Path, tmp_path: Path, most: int) -> None:
+def test_it_goes_on_from_its_snapshot(
+    arc_matches: Path, whole: Mapped, tmp_path: Path, most: int
+) -> None:
     def stop(step: str, share: float) -> None:
         assert step == "map"
         if round(share * len(IDS)) > most:
@@ -52,7 +60,6 @@ def test_it_goes_on_from_its_snapshot(arc_matches: Path, tmp_path: Path, most: i
     )
     assert told == list(range(most, len(IDS) + 1)), "what was kept, and then the others"
     (model,) = mapped.models
-    whole = map_photos(arc_matches, tmp_path / "whole", IDS, 0)
     assert mapped.starts == whole.starts, "what it began with is kept with what was grown"
     turn = np.linalg.svd(centres(model).T @ centres(whole.models[0]))
     assert turn.S.sum() == pytest.approx(1.0, abs=1e-4), "the same cameras but for a similarity"

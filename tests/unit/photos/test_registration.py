@@ -28,12 +28,20 @@ def street(request: pytest.FixtureRequest) -> SimulatedStreet:
     return simulated_street(30, streets=2, sides=request.param)
 
 
+@pytest.fixture(scope="module")
+def found(street: SimulatedStreet) -> Georeference:
+    """The street laid into the town that it is part of."""
+    return laid(street, street.model)
+
+
 def laid(street: SimulatedStreet, model: CityModel) -> Georeference:
     return register(street.structure, street.walls, model, None, 0)
 
 
-def test_a_street_in_the_model_is_laid_where_it_is(street: SimulatedStreet) -> None:
-    found, again = laid(street, street.model), laid(street, street.model)
+def test_a_street_in_the_model_is_laid_where_it_is(
+    street: SimulatedStreet, found: Georeference
+) -> None:
+    again = laid(street, street.model)
     assert found.accepted, found.why
     apart, turned = errors(street, found)
     assert 0.0 < apart < 0.3
@@ -50,8 +58,9 @@ def test_a_street_in_the_model_is_laid_where_it_is(street: SimulatedStreet) -> N
     assert again.why == found.why
 
 
-def test_walls_come_to_stand_before_their_facades(street: SimulatedStreet) -> None:
-    found = laid(street, street.model)
+def test_walls_come_to_stand_before_their_facades(
+    street: SimulatedStreet, found: Georeference
+) -> None:
     walls = walls_in_the_world(street.walls, found)
     facades = facades_of(street.model)
     middles = np.array([(wall.start + wall.end) / 2.0 for wall in walls])

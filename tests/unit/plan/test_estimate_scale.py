@@ -30,8 +30,12 @@ def test_room_sizes() -> None:
     scale = estimate_scale(_sheet(_text("4.00 x 3.00", 250, 200), rooms=[ROOM]))
     assert scale.basis == "evidence"
     assert scale.metres_per_px == pytest.approx(0.01, rel=1e-6)
-    assert 0.002 < scale.sigma < 0.02
+    assert scale.sigma == 0.03  # it is the only thing that says so
     assert scale_notes(scale) == []
+    other = ROOM + np.array([450.0, 0.0])
+    texts = [_text("4.00 x 3.00", *room.mean(axis=0)) for room in (ROOM, other)]
+    scale = estimate_scale(_sheet(*texts, rooms=[ROOM, other]))
+    assert 0.002 < scale.sigma < 0.01
 
 
 def test_the_papers_width_rule() -> None:

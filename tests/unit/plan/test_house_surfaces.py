@@ -11,7 +11,7 @@ from shapely.geometry import MultiPoint, Polygon
 
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.document import Opening
+from veduta.plan.document import Junction, Opening
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of
 from veduta.plan.options import HouseOptions
@@ -174,3 +174,18 @@ def test_the_same_plan_gives_the_same_house() -> None:
     first, second = built().part, built().part
     assert np.array_equal(first.positions_m, second.positions_m)
     assert first.features.id == second.features.id
+
+
+def test_a_space_whose_walls_have_a_gap_is_floored_and_roofed() -> None:
+    storey = sample_storey()
+    junctions = [*storey.junctions, Junction(id="g", at_m=(8.0, 3.8), type="end")]
+    # The eastern wall ends 1.2 m before the corner.
+    walls = [
+        one.model_copy(update={"end": "g"}) if one.id == "east" else one for one in storey.walls
+    ]
+    broken = sample_storey(junctions=junctions, walls=walls, rooms=storey.rooms[:1], openings=[])
+    house = build_house(sample_plan(broken), HouseOptions(overhang=0.0))
+    assert any("have a gap in their walls" in note for note in house.part.notes)
+    assert "ground floor unnamed floor" in house.part.features.name
+    roof = points_of(house.part, "roof 1")
+    assert roof[:, 0].max() > 8.0

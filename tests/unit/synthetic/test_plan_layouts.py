@@ -14,7 +14,7 @@ from veduta.synthetic.plans.bodies import opening_area, solid_walls, whole_walls
 from veduta.synthetic.plans.house import House, Opening, Storey, Wall
 from veduta.synthetic.plans.layout import make_house
 
-SEEDS = (1, 4, 7, 21, 25)
+SEEDS = (4, 105, 109)
 
 
 @pytest.fixture(scope="module", params=SEEDS)

@@ -19,6 +19,8 @@ from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
 MOST_PHOTOS = 20_000
+_FOREIGN = (".heic", ".heif", ".avif", ".cr2", ".cr3", ".nef", ".arw", ".dng", ".orf", ".rw2")
+"""Photos of telephones and cameras that are not read."""
 _ADD = "Put at least two photos of the same place into it (JPEG, PNG, TIFF, WebP)."
 
 
@@ -63,7 +65,7 @@ def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
         return Call(given.video or Path(), (), masks=masks, video=video)
     sources, copies, unreadable, files = _found(folder)
     if len(sources) < 2 and video is None:
-        raise InputError(folder, _too_few(files, len(sources)), _ADD)
+        raise InputError(folder, _too_few(files, len(sources)), _what_to_do(folder, files))
     taken, notes = (sources, ()) if video else with_masks(sources, masks)
     return Call(folder, taken, copies, unreadable, masks, video, models, notes)
 
@@ -135,6 +137,28 @@ def _paths(folder: Path) -> list[Path]:
         fault = f"holds {len(found)} photos, more than {MOST_PHOTOS}"
         raise InputError(folder, fault, "Divide them into several folders.")
     return found
+
+
+def _what_to_do(folder: Path, files: int) -> str:
+    """What to do about a folder without photos: where some may lie instead, if anywhere."""
+    if files:
+        return _ADD
+    try:
+        there = sorted(folder.iterdir())[:MOST_PHOTOS]
+        inner = [path for path in there if path.is_dir() and _holds_photos(path)]
+    except OSError:  # of a folder in it
+        return _ADD
+    if inner:
+        others = f" ({len(inner)} folders in it hold photos)" if len(inner) > 1 else ""
+        return f"Name {inner[0]}, which holds some{others}: folders in folders are not looked into."
+    foreign = [path for path in there if path.suffix.lower() in _FOREIGN]
+    if foreign:
+        return f"Save {foreign[0].name} and the others as JPEG, PNG, TIFF or WebP."
+    return _ADD
+
+
+def _holds_photos(folder: Path) -> bool:
+    return any(path.suffix.lower() in SUFFIXES for path in folder.iterdir())
 
 
 def _too_few(files: int, usable: int) -> str:

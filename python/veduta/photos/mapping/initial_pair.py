@@ -30,8 +30,8 @@ NEAR_SHARE = 0.002
 LEAST_ANGLE_DEG = 8.0
 """Median angle between the rays to the points of a pair."""
 HOMOGRAPHY_DRAWS = 500
-MOST_FOR_ANGLE = 1000
-"""Matches that the angle is found from, drawn at random: thousands tell no more."""
+MOST_DRAWN = 1000
+"""Matches of a pair that are looked at, drawn at random: thousands tell no more."""
 MOST_WEIGHED = 400
 """Pairs that are weighed at most, those with most matches first."""
 
@@ -121,14 +121,14 @@ def weigh(
 
     points: (k, 2) the features of each (px). matches: (m, 2) rows of them that agree.
     """
+    drawn = matches[np.random.default_rng(seed).permutation(len(matches))[:MOST_DRAWN]]
     own = [
-        np.ascontiguousarray(places[matches[:, side]], dtype=np.float64)
+        np.ascontiguousarray(places[drawn[:, side]], dtype=np.float64)
         for side, places in enumerate(points)
     ]
     known = all(camera.has_prior_focal_length for camera in cameras)
     planar = _planar_share(own, cameras[1], seed)
-    drawn = np.random.default_rng(seed).permutation(len(matches))[:MOST_FOR_ANGLE]
-    angle = _angle_deg(cameras, [places[drawn] for places in own], seed)
+    angle = _angle_deg(cameras, own, seed)
     return WeighedPair(*pair, len(matches), known, planar, angle)
 
 

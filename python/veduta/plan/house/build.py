@@ -15,6 +15,7 @@ from veduta.plan.house.floors import add_ceilings, add_floors, add_skirting, add
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
+from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space, solid_region, space_of
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
@@ -48,7 +49,7 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     top = last.storey.elevation_m + last.storey.height_m
     builder.notes.extend(add_roof(last.covered, top, sculptor, options))
     builder.attributes["storeysAboveGround"] = len(spaces)
-    return House(builder.build(), spaces)
+    return House(sound_part(builder.build()), spaces)
 
 
 def _add_storey(

@@ -19,6 +19,8 @@ END_M = 0.02
 LEAST_OPENING_M = 0.25
 LINTEL_M = 0.05
 """What is left of a wall at least above an opening."""
+GAP_M = 1.6
+"""A gap in the walls around a space that is no wider than this does not make it outdoors."""
 _SLIVER_M2 = 0.01
 _JOIN_M = 1e-3
 _STEP_M = 0.05
@@ -84,8 +86,22 @@ class Space:
 
     @cached_property
     def built(self) -> BaseGeometry:
-        """All that lies within the outer faces of the walls, the walls with it."""
-        return unary_union([Polygon(piece.exterior) for piece in pieces_of(self.walls)])
+        """All that lies within the outer faces of the walls, the walls with it.
+
+        A space whose walls have a gap lies within them, too (`leaks`).
+        """
+        return unary_union([filled(self.walls), *self.leaks])
+
+    @cached_property
+    def leaks(self) -> tuple[Polygon, ...]:
+        """Spaces that walls close but for gaps of at most `GAP_M`."""
+        if self.walls.is_empty:
+            return ()
+        reach = GAP_M / 2.0
+        closed = filled(self.walls.buffer(reach, join_style="mitre"))
+        inside = closed.buffer(-reach, join_style="mitre").difference(filled(self.walls))
+        wide = inside.buffer(-reach)
+        return tuple(piece for piece in pieces_of(inside) if piece.intersects(wide))
 
     @cached_property
     def outdoors(self) -> BaseGeometry:
@@ -143,6 +159,11 @@ def space_of(storey: Storey, wall_height_m: float) -> Space:
             notes.append(f"{opening.kind} {opening.id} is left out: it lies in {clash}")
         else:
             holes.append(hole)
+    notes += [
+        f"{piece.area:.1f} m² of {storey.name} have a gap in their walls:"
+        " floored and roofed, but no room"
+        for piece in empty.leaks
+    ]
     return Space(storey, lines, walls, tuple(holes), tuple(notes))
 
 
@@ -150,6 +171,11 @@ def room_polygon(room: Room) -> Polygon:
     """The room's polygon."""
     shape = Polygon(room.outline_m, room.holes_m)
     return shape if shape.is_valid else shape.buffer(0.0)
+
+
+def filled(region: BaseGeometry) -> BaseGeometry:
+    """The region with its holes."""
+    return unary_union([Polygon(piece.exterior) for piece in pieces_of(region)])
 
 
 def pieces_of(region: BaseGeometry) -> list[Polygon]:

@@ -20,6 +20,10 @@ PLAIN_TO_SIDE = 9.0
 """And so many from an end to the side of a wall."""
 
 
+WIDEST_DOOR = 22.0
+"""Leaves are at most so many (thin) wall thicknesses wide, both of a double door together."""
+
+
 @dataclass(frozen=True)
 class Judged:
     """A gap with its kind; `hinge` and `swing` are those of who goes from its start to its end."""
@@ -37,11 +41,11 @@ def judge(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judge
 
     `thin_px` is the usual thickness of thin walls, `outer` whether it leads outdoors.
     """
-    door = _door(gap, seen)
+    door = _door(gap, seen) if gap.width_px < WIDEST_DOOR * thin_px else None
     if door is not None:
         return door
     inner_lines = [line for line in seen.lines if abs(line) < 0.72]
-    if seen.lines or abs(seen.tone) > LEAST_TONE:
+    if seen.lines or seen.tone > LEAST_TONE:
         if outer is False and not inner_lines and gap.width_px < 16 * thin_px:
             kind: OpeningType = "plain" if not seen.lines else "unknown"
             return Judged(gap, "door", kind, "none", "none", 0.6)
@@ -93,4 +97,4 @@ def _window(seen: Evidence) -> OpeningType:
 
 
 def _window_score(seen: Evidence) -> float:
-    return float(np.clip(0.5 + 0.1 * len(seen.lines) + abs(seen.tone), 0, 0.95))
+    return float(np.clip(0.5 + 0.1 * len(seen.lines) + max(seen.tone, 0.0), 0, 0.95))

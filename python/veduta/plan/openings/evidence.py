@@ -63,7 +63,7 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     along = (gap.end - gap.start) / max(gap.width_px, 1e-9)
     normal = np.array([-along[1], along[0]])
     half = gap.thickness_px / 2
-    steps = np.arange(-1.6 * half - 2, 1.6 * half + 2.01, 1.0)
+    steps = np.arange(-1.6 * half - 4, 1.6 * half + 4.01, 1.0)
     trim = min(0.2 * gap.width_px, 2.0 + 0.1 * gap.thickness_px)
     inside = np.arange(trim, gap.width_px - trim + 1e-6, 1.0)
     if len(inside) < 3:
@@ -71,11 +71,10 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     points = gap.start + inside[None, :, None] * along + steps[:, None, None] * normal
     rows = _sample(sheet.faint, points).mean(axis=1)
     soft = _sample(sheet.ink, points, order=1)
-    within = np.abs(steps) <= max(half - 1.5, 0.3 * half)
-    beside = np.abs(steps) > half + 3
-    tone = float(np.median(soft[within])) - (
-        float(np.median(soft[beside])) if beside.any() else 0.0
-    )
+    within = np.abs(steps) <= max(half - 1.5, 0.3 * half, 1.0)
+    # A pane that is shaded is darker than the paper on both sides.
+    beside = [float(np.median(soft[side])) for side in (steps < -half - 1, steps > half + 1)]
+    tone = float(np.median(soft[within])) - max(beside)
     return Evidence(
         lines=_lines(steps, rows, half),
         tone=tone,

@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
+from shapely.geometry import Polygon, box
 
 from veduta.plan.document import Sheet, Storey
 from veduta.plan.drawing import Drawing, Layer, Shape
@@ -27,6 +28,9 @@ _PAPER: Rgb = (250, 249, 246)
 _SHIFT = 4
 """OpenCV draws at 1/16 px."""
 _DOUBTFUL = 0.5
+_LINE_PX = 25
+_SHIFTS_PX = (0, 30, -30, 60, -60, 90, -90)
+"""By how much a label is moved, the nearest free place first."""
 
 
 def overlay(drawings: Sequence[Drawing], sheets: Sequence[NDArray[np.uint8]]) -> NDArray[np.uint8]:
@@ -82,14 +86,28 @@ def _draw(picture: NDArray[np.uint8], shape: Shape, sheet: Sheet, scale: float) 
     lines = [_at(sheet, line, scale) for line in shape.lines]
     opacity = _OPACITY.get(shape.layer)
     if opacity is not None:
-        mask = np.zeros(picture.shape[:2], dtype=np.uint8)
-        cv2.fillPoly(mask, rings, 255, cv2.LINE_AA, _SHIFT)
-        share = (opacity / 255.0) * mask[..., None]
-        picture[:] = (picture * (1.0 - share) + np.array(colour) * share).astype(np.uint8)
+        _fill(picture, rings, colour, opacity)
     if shape.layer != "rooms":
         width = 3 if shape.layer in {"doors", "windows"} else 2
         cv2.polylines(picture, rings, True, colour, width, cv2.LINE_AA, _SHIFT)
         cv2.polylines(picture, lines, False, colour, width, cv2.LINE_AA, _SHIFT)
+
+
+def _fill(
+    picture: NDArray[np.uint8], rings: list[NDArray[np.int32]], colour: Rgb, opacity: float
+) -> None:
+    """Tint what lies within the rings; only the box around them is looked at."""
+    corners = np.concatenate(rings) >> _SHIFT
+    left, top = np.maximum(corners.min(axis=0) - 1, 0).tolist()
+    right, bottom = (corners.max(axis=0) + 2).tolist()
+    part = picture[top:bottom, left:right]
+    if part.size == 0:
+        return
+    mask = np.zeros(part.shape[:2], dtype=np.uint8)
+    moved = [ring - np.array([left, top], dtype=np.int32) * (1 << _SHIFT) for ring in rings]
+    cv2.fillPoly(mask, moved, 255, cv2.LINE_AA, _SHIFT)
+    share = (opacity / 255.0) * mask[..., None].astype(np.float32)
+    part[:] = (part * (1.0 - share) + np.array(colour, dtype=np.float32) * share).astype(np.uint8)
 
 
 def _at(sheet: Sheet, points_m: NDArray[np.float64], scale: float) -> NDArray[np.int32]:
@@ -100,11 +118,30 @@ def _at(sheet: Sheet, points_m: NDArray[np.float64], scale: float) -> NDArray[np
 
 def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
     font, small = _font(22), _font(17)
+    written = [
+        box(
+            *(np.array(text.box_px).min(axis=0) * scale),
+            *(np.array(text.box_px).max(axis=0) * scale),
+        )
+        for text in drawing.storey.texts
+    ]
     for label in drawing.labels:
-        x, y = _spot(drawing.storey.sheet, label.at_m, scale)
+        width = max(font.getlength(label.text), small.getlength(label.detail))
+        x, y = _beside(_spot(drawing.storey.sheet, label.at_m, scale), width, written)
         _haloed(pen, (x, y - 12), label.text, font, _INK)
         # Pillow's own font has no superscripts.
         _haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
+
+
+def _beside(at: tuple[float, float], width: float, written: list[Polygon]) -> tuple[float, float]:
+    """A little above or below what the plan itself says there, so that both can be read."""
+
+    def covered(down: float) -> float:
+        x, y = at[0], at[1] + down
+        own = box(x - width / 2, y - _LINE_PX, x + width / 2, y + _LINE_PX)
+        return float(sum(own.intersection(text).area for text in written))
+
+    return (at[0], at[1] + min(_SHIFTS_PX, key=covered))
 
 
 def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:

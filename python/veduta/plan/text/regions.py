@@ -19,6 +19,7 @@ from veduta.plan.text.options import TextOptions
 
 _OVERLAP = 0.15  # of a tile: a line of text on a border is whole in one of the two
 _LETTER_PX = (7, 60)  # height of letters, in pixels of the tile
+_TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
 
 
@@ -28,7 +29,10 @@ def find_overview(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np
     `pixels` is (h, w, 3) sRGB; quadrangles are in its pixels.
     """
     factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
-    return find_lines(_resized(pixels, factor), options.threads) / factor
+    found = find_lines(_resized(pixels, factor), options.threads) / factor
+    sides = np.linalg.norm(found - np.roll(found, -1, axis=1), axis=2)
+    # What is taller is a drawing that looks like text from afar, and would hide the text in it.
+    return found[sides.min(axis=1, initial=np.inf) < _TALLEST * max(pixels.shape)]
 
 
 def find_regions(

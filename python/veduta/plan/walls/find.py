@@ -10,9 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
-from veduta.plan.document import Text
+from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
+from veduta.plan.walls.cells import fill_cells, stroke_length
 from veduta.plan.walls.join import joined
+from veduta.plan.walls.measure import measured
 from veduta.plan.walls.pieces import Piece, straight_pieces
 from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
 from veduta.plan.walls.tracks import find_tracks
@@ -20,6 +22,12 @@ from veduta.run.errors import NotFoundError
 
 MOST_PIECES = 1500
 """More short strokes are a photo or a texture, and would take minutes."""
+
+
+MORE_WALL = 1.9
+"""Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
+
+SMALL_MARK = 0.05
 
 
 @dataclass(frozen=True)
@@ -35,17 +43,47 @@ class Found:
 def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     """Find the pieces; NotFoundError where no strokes are walls."""
     ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
-    thickness = wall_thickness(ink, cleaned.line_px)
-    if thickness is None:
-        raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
-    solid = thick_strokes(ink, thickness)
-    pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px)
+    mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+    solid = thick_strokes(mask, thickness)
+    pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
-    whole = [one for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    # What was filled in is as solid as ink.
+    soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
+    whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness(whole))
+
+
+def choose_drawing(
+    ink: NDArray[np.bool_], line_px: float
+) -> tuple[NDArray[np.bool_], Thickness, WallDrawing]:
+    """The mask in which walls are solid: the ink itself, or with narrow cells filled.
+
+    Cells are filled where that makes much more wall than there is solid ink. Raises NotFoundError
+    where neither has walls.
+    """
+    plain = wall_thickness(ink, line_px)
+    filled = fill_cells(connected(ink), line_px)
+    full = wall_thickness(filled, line_px)
+    least = 0.9 * full.least_px if full else 0.0
+    solid_length = stroke_length(ink, least) if plain else 0.0
+    if full is not None and stroke_length(filled, least) > MORE_WALL * solid_length:
+        share = float((filled & ~ink).sum() / max(1, filled.sum()))
+        return filled, full, "hollow" if share > 0.45 else "hatched"
+    if plain is None:
+        raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
+    return ink, plain, "filled"
+
+
+def connected(ink: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """The ink of the house: without marks that are smaller than a twentieth of the drawing."""
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(ink.astype(np.uint8), connectivity=8)
+    size = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
+    keep = size >= SMALL_MARK * (size[1:].max() if len(size) > 1 else 1)
+    keep[0] = False
+    return np.asarray(keep[labels], dtype=np.bool_)
 
 
 def thin_thickness(pieces: Sequence[Piece]) -> float:
@@ -73,4 +111,7 @@ def without_texts(mask: NDArray[np.bool_], texts: Sequence[Text]) -> NDArray[np.
 
 
 def _is_wall(piece: Piece, thickness: Thickness) -> bool:
-    return piece.length_px >= max(0.5 * piece.thickness_px, thickness.least_px)
+    # Corners of blobs look like short slanted strokes.
+    upright = float(np.abs(piece.direction).max()) > 1 - 1e-9
+    aspect = 0.5 if upright else 1.2
+    return piece.length_px >= max(aspect * piece.thickness_px, thickness.least_px)

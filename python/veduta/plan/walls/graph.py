@@ -7,6 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
 
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.axes import Axis, OnAxis
@@ -14,6 +16,11 @@ from veduta.plan.walls.axes import Axis, OnAxis
 MEET_RAD = np.radians(12)
 REACH = 0.45
 """A wall ends at another one if so many of its thicknesses are missing, or less."""
+
+HOUSE_SHARE = 0.5
+"""The walls of a house hang together: the largest group is so much of all their length."""
+
+ISLAND_SHARE = 0.08
 
 STRAIGHT_RAD = np.radians(15)
 
@@ -61,8 +68,29 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
             key = (min(ends), max(ends))
             if ends[0] != ends[1] and key not in edges:
                 edges[key] = Edge(ends[0], ends[1], index, low, high)
-    kept = tuple(edges.values())
+    kept = _without_islands(tuple(edges.values()))
     return Graph(nodes, kept, tuple(_type(node, nodes, kept) for node in range(len(nodes))))
+
+
+def _without_islands(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
+    """The edges without small groups that touch no other wall: solid furniture, arrows, bars.
+
+    Where no group is a house, as on plans of load-bearing walls alone, all are kept.
+    """
+    if not edges:
+        return edges
+    ends = np.array([(edge.first, edge.second) for edge in edges])
+    count = int(ends.max()) + 1
+    graph = coo_matrix((np.ones(len(ends), np.int8), (ends[:, 0], ends[:, 1])), (count, count))
+    label = connected_components(graph, directed=False)[1][ends[:, 0]]
+    length = np.bincount(label, weights=[edge.high - edge.low for edge in edges])
+    if length.max() < HOUSE_SHARE * length.sum():
+        return edges
+    return tuple(
+        edge
+        for edge, group in zip(edges, label, strict=True)
+        if length[group] >= ISLAND_SHARE * length.sum()
+    )
 
 
 def openings_on(edge: Edge, axis: Axis) -> list[OnAxis]:
@@ -138,15 +166,20 @@ def _clustered(
         for (low, one), (high, other) in zip(ordered, ordered[1:], strict=False):
             if high - low < max(2.0, 0.5 * axis.line.thickness_px):
                 parent[root(one)] = root(other)
+    weight = np.zeros(len(points))
+    for axis, here in zip(axes, stops, strict=True):
+        for _, index in here:
+            weight[index] += axis.line.length_px
     roots = sorted({root(index) for index in range(len(points))})
     number = {one: place for place, one in enumerate(roots)}
     alias = [number[root(index)] for index in range(len(points))]
-    nodes = np.zeros((len(roots), 2))
-    count = np.zeros(len(roots))
+    # The meeting of the longest walls stays in place: a mean would bend them.
+    nodes, heaviest = np.zeros((len(roots), 2)), np.full(len(roots), -1.0)
     for index, point in enumerate(points):
-        nodes[alias[index]] += point
-        count[alias[index]] += 1
-    return nodes / np.maximum(count, 1)[:, None], alias
+        if weight[index] > heaviest[alias[index]]:
+            heaviest[alias[index]] = weight[index]
+            nodes[alias[index]] = point
+    return nodes, alias
 
 
 def _type(node: int, nodes: NDArray[np.float64], edges: Sequence[Edge]) -> JunctionType:

@@ -114,8 +114,10 @@ class Canvas:
             cv2.line(lines, (low, height), (low + height, 0), colour, pen, cv2.LINE_AA)
             if crossed:
                 cv2.line(lines, (low - height, 0), (low, height), colour, pen, cv2.LINE_AA)
-        share = mask[..., None].astype(np.float32) / 255.0
-        self.pixels[:] = np.round(share * lines + (1 - share) * self.pixels).astype(np.uint8)
+        inside = mask > 0
+        share = mask[inside][:, None].astype(np.float32) / 255.0
+        mixed = share * lines[inside] + (1 - share) * self.pixels[inside]
+        self.pixels[inside] = np.round(mixed).astype(np.uint8)
 
     def _rings(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
         parts: Sequence[BaseGeometry] = (

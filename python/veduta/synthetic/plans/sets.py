@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 
@@ -10,6 +12,7 @@ from veduta.synthetic.plans.annotations import RATIO
 from veduta.synthetic.plans.canvas import Image
 from veduta.synthetic.plans.degrade import DEGRADATIONS, Degradation
 from veduta.synthetic.plans.drawing import draw_sheet
+from veduta.synthetic.plans.house import Language
 from veduta.synthetic.plans.labels import INCH_M
 from veduta.synthetic.plans.layout import make_house
 from veduta.synthetic.plans.styles import STYLES, Style
@@ -20,6 +23,8 @@ FIRST_TEST_SEED = 10_000
 """Seeds from here on may have any style and degradation; those below, only known ones."""
 
 CLEAN_SHARE = 0.25
+OTHER_LANGUAGE_SHARE = 0.5
+LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 
 def choice(seed: int) -> tuple[Style, Degradation]:
@@ -43,6 +48,10 @@ def sheets_of(
     """
     chosen, damage = choice(seed)
     style, fault = style or chosen, fault or damage
+    rng = stream(seed, "language")
+    if style.many_languages and rng.random() < OTHER_LANGUAGE_SHARE:
+        language = LANGUAGES[int(rng.integers(len(LANGUAGES)))]
+        style = replace(style, language=language)
     unseen = tuple(item.name for item in (style, fault) if item.split == "unseen")
     house = make_house(seed, style.language)
     for storey in house.storeys:
