@@ -63,6 +63,8 @@ def test_files_are_valid_and_name_each_other(tmp_path: Path, crs: str | None) ->
 
     found = texture_step(structure_of_views(wall), read_photo, city, options, out, no_progress)
     assert found.measures["faces_textured"] == 1
+    names = {"model.city.json", "parts", "textures", "tileset.json"}
+    assert {one.name for one in out.iterdir()} == names
     assert contents(out) == ["tileset.json", "parts/house.glb"]
     named = json.loads((out / "model.city.json").read_text())["appearance"]["textures"]
     assert all((out / one["image"]).is_file() for one in named)

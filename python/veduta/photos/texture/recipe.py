@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import closing
 from dataclasses import dataclass
 from itertools import groupby
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -74,12 +75,17 @@ def texture_model(
     city: CityModel,
     options: TextureOptions,
     progress: StepProgress = no_progress,
+    folder: Path | None = None,
 ) -> TexturedModel:
-    """Texture the faces that the views show; NotFoundError where they show none of them."""
+    """Texture the faces that the views show; NotFoundError where they show none of them.
+
+    folder: takes files while `buildings` is not at its end; the system's if None.
+    """
     blockers = Blockers(city)
     store = PictureStore(views, blockers, COARSE_PX)
     plan = plan_of(views, city, blockers, store, progress)
-    lots = _seen(views, plan, store, progress)
+    lots = _Lots(Spool(folder), [])
+    _look(lots, views, plan, store, progress)
     rows = [row for shown in lots.shown for row in shown]
     if not rows:
         lots.spool.close()
@@ -108,10 +114,11 @@ def texture_model(
     return TexturedModel(city, buildings(), gains)
 
 
-def _seen(views: Sequence[View], plan: Plan, store: PictureStore, progress: StepProgress) -> _Lots:
-    """What the views show of all faces."""
+def _look(
+    found: _Lots, views: Sequence[View], plan: Plan, store: PictureStore, progress: StepProgress
+) -> None:
+    """Take in what the views show of all faces."""
     lots = lots_of(plan)
-    found = _Lots(Spool(), [])
     for number, rows in enumerate(lots):
 
         def told(share: float, number: int = number) -> None:
@@ -121,7 +128,6 @@ def _seen(views: Sequence[View], plan: Plan, store: PictureStore, progress: Step
         kept = [(row, one) for row, one in zip(rows, sights, strict=True) if one is not None]
         found.shown.append([row for row, _ in kept])
         found.spool.put(number, [one for _, one in kept])
-    return found
 
 
 def _gains(photos: int, lots: _Lots, gains: NDArray[np.float64] | None) -> NDArray[np.float64]:

@@ -15,10 +15,10 @@ _COLUMNS = ("colour", "seen", "density", "margin")
 
 
 class Spool:
-    """Lots of `Sights`, in files that go when the spool is closed."""
+    """Lots of `Sights`, in files below a folder (or the system's) that go when it is closed."""
 
-    def __init__(self) -> None:
-        self._folder = TemporaryDirectory(prefix="veduta-texture-")
+    def __init__(self, folder: Path | None = None) -> None:
+        self._folder = TemporaryDirectory(prefix=".texture-", dir=folder)
         self._outlines: dict[int, list[Sights]] = {}
         self._last: tuple[int, list[Sights]] | None = None
 

@@ -57,7 +57,7 @@ def texture_step(
     structure: in metres about the model's origin. read_photo: gives its photos by image id.
     """
     views = views_of(structure, read_photo)
-    model = texture_model(views, city, options, progress)
+    model = texture_model(views, city, options, progress, folder)
     told = TextureTold(structure.names, model.gains)
     files = write_texture_files(model, folder, progress, told.take)
     measures = told.measures(files.plain)
