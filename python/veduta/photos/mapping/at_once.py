@@ -30,8 +30,8 @@ NAMED = 3
 def require_focal_lengths(photos: Sequence[PhotoRecord]) -> None:
     """InputError where a photo's focal length is not known.
 
-    With an assumed one the directions between photos are off from the start, and nothing later
-    finds out: all photos are placed with small errors in the picture, and may lie falsely.
+    With an assumed one the directions between photos may be off from the start, and a small error
+    in the picture does not tell a false map from a true one.
     """
     unknown = [photo.name for photo in photos if photo.focal_px is None]
     if unknown:
