@@ -159,4 +159,4 @@ def test_metres_keep_what_was_drawn(drawn: Drawn) -> None:
 def _run(drawn: Drawn, name: str) -> NDArray[np.float64]:
     wall = next(one for one in drawn.walls if one.id == name)
     start, end = drawn.wall_ends(wall)
-    return end - start
+    return np.asarray(end - start)
