@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.formats.colmap_text import read_images
+
 Centres = Mapping[str, NDArray[np.float64]]
 
 
@@ -25,20 +27,10 @@ def fountain_centres(folder: Path) -> dict[str, NDArray[np.float64]]:
 
 def colmap_centres(images_txt: Path) -> dict[str, NDArray[np.float64]]:
     """Of a model in COLMAP's text format, in its own unit, by the photos' names."""
-    found = {}
-    lines = [line for line in images_txt.read_text().splitlines() if not line.startswith("#")]
-    for line in lines[::2]:
-        words = line.split()
-        w, x, y, z, *shift = (float(word) for word in words[1:8])
-        rotation = np.array(
-            [
-                [1 - 2 * (y * y + z * z), 2 * (x * y - w * z), 2 * (x * z + w * y)],
-                [2 * (x * y + w * z), 1 - 2 * (x * x + z * z), 2 * (y * z - w * x)],
-                [2 * (x * z - w * y), 2 * (y * z + w * x), 1 - 2 * (x * x + y * y)],
-            ]
-        )
-        found[words[9]] = -rotation.T @ np.array(shift)
-    return found
+    images = read_images(images_txt, images_txt.read_bytes())
+    return {
+        image.name: -image.cam_from_world[:, :3].T @ image.cam_from_world[:, 3] for image in images
+    }
 
 
 def centre_errors(found: Centres, true: Centres) -> NDArray[np.float64]:

@@ -12,12 +12,13 @@ import argparse
 import json
 from pathlib import Path
 
-import cv2
+from PIL import Image
 
+from veduta.synthetic.plans.canvas import Image as Pixels
 from veduta.synthetic.plans.degrade import DEGRADATIONS
 from veduta.synthetic.plans.sets import sheets_of
 from veduta.synthetic.plans.styles import BY_NAME
-from veduta.synthetic.plans.truth_file import to_json
+from veduta.synthetic.plans.truth_file import SheetTruth, to_json
 
 FAULTS = {fault.name: fault for fault in DEGRADATIONS}
 
@@ -28,6 +29,15 @@ def seeds(text: str) -> range:
     return range(int(low), int(high or low) + 1)
 
 
+def save_sheet(path: Path, picture: Pixels, truth: SheetTruth) -> None:
+    """Write the picture, with its resolution where the sheet bears a ratio."""
+    image = Image.fromarray(picture)
+    if truth.dpi:
+        image.save(path, dpi=(truth.dpi, truth.dpi))
+    else:
+        image.save(path)
+
+
 def write_set(out: Path, chosen: range, style: str | None, fault: str | None) -> int:
     """Write the sheets of these seeds; how many there are."""
     out.mkdir(parents=True, exist_ok=True)
@@ -36,7 +46,7 @@ def write_set(out: Path, chosen: range, style: str | None, fault: str | None) ->
         for picture, truth in sheets_of(
             seed, BY_NAME[style] if style else None, FAULTS[fault] if fault else None
         ):
-            cv2.imwrite(str(out / truth.file), picture[..., ::-1])
+            save_sheet(out / truth.file, picture, truth)
             text = json.dumps(to_json(truth), indent=1)
             (out / truth.file).with_suffix(".json").write_text(text + "\n")
             count += 1

@@ -16,12 +16,12 @@ from collections.abc import Sequence
 
 import numpy as np
 from record import Row, keep_or_print
-from texture_baselines import best_view, median_colour, ours, textured_parts
+from texture_baselines import best_view, median_colour, ours
 from texture_measures import compared_px, exposed, psnr, render_parts, ssim
 from texture_truth import Exposures, Shot, Yard, make_yard, take_shots, views_of_shots
 
 from veduta.photos.options import TextureOptions
-from veduta.photos.texture.recipe import TexturedModel
+from veduta.place.part import Part
 
 PHOTOS = 15
 HELD_EVERY, HELD_FIRST = 5, 2
@@ -59,16 +59,16 @@ def _compared(
     found = {}
     for name, method in METHODS.items():
         begun = time.perf_counter()
-        model = method(views, yard.city, TextureOptions())
+        parts = method(views, yard.city, TextureOptions())
         seconds = time.perf_counter() - begun
-        found[name] = (*_likeness(model, yard, held), seconds)
+        found[name] = (*_likeness(parts, yard, held), seconds)
     return found
 
 
-def _likeness(model: TexturedModel, yard: Yard, held: Sequence[Shot]) -> tuple[float, float]:
+def _likeness(parts: Sequence[Part], yard: Yard, held: Sequence[Shot]) -> tuple[float, float]:
     peaks, structures = [], []
     for shot in held:
-        rendered = render_parts(textured_parts(model), shot.camera)
+        rendered = render_parts(parts, shot.camera)
         where = compared_px(rendered, yard.scene, shot.camera)
         if where.mean() < LEAST_SHARE:
             continue

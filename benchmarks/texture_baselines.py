@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -11,26 +11,21 @@ from veduta.photos.options import TextureOptions
 from veduta.photos.texture.cells import Sights, sights_of
 from veduta.photos.texture.choice import Choice
 from veduta.photos.texture.compose import FaceTexture, compose
-from veduta.photos.texture.faces import faces_of
-from veduta.photos.texture.part import textured_building
-from veduta.photos.texture.recipe import TexturedModel, texture_model
-from veduta.photos.texture.sizes import texel_sizes
+from veduta.photos.texture.part import TexturedBuilding, textured_building
+from veduta.photos.texture.plan import plan_of
+from veduta.photos.texture.recipe import texture_model
+from veduta.photos.texture.sizes import fine_m, texel_sizes
 from veduta.photos.texture.store import PictureStore
 from veduta.photos.texture.views import Blockers, View
 from veduta.place.part import Part
 
 
-def textured_parts(model: TexturedModel) -> list[Part]:
-    """The parts of a textured model."""
-    return [building.part for building in model.buildings]
-
-
-def ours(views: Sequence[View], city: CityModel, options: TextureOptions) -> TexturedModel:
+def ours(views: Sequence[View], city: CityModel, options: TextureOptions) -> list[Part]:
     """The verb's own."""
-    return texture_model(views, city, options)
+    return _parts(city, texture_model(views, city, options).buildings)
 
 
-def best_view(views: Sequence[View], city: CityModel, options: TextureOptions) -> TexturedModel:
+def best_view(views: Sequence[View], city: CityModel, options: TextureOptions) -> list[Part]:
     """Each cell from the photo that shows it finest, in the exposure of that photo."""
     gains = np.ones((len(views), 3))
     store = PictureStore(views, Blockers(city))
@@ -41,14 +36,16 @@ def best_view(views: Sequence[View], city: CityModel, options: TextureOptions) -
         value = np.where(usable, sights.density * share, -1.0)
         label = value.argmax(axis=0)
         label[~usable.any(axis=0)] = -1
-        choice = Choice(label, np.argsort(-value, axis=0, kind="stable"), usable)
+        choice = Choice(
+            label, np.argsort(-value, axis=0, kind="stable"), usable, np.ones_like(sights.seen)
+        )
         none = np.zeros((*label.shape, 3), dtype=np.float32)
-        return compose(sights, choice, none, gains, views, store, texel_m)
+        return compose(sights, choice, none, gains, store, texel_m)
 
     return _model(views, city, options, texture)
 
 
-def median_colour(views: Sequence[View], city: CityModel, options: TextureOptions) -> TexturedModel:
+def median_colour(views: Sequence[View], city: CityModel, options: TextureOptions) -> list[Part]:
     """Each face in the median colour of all that photos show of it."""
 
     def texture(sights: Sights, texel_m: float) -> FaceTexture:
@@ -65,21 +62,31 @@ def _model(
     city: CityModel,
     options: TextureOptions,
     texture: Callable[[Sights, float], FaceTexture],
-) -> TexturedModel:
-    faces = faces_of(city)
-    sights = sights_of(views, city, faces)
-    sizes = iter(texel_sizes([one for one in sights if one is not None], options))
-    textures = tuple(None if one is None else texture(one, next(sizes)) for one in sights)
-    buildings = tuple(
+) -> list[Part]:
+    blockers = Blockers(city)
+    store = PictureStore(views, blockers)
+    plan = plan_of(views, city, blockers, store)
+    sights = sights_of(views, list(zip(plan.faces, plan.views, strict=True)), store)
+    shown = [one for one in sights if one is not None]
+    sizes = iter(texel_sizes([one.face for one in shown], [fine_m(one) for one in shown], options))
+    textures = [None if one is None else texture(one, next(sizes)) for one in sights]
+    made = [
         textured_building(
+            row,
             building,
             [
                 (face, one)
-                for face, one in zip(faces, textures, strict=True)
+                for face, one in zip(plan.faces, textures, strict=True)
                 if face.building == row
             ],
             options,
         )
         for row, building in enumerate(city.buildings)
-    )
-    return TexturedModel(city, buildings, tuple(faces), textures, np.ones((len(views), 3)))
+    ]
+    return _parts(city, made)
+
+
+def _parts(city: CityModel, made: Iterable[TexturedBuilding]) -> list[Part]:
+    """All buildings, those that photos do not show as they are."""
+    textured = {building.row: building.part for building in made}
+    return [textured.get(row, building.part) for row, building in enumerate(city.buildings)]

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from veduta.imaging.srgb import srgb_of_linear
 from veduta.photos.city.model import CityBuilding, CityModel
-from veduta.photos.pictures import Pinhole
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.views import View
 from veduta.place.builder import PartBuilder, UvMap
 from veduta.place.material import Material, Texture

@@ -21,6 +21,7 @@ from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.cli.photos_call import PhotosCall
+from veduta.cli.plan_call import PlanCall
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
@@ -28,6 +29,7 @@ from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, desc
 from veduta.grammar.rules import style_names
 from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
 from veduta.photos.report import FILES as PHOTOS_FILES
+from veduta.plan.report import FILES as PLAN_FILES
 from veduta.run.options import declared_options, flag
 
 DOCS = Path(__file__).parent
@@ -154,6 +156,10 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "photos.md": {
         "options": lambda: options_table(PhotosCall),
         "files": lambda: files_table(PHOTOS_FILES),
+    },
+    "plan.md": {
+        "options": lambda: options_table(PlanCall),
+        "files": lambda: files_table(PLAN_FILES),
     },
     "textures.md": {"textures": textures_table},
     "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},

@@ -113,6 +113,7 @@ def test_a_mask_of_another_size(tmp_path: Path, scene: Path) -> None:
     assert done.returncode == 2
     assert "view2.png: is 99 x 77 px, and its photo view2.png 480 x 360 px" in done.stderr
     assert "Save the mask in the size" in done.stderr
+    assert not (tmp_path / "out").exists()
 
 
 def test_all_the_same_photo(tmp_path: Path) -> None:
@@ -122,7 +123,7 @@ def test_all_the_same_photo(tmp_path: Path) -> None:
         Image.fromarray(take_photo(ARC[0])).save(path, quality=quality)
     done = veduta("photos", tmp_path / "photos", "-o", tmp_path / "out")
     assert done.returncode == 2
-    assert "holds 1 photos that can be used, of 3" in done.stderr
+    assert "holds 1 photo that can be used, of 3" in done.stderr
     assert "shows the same picture as 60.jpg" in done.stderr
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -63,3 +64,9 @@ def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path) -> None:
         (out / one["image"].replace(".jpg", "_mask.png")).is_file()
         for one in city["appearance"]["textures"]
     )
+    shutil.copytree(out / "sparse", tmp_path / "sparse")
+    told = ("--from-colmap", tmp_path / "sparse", "--no-texture", *model)
+    done = veduta("photos", tmp_path / "corner", "-o", out, *told, "--force")
+    assert (done.returncode, done.stderr) == (0, "")
+    left = {path.name for path in out.iterdir()}
+    assert not left & {"textures", "parts", "model.city.json", "tileset.json", "frames"}

@@ -18,6 +18,8 @@ from veduta.formats.place_json import read_place
 
 QUICK = ("--lens", "pinhole", "--cameras", "shared", "--principal-point", "middle",
     "--max-features", "1500")  # fmt: skip
+CAMERAS = (*QUICK, "--no-walls")
+"""Where it is about cameras alone."""
 FILES = {
     ".veduta", "sparse", "pictures", "walls", "points.ply", "points.laz", "walls.json",
     "georef.json", "place.json", "report.json", "report.html",
@@ -121,7 +123,7 @@ def test_photos_that_do_not_belong(tmp_path: Path, scene: Path) -> None:
     (folder / "cut.png").write_bytes((scene / "view2.png").read_bytes()[:5000])
     noise = np.random.default_rng(0).integers(0, 256, (300, 400, 3), dtype=np.uint8)
     Image.fromarray(noise).save(folder / "noise.png")
-    done = veduta("photos", folder, "-o", tmp_path / "out", *QUICK)
+    done = veduta("photos", folder, "-o", tmp_path / "out", *CAMERAS)
     assert done.returncode == 0, done.stderr
     assert "4 of 7 photos calibrated" in done.stdout
     assert "view1.png: left out: has the content of copy.png" in done.stdout
@@ -167,6 +169,15 @@ def test_too_few(tmp_path: Path, scene: Path, files: dict[str, int], words: str)
     assert words in done.stderr
     assert "Traceback" not in done.stderr
     assert not (tmp_path / "out").exists()
+
+
+def test_all_at_once_without_focal_lengths(tmp_path: Path, scene: Path) -> None:
+    done = veduta("photos", scene, "-o", tmp_path / "out", "--mapping", "global")
+    assert done.returncode == 2
+    assert "--mapping global: the focal length of 6 of 6 photos is not known" in done.stderr
+    assert "--mapping incremental" in done.stderr
+    assert "Traceback" not in done.stderr
+    assert not (tmp_path / "out" / "place.json").exists()
 
 
 @pytest.mark.slow

@@ -10,13 +10,11 @@ import numpy as np
 import pycolmap
 import pytest
 from painted_wall import PaintedWall, painted_wall
-from PIL import Image
 from test_validators import validate_city, validate_gltf
 
 from veduta.formats.tiles import contents
 from veduta.photos.city.model import CityModel
 from veduta.photos.options import TextureOptions
-from veduta.photos.pictures import picture_name
 from veduta.photos.structure import Structure
 from veduta.photos.texture.step import can_texture, texture_step
 from veduta.photos.world.georeference import Georeference
@@ -55,17 +53,15 @@ def structure_of_views(wall: PaintedWall) -> Structure:
 @pytest.mark.parametrize("crs", [None, "EPSG:25832"])
 def test_files_are_valid_and_name_each_other(tmp_path: Path, crs: str | None) -> None:
     wall = painted_wall((1.0, 0.8, 1.2))
-    pictures, out = tmp_path / "pictures", tmp_path / "out"
-    pictures.mkdir()
+    out = tmp_path / "out"
     out.mkdir()
-    for number, view in enumerate(wall.views):
-        Image.fromarray(view.pixels()).save(pictures / picture_name(number + 1), quality=95)
     city = replace(wall.city, crs=crs, origin_m=ORIGIN)
-    pinholes = [view.camera for view in wall.views]
     options = TextureOptions(texel_m=0.03)
-    found = texture_step(
-        structure_of_views(wall), pinholes, pictures, city, options, out, no_progress
-    )
+
+    def read_photo(image_id: int) -> np.ndarray:
+        return wall.views[image_id - 1].pixels()
+
+    found = texture_step(structure_of_views(wall), read_photo, city, options, out, no_progress)
     assert found.measures["faces_textured"] == 1
     assert contents(out) == ["tileset.json", "parts/house.glb"]
     named = json.loads((out / "model.city.json").read_text())["appearance"]["textures"]

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.photos.city.model import CityBuilding, CityModel
-from veduta.photos.pictures import Pinhole
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.faces import Face, faces_of
 from veduta.photos.texture.views import View, plane_view
 from veduta.place.builder import PartBuilder

@@ -6,17 +6,13 @@ wrong with its value, and what to write instead.
 
 from __future__ import annotations
 
-import math
-import re
-import types
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from typing import Any
 
-from pydantic import BaseModel
-
+from veduta.cli.words import given_to, number_of, options_of
 from veduta.run.errors import InputError
-from veduta.run.options import declared_options, flag
+from veduta.run.options import DeclaredOption
 
 Bound = float | int | None
 _WORDS = {2: "two", 3: "three", 4: "four", 6: "six", 8: "eight"}
@@ -67,31 +63,22 @@ class NumberOption:
 def require_numbers(call: type[Any], arguments: Sequence[str]) -> None:
     """InputError for the first option of `call` whose value is no number, or none of its range."""
     options = {option.flag: option for option in number_options(call)}
-    for place, word in enumerate(arguments):
-        name, equals, joined = word.partition("=")
-        option = options.get(name.replace("_", "-"))
-        if option is not None:
-            following = values_after(arguments[place + 1 :])
-            _require(option, [joined] if equals else following[: option.count])
+    for name, words in given_to(options, arguments):
+        _require(options[name], words[: options[name].count])
 
 
 def number_options(call: type[Any]) -> list[NumberOption]:
     """The options with numbers of a verb's arguments, and of the option models in them."""
-    if issubclass(call, BaseModel):
-        return _of_model(call)
-    found = []
-    for name, annotation in get_type_hints(call, include_extras=True).items():
-        kind = plain(annotation)
-        if isinstance(kind, type) and issubclass(kind, BaseModel):
-            found += _of_model(kind)
-        elif kind in (int, float):
-            found.append(NumberOption(flag(name), whole=kind is int))
-    return found
+    declared, others = options_of(call)
+    kinds = {name: kind for name, kind in others.items() if kind in (int, float)}
+    return _of_models(declared) + [
+        NumberOption(name, whole=kind is int) for name, kind in kinds.items()
+    ]
 
 
-def _of_model(model: type[BaseModel]) -> list[NumberOption]:
+def _of_models(declared: Sequence[DeclaredOption]) -> list[NumberOption]:
     found = []
-    for option in declared_options(model):
+    for option in declared:
         taken = option.value
         items = taken["prefixItems"][0] if taken.get("type") == "array" else taken
         if items.get("type") not in ("integer", "number"):
@@ -111,30 +98,11 @@ def _of_model(model: type[BaseModel]) -> list[NumberOption]:
     return found
 
 
-def plain(annotation: Any) -> Any:
-    """The type without annotations, and without the None of an option that need not be given."""
-    kind = get_args(annotation)[0] if get_origin(annotation) is Annotated else annotation
-    if get_origin(kind) not in (Union, types.UnionType):
-        return kind
-    kinds = [plain(part) for part in get_args(kind) if part is not type(None)]
-    return kinds[0] if len(kinds) == 1 else kind
-
-
-def values_after(words: Sequence[str]) -> list[str]:
-    """The words up to the next option; a negative number is a value."""
-    found = []
-    for word in words:
-        if re.match(r"-[^\d.]", word) and _number(word, whole=False) is None:
-            break
-        found.append(word)
-    return found
-
-
 def _require(option: NumberOption, words: Sequence[str]) -> None:
     given = " ".join(words)
     if not words:
         raise InputError(option.flag, "its value is missing", f"Give {option.wanted}.")
-    values = [_number(word, whole=option.whole) for word in words]
+    values = [number_of(word, whole=option.whole) for word in words]
     numbers = [value for value in values if value is not None]
     if len(numbers) < option.count:
         singular = "whole number" if option.whole else "number"
@@ -147,21 +115,10 @@ def _require(option: NumberOption, words: Sequence[str]) -> None:
 def _remedy(option: NumberOption, given: str) -> str:
     """What to write; a decimal comma is the commonest slip."""
     pointed = given.replace(",", ".")
-    value = _number(pointed, whole=option.whole) if option.count == 1 else None
+    value = number_of(pointed, whole=option.whole) if option.count == 1 else None
     if value is not None and option.holds(value):
         return f"Write {pointed}, with a point."
     return f"Give {option.wanted}."
-
-
-def _number(word: str, *, whole: bool) -> float | None:
-    """The number that the parser would read, None where it is none or not finite."""
-    if "_" in word:  # Python reads 1_9 as 19; who types it means something else
-        return None
-    try:
-        value = int(word) if whole else float(word)
-        return value if math.isfinite(value) else None
-    except (ValueError, OverflowError):
-        return None
 
 
 def _short(bound: float) -> str:

@@ -6,6 +6,8 @@ import shlex
 import sys
 from typing import TYPE_CHECKING
 
+from veduta.run.errors import InputError
+
 SUMMARY = "Turn photos of a place into cameras where they were taken, and points in space"
 MOST_NAMED = 10
 
@@ -21,6 +23,7 @@ def run(arguments: list[str]) -> int:
     from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
 
+    _require_one_folder(arguments)
     call = parse(PhotosCall, "veduta photos", arguments)
     require_jobs(call.jobs)
     progress = Progress(quiet=call.quiet)
@@ -40,6 +43,14 @@ def run(arguments: list[str]) -> int:
     return result.exit_code
 
 
+def _require_one_folder(arguments: list[str]) -> None:
+    """InputError where photos are named one by one, or in several folders."""
+    first = [*arguments[:2], "-", "-"]
+    if not first[0].startswith("-") and not first[1].startswith("-"):
+        fault = "is given beside another: the verb takes one folder, and all photos in it"
+        raise InputError(first[1], fault, "Put the photos into one folder, and name that.")
+
+
 def _tell(result: PhotosResult) -> None:
     from veduta.cli.kept import tell_kept
     from veduta.photos.report import summary_line
@@ -51,6 +62,8 @@ def _tell(result: PhotosResult) -> None:
         print(f"and {len(result.left) - MOST_NAMED} more left out: {out / 'report.html'}")
     tell_kept(out, result.edited, result.foreign, up_to_date=result.up_to_date)
     if result.failure is None:
+        for mark in result.measures.get("gcp_unknown", ())[:MOST_NAMED]:
+            print(f"control points, {mark}")
         print(summary_line(result.measures))
         for refused in result.measures.get("georef_refused", ()):
             print(f"not laid into the world by {refused}")

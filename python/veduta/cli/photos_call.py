@@ -12,6 +12,7 @@ from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
 from veduta.photos.intake.given import Given
 from veduta.photos.options import (
     CameraOptions,
+    MapOptions,
     MatchOptions,
     ModelOptions,
     PhotosOptions,
@@ -74,6 +75,7 @@ class PhotosCall:
     video: Film = None
     from_colmap: Model = None
     match: MatchOptions = field(default_factory=MatchOptions)
+    map: MapOptions = field(default_factory=MapOptions)
     camera: CameraOptions = field(default_factory=CameraOptions)
     frames: VideoOptions = field(default_factory=VideoOptions)
     walls: WallOptions = field(default_factory=WallOptions)
@@ -88,6 +90,7 @@ class PhotosCall:
         """What changes the result."""
         return PhotosOptions(
             match=self.match,
+            map=self.map,
             camera=self.camera,
             video=self.frames,
             walls=self.walls,

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import io
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +10,7 @@ from PIL import Image
 from veduta.facade.compare import labels_in_photo
 from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import COLOURS
+from veduta.imaging.encode import png_bytes
 from veduta.place.semantics import LABELS
 from veduta.synthetic.truth import FacadeTruth
 
@@ -23,7 +22,7 @@ def truth_png(truth: FacadeTruth) -> bytes:
     """The true labels (h, w) as an 8-bit palette PNG; the index is the place in `LABELS`."""
     image = Image.fromarray(truth.labels)
     image.putpalette([part for name in LABELS for part in COLOURS[name]])
-    return _png(image)
+    return png_bytes(image, optimize=True)
 
 
 def comparison_png(photo: NDArray[np.uint8], truth: FacadeTruth, document: FacadeDocument) -> bytes:
@@ -38,7 +37,7 @@ def comparison_png(photo: NDArray[np.uint8], truth: FacadeTruth, document: Facad
                 picture, [outline], True, (255, 255, 255), 1, cv2.LINE_AA, shift=_FRACTION_BITS
             )
     gap = np.full((photo.shape[0], _GAP_PX, 3), 255, np.uint8)
-    return _png(Image.fromarray(np.hstack([photo, gap, true, gap, found])))
+    return png_bytes(np.hstack([photo, gap, true, gap, found]), optimize=True)
 
 
 def _mixed(
@@ -49,9 +48,3 @@ def _mixed(
     palette[: len(colours)] = colours
     mixed = 0.4 * photo.astype(np.float32) + 0.6 * palette[labels]
     return np.ascontiguousarray(np.rint(mixed).astype(np.uint8))
-
-
-def _png(image: Image.Image) -> bytes:
-    file = io.BytesIO()
-    image.save(file, format="PNG", optimize=True)
-    return file.getvalue()

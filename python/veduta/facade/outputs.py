@@ -8,13 +8,12 @@ which share a border never both own a pixel. What no shape owns is `other`.
 
 from __future__ import annotations
 
-import io
-
 import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.facade.document import FacadeClass, FacadeDocument
+from veduta.imaging.encode import png_bytes
 
 COLOURS: dict[FacadeClass, tuple[int, int, int]] = {
     "window": (74, 144, 217),
@@ -48,9 +47,7 @@ def label_png(document: FacadeDocument, labels: NDArray[np.uint8]) -> bytes:
     """(h, w) labels as an 8-bit palette PNG whose index is the place in `classes`."""
     image = Image.fromarray(labels)
     image.putpalette([part for name in document.classes for part in COLOURS[name]])
-    file = io.BytesIO()
-    image.save(file, format="PNG", optimize=True)
-    return file.getvalue()
+    return png_bytes(image, optimize=True)
 
 
 def coloured(document: FacadeDocument, labels: NDArray[np.uint8]) -> NDArray[np.uint8]:

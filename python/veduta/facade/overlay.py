@@ -5,8 +5,6 @@ Each element has its outline, dashed where it is doubtful, and its number in `fa
 
 from __future__ import annotations
 
-import io
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.outputs import COLOURS, coloured, rasterise
 from veduta.facade.overlay_numbers import FONT_PX, draw_tags
+from veduta.imaging.encode import png_bytes
 
 MIN_HEIGHT_PX = 1400
 """Small photos are enlarged to this height, so that lines and numbers can be read."""
@@ -53,10 +52,8 @@ def overlay(document: FacadeDocument, pixels: NDArray[np.uint8]) -> NDArray[np.u
 
 def png(pixels: NDArray[np.uint8]) -> bytes:
     """(h, w, 3) sRGB as a PNG file."""
-    file = io.BytesIO()
     # Level 6 takes three times as long, for a file that is a twentieth smaller.
-    Image.fromarray(pixels).save(file, format="PNG", compress_level=2)
-    return file.getvalue()
+    return png_bytes(pixels, compress_level=2)
 
 
 def floor_lines(document: FacadeDocument) -> list[tuple[float, float]]:

@@ -24,6 +24,7 @@ from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.formats.cityjson import write_cityjson
 from veduta.formats.gltf import write_glb
+from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import Photo, read_image
 from veduta.place.part import Part
 from veduta.run.progress import StepProgress, no_progress
@@ -133,9 +134,7 @@ def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
     The model is textured from what is stored, so that a rebuild of an untouched document gives
     the same bytes.
     """
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="JPEG", quality=JPEG_QUALITY, subsampling=0)
-    data = file.getvalue()
+    data = jpeg_bytes(pixels, JPEG_QUALITY, subsampling=0)
     with Image.open(io.BytesIO(data)) as image:
         return data, np.asarray(image.convert("RGB"), dtype=np.uint8)
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections import Counter, defaultdict
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -20,6 +19,7 @@ from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.rectify import are_corners_doubtful
+from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.options import Options
@@ -226,14 +226,12 @@ def _pictures(building: Building) -> list[Picture]:
 def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Picture:
     """A small copy for the page; flat colours stay sharp as PNG."""
     image = Image.fromarray(pixels)
-    file = io.BytesIO()
     if link == "labels.png":
         image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX), Image.Resampling.NEAREST)
-        image.quantize(16).save(file, format="PNG", optimize=True)
-        return Picture(title, note, file.getvalue(), "image/png", link)
+        data = png_bytes(image.quantize(16), optimize=True)
+        return Picture(title, note, data, "image/png", link)
     image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
-    image.save(file, format="JPEG", quality=85)
-    return Picture(title, note, file.getvalue(), "image/jpeg", link)
+    return Picture(title, note, jpeg_bytes(image, 85), "image/jpeg", link)
 
 
 def _thumbnails(out: Path, names: Sequence[str]) -> list[Picture]:
@@ -245,10 +243,8 @@ def _thumbnails(out: Path, names: Sequence[str]) -> list[Picture]:
         except InputError:
             continue  # somebody has put something else in its place
         image.thumbnail((SMALL_PX, SMALL_PX))
-        file = io.BytesIO()
-        image.save(file, format="JPEG", quality=80)
         link = f"{quote(name)}/report.html"
-        pictures.append(Picture(name, "", file.getvalue(), "image/jpeg", link))
+        pictures.append(Picture(name, "", jpeg_bytes(image, 80), "image/jpeg", link))
     return pictures
 
 

@@ -5,16 +5,13 @@ A texture has a mask beside it, `NAME.invented.png`: what is white there is no p
 
 from __future__ import annotations
 
-import io
 import json
 from pathlib import Path
-
-import numpy as np
-from PIL import Image
 
 from veduta.facade.model import Model
 from veduta.facade.rule_head import LOT, RULES
 from veduta.grammar.textures import mask_name
+from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.material import Texture
 
 JPEG_QUALITY = 90
@@ -44,13 +41,8 @@ def _lot(model: Model) -> str:
 
 
 def _jpeg(texture: Texture) -> bytes:
-    memory = io.BytesIO()
-    Image.fromarray(texture.pixels).save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    return memory.getvalue()
+    return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
 
 
 def _mask(texture: Texture) -> bytes:
-    memory = io.BytesIO()
-    white = texture.invented.astype(np.uint8) * 255
-    Image.fromarray(white).convert("1").save(memory, "PNG")
-    return memory.getvalue()
+    return mask_bytes(texture.invented)

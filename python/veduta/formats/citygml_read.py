@@ -113,7 +113,8 @@ class _Reader:
         self._words: list[str] = []
         self._length = 0
         self._corners = 0
-        self._is_spatial = True
+        # Of each open element: srsDimension holds for what is in it (ISO 19136, 10.1.3.2).
+        self._spatial = [True]
 
     def _start(self, tag: str, attributes: dict[str, str]) -> None:
         name = tag.rpartition(" ")[2]
@@ -123,8 +124,8 @@ class _Reader:
         self.is_city |= name == "CityModel"
         if "srsName" in attributes:
             self._system(attributes["srsName"])
-        if "srsDimension" in attributes:
-            self._is_spatial = attributes["srsDimension"].strip() == "3"
+        dimension = attributes.get("srsDimension")
+        self._spatial.append(self._spatial[-1] if dimension is None else dimension.strip() == "3")
         if name in _BUILDINGS:
             given = next((v for k, v in attributes.items() if k.rpartition(" ")[2] == "id"), "")
             own = given[:200] or f"building-{len(self.buildings) + len(self._open) + 1}"
@@ -156,6 +157,7 @@ class _Reader:
             if self._open:
                 self._open[-1].has_parts = True
         self._path.pop()
+        self._spatial.pop()
 
     def _take(self, name: str, text: str) -> None:
         """What an element says that holds text alone."""
@@ -176,7 +178,7 @@ class _Reader:
             found = np.array(text.split(), dtype=np.float64)
         except ValueError as error:
             raise _Fault("a list of coordinates has a word that is no number") from error
-        if not self._is_spatial or len(found) % 3:
+        if not self._spatial[-1] or len(found) % 3:
             raise _Fault("coordinates are not of three dimensions")
         if not np.isfinite(found).all():
             raise _Fault("a coordinate is not finite")

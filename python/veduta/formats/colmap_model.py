@@ -40,6 +40,8 @@ MODELS: tuple[tuple[str, int], ...] = (
 LARGEST_SIDE_PX = 100_000
 MOST_CAMERAS = 2**31
 """The engine's numbers end there."""
+MOST_RECORDS = 200_000
+"""Cameras of a model, and images: each becomes an object, many times as large as its bytes."""
 COPY_AGAIN = "Export the model again from the software that made it."
 
 
@@ -81,6 +83,13 @@ class ColmapModel:
     cameras: Mapping[int, ColmapCamera]
     images: tuple[ColmapImage, ...]
     points: ColmapPoints
+
+
+def require_few(path: Path, what: str, count: int) -> None:
+    """InputError where a file has more cameras or images than are read."""
+    if count > MOST_RECORDS:
+        fault = f"says that it has {count:,} {what}, more than {MOST_RECORDS:,}"
+        raise InputError(path, fault, "Divide the model, or check that it is the right file.")
 
 
 def checked_camera(path: Path, camera: ColmapCamera) -> ColmapCamera:

@@ -16,13 +16,14 @@ from veduta.formats.colmap_model import (
     checked_camera,
     checked_points,
     pose,
+    require_few,
 )
 from veduta.run.errors import InputError
 
 
 def read_cameras(path: Path, data: bytes) -> dict[int, ColmapCamera]:
     """`cameras.txt`: number, model, width, height, parameters."""
-    cameras = {}
+    cameras: dict[int, ColmapCamera] = {}
     for place, line in enumerate(_lines(path, data), 1):
         words = line.split()
         if not words or line.startswith("#"):
@@ -32,6 +33,7 @@ def read_cameras(path: Path, data: bytes) -> dict[int, ColmapCamera]:
             params = tuple(float(word) for word in words[4:])
         except (ValueError, IndexError):
             raise _wrong(path, place) from None
+        require_few(path, "cameras", len(cameras) + 1)
         cameras[number] = checked_camera(path, ColmapCamera(model, width, height, params))
     return cameras
 
@@ -39,7 +41,7 @@ def read_cameras(path: Path, data: bytes) -> dict[int, ColmapCamera]:
 def read_images(path: Path, data: bytes) -> tuple[ColmapImage, ...]:
     """`images.txt`: a line with pose and name, and one with what is seen, which may be empty."""
     lines = _lines(path, data)
-    images = []
+    images: list[ColmapImage] = []
     place = 0
     while place < len(lines):
         line = lines[place]
@@ -59,6 +61,7 @@ def read_images(path: Path, data: bytes) -> tuple[ColmapImage, ...]:
         except ValueError:
             raise _wrong(path, place + 1) from None
         place += 1
+        require_few(path, "images", len(images) + 1)
         images.append(
             ColmapImage(
                 number=number,

@@ -4,12 +4,12 @@ glTF is y-up: (x, y, z) of the part becomes (x, z, -y) here and nowhere else. On
 material; faces have flat normals; no vertex is shared between features. The feature table is in
 `scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
 of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
-Meshes that stand many times are nodes of their own (`gltf_instances`).
+Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
+(`gltf_movers`).
 """
 
 from __future__ import annotations
 
-import io
 import json
 import math
 import struct
@@ -19,12 +19,14 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.formats.gltf_instances import add_instances
+from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
+from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.material import Texture
+from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
 from veduta.run.atomic import write_bytes
 
@@ -64,9 +66,15 @@ def glb_bytes(part: Part) -> bytes:
         "materials": [],
     }
     materials = _Materials(root, part, binary)
-    if len(part.polygon_feature):
+
+    def primitives_of(chosen: NDArray[np.bool_], about_m: Vector) -> list[dict[str, Any]]:
+        return _primitives(part, chosen, about_m, materials, binary)
+
+    still = _still(part)
+    if still.any():
         root["nodes"][0]["mesh"] = 0
-        root["meshes"].append({"primitives": _primitives(part, materials, binary)})
+        root["meshes"].append({"primitives": primitives_of(still, (0.0, 0.0, 0.0))})
+    add_movers(root, part, primitives_of, binary)
     if part.instances is not None:
         add_instances(root, part.instances, materials.number, binary)
     root["bufferViews"] = binary.views
@@ -132,11 +140,16 @@ class _Materials:
     def _entry(self, row: int) -> dict[str, Any]:
         material = self._part.materials[row]
         shading: dict[str, Any] = {
-            "baseColorFactor": [*(_linear(channel) for channel in material.colour), 1.0],
+            "baseColorFactor": [
+                *(_linear(channel) for channel in material.colour),
+                material.opacity,
+            ],
             "metallicFactor": material.metalness,
             "roughnessFactor": material.roughness,
         }
         entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
+        if material.opacity < 1.0:
+            entry["alphaMode"] = "BLEND"
         if material.texture is not None:
             image, invented = self._pictures(material.texture)
             shading["baseColorTexture"] = {"index": self._texture(image, _wrap(self._part, row))}
@@ -169,20 +182,36 @@ class _Materials:
         return textures.index(told)
 
 
-def _primitives(part: Part, materials: _Materials, binary: GltfBin) -> list[dict[str, Any]]:
-    """One primitive for each material of the part that polygons have."""
+def _still(part: Part) -> NDArray[np.bool_]:
+    """(p,) the polygons that do not move."""
+    still = np.ones(len(part.polygon_feature), dtype=np.bool_)
+    for mover in part.movers:
+        still[mover.polygons] = False
+    return still
+
+
+def _primitives(
+    part: Part,
+    chosen_polygons: NDArray[np.bool_],
+    about_m: Vector,
+    materials: _Materials,
+    binary: GltfBin,
+) -> list[dict[str, Any]]:
+    """One primitive for each material that the chosen polygons have; corners are about a point."""
     triangles = part.triangles
+    places = part.positions_m - np.array(about_m, dtype=np.float32)
+    is_chosen = chosen_polygons[triangles.polygon]
     normal = _vertex_normals(part)
     feature = _vertex_features(part)
     material_of_triangle = part.polygon_material[triangles.polygon]
     primitives: list[dict[str, Any]] = []
     for number, material in enumerate(part.materials):
-        chosen = triangles.indices[material_of_triangle == number]
+        chosen = triangles.indices[is_chosen & (material_of_triangle == number)]
         if len(chosen) == 0:
             continue
         used, indices = np.unique(chosen, return_inverse=True)
         attributes = {
-            "POSITION": binary.add_array(y_up(part.positions_m[used]), "VEC3", bounds=True),
+            "POSITION": binary.add_array(y_up(places[used]), "VEC3", bounds=True),
             "NORMAL": binary.add_array(y_up(normal[used]), "VEC3"),
             "_FEATURE_ID_0": binary.add_array(feature[used], "SCALAR"),
         }
@@ -241,14 +270,9 @@ def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int
 @lru_cache(maxsize=32)
 def _jpeg(texture: Texture) -> bytes:
     """Encoded once for all models of a process."""
-    memory = io.BytesIO()
-    image = Image.fromarray(texture.pixels)
-    image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    return memory.getvalue()
+    return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
 
 
 @lru_cache(maxsize=32)
 def _mask_png(texture: Texture) -> bytes:
-    memory = io.BytesIO()
-    Image.fromarray(texture.invented.astype(np.uint8) * 255).convert("1").save(memory, "PNG")
-    return memory.getvalue()
+    return mask_bytes(texture.invented)

@@ -213,7 +213,12 @@ def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
         mask = _pixels(glb, entry["extras"]["veduta"]["invented_mask"], "L")
         texture = Texture(pixels=pixels, invented=mask > 127)
     return Material(
-        entry["name"], colour, shading["roughnessFactor"], shading["metallicFactor"], texture
+        entry["name"],
+        colour,
+        shading["roughnessFactor"],
+        shading["metallicFactor"],
+        texture,
+        shading["baseColorFactor"][3],
     )
 
 

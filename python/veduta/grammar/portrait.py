@@ -41,6 +41,8 @@ CLASS_COLOURS: Mapping[SemanticClass, str] = {
     SemanticClass.CHIMNEY: "#a8614f",
     SemanticClass.GROUND: "#b5b5a8",
     SemanticClass.OTHER: "#b9b2c0",
+    SemanticClass.FLOOR: "#b08d67",
+    SemanticClass.CEILING: "#e6e3dc",
 }
 """sRGB. Windows blue, balconies green, cornices yellow, doors red, as in the figure that
 `sampling` names."""

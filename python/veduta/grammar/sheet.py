@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from io import BytesIO
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,6 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from veduta.grammar.outline import Attribute
 from veduta.grammar.portrait import CLASS_COLOURS, PAPER
+from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.place.semantics import SemanticClass
 
 GAP_PX = 26
@@ -65,12 +65,9 @@ def draw_sheet(
 
 def encoded(sheet: Image.Image, suffix: str) -> bytes:
     """The bytes of a PNG or JPEG file."""
-    file = BytesIO()
     if suffix in (".jpg", ".jpeg"):
-        sheet.save(file, "JPEG", quality=88, optimize=True)
-    else:
-        sheet.save(file, "PNG", optimize=True)
-    return file.getvalue()
+        return jpeg_bytes(sheet, 88, optimize=True)
+    return png_bytes(sheet, optimize=True)
 
 
 def shown(value: Attribute) -> str:

@@ -7,7 +7,6 @@ mask beside it, `NAME.invented.png`, in which white says what nobody has photogr
 
 from __future__ import annotations
 
-import io
 import os
 import re
 from collections import OrderedDict
@@ -22,6 +21,7 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
+from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import read_image
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour, Texture
@@ -171,9 +171,7 @@ def as_jpeg(path: str, most_px: int | None = None) -> bytes:
     image = Image.fromarray(Textures({path: path})[path].pixels)
     if most_px is not None:
         image.thumbnail((most_px, most_px), Image.Resampling.LANCZOS)
-    memory = io.BytesIO()
-    image.save(memory, "JPEG", quality=JPEG_QUALITY, optimize=True)
-    return memory.getvalue()
+    return jpeg_bytes(image, JPEG_QUALITY, optimize=True)
 
 
 def mean_of(path: str) -> Colour:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import closing
 
-from veduta.photos.cameras.component import FEWEST_POINTS, Component, finish_component
+from veduta.photos.cameras.component import Component, finish_component
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
-from veduta.photos.intake.read import ReadPhotos, read_photos
+from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
+from veduta.photos.mapping.at_once import require_focal_lengths
 from veduta.photos.mapping.mapping import left_out
 from veduta.photos.mapping.settling import Settled, map_settled
 from veduta.photos.matching.features import FeaturesJob, memory_of, run_features
@@ -22,16 +24,16 @@ from veduta.photos.matching.pairs import Pairs, choose_pairs, retrieved_pairs
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import Stages
-from veduta.photos.structure import structure_of
+from veduta.photos.structure import Structure, structure_of
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.outputs import writing_to
 from veduta.run.pool import Task, run_tasks
-from veduta.run.progress import StepProgress
-from veduta.run.report import timed_step
+from veduta.run.progress import StepProgress, no_progress
+from veduta.run.report import counted, timed_step
 
 FEATURES_MEMORY = 6 * 1024**3
 """Bytes that all processes together may use while they look for features."""
-_WEAK = f"the last adjustment leaves it fewer than {FEWEST_POINTS} points: it was placed falsely"
+_UNSOLVED = "was placed, but no cameras could be found for its component: {}"
 _NOTHING_HANGS = (
     "Take photos that overlap by more than half with their neighbours, from places that differ:"
     " turning on the spot shows no depth."
@@ -56,6 +58,8 @@ def find_components(
         _require_two(call, read)
     if call.models:
         return _given(call, read, told)
+    if options.map.mapping == "global":
+        require_focal_lengths(read.photos)
     pairs = choose_pairs(read.photos, options.match)
     with timed_step(told.steps, "features") as step:
         _features(read, options, stages, progress, jobs)
@@ -69,6 +73,7 @@ def find_components(
     with timed_step(told.steps, "map") as step:
         settled = _map(read, options, stages, progress)
         mapped, told.doubts, told.folded = settled.mapped, settled.dropped, settled.folded
+        told.starts = mapped.starts
         step.counts |= {"components": len(mapped.models), "doubtful pairs": len(told.doubts)}
         placed = {image for model in mapped.models for image in model.reg_image_ids()}
         unplaced = left_out(read.photos, placed, told.pairs)
@@ -77,19 +82,42 @@ def find_components(
         if not mapped.models:
             raise NotFoundError("cameras", "no photos hang together", _NOTHING_HANGS)
     with timed_step(told.steps, "cameras") as step:
-        groups = {photo.image_id: photo.group for photo in read.photos}
         names = {photo.image_id: photo.name for photo in read.photos}
-        components = []
-        for number, model in enumerate(mapped.models):
-            progress("cameras", number / len(mapped.models))
-            structure = structure_of(model, names)
-            component = finish_component(structure, options.camera, groups, options.random.seed)
-            weak = sorted({*structure.names} - {*component.structure.names})
-            told.left += [(name, _WEAK) for name in weak]
-            step.rejected.extend(f"{name}: {_WEAK}" for name in weak)
-            components.append(component)
+        grown = [structure_of(model, names) for model in mapped.models]
+        components, left = finish_components(grown, read.photos, options, progress)
+        told.left += left
+        step.rejected.extend(f"{name}: {reason}" for name, reason in left)
         step.counts["kinds tried"] = sum(len(component.lens.tried) for component in components)
     return components
+
+
+def finish_components(
+    grown: Sequence[Structure],
+    photos: Sequence[PhotoRecord],
+    options: PhotosOptions,
+    progress: StepProgress = no_progress,
+) -> tuple[list[Component], list[tuple[str, str]]]:
+    """What was mapped, with its cameras, and the photos that fall out, as (name, reason).
+
+    A component whose cameras cannot be found is left out; NotFoundError where all are.
+    """
+    groups = {photo.image_id: photo.group for photo in photos}
+    components: list[Component] = []
+    left: list[tuple[str, str]] = []
+    faults: list[NotFoundError] = []
+    for number, structure in enumerate(grown):
+        progress("cameras", number / len(grown))
+        try:
+            component = finish_component(structure, options.camera, groups, options.random.seed)
+        except NotFoundError as error:
+            faults.append(error)
+            left += [(name, _UNSOLVED.format(error.evidence)) for name in structure.names]
+            continue
+        left += component.left
+        components.append(component)
+    if not components:
+        raise faults[0]
+    return components, left
 
 
 def _given(call: Call, read: ReadPhotos, told: Told) -> list[Component]:
@@ -109,7 +137,7 @@ def _require_two(call: Call, read: ReadPhotos) -> None:
     if len(read.photos) < 2:
         raise InputError(
             call.folder,
-            f"holds {len(read.photos)} photos that can be used, of {len(call.sources)}"
+            f"holds {counted(len(read.photos), 'photo')} that can be used, of {len(call.sources)}"
             + "".join(f"; {name} {reason}" for name, reason in read.set_aside[:3]),
             "Put at least two photos of the same place into it.",
         )
@@ -180,4 +208,11 @@ def _map(
     """The components; what a killed run has mapped of them is not mapped again."""
     ids = [photo.image_id for photo in read.photos]
     with writing_to(stages.out):
-        return map_settled(stages.database(), stages.mapping(), ids, options.random.seed, progress)
+        return map_settled(
+            stages.database(),
+            stages.mapping(),
+            ids,
+            options.random.seed,
+            progress,
+            options.map.mapping,
+        )

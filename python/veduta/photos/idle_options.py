@@ -40,7 +40,7 @@ def _given(group: Options, fields: tuple[str, ...]) -> list[str]:
 def _idle(options: PhotosOptions, given: Given) -> Iterator[_Idle]:
     if given.from_colmap is not None:
         fault = "has no effect with --from-colmap: nothing is matched, mapped or adjusted there"
-        for group in ("match", "camera"):
+        for group in ("match", "map", "camera"):
             yield _Idle(group, fault, "Leave it out, or --from-colmap.")
     if given.video is None:
         fault = "is about the frames of a film, and there is no --video"

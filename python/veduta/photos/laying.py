@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.component import Component
+from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.options import PhotosOptions
 from veduta.photos.structure import Structure
@@ -74,8 +75,8 @@ def lay_components(
 
 
 def _upright(component: Component, photos: Sequence[PhotoRecord]) -> Component:
-    paths = {photo.image_id: photo.path for photo in photos}
-    return set_upright(component, lambda structure: photo_reader(structure, paths))
+    read_photo = DecodedPhotos(photos)
+    return set_upright(component, lambda structure: photo_reader(structure, read_photo))
 
 
 def _walls(structure: Structure, options: PhotosOptions) -> tuple[Wall, ...]:

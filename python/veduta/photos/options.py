@@ -13,6 +13,7 @@ Pairing = Literal["all", "sequence", "gps", "retrieval"]
 Lens = Literal["pinhole", "simple-radial", "radial", "opencv", "other"]
 Sharing = Literal["shared", "per-photo"]
 PrincipalPoint = Literal["middle", "free"]
+MapKind = Literal["incremental", "global"]
 
 
 class MatchOptions(Options):
@@ -40,6 +41,18 @@ class MatchOptions(Options):
         description=(
             "what verifies matches: the estimator of the engine (COLMAP); least median of squares"
             " with an M-estimator; MAGSAC++ of OpenCV"
+        ),
+    )
+
+
+class MapOptions(Options):
+    """How poses and points are found from the matches."""
+
+    mapping: MapKind = Field(
+        default="incremental",
+        description=(
+            "from a first pair on, photo by photo; or all photos at once, for which the focal"
+            " length of each must be in its EXIF"
         ),
     )
 
@@ -149,6 +162,7 @@ class PhotosOptions(Options):
     """All options of the verb that change its result."""
 
     match: MatchOptions = MatchOptions()
+    map: MapOptions = MapOptions()
     camera: CameraOptions = CameraOptions()
     video: VideoOptions = VideoOptions()
     walls: WallOptions = WallOptions()

@@ -12,12 +12,14 @@ from pydantic import JsonValue
 from veduta.photos.finding import find_components
 from veduta.photos.idle_options import require_effect
 from veduta.photos.intake.call import Call, plan_call
-from veduta.photos.intake.frames import with_frames
+from veduta.photos.intake.frames import publish_frames, with_frames
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.laying import lay_components
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import COMMAND, VERSION, Stages
+from veduta.photos.world.control_adjust import adjust_components
+from veduta.photos.world.control_marks import unknown_marks
 from veduta.photos.world.georeferencing import digests_of, read_references, require_walls
 from veduta.photos.writing import write_failure, write_results
 from veduta.run.digests import result_key
@@ -99,18 +101,27 @@ def _make(
     stages.open()
     told = Told(str(call.folder), options, steps)
     with timed_step(steps, "video") if call.video else nullcontext():
-        call = with_frames(call, stages, opened, key, progress)
+        call = with_frames(call, stages, progress)
     stages = Stages(opened.path, call, options)
     told.notes += call.notes
     told.left += [(name, f"has the content of {first}") for name, first in call.copies]
     told.left += call.unreadable
     told.notes += references.notes
+    if references.control is not None:
+        names = [source.name for source in call.sources] + [name for name, _ in call.copies]
+        told.marks = unknown_marks(references.control, names)
     try:
         components = find_components(call, options, stages, told, progress, jobs)
     except NotFoundError as error:
+        publish_frames(call, opened, key)
         write_failure(opened, key, told, error)
     else:
+        if references.control is not None and not told.is_given:
+            with timed_step(steps, "control points") as step:
+                components, notes = adjust_components(components, references.control, step)
+                told.notes += notes
         laid = lay_components(components, references, told.photos, options, steps, progress)
+        publish_frames(call, opened, key)
         write_results(laid, references, told, opened, key, progress)
     opened.finish()
     stages.drop()

@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from veduta.photos.pictures import Pinhole, picture_name
+from veduta.photos.pictures import picture_name
+from veduta.photos.straight import Pinhole
 from veduta.photos.structure import Structure
 from veduta.photos.texture.step import Textured
 from veduta.photos.world.georeference import Georeference

@@ -13,6 +13,7 @@ from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.laying import Laid
 from veduta.photos.mapping.doubt import Doubt
 from veduta.photos.mapping.engine import NAME, engine_version
+from veduta.photos.mapping.initial_pair import Start
 from veduta.photos.matching.match import PairRecord
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report_doubts import (
@@ -23,6 +24,7 @@ from veduta.photos.report_doubts import (
     doubts_table,
 )
 from veduta.photos.report_pictures import error_picture, match_picture, plan_picture
+from veduta.photos.report_starts import GLOBAL_NOTE, starts_notes, starts_table
 from veduta.photos.texture.step import Textured
 from veduta.photos.walls.report import walls_pictures, walls_table
 from veduta.photos.walls.step import FoundWalls
@@ -46,7 +48,7 @@ FILES = (
     ("georef.json", "where the place lies in the world, how well that is known, and why"),
     ("model.city.json", "the city model with textures, where photos lie in one (CityJSON)"),
     ("textures/", "its pictures, and of each a mask: white where no photo shows it"),
-    ("parts/", "its buildings, a file each (glTF binary)"),
+    ("parts/", "its textured buildings, a file each, and the others together (glTF binary)"),
     ("tileset.json", "all its buildings, for viewers of 3D Tiles"),
     ("place.json", "points, cameras, walls and the textured model, for `veduta view`"),
 )
@@ -75,11 +77,15 @@ class Told:
     keypoints: list[int] = field(default_factory=list)
     notes: list[str] = field(default_factory=list)
     """What else a person has to know of the run."""
+    marks: list[str] = field(default_factory=list)
+    """Lines of the control points that name photos which are not there."""
     is_given: bool = False
     """Whether other software has made the model."""
     components: list[Component] = field(default_factory=list)
     doubts: tuple[Doubt, ...] = ()
     """Pairs that match, and that were not mapped with."""
+    starts: tuple[Start, ...] = ()
+    """The pairs of photos that maps were begun with."""
     folded: bool = False
     """Whether photos contradict each other all the same."""
     laid: list[Laid] = field(default_factory=list)
@@ -112,6 +118,7 @@ def measures_of(told: Told) -> dict[str, Any]:
         "cameras": kind.sharing,
         "principal_point": kind.principal_point,
         "seconds": round(sum(step.seconds for step in told.steps), 1),
+        **({"gcp_unknown": told.marks} if told.marks else {}),
         **georef_measures([one.georef for one in told.laid]),
         **({} if told.textured is None else told.textured.measures),
     }
@@ -160,7 +167,8 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
             *walls_table(told.walls, "unknown" if georef[0].accepted is None else "metres"),
             _cameras(told),
             *_left(told),
-            *doubts_table(told.doubts, {photo.image_id: photo.name for photo in told.photos}),
+            *doubts_table(told.doubts, _names(told)),
+            *starts_table(told.starts, _image_ids(told), _names(told)),
             *_kinds(told),
         ],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in told.steps])],
@@ -206,6 +214,7 @@ def _notes(told: Told) -> list[str]:
     in_world = bool(georef) and georef[0].accepted is not None
     notes = [] if in_world else [SCALE_NOTE]
     notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
+    notes += [f"control points, {mark}" for mark in told.marks]
     notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)
@@ -223,11 +232,22 @@ def _notes(told: Told) -> list[str]:
     if len(told.components) > 1:
         sizes = [len(item.structure.names) for item in told.components]
         notes.append(components_note(sizes, [one.accepted is not None for one in georef]))
+    if told.options.map.mapping == "global" and not told.is_given:
+        notes.append(GLOBAL_NOTE)
+    notes += starts_notes(told.starts, _image_ids(told), _names(told))
     if told.doubts:
         notes.append(doubts_note(told.doubts))
     if told.folded:
         notes.append(FOLDED_NOTE)
     return notes if told.is_given else [*notes, ENGINE_NOTE]
+
+
+def _names(told: Told) -> dict[int, str]:
+    return {photo.image_id: photo.name for photo in told.photos}
+
+
+def _image_ids(told: Told) -> list[tuple[int, ...]]:
+    return [component.structure.image_ids for component in told.components]
 
 
 def _up_note(component: Component) -> str:
@@ -295,11 +315,20 @@ def _left(told: Told) -> list[Table]:
 def _kinds(told: Told) -> list[Table]:
     """How the kind of camera was chosen, for each component."""
     note = (
-        "A fifth of the observations was held out, the cameras were adjusted to the others, and"
-        " the error is that of the held-out ones. The first kind is taken that is not worse than"
-        " the best, but for chance."
+        "Observations were held out in five parts, one after the other, the cameras were adjusted"
+        " to the others, and the error is that of the held-out ones. The first kind is taken that"
+        " is not worse than the best, but for chance. What was clearly worse on some parts was not"
+        " tried on all: it saw fewer."
     )
-    columns = ("lens", "cameras", "principal point", "numbers", "held-out error px", "taken")
+    columns = (
+        "lens",
+        "cameras",
+        "principal point",
+        "numbers",
+        "held out",
+        "held-out error px",
+        "taken",
+    )
     tables = []
     for number, component in enumerate(told.components):
         rows = [
@@ -308,6 +337,7 @@ def _kinds(told: Told) -> list[Table]:
                 candidate.kind.sharing,
                 candidate.kind.principal_point,
                 candidate.parameters,
+                len(candidate.errors_px),
                 round(candidate.error_px, 4),
                 "yes" if candidate.kind == component.lens.kind else "",
             ]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.photos.matching.match import PairRecord
 from veduta.photos.structure import Structure
 from veduta.run.page import Picture
@@ -112,13 +111,9 @@ def _paper(height: int, width: int) -> NDArray[np.uint8]:
 
 def png(pixels: NDArray[np.uint8]) -> bytes:
     """The file of (h, w, 3) pixels."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="PNG", optimize=True)
-    return file.getvalue()
+    return png_bytes(pixels, optimize=True)
 
 
 def jpeg(pixels: NDArray[np.uint8]) -> bytes:
     """The file of (h, w, 3) pixels, where there are photos in them."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="JPEG", quality=85)
-    return file.getvalue()
+    return jpeg_bytes(pixels, 85)

@@ -20,7 +20,7 @@ from veduta.run.digests import result_key
 from veduta.run.outputs import writing_to
 from veduta.run.record import PRIVATE
 
-VERSION = "3"
+VERSION = "5"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = "photos"
 FOLDER = f"{PRIVATE}/photos"
@@ -65,7 +65,8 @@ class Stages:
 
     def mapping(self) -> Path:
         """Components that are mapped, pairs that are doubted, and snapshots."""
-        return self.database().with_suffix(".mapping")
+        kind = self.options.map.mapping
+        return self.database().with_suffix(f".{kind}.mapping")
 
     def drop(self) -> None:
         """The run is finished: none of it is needed any more."""

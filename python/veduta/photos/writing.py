@@ -10,11 +10,13 @@ from veduta.formats.laz import write_laz
 from veduta.formats.place_json import write_place
 from veduta.formats.ply import write_points
 from veduta.photos.cameras.component import Component
+from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.laying import Laid
-from veduta.photos.pictures import Pinhole, write_pictures
+from veduta.photos.pictures import write_pictures
 from veduta.photos.placing import CLOUD, PICTURES, POINTS, place_of
 from veduta.photos.report import Told, failure_report, photos_report
 from veduta.photos.structure import Structure, model_of
+from veduta.photos.texture.files import PARTS, TEXTURES
 from veduta.photos.texture.step import can_texture, texture_step
 from veduta.photos.walls.document import WALLS, Unit
 from veduta.photos.walls.step import picture_walls, write_walls
@@ -40,22 +42,21 @@ def write_results(
 ) -> None:
     """Write everything that lies in OUT; the first component is the place."""
     first = laid[0]
-    pictures = opened.work_folder(PICTURES)
+    pictures, read_photo = opened.work_folder(PICTURES), DecodedPhotos(told.photos)
     with timed_step(told.steps, "pictures"), writing_to(opened.path):
         structure, cameras = write_pictures(
-            first.component.structure, told.photos, pictures, progress
+            first.component.structure, read_photo, pictures, progress
         )
     told.laid = [replace(first, component=replace(first.component, structure=structure)), *laid[1:]]
     told.components = [one.component for one in told.laid]
     with timed_step(told.steps, "pictures of walls") as step:
-        paths = {photo.image_id: photo.path for photo in told.photos}
-        told.walls = picture_walls(structure, first.walls, paths, told.options.walls, progress)
+        told.walls = picture_walls(structure, first.walls, read_photo, told.options.walls, progress)
         step.counts["pictures"] = len(told.walls.pictures)
     sparse, walls = opened.work_folder(SPARSE), opened.work_folder(WALLS)
     work = opened.work_folder(CALL)
     world = first.georef.accepted
     with writing_to(opened.path):
-        _texture(structure, cameras, world, references, pictures, told, work, progress)
+        _texture(structure, read_photo, world, references, told, work, progress)
     with timed_step(told.steps, "write"), writing_to(opened.path):
         _write_models(told.components, sparse)
         crs, origin = (None, (0.0, 0.0, 0.0)) if world is None else (world.crs, world.origin_m)
@@ -70,16 +71,18 @@ def write_results(
     opened.publish(SPARSE, key, sparse)
     opened.publish(PICTURES, key, pictures)
     opened.publish(WALLS, key, walls)
+    for item in (TEXTURES, PARTS):  # without textures what a former call left there goes
+        (work / item).mkdir(exist_ok=True)
+        opened.publish(item, key, work / item)
     summary = {**report.measures, "left": [list(pair) for pair in told.left]}
     opened.publish(CALL, key, work, summary)
 
 
 def _texture(
     structure: Structure,
-    cameras: Sequence[Pinhole],
+    read_photo: DecodedPhotos,
     world: Georeference | None,
     references: References,
-    pictures: Path,
     told: Told,
     work: Path,
     progress: StepProgress,
@@ -91,7 +94,7 @@ def _texture(
     with timed_step(told.steps, "texture") as step:
         try:
             told.textured = texture_step(
-                structure, cameras, pictures, city, told.options.texture, work, progress
+                structure, read_photo, city, told.options.texture, work, progress
             )
         except NotFoundError as error:
             told.notes.append(f"no textures: {error}")
@@ -105,7 +108,7 @@ def write_failure(opened: OutFolder, key: str, told: Told, error: NotFoundError)
     failure = Failure(subject=told.folder, kind="not-found", reason=str(error))
     work = opened.work_folder(CALL)
     _write_report(*failure_report(told, failure), opened, work)
-    for item in (SPARSE, PICTURES, WALLS):
+    for item in (SPARSE, PICTURES, WALLS, TEXTURES, PARTS):
         opened.publish(item, key, opened.work_folder(item))
     opened.publish(CALL, key, work, {"left": [list(pair) for pair in told.left]}, failure)
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from veduta.place.material import Material
+from veduta.place.mover import Mover
 from veduta.place.part import NO_PARENT, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
 
@@ -34,6 +35,16 @@ class PartBuilder:
         self._rows: list[tuple[str, str, int, int, int, int, float, float, Rect, float]] = []
         self._counts: Counter[SemanticClass] = Counter()
         self._shells = 1
+        self._movers: list[Mover] = []
+
+    @property
+    def polygon_count(self) -> int:
+        """How many polygons there are already."""
+        return len(self._polygon_rings)
+
+    def mover(self, mover: Mover) -> None:
+        """Have polygons that were added move together."""
+        self._movers.append(mover)
 
     def material(self, material: Material) -> int:
         """Register a material; returns its number."""
@@ -130,4 +141,5 @@ class PartBuilder:
             materials=tuple(self._materials),
             attributes=dict(self.attributes),
             notes=tuple(self.notes),
+            movers=tuple(self._movers),
         )

@@ -35,6 +35,7 @@ class Material:
 
     colour: sRGB, 0..1; it multiplies the texture where there is one (white leaves it alone).
     roughness, metalness: glTF's, 0..1.
+    opacity: 0..1; below 1 one sees through it (glass).
     """
 
     name: str
@@ -42,3 +43,4 @@ class Material:
     roughness: float = 0.9
     metalness: float = 0.0
     texture: Texture | None = None
+    opacity: float = 1.0

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.place.instances import Instances
 from veduta.place.material import Material
+from veduta.place.mover import Mover
 from veduta.place.semantics import Provenance, SemanticClass
 
 # A vertex may lie this far off its polygon's plane (m): single precision at a kilometre.
@@ -86,6 +87,7 @@ class Part:
     attributes: what is known of the whole, under CityJSON's names where it has them.
     notes: what was adjusted or left out, and why.
     instances: meshes that stand in the part many times, besides its polygons; None without any.
+    movers: polygons of the part that move together, such as the leaves of doors.
     """
 
     id: str
@@ -100,6 +102,7 @@ class Part:
     attributes: Mapping[str, str | int | float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     instances: Instances | None = None
+    movers: tuple[Mover, ...] = ()
 
     @cached_property
     def triangles(self) -> Triangles:

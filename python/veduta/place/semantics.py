@@ -24,6 +24,8 @@ class SemanticClass(StrEnum):
     CHIMNEY = "chimney"
     CORNICE = "cornice"
     OTHER = "other"
+    FLOOR = "floor"
+    CEILING = "ceiling"
 
     @property
     def code(self) -> int:
@@ -71,6 +73,8 @@ CITYJSON_SURFACE: dict[SemanticClass, str] = {
     SemanticClass.CHIMNEY: "WallSurface",
     SemanticClass.CORNICE: "OuterCeilingSurface",
     SemanticClass.OTHER: "WallSurface",
+    SemanticClass.FLOOR: "FloorSurface",
+    SemanticClass.CEILING: "CeilingSurface",
 }
 # Classes that CityJSON models as openings: they name the surface that they open as parent.
 OPENINGS: frozenset[SemanticClass] = frozenset(

@@ -33,7 +33,7 @@ from pydantic import JsonValue
 from veduta.run.atomic import sync_folder, sync_tree
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
-from veduta.run.record import CALL, JOURNAL, PRIVATE, Change, Item, RunRecord, load_record
+from veduta.run.record import CALL, JOURNAL, PRIVATE, RECORD, Change, Item, RunRecord, load_record
 from veduta.run.report import Failure
 
 _NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
@@ -146,6 +146,9 @@ class OutFolder:
 
     def _move_into_place(self, item: str, work: Path, names: list[str]) -> None:
         sync_tree(work)
+        if not names:
+            shutil.rmtree(work, ignore_errors=True)
+            return
         target = self.path if item == CALL else self.path / item
         target.parent.mkdir(exist_ok=True)
         if not target.exists() and len(names) == sum(1 for file in work.rglob("*")):
@@ -173,7 +176,11 @@ class OutFolder:
         if self._is_users(name):
             self.kept.append(name)
             return False
-        (self.path / name).unlink(missing_ok=True)
+        path = self.path / name
+        path.unlink(missing_ok=True)
+        with suppress(OSError):  # of the first that is not empty, or is not there
+            for folder in path.relative_to(self.path).parents[:-1]:
+                (self.path / folder).rmdir()
         return True
 
 
@@ -182,6 +189,7 @@ def open_out(
     path: Path, command: str, key: str, *, force: bool = False, amend: bool = False
 ) -> Iterator[OutFolder]:
     """Open OUT for a call, by the rules above; `amend` adds to whatever run made it."""
+    made = not path.exists()
     try:
         _refuse_foreign(path, force)
         (path / PRIVATE).mkdir(parents=True, exist_ok=True)
@@ -203,6 +211,10 @@ def open_out(
                 out.record.save(path)
         try:
             yield out
+        except InputError:
+            shutil.rmtree(work, ignore_errors=True)
+            _remove_bare(out, made=made)
+            raise
         finally:
             shutil.rmtree(work, ignore_errors=True)
             if (path / PRIVATE / JOURNAL).exists():
@@ -225,6 +237,17 @@ def writing_to(out: Path) -> Iterator[None]:
             f"cannot be written ({error.strerror or error})",
             f"{cure}: what is finished is on disk, and the same command goes on from there.",
         ) from error
+
+
+def _remove_bare(out: OutFolder, *, made: bool) -> None:
+    """Take a new OUT away in which a call that was refused has left nothing but its record."""
+    private = out.path / PRIVATE
+    if out.standing is not Standing.NEW or not made or out.record.items:
+        return
+    own = {private / "lock", private / RECORD, private / JOURNAL}
+    if any(file not in own for file in out.path.rglob("*") if not file.is_dir()):
+        return
+    shutil.rmtree(out.path, ignore_errors=True)
 
 
 def _refuse_foreign(path: Path, force: bool) -> None:

@@ -31,6 +31,7 @@ from veduta.run.report import Failure
 PRIVATE = ".veduta"
 CALL = "."
 """The item that stands for the call as a whole: the files that lie in OUT itself."""
+RECORD = "run.json"
 JOURNAL = "run.jsonl"
 JOURNAL_FROM = 2000
 """Files of a run from which on changes of its record are added to the journal."""
@@ -94,7 +95,7 @@ class RunRecord(_Record):
     def save(self, out: Path) -> None:
         """Write the record whole or not at all."""
         content = (self.model_dump_json(by_alias=True, indent=1) + "\n").encode()
-        write_bytes(out / PRIVATE / "run.json", content)
+        write_bytes(out / PRIVATE / RECORD, content)
         self._saved = hashlib.sha256(content).hexdigest()
         (out / PRIVATE / JOURNAL).unlink(missing_ok=True)
 
@@ -149,7 +150,7 @@ def _note(folders: dict[str, set[str]], path: str, *, is_there: bool) -> None:
 
 def load_record(out: Path) -> RunRecord | None:
     """The record in `out`, or None where Veduta has written nothing."""
-    path = out / PRIVATE / "run.json"
+    path = out / PRIVATE / RECORD
     try:
         content = path.read_bytes()
         record = RunRecord.model_validate_json(content)

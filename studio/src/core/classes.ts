@@ -22,6 +22,8 @@ export const CLASS_LOOKS: Readonly<Record<SemanticClass, ClassLook>> = {
   roof: { label: "Roof", plural: "Roofs", colour: "#6c7a89" },
   chimney: { label: "Chimney", plural: "Chimneys", colour: "#9a5b4f" },
   ground: { label: "Ground", plural: "Ground", colour: "#8f8f86" },
+  floor: { label: "Floor", plural: "Floors", colour: "#b08d67" },
+  ceiling: { label: "Ceiling", plural: "Ceilings", colour: "#d9d4c7" },
   other: { label: "Other surface", plural: "Other surfaces", colour: "#a39aa8" },
 };
 

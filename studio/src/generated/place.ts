@@ -4,7 +4,18 @@
  * The class of a surface. A column stores its place in this list (`code`).
  */
 export type SemanticClass =
-  "wall" | "roof" | "ground" | "window" | "door" | "balcony" | "shop" | "chimney" | "cornice" | "other";
+  | "wall"
+  | "roof"
+  | "ground"
+  | "window"
+  | "door"
+  | "balcony"
+  | "shop"
+  | "chimney"
+  | "cornice"
+  | "other"
+  | "floor"
+  | "ceiling";
 /**
  * Where a surface comes from.
  */

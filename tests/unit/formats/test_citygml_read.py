@@ -123,6 +123,22 @@ def test_names_of_reference_systems(name: str, code: int | None) -> None:
     assert epsg_of_name(name) == code
 
 
+@pytest.mark.parametrize(("outer", "is_read"), [("3", True), ("2", False)])
+def test_a_dimension_holds_within_its_element(tmp_path: Path, outer: str, is_read: bool) -> None:
+    """That of an envelope says nothing of the polygons behind it; that of a solid does."""
+    faces = solid(1, "bldg", polygon().replace(" srsDimension='3'", ""))
+    faces = faces.replace("<gml:Solid>", f"<gml:Solid srsDimension='{outer}'>")
+    envelope = "<gml:boundedBy><gml:Envelope srsDimension='2'><gml:pos>0 0</gml:pos></gml:Envelope>"
+    text = city(f"<bldg:Building>{envelope}</gml:boundedBy>{faces}</bldg:Building>")
+    text = text.replace("<gml:Envelope srsName", "<gml:Envelope srsDimension='2' srsName")
+    if is_read:
+        (building,) = read_citygml(write(tmp_path, text)).buildings
+        assert building.polygons[0][0].tolist() == [[0, 0, 1], [0, 4, 1], [3, 4, 1], [3, 0, 1]]
+    else:
+        with pytest.raises(InputError, match="dimensions"):
+            read_citygml(write(tmp_path, text))
+
+
 @pytest.mark.parametrize(
     ("text", "fault"),
     [

@@ -13,7 +13,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from known_structure import known_structure
 
-from veduta.formats import colmap_binary, colmap_text
+from veduta.formats import colmap_binary, colmap_model, colmap_text
 from veduta.formats.colmap_model import MODELS
 from veduta.photos.intake.colmap_folder import models_in, read_model
 from veduta.photos.structure import model_of
@@ -100,6 +100,43 @@ def test_a_count_that_no_file_could_hold(folders: dict[str, Path], name: str) ->
     )
     with pytest.raises(InputError, match="truncated or damaged"):
         reader(path, data)
+
+
+@pytest.mark.parametrize("kind", ["bin", "txt"])
+@pytest.mark.parametrize("name", ["cameras", "images"])
+def test_more_records_than_are_read(
+    folders: dict[str, Path], monkeypatch: pytest.MonkeyPatch, kind: str, name: str
+) -> None:
+    """A file may be as large as it says: each record costs far more memory than its bytes."""
+    path = folders[kind] / f"{name}.{kind}"
+    reader = getattr(colmap_binary if kind == "bin" else colmap_text, f"read_{name}")
+    count = len(reader(path, path.read_bytes()))
+    monkeypatch.setattr(colmap_model, "MOST_RECORDS", count)
+    assert len(reader(path, path.read_bytes())) == count
+    monkeypatch.setattr(colmap_model, "MOST_RECORDS", count - 1)
+    with pytest.raises(InputError, match=f"has {count} {name}, more than {count - 1}"):
+        reader(path, path.read_bytes())
+
+
+def test_points_are_the_same_in_many_pieces(
+    folders: dict[str, Path], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path = folders["bin"] / "points3D.bin"
+    whole = colmap_binary.read_points(path, path.read_bytes())
+    monkeypatch.setattr(colmap_binary, "_AT_ONCE", 7)
+    pieces = colmap_binary.read_points(path, path.read_bytes())
+    assert len(whole.numbers) > 14
+    for name in ("numbers", "places", "colours"):
+        assert np.array_equal(getattr(whole, name), getattr(pieces, name))
+
+
+def test_files_too_large_to_be_read_whole(folders: dict[str, Path], tmp_path: Path) -> None:
+    for file in FILES:
+        (tmp_path / f"{file}.bin").write_bytes((folders["bin"] / f"{file}.bin").read_bytes())
+    with (tmp_path / "images.bin").open("r+b") as images:
+        images.truncate(5_000_000_000)  # a hole: it takes no room
+    with pytest.raises(InputError, match=r"images\.bin: is 5 GB large, more than 4 GB"):
+        models_in(tmp_path)
 
 
 @pytest.mark.parametrize("number", [-1, 2**40])

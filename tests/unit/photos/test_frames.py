@@ -10,7 +10,7 @@ import pytest
 from PIL import Image
 
 from veduta.photos.intake.call import Call, plan_call
-from veduta.photos.intake.frames import FRAMES, with_frames
+from veduta.photos.intake.frames import FRAMES, publish_frames, with_frames
 from veduta.photos.intake.given import Given
 from veduta.photos.options import PhotosOptions, VideoOptions
 from veduta.photos.stages import Stages
@@ -40,7 +40,9 @@ def taken(call: Call, out: Path, options: PhotosOptions = OPTIONS) -> Call:
     with open_out(out, "photos", "key", force=False) as opened:
         stages = Stages(out, call, options)
         stages.open()
-        return with_frames(call, stages, opened, "key")
+        call = with_frames(call, stages)
+        publish_frames(call, opened, "key")
+        return call
 
 
 def test_frames_are_photos(given: Given, tmp_path: Path) -> None:
@@ -62,6 +64,30 @@ def test_a_stopped_run_goes_on_from_its_frames(given: Given, tmp_path: Path) -> 
         plan_call(None, given), tmp_path / "out", PhotosOptions(video=VideoOptions(video_frames=2))
     )
     assert len(other.sources) == 2
+
+
+def test_a_mask_of_another_size_is_refused_before_the_film_is_read(
+    given: Given, tmp_path: Path
+) -> None:
+    assert given.masks is not None
+    for name in ("walk-000008.png", "Walk-000008.jpg.PNG"):
+        Image.new("L", (120, 91), 255).save(given.masks / name)
+        with pytest.raises(InputError, match=r"is 120 x 91 px.*000008.jpg 120 x 90 px"):
+            plan_call(None, given)
+        (given.masks / name).unlink()
+    Image.new("L", (9, 9), 255).save(given.masks / "walk-8.png")  # of no frame
+    plan_call(None, given)
+
+
+def test_a_later_call_without_a_film_takes_its_frames_away(given: Given, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    taken(plan_call(None, given), out)
+    (tmp_path / "photos").mkdir()
+    for grey in (50, 60):
+        Image.new("L", (99, 99), grey).save(tmp_path / "photos" / f"{grey}.png")
+    with open_out(out, "photos", "other", force=True) as opened:
+        publish_frames(plan_call(tmp_path / "photos"), opened, "other")
+    assert not (out / FRAMES).exists()
 
 
 def test_a_photo_of_the_name_of_a_frame(given: Given, tmp_path: Path) -> None:

@@ -26,6 +26,7 @@ def check(words: str) -> None:
 @pytest.mark.parametrize(
     ("beside", "idle", "named"),
     [
+        (GIVEN, "--mapping global", "--from-colmap"),
         (GIVEN, "--lens radial", "--from-colmap"),
         (GIVEN, "--cameras shared", "--from-colmap"),
         (GIVEN, "--principal-point free", "--from-colmap"),
@@ -34,6 +35,7 @@ def check(words: str) -> None:
         (GIVEN, "--neighbours 3", "--from-colmap"),
         (GIVEN, "--max-side-px 640", "--from-colmap"),
         (GIVEN, "--max-features 600", "--from-colmap"),
+        (GIVEN, "--mapping global", "--from-colmap"),
         ("", "--video-interval-s 2", "--video"),
         ("", "--video-frames 20", "--video"),
         ("--pairs all", "--neighbours 3", "--pairs all"),

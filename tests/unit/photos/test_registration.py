@@ -16,9 +16,11 @@ from veduta.photos.city.model import CityBuilding, CityModel
 from veduta.photos.laying import walls_in_the_world
 from veduta.photos.world.believed import Standing, believed
 from veduta.photos.world.columns import plane_fit
+from veduta.photos.world.evidence import Matches
 from veduta.photos.world.free_space import sight_lines, violations
-from veduta.photos.world.georeference import Georeference
-from veduta.photos.world.register import register
+from veduta.photos.world.georeference import Georeference, Similarity
+from veduta.photos.world.refine import PLANE, Refined
+from veduta.photos.world.register import register, residuals_of
 
 
 @pytest.fixture(scope="module", params=[2, 1], ids=["both sides", "one side"])
@@ -26,12 +28,20 @@ def street(request: pytest.FixtureRequest) -> SimulatedStreet:
     return simulated_street(30, streets=2, sides=request.param)
 
 
+@pytest.fixture(scope="module")
+def found(street: SimulatedStreet) -> Georeference:
+    """The street laid into the town that it is part of."""
+    return laid(street, street.model)
+
+
 def laid(street: SimulatedStreet, model: CityModel) -> Georeference:
     return register(street.structure, street.walls, model, None, 0)
 
 
-def test_a_street_in_the_model_is_laid_where_it_is(street: SimulatedStreet) -> None:
-    found, again = laid(street, street.model), laid(street, street.model)
+def test_a_street_in_the_model_is_laid_where_it_is(
+    street: SimulatedStreet, found: Georeference
+) -> None:
+    again = laid(street, street.model)
     assert found.accepted, found.why
     apart, turned = errors(street, found)
     assert 0.0 < apart < 0.3
@@ -48,8 +58,9 @@ def test_a_street_in_the_model_is_laid_where_it_is(street: SimulatedStreet) -> N
     assert again.why == found.why
 
 
-def test_walls_come_to_stand_before_their_facades(street: SimulatedStreet) -> None:
-    found = laid(street, street.model)
+def test_walls_come_to_stand_before_their_facades(
+    street: SimulatedStreet, found: Georeference
+) -> None:
     walls = walls_in_the_world(street.walls, found)
     facades = facades_of(street.model)
     middles = np.array([(wall.start + wall.end) / 2.0 for wall in walls])
@@ -61,6 +72,32 @@ def test_walls_come_to_stand_before_their_facades(street: SimulatedStreet) -> No
     assert (nearest < 0.4).sum() >= len(walls) - 3
     assert all(0.0 <= wall.bottom + 1.0 < wall.top for wall in walls)
     assert walls_in_the_world(street.walls, None) == street.walls
+
+
+def test_a_wall_that_has_lost_its_facade_is_named_alone() -> None:
+    """The last step of a fit may move a wall out of its facade's reach."""
+    walls = simulated_street(30, streets=2, sides=1).walls[:2]
+    count = len(walls)
+    none = np.full((1, count, 3), np.nan)
+    matches = Matches(
+        facade=np.array([[[-1, -1, -1], [-1, -1, 1]]]),
+        off_m=none,
+        edges_m=none[..., :2],
+        tops_m=none[..., 0],
+        lift_m=np.zeros(1),
+        evidence=np.zeros((1, count)),
+    )
+    refined = Refined(
+        world_from_model=Similarity(1.0, np.eye(3), np.zeros(3)),
+        covariance=np.eye(7),
+        wall=np.array([0, 0, 1, 1]),
+        kind=np.array([PLANE, PLANE, PLANE, PLANE + 1]),
+        left_m=np.array([3.0, 4.0, 0.5, 9.0]),
+        weight=np.ones(4),
+    )
+    found = residuals_of(refined, matches, walls, ["north", "south"])
+    assert [one.name for one in found] == [f"{walls[0].id} at no facade", f"{walls[1].id} at south"]
+    assert [one.distance_m for one in found] == pytest.approx([np.sqrt(12.5), 0.5])
 
 
 def test_a_street_that_is_not_in_the_model_is_refused(street: SimulatedStreet) -> None:

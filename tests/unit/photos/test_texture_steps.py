@@ -12,13 +12,14 @@ from scipy.ndimage import minimum_filter
 
 from veduta import _core
 from veduta.photos.cameras.orient import moved_poses
-from veduta.photos.pictures import Pinhole
+from veduta.photos.choosing import median_of
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.atlas import GUTTER, filled, packed
 from veduta.photos.texture.cells import SAMPLES, Grid, Sights
-from veduta.photos.texture.choice import Choice, median_of
+from veduta.photos.texture.choice import Choice
 from veduta.photos.texture.faces import faces_of
 from veduta.photos.texture.files import file_names
-from veduta.photos.texture.levels import gains_of
+from veduta.photos.texture.levels import LightSamples
 from veduta.photos.texture.seams import offsets_of
 from veduta.photos.texture.views import (
     Blockers,
@@ -94,7 +95,7 @@ def test_what_stands_before_a_wall_hides_it_as_rays_say() -> None:
     plane = plane_view(view, face)
     assert plane is not None
     shape, pitch = (60, 120), 0.05
-    seen = seen_at(view, plane, Blockers(city).nearness(view), None, shape, pitch)
+    seen = seen_at(view, plane, Blockers(city).nearness(view), None, None, shape, pitch)
     x, y = np.meshgrid((np.arange(120) + 0.5) * pitch, (np.arange(60) + 0.5) * pitch)
     points = face.points(np.column_stack([x.ravel(), y.ravel()]))
     ways = points - view.eye
@@ -121,7 +122,7 @@ def test_a_square_of_the_plane_takes_the_colour_of_its_pixel() -> None:
     """Pixels that are 0.1 m apart on the plane, squares of the same size: the picture itself."""
     pixels = np.random.default_rng(1).integers(0, 255, (20, 30, 3)).astype(np.uint8)
     plane = PlaneView(np.array([[10.0, 0, 0], [0, 10.0, 0], [0, 0, 1.0]]), np.zeros(3))
-    np.testing.assert_array_equal(warped([pixels], plane, 0, (20, 30), 0.1), pixels)
+    np.testing.assert_array_equal(warped(pixels, plane, 0, (20, 30), 0.1), pixels)
 
 
 def flat_sights(colours: np.ndarray, views: list[int]) -> Sights:
@@ -131,7 +132,7 @@ def flat_sights(colours: np.ndarray, views: list[int]) -> Sights:
     face = south(faces_of(city_of(box_part("a", (0, 0, 0), (6, 4, 3)))))
     plane = PlaneView(np.eye(3), np.zeros(3))
     ones = np.ones((k, rows, columns), dtype=np.float32)
-    grid = Grid(rows, columns, 0.25, ones[0])
+    grid = Grid(rows, columns, 0.25)
     seen = np.ones(fine.shape[:3], dtype=np.bool_)
     return Sights(face, grid, np.array(views), (plane,) * k, fine, seen, 1e4 * ones, ones)
 
@@ -147,7 +148,10 @@ def test_gains_take_back_known_exposures_despite_a_car() -> None:
         light[0, :2, :8] = 0.02
         srgb = np.where(light <= 0.0031308, 12.92 * light, 1.055 * light ** (1 / 2.4) - 0.055)
         faces.append(flat_sights(np.round(255 * srgb), [first, second]))
-    found = gains_of(4, faces)
+    samples = LightSamples(4, len(faces))
+    for sights in faces:
+        samples.add(sights)
+    found = samples.gains()
     ratio = found[:3] * truth[:3]
     np.testing.assert_allclose(ratio / ratio[0], 1.0, rtol=0.03)
     np.testing.assert_allclose(found[3], 1.0)
@@ -170,8 +174,9 @@ def test_offsets_make_a_step_between_patches_agree() -> None:
     label = np.zeros((6, 20), dtype=np.int64)
     label[:, 10:] = 1
     usable = np.ones((2, 6, 20), dtype=np.bool_)
+    seen = np.ones((2, 6 * SAMPLES, 20 * SAMPLES), dtype=np.bool_)
     order = np.stack([label, 1 - label])
-    offsets = offsets_of(colours, Choice(label, order, usable))
+    offsets = offsets_of(colours, Choice(label, order, usable, seen))
     levelled = np.take_along_axis(colours, label[None, ..., None], axis=0)[0] + offsets
     steps = np.abs(np.diff(levelled, axis=1))
     assert steps.max() < 0.012

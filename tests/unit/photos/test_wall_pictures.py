@@ -14,9 +14,9 @@ from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, TEXELS_PER_M, WIDTH_PX, _textu
 from PIL import Image
 
 from veduta.formats.gltf import read_glb
+from veduta.photos.levelling import photo_gains
 from veduta.photos.structure import Structure
 from veduta.photos.walls.document import WallsDocument
-from veduta.photos.walls.levelling import photo_gains
 from veduta.photos.walls.part import walls_part
 from veduta.photos.walls.pictures import WallPicture, wall_pictures
 from veduta.photos.walls.step import FoundWalls, write_walls

@@ -1,12 +1,27 @@
-"""Photos that too few points hold are taken out of a component."""
+"""Photos that too few points hold are taken out, and components without a solution left out."""
 
 from __future__ import annotations
 
+from dataclasses import replace
+from pathlib import Path
+
 import numpy as np
+import pytest
+from known_structure import HEIGHT_PX, WIDTH_PX, known_structure
 from simulated_street import simulated_street
 
 from veduta.photos.cameras.component import FEWEST_POINTS, without_weak
+from veduta.photos.finding import finish_components
+from veduta.photos.intake.read import PhotoRecord
+from veduta.photos.options import CameraOptions, PhotosOptions
 from veduta.photos.structure import Structure, errors_px
+from veduta.run.errors import NotFoundError
+
+
+@pytest.fixture(scope="module")
+def street() -> Structure:
+    """All photos of a street: each sees enough of it."""
+    return simulated_street(1)[2]
 
 
 def weakened(structure: Structure, row: int, points: int) -> Structure:
@@ -24,8 +39,7 @@ def errors_of(structure: Structure) -> dict[tuple[str, int], float]:
     return dict(zip(keys, errors_px(structure).tolist(), strict=True))
 
 
-def test_a_weak_photo_goes_and_the_others_stay_as_they_are() -> None:
-    _, _, street = simulated_street(1)
+def test_a_weak_photo_goes_and_the_others_stay_as_they_are(street: Structure) -> None:
     structure = weakened(street, 4, FEWEST_POINTS - 1)
     found = without_weak(structure)
     assert found.names == tuple(name for name in structure.names if name != "0005.jpg")
@@ -39,15 +53,38 @@ def test_a_weak_photo_goes_and_the_others_stay_as_they_are() -> None:
     assert {name for name, _ in lost} >= {"0005.jpg"}
 
 
-def test_enough_points_hold_a_photo() -> None:
-    _, _, street = simulated_street(1)
+def test_enough_points_hold_a_photo(street: Structure) -> None:
     structure = weakened(street, 4, FEWEST_POINTS)
     assert without_weak(structure) is structure
 
 
-def test_where_all_are_weak_nothing_goes() -> None:
-    _, _, street = simulated_street(1)
+def test_where_all_are_weak_nothing_goes(street: Structure) -> None:
     few = street
-    for row in range(40):
+    for row in range(len(street.names)):
         few = weakened(few, row, 10)
     assert without_weak(few) is few
+
+
+PINHOLE = PhotosOptions(
+    camera=CameraOptions(lens="pinhole", cameras="shared", principal_point="middle")
+)
+PHOTOS = [
+    PhotoRecord(
+        image_id=number, name=f"{number}.jpg", path=Path(), sha256="", width_px=WIDTH_PX,
+        height_px=HEIGHT_PX, focal_px=None, camera=None, time=None, position=None, group=1,
+        notes=(),
+    )
+    for number in range(1, 6)
+]  # fmt: skip
+
+
+def test_a_component_without_a_solution_is_left_out_and_the_others_go_on() -> None:
+    good = known_structure(photos=5, points=120)
+    lost = replace(good, points=np.full_like(good.points, np.nan))
+    components, left = finish_components([lost, good], PHOTOS, PINHOLE)
+    assert [component.structure.names for component in components] == [good.names]
+    assert np.isfinite(components[0].structure.points).all()
+    assert [name for name, _ in left] == list(good.names)
+    assert all("5 photos did not converge" in reason for _, reason in left)
+    with pytest.raises(NotFoundError, match="did not converge"):
+        finish_components([lost], PHOTOS, PINHOLE)

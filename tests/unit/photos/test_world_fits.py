@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 import pytest
 from known_structure import known_structure
 from numpy.typing import NDArray
+from pyproj import Geod
 from scipy.spatial.transform import Rotation
 
 from veduta.imaging.shot import Position
@@ -16,6 +18,7 @@ from veduta.photos.structure import Structure, errors_px
 from veduta.photos.world.absolute_orientation import absolute_orientation, similarity_jacobian
 from veduta.photos.world.control_file import ControlPoint, ControlPoints, read_control
 from veduta.photos.world.control_fit import control_georeference
+from veduta.photos.world.control_marks import unknown_marks
 from veduta.photos.world.georeference import Similarity
 from veduta.photos.world.georeferencing import in_the_world
 from veduta.photos.world.gps_fit import gps_georeference
@@ -142,6 +145,8 @@ def test_the_control_file(tmp_path: Path) -> None:
     assert [len(point.seen) for point in control.points] == [2, 1]
     assert control.points[1].name == "corner"
     assert control.points[1].seen == (("a.jpg", (5.0, 6.0)),)
+    assert control.lines == {"a.jpg": (3, 5), "b.jpg": (4,)}
+    assert control.notes == ()
     for text, fault in (
         ("", "is empty"),
         ("moon\n1 2 3 4 5 a.jpg\n", "names no CRS"),
@@ -149,10 +154,59 @@ def test_the_control_file(tmp_path: Path) -> None:
         ("EPSG:25832\n1 2 nan 4 5 a.jpg\n", "line 2"),
         ("EPSG:25832\n", "no control points"),
         ("EPSG:25832\n1 2 3 4 5 a.jpg p\n1 2 9 4 5 b.jpg p\n", "another place"),
+        ("WGS84\n500000 5500000 10 1 2 a.jpg\n", "in degrees.*Write longitude, latitude"),
+        ("WGS84\n48.1 102.5 10 1 2 a.jpg\n", "point 48.1 102.5 10 at"),
     ):
         path.write_text(text)
         with pytest.raises(InputError, match=fault):
             read_control(path)
+
+
+def test_points_without_names_that_are_near_each_other(tmp_path: Path) -> None:
+    """They are named after their places, to the millimetre."""
+    path = tmp_path / "gcp.txt"
+    path.write_text(
+        "EPSG:25832\n500000.10 5500000.25 10 1 2 a.jpg\n500000.1 5500000.25 10.0 3 4 b.jpg\n"
+        "500000.2 5500000.26 10 5 6 a.jpg\n"
+    )
+    assert [len(point.seen) for point in read_control(path).points] == [2, 1]
+
+
+def test_control_points_in_degrees_become_metres(tmp_path: Path) -> None:
+    """The distances are those on the ellipsoid, but for the scale of the grid (0.9996 and on)."""
+    path = tmp_path / "gcp.txt"
+    corners = [(11.500, 48.100), (11.502, 48.100), (11.502, 48.101)]
+    lines = [f"{x} {y} 500 {n} 2 a.jpg p{n}" for n, (x, y) in enumerate(corners)]
+    path.write_text("\n".join(["WGS84", *lines]))
+    control = read_control(path)
+    assert control.crs == "EPSG:32632"
+    assert "converted from EPSG:4326" in control.notes[0]
+    places = [point.place_m for point in control.points]
+    for here, there in ((0, 1), (1, 2)):
+        apart = np.linalg.norm(places[here] - places[there])
+        _, _, true = Geod(ellps="WGS84").inv(*corners[here], *corners[there])
+        assert apart == pytest.approx(true, rel=1e-3)
+    assert [place[2] for place in places] == [500.0] * 3
+
+
+def test_marks_in_photos_that_are_not_there(tmp_path: Path) -> None:
+    path = tmp_path / "gcp.txt"
+    lines = [
+        f"{n} {n * n} 0 10 20 {name} p{n}" for n in range(3) for name in ("IMG_1.JPG", "IMG_2.JPG")
+    ]
+    lines += ["0 0 0 10 20 img_3.jpg p0", "1 1 0 10 20 img_3.jpg p1", "2 4 0 1 2 garden.png p2"]
+    path.write_text("\n".join(["EPSG:25832", *lines]))
+    control = read_control(path)
+    photos = ["IMG_1.JPG", "IMG_2.JPG", "IMG_3.JPG"]
+    assert unknown_marks(control, photos) == [
+        "lines 8, 9: img_3.jpg is not among the photos, where IMG_3.JPG is",
+        "line 10: garden.png is not among the photos",
+    ]
+    with pytest.raises(InputError, match=r"marks 0 of its 3 points.*lines 3, 5, 7: IMG_2.JPG is"):
+        unknown_marks(control, ["IMG_1.JPG", "IMG_9.JPG"])
+    two = replace(control, points=control.points[:2])
+    with pytest.raises(InputError, match="marks 2 of its 2 points in two photos"):
+        unknown_marks(two, photos)
 
 
 def gps(structure: Structure, true: Similarity, error_m: float, wild: int = 0) -> GpsPositions:

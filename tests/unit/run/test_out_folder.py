@@ -129,6 +129,50 @@ def test_force_replaces_and_forgets_what_is_left_over(tmp_path: Path) -> None:
     assert found == {"y.txt": "two", "z.txt": "two"}
 
 
+def test_no_empty_folders_are_left(tmp_path: Path) -> None:
+    """Neither of an item that has no files, nor where all files of a folder have gone."""
+    path = tmp_path / "out"
+    with open_out(path, "facade", "k") as out:
+        work = out.work_folder("a")
+        (work / "deep" / "er").mkdir(parents=True)
+        (work / "deep" / "er" / "x.txt").write_text("one")
+        out.publish("a", "k", work)
+        make(out, "b")
+        out.publish("c", "k", out.work_folder("c"))
+        out.finish()
+    assert not (path / "c").exists()
+    (path / "b" / "mine.txt").write_text("mine")
+    with open_out(path, "facade", "other", force=True) as out:
+        for item in ("a", "b"):
+            out.publish(item, "other", out.work_folder(item))
+        out.finish()
+    assert not (path / "a").exists()
+    assert [file.name for file in (path / "b").iterdir()] == ["mine.txt"]
+
+
+def refused(path: Path, *names: str) -> None:
+    def run() -> None:
+        with open_out(path, "facade", "k") as out:
+            if names:
+                make(out, "a", "one", *names)
+            out.work_folder("b").joinpath("half.txt").write_text("half")
+            raise InputError("a.jpg", "is too small", "Give another.")
+
+    with pytest.raises(InputError, match="too small"):
+        run()
+
+
+def test_a_refused_call_leaves_no_new_folder(tmp_path: Path) -> None:
+    """But what it has finished stays, and so does a folder that was there."""
+    refused(tmp_path / "new")
+    assert not (tmp_path / "new").exists()
+    refused(tmp_path / "half", "x.txt")
+    assert (tmp_path / "half" / "a" / "x.txt").exists()
+    (tmp_path / "there").mkdir()
+    refused(tmp_path / "there")
+    assert (tmp_path / "there").exists()
+
+
 def test_edited_file_is_never_replaced(tmp_path: Path) -> None:
     finished(tmp_path / "out")
     edited = tmp_path / "out" / "a" / "x.txt"

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.lens import LensChoice, choose_lens, with_cameras
+from veduta.photos.cameras.misplaced import without_misplaced
 from veduta.photos.cameras.orient import oriented
 from veduta.photos.cameras.upright import Upright
 from veduta.photos.options import CameraOptions
@@ -24,19 +25,26 @@ MOST_ERROR_PX = 4.0
 """Observations that lie further off after the last adjustment are false."""
 FEWEST_POINTS = 30
 """The engine places a photo by as many; one that is left with fewer was placed falsely."""
+_WEAK = f"the last adjustment leaves it fewer than {FEWEST_POINTS} points: it was placed falsely"
+_MISPLACED = (
+    "it matches, but where that puts it it would show much that it does not: something that looks"
+    " alike stands elsewhere, too"
+)
 
 
 @dataclass(frozen=True)
 class Component:
     """Photos that hang together. level_deg: how level they were held, in the middle.
 
-    upright: what walls and vertical edges said of up; None where they were not asked.
+    upright: what walls and vertical edges said of up; None where they were not asked. left: photos
+    that were mapped and fell out, as (name, reason).
     """
 
     structure: Structure
     lens: LensChoice
     level_deg: float
     upright: Upright | None = None
+    left: tuple[tuple[str, str], ...] = ()
 
     @cached_property
     def errors_px(self) -> NDArray[np.float64]:
@@ -56,8 +64,19 @@ def finish_component(
     structure = with_cameras(mapped, choice.kind, groups)
     structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
     structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
-    upright = oriented(without_weak(structure))
-    return Component(upright.structure, choice, upright.level_deg)
+    placed = without_misplaced(structure)
+    left = _told(structure, placed, _MISPLACED)
+    if left:  # they bent what they were tied to
+        placed = without_outliers(adjusted(placed, free_principal_point=free), MOST_ERROR_PX)
+    held = without_weak(placed)
+    upright = oriented(held)
+    left += _told(placed, held, _WEAK)
+    return Component(upright.structure, choice, upright.level_deg, left=left)
+
+
+def _told(before: Structure, after: Structure, reason: str) -> tuple[tuple[str, str], ...]:
+    """The photos that fell out."""
+    return tuple((name, reason) for name in sorted({*before.names} - {*after.names}))
 
 
 def without_weak(structure: Structure) -> Structure:

@@ -27,6 +27,8 @@ from veduta.run.inputs import require_file
 Kind = Literal["an OBJ mesh", "CityGML", "CityJSON", "a file of outlines"]
 MOST_EXTENT_M = 100_000.0
 MOST_NAMED = 3
+_OUTLINES = (".geojson", ".json", ".gpkg")
+_PACKAGE = b"SQLite format 3"
 
 
 def read_city_model(path: Path, options: ModelOptions) -> CityModel:
@@ -68,6 +70,9 @@ def _kind(path: Path, head: bytes) -> Kind:
         return "CityGML"
     if suffix in SEQUENCES or (head.lstrip().startswith(b"{") and is_city(path)):
         return "CityJSON"
+    if suffix not in _OUTLINES and not head.lstrip().startswith((b"{", _PACKAGE)):
+        remedy = "Give CityJSON, CityGML, OBJ, or outlines as GeoJSON or GeoPackage."
+        raise InputError(path, "is no city model that can be read", remedy)
     return "a file of outlines"
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,7 +11,7 @@ from pydantic import JsonValue
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
 from veduta.photos.intake.colmap_folder import ModelFiles, models_in
 from veduta.photos.intake.given import NOTHING_ELSE, Given
-from veduta.photos.intake.masks import Mask, masks_in, with_masks
+from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
 from veduta.photos.intake.source import Source
 from veduta.photos.intake.video import Video, video_of
 from veduta.run.digests import file_digest
@@ -18,6 +19,8 @@ from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
 MOST_PHOTOS = 20_000
+_FOREIGN = (".heic", ".heif", ".avif", ".cr2", ".cr3", ".nef", ".arw", ".dng", ".orf", ".rw2")
+"""Photos of telephones and cameras that are not read."""
 _ADD = "Put at least two photos of the same place into it (JPEG, PNG, TIFF, WebP)."
 
 
@@ -56,11 +59,13 @@ def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
     video = video_of(given.video) if given.video else None
     models = models_in(given.from_colmap) if given.from_colmap else ()
     masks = masks_in(given.masks) if given.masks else ()
+    if video is not None:
+        _require_sizes(masks, video)
     if folder is None:
         return Call(given.video or Path(), (), masks=masks, video=video)
     sources, copies, unreadable, files = _found(folder)
     if len(sources) < 2 and video is None:
-        raise InputError(folder, _too_few(files, len(sources)), _ADD)
+        raise InputError(folder, _too_few(files, len(sources)), _what_to_do(folder, files))
     taken, notes = (sources, ()) if video else with_masks(sources, masks)
     return Call(folder, taken, copies, unreadable, masks, video, models, notes)
 
@@ -76,6 +81,14 @@ def _require_sense(folder: Path | None, given: Given) -> None:
     if given.masks is not None:
         remedy = "Leave out --masks: nothing is looked for where a model is given."
         raise InputError("--masks", "has no use with --from-colmap", remedy)
+
+
+def _require_sizes(masks: Sequence[Mask], video: Video) -> None:
+    """InputError for a mask of another size than the frames: said before the film is read."""
+    for mask in masks:
+        frame = f"{mask.path.stem.lower().removesuffix('.jpg')}.jpg"
+        if video.is_frame_name(frame):
+            read_mask(mask.path, frame, video.size_px)
 
 
 _Pairs = tuple[tuple[str, str], ...]
@@ -124,6 +137,28 @@ def _paths(folder: Path) -> list[Path]:
         fault = f"holds {len(found)} photos, more than {MOST_PHOTOS}"
         raise InputError(folder, fault, "Divide them into several folders.")
     return found
+
+
+def _what_to_do(folder: Path, files: int) -> str:
+    """What to do about a folder without photos: where some may lie instead, if anywhere."""
+    if files:
+        return _ADD
+    try:
+        there = sorted(folder.iterdir())[:MOST_PHOTOS]
+        inner = [path for path in there if path.is_dir() and _holds_photos(path)]
+    except OSError:  # of a folder in it
+        return _ADD
+    if inner:
+        others = f" ({len(inner)} folders in it hold photos)" if len(inner) > 1 else ""
+        return f"Name {inner[0]}, which holds some{others}: folders in folders are not looked into."
+    foreign = [path for path in there if path.suffix.lower() in _FOREIGN]
+    if foreign:
+        return f"Save {foreign[0].name} and the others as JPEG, PNG, TIFF or WebP."
+    return _ADD
+
+
+def _holds_photos(folder: Path) -> bool:
+    return any(path.suffix.lower() in SUFFIXES for path in folder.iterdir())
 
 
 def _too_few(files: int, usable: int) -> str:

@@ -12,7 +12,9 @@ from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
-LARGEST_FILE_BYTES = 16_000_000_000
+LARGEST_BYTES = {".bin": 4_000_000_000, ".txt": 1_000_000_000}
+"""Of a file, which is read whole: 20,000 photos with 8,192 features each have 3.9 GB in
+`images.bin`."""
 _READERS: dict[str, ModuleType] = {".bin": colmap_binary, ".txt": colmap_text}
 _REMEDY = (
     "Name a folder with cameras, images and points3D (.bin or .txt), such as sparse/0, or sparse"
@@ -75,7 +77,7 @@ def _files(folder: Path) -> ModelFiles:
     digests = []
     for path in paths:
         try:
-            require_file(path, LARGEST_FILE_BYTES)
+            require_file(path, LARGEST_BYTES[suffix])
             digests.append(file_digest(path))
         except FileNotFoundError:
             others = ", ".join(other.name for other in paths if other.exists())

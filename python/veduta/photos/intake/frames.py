@@ -22,34 +22,40 @@ FRAMES = "frames"
 _TOLD = "told.json"
 
 
-def with_frames(
-    call: Call, stages: Stages, opened: OutFolder, key: str, progress: StepProgress = no_progress
-) -> Call:
+def with_frames(call: Call, stages: Stages, progress: StepProgress = no_progress) -> Call:
     """The call with the frames of its film among the photos; as it is where it has none.
 
-    A killed run's frames are taken over. OUT/frames has the same ones for the user, who may change
-    them: what is read here is not those.
+    A killed run's frames are taken over.
     """
     if call.video is None:
-        if opened.record.files_of(FRAMES):  # of a former call
-            opened.publish(FRAMES, key, opened.work_folder(FRAMES))
         return call
     folder = stages.frames(call.video)
     if not folder.exists():
-        with writing_to(opened.path), atomic_folder(folder) as temporary:
+        with writing_to(stages.out), atomic_folder(folder) as temporary:
             taken = write_frames(call.video, stages.options.video, temporary, progress)
             (temporary / _TOLD).write_text(json.dumps(taken.notes), encoding="utf-8")
     paths = sorted(folder.glob("*.jpg"))
-    if not opened.is_current(FRAMES, key):
-        work = opened.work_folder(FRAMES)
-        with writing_to(opened.path):
-            for path in paths:
-                same_file(path, work / path.name)
-        opened.publish(FRAMES, key, work)
     notes = json.loads((folder / _TOLD).read_text(encoding="utf-8"))
     sources = (*call.sources, *_sources(call, call.video, paths))
     masked, told = with_masks(sources, call.masks)
     return replace(call, sources=masked, notes=(*call.notes, *notes, *told))
+
+
+def publish_frames(call: Call, opened: OutFolder, key: str) -> None:
+    """Give the user the frames in OUT/frames; nothing reads those, for they may be changed.
+
+    They come with the results: a call that is refused for its photos or masks leaves none.
+    """
+    if call.video is None and not opened.record.files_of(FRAMES):  # nor of a former call
+        return
+    if opened.is_current(FRAMES, key):
+        return
+    work = opened.work_folder(FRAMES)
+    with writing_to(opened.path):
+        for source in call.sources:
+            if source.video is not None:
+                same_file(source.path, work / source.name)
+    opened.publish(FRAMES, key, work)
 
 
 def _sources(call: Call, video: Video, paths: list[Path]) -> list[Source]:

@@ -10,6 +10,7 @@ standing still gives one frame and a fast pan several.
 from __future__ import annotations
 
 import os
+import re
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -60,11 +61,24 @@ _REMEDY = "Convert it to MP4 (H.264), or give single photos."
 
 @dataclass(frozen=True)
 class Video:
-    """A film that has a first frame, at least."""
+    """A film that has a first frame, at least. size_px: width and height of that, upright."""
 
     path: Path
     name: str
     sha256: str
+    size_px: tuple[int, int]
+
+    def frame_name(self, number: int) -> str:
+        """What the file of a frame is called."""
+        return f"{self._stem}-{number:06d}.jpg"
+
+    def is_frame_name(self, name: str) -> bool:
+        """Whether a file may be a frame of it, by its name; small letters or not."""
+        return re.fullmatch(rf"{self._stem}-\d{{6}}\.jpg", name, re.IGNORECASE) is not None
+
+    @property
+    def _stem(self) -> str:
+        return "".join(letter if letter.isalnum() else "-" for letter in self.path.stem)[:60]
 
 
 @dataclass(frozen=True)
@@ -106,12 +120,11 @@ def video_of(path: Path) -> Video:
         raise InputError(path, fault, "Check its permissions.") from error
     if not any(start[at:].startswith(magic) for at, magic in _STARTS):
         raise InputError(path, "is not a film that can be read", _REMEDY)
-    video = Video(path, path.name, digest)
-    with _opened(video) as film:
+    with _opened(path) as film:
         if not film.grab():
             raise InputError(path, "has no frame that can be read", _REMEDY)
-        _frame(video, film)
-    return video
+        height, width = _frame(path, film).shape[:2]
+    return Video(path, path.name, digest, (width, height))
 
 
 def write_frames(
@@ -121,16 +134,15 @@ def write_frames(
     look = look_through(video, progress)
     chosen = choose_frames(look, options)
     paths = []
-    stem = "".join(letter if letter.isalnum() else "-" for letter in video.path.stem)[:60]
     wanted = set(chosen.tolist())
-    with _opened(video) as film:
+    with _opened(video.path) as film:
         for number in range(int(chosen.max()) + 1):
             progress("video", 0.5 + 0.5 * number / (int(chosen.max()) + 1))
             if not film.grab():
                 break
             if number in wanted:
-                paths.append(folder / f"{stem}-{number:06d}.jpg")
-                _write(_frame(video, film), paths[-1])
+                paths.append(folder / video.frame_name(number))
+                _write(_frame(video.path, film), paths[-1])
     if len(paths) != len(chosen):
         raise InputError(video.path, "reads differently a second time", _REMEDY)
     return Frames(tuple(paths), _notes(video, look, chosen, options))
@@ -143,7 +155,7 @@ def look_through(video: Video, progress: StepProgress = no_progress) -> Look:
     sharpness: list[float] = []
     stretches: list[int] = []
     begun: NDArray[np.uint8] | None = None
-    with _opened(video) as film:
+    with _opened(video.path) as film:
         expected = max(0, int(film.get(cv2.CAP_PROP_FRAME_COUNT)))
         rate = film.get(cv2.CAP_PROP_FPS) or 25.0
         read = 0
@@ -153,7 +165,7 @@ def look_through(video: Video, progress: StepProgress = no_progress) -> Look:
             if times and time_s < times[-1] + 1.0 / LOOKS_PER_S - 1e-3:
                 continue
             progress("video", 0.5 * min(1.0, read / max(1, expected)))
-            grey = cv2.cvtColor(_frame(video, film), cv2.COLOR_BGR2GRAY).astype(np.uint8)
+            grey = cv2.cvtColor(_frame(video.path, film), cv2.COLOR_BGR2GRAY).astype(np.uint8)
             small = _shrunk(grey, SMALL_PX)
             ended = begun is not None and motion_between(begun, small) >= MOTION
             if begun is None or ended:
@@ -231,27 +243,27 @@ def _notes(
 
 
 @contextmanager
-def _opened(video: Video) -> Iterator[cv2.VideoCapture]:
+def _opened(path: Path) -> Iterator[cv2.VideoCapture]:
     # What is wrong with a film is said in our words.
     os.environ.setdefault("OPENCV_FFMPEG_LOGLEVEL", "-8")
     cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_ERROR)
-    film = cv2.VideoCapture(str(video.path), cv2.CAP_FFMPEG)
+    film = cv2.VideoCapture(str(path), cv2.CAP_FFMPEG)
     try:
         if not film.isOpened():
-            raise InputError(video.path, "is truncated, damaged, or of an unknown codec", _REMEDY)
+            raise InputError(path, "is truncated, damaged, or of an unknown codec", _REMEDY)
         yield film
     finally:
         film.release()
 
 
-def _frame(video: Video, film: cv2.VideoCapture) -> NDArray[np.uint8]:
+def _frame(path: Path, film: cv2.VideoCapture) -> NDArray[np.uint8]:
     """(h, w, 3) the frame that was grabbed, BGR, turned upright as the film says."""
     good, frame = film.retrieve()
     if not good:
-        raise InputError(video.path, "has a frame that cannot be decoded", _REMEDY)
+        raise InputError(path, "has a frame that cannot be decoded", _REMEDY)
     height, width = frame.shape[:2]
     if width * height > MAX_PIXELS:
-        raise InputError(video.path, f"has frames of {width} x {height} px", _REMEDY)
+        raise InputError(path, f"has frames of {width} x {height} px", _REMEDY)
     return np.asarray(frame, dtype=np.uint8)
 
 

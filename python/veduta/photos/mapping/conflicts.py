@@ -122,17 +122,17 @@ def _conflicts(
     and hardly any point is shared.
     """
     theirs, own = (np.setdiff1d(seen[way], seen[1 - way], assume_unique=True) for way in (0, 1))
-    all_cells, all_depths = _cells(structure, seen[1], row)
+    all_cells, all_depths = cells_of(structure, seen[1], row)
     furthest = np.zeros(GRID * GRID)
     np.maximum.at(furthest, all_cells, all_depths)
-    their_cells, their_depths = _cells(structure, _alike(structure, theirs, centres), row)
+    their_cells, their_depths = cells_of(structure, _alike(structure, theirs, centres), row)
     visible = their_depths <= BEHIND * furthest[their_cells]
     alone, lacking, shared = (
         np.bincount(cells, minlength=GRID * GRID)
         for cells in (
-            _cells(structure, _alike(structure, own, centres), row)[0],
+            cells_of(structure, _alike(structure, own, centres), row)[0],
             their_cells[visible],
-            _cells(structure, both, row)[0],
+            cells_of(structure, both, row)[0],
         )
     )
     torn = (alone >= ENOUGH) & (lacking >= ENOUGH)
@@ -148,7 +148,7 @@ def _alike(
     return points[_angles_deg(rays[0], rays[1]) <= WIDEST_DEG]
 
 
-def _cells(
+def cells_of(
     structure: Structure, points: NDArray[np.int64], row: int
 ) -> tuple[NDArray[np.int64], NDArray[np.float64]]:
     """Cell (k,) and depth (k,) of those of the points that come to lie within a photo."""

@@ -1,25 +1,38 @@
 """Growing one component photo by photo, with what is grown so far kept on the disk.
 
 The engine registers the photos (incremental structure from motion, Schoenberger and Frahm, CVPR
-2016); this file has its snapshots. After each photo the model is written whole beside the earlier
-one, which then goes: a run that is killed begins again from the last photo but one.
+2016); this file has its first pair, and its snapshots. After each photo the model is written whole
+beside the earlier one, which then goes: a run that is killed begins again from the last photo but
+one.
 """
 
 from __future__ import annotations
 
 import shutil
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 
 import pycolmap
 
-from veduta.run.atomic import atomic_folder
+from veduta.photos.mapping.grown import Grown, read_grown, write_grown
+from veduta.photos.mapping.initial_pair import (
+    FEWEST,
+    LEAST_ANGLE_DEG,
+    Start,
+    WeighedPair,
+    weighed_pair,
+    weighed_pairs,
+)
 from veduta.run.pool import available_cores
 
+MOST_TRIED = 8
+"""Pairs that meet the conditions from which growing is tried, before the engine chooses."""
 RELAXED = ((100, 16.0), (50, 16.0), (50, 8.0), (25, 8.0), (25, 4.0))
-"""What is asked of a first pair in turn: agreeing features, and degrees between its rays."""
+"""What the engine asks of a first pair that it chooses, in turn: agreeing features, and degrees
+between its rays."""
 WRITING_SHARE = 0.2
 """Share of the time that snapshots may take: where a large model takes long to write, they are
 rarer than one a photo."""
@@ -31,38 +44,144 @@ SHORT_S = 0.25
 class Growth:
     """What `grow` needs. smallest: photos that a component must have.
 
-    snapshots: a folder of its own, which may hold what an earlier run left.
+    image_ids: the photos that wait for one, which are those of the cache. snapshots: a folder of
+    its own, which may hold what an earlier run left.
     """
 
+    database: Path
+    image_ids: tuple[int, ...]
     cache: pycolmap.DatabaseCache
     snapshots: Path
     smallest: int
     seed: int
 
 
-def grow(growth: Growth, registered: Callable[[int], None]) -> pycolmap.Reconstruction | None:
+@dataclass
+class _Tried:
+    """First pairs so far: how many did not meet the conditions, and gave nothing to grow from."""
+
+    passed_over: int = 0
+    refused: int = 0
+
+
+def grow(growth: Growth, registered: Callable[[int], None]) -> Grown | None:
     """The component that the best first pair begins, or the one that was begun and not ended.
 
-    None where no pair begins one. registered: is told how many photos it has, after each.
+    Pairs that meet the conditions of the thesis are tried first, in their order; then those that
+    the engine chooses. None where no pair begins one. registered: is told how many photos it has,
+    after each.
     """
-    manager = pycolmap.ReconstructionManager()
-    for inliers, degrees in RELAXED:
-        pipeline = pycolmap.IncrementalPipeline(_options(growth), growth.cache, manager)
-        asked = pipeline.options.get_mapper()
-        asked.init_min_num_inliers, asked.init_min_tri_angle = inliers, degrees
-        mapper = pycolmap.IncrementalMapper(growth.cache)
-        for _ in range(pipeline.options.init_num_trials):
-            model = read_snapshot(growth.snapshots) or pycolmap.Reconstruction()
-            _watch(pipeline, model, growth.snapshots, registered)
-            status = pipeline.reconstruct_sub_model(mapper, asked, model)
-            kept = model.num_reg_images() >= growth.smallest
-            mapper.end_reconstruction(not kept)
-            if status == pycolmap.IncrementalPipelineStatus.SUCCESS and kept:
-                return model
-            shutil.rmtree(growth.snapshots, ignore_errors=True)
-            if status == pycolmap.IncrementalPipelineStatus.NO_INITIAL_PAIR:
+    begun = read_snapshot(growth.snapshots)
+    if begun is not None:
+        trial = _Trial(growth, registered, RELAXED[0])
+        if (grown := trial.run(begun)) is not None:
+            return grown
+    tried = _Tried()
+    for pair in _meeting_conditions(growth, tried):
+        start = Start(pair, "conditions", tried.passed_over, tried.refused)
+        # The engine takes single points by the same angle: half of the median keeps most of them.
+        bounds = (FEWEST, LEAST_ANGLE_DEG / 2)
+        trial = _Trial(growth, registered, bounds, partial(_told, start), pair)
+        if (grown := trial.run()) is not None:
+            return grown
+        tried.refused += 1
+        if tried.refused == MOST_TRIED:
+            break
+    return _grown_from_engines_choice(growth, registered, tried)
+
+
+def _told(start: Start, pair: tuple[int, int]) -> Start:
+    """What is known of the pair already."""
+    return start
+
+
+def _meeting_conditions(growth: Growth, tried: _Tried) -> Iterator[WeighedPair]:
+    for pair in weighed_pairs(growth.database, growth.image_ids, growth.seed):
+        if pair.fault is None:
+            yield pair
+        else:
+            tried.passed_over += 1
+
+
+def _grown_from_engines_choice(
+    growth: Growth, registered: Callable[[int], None], tried: _Tried
+) -> Grown | None:
+    """From a pair that the engine chooses, with ever less asked of it."""
+
+    def start_of(pair: tuple[int, int]) -> Start:
+        weighed = weighed_pair(growth.database, pair, growth.seed)
+        return Start(weighed, "engine", tried.passed_over, tried.refused)
+
+    for bounds in RELAXED:
+        trial = _Trial(growth, registered, bounds, start_of)
+        for _ in range(trial.pipeline.options.init_num_trials):
+            if (grown := trial.run()) is not None:
+                return grown
+            if trial.is_exhausted:
                 break
     return None
+
+
+class _Trial:
+    """The engine with what is asked of a first pair, and the model that it grows, which is kept.
+
+    bounds: as in `RELAXED`. start_of: what is to be told of the pair that a model begins with; None
+    where it is only gone on with. pair: the one to begin with; the engine chooses where it is None,
+    and remembers which it has tried.
+    """
+
+    def __init__(
+        self,
+        growth: Growth,
+        registered: Callable[[int], None],
+        bounds: tuple[int, float],
+        start_of: Callable[[tuple[int, int]], Start] | None = None,
+        pair: WeighedPair | None = None,
+    ) -> None:
+        self.growth, self.registered, self.start_of = growth, registered, start_of
+        options = _options(growth)
+        if pair is not None:
+            options.init_image_id1, options.init_image_id2 = pair.first, pair.second
+        manager = pycolmap.ReconstructionManager()
+        self.pipeline = pycolmap.IncrementalPipeline(options, growth.cache, manager)
+        self.asked = self.pipeline.options.get_mapper()
+        self.asked.init_min_num_inliers, self.asked.init_min_tri_angle = bounds
+        self.mapper = pycolmap.IncrementalMapper(growth.cache)
+        self.is_exhausted = False
+        self.grown = Grown(pycolmap.Reconstruction(), None)
+        self.ended, self.took = time.perf_counter(), 0.0
+        callbacks = pycolmap.IncrementalPipelineCallback
+        self.pipeline.add_callback(callbacks.INITIAL_IMAGE_PAIR_REG_CALLBACK, self._after_pair)
+        self.pipeline.add_callback(callbacks.NEXT_IMAGE_REG_CALLBACK, self._after_photo)
+
+    def run(self, begun: Grown | None = None) -> Grown | None:
+        """Grow one model, or go on with one; None where it comes to nothing."""
+        self.grown = begun or Grown(pycolmap.Reconstruction(), None)
+        model = self.grown.model
+        status = self.pipeline.reconstruct_sub_model(self.mapper, self.asked, model)
+        kept = model.num_reg_images() >= self.growth.smallest
+        self.mapper.end_reconstruction(not kept)
+        if status == pycolmap.IncrementalPipelineStatus.SUCCESS and kept:
+            return self.grown
+        self.is_exhausted = status == pycolmap.IncrementalPipelineStatus.NO_INITIAL_PAIR
+        shutil.rmtree(self.growth.snapshots, ignore_errors=True)
+        return None
+
+    def _after_pair(self) -> None:
+        """The engine calls it for a model that it goes on with, too."""
+        if self.start_of is not None:
+            first, second = sorted(self.grown.model.reg_image_ids())
+            self.grown = Grown(self.grown.model, self.start_of((first, second)))
+        self._after_photo()
+
+    def _after_photo(self) -> None:
+        self.registered(self.grown.model.num_reg_images())
+        begun = time.perf_counter()
+        if self.took > SHORT_S and begun - self.ended < self.took / WRITING_SHARE:
+            return
+        write_snapshot(self.grown, self.growth.snapshots)
+        self.ended = time.perf_counter()
+        self.took = self.ended - begun
 
 
 def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
@@ -76,45 +195,20 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
     return options
 
 
-def _watch(
-    pipeline: pycolmap.IncrementalPipeline,
-    model: pycolmap.Reconstruction,
-    snapshots: Path,
-    registered: Callable[[int], None],
-) -> None:
-    """Have the model written as it grows."""
-    ended, took = [time.perf_counter()], [0.0]
-
-    def after_photo() -> None:
-        count = model.num_reg_images()
-        registered(count)
-        begun = time.perf_counter()
-        if took[0] > SHORT_S and begun - ended[0] < took[0] / WRITING_SHARE:
-            return
-        write_snapshot(model, snapshots)
-        ended[0] = time.perf_counter()
-        took[0] = ended[0] - begun
-
-    callbacks = pycolmap.IncrementalPipelineCallback
-    for moment in (callbacks.INITIAL_IMAGE_PAIR_REG_CALLBACK, callbacks.NEXT_IMAGE_REG_CALLBACK):
-        pipeline.add_callback(moment, after_photo)
-
-
-def write_snapshot(model: pycolmap.Reconstruction, snapshots: Path) -> None:
+def write_snapshot(grown: Grown, snapshots: Path) -> None:
     """Keep the model as it is now, and no earlier one; it appears whole."""
     snapshots.mkdir(parents=True, exist_ok=True)
     earlier = list(snapshots.iterdir())
     number = 1 + max(_numbered(snapshots), default=0)
-    with atomic_folder(snapshots / f"{number}") as temporary:
-        model.write_binary(temporary)
+    write_grown(grown, snapshots / f"{number}")
     for folder in earlier:
         shutil.rmtree(folder)
 
 
-def read_snapshot(snapshots: Path) -> pycolmap.Reconstruction | None:
+def read_snapshot(snapshots: Path) -> Grown | None:
     """The latest model that was kept; None where there is none."""
     found = _numbered(snapshots)
-    return pycolmap.Reconstruction(found[max(found)]) if found else None
+    return read_grown(found[max(found)]) if found else None
 
 
 def _numbered(snapshots: Path) -> dict[int, Path]:

@@ -16,6 +16,8 @@ import pycolmap
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.mapping.engine import quiet_engine
 from veduta.photos.mapping.growing import Growth, grow
+from veduta.photos.mapping.grown import Grown, read_grown, write_files, write_grown
+from veduta.photos.mapping.initial_pair import Start
 from veduta.photos.matching.match import PairRecord, database_name
 from veduta.run.atomic import atomic_folder
 from veduta.run.progress import StepProgress, no_progress
@@ -29,9 +31,19 @@ _GROWING = "growing-"
 
 @dataclass(frozen=True)
 class Mapped:
-    """The components, that with most photos first."""
+    """The components, that with most photos first, and what each was begun with."""
 
-    models: tuple[pycolmap.Reconstruction, ...]
+    grown: tuple[Grown, ...]
+
+    @property
+    def models(self) -> tuple[pycolmap.Reconstruction, ...]:
+        """Poses and points of each."""
+        return tuple(one.model for one in self.grown)
+
+    @property
+    def starts(self) -> tuple[Start, ...]:
+        """The first pair of each that was grown from one."""
+        return tuple(one.start for one in self.grown if one.start is not None)
 
 
 def map_photos(
@@ -51,25 +63,33 @@ def map_photos(
     work.mkdir(exist_ok=True)
     ended = list(_read_numbered(work))
     while (found := _next_component(database, work, ended, image_ids, seed, progress)) is not None:
-        _write_numbered(found, work, len(ended))
+        write_grown(found, work / str(len(ended)))
         ended.append(found)
         for snapshots in work.glob(f"{_GROWING}*"):
             shutil.rmtree(snapshots)
-    ended.sort(key=lambda model: (-model.num_reg_images(), min(model.reg_image_ids())))
-    return Mapped(tuple(ended))
+    return by_size(ended)
+
+
+def by_size(grown: Sequence[Grown]) -> Mapped:
+    """Components in their order."""
+
+    def place(one: Grown) -> tuple[int, int]:
+        return -one.model.num_reg_images(), min(one.model.reg_image_ids())
+
+    return Mapped(tuple(sorted(grown, key=place)))
 
 
 def _next_component(
     database: Path,
     work: Path,
-    ended: Sequence[pycolmap.Reconstruction],
+    ended: Sequence[Grown],
     image_ids: Sequence[int],
     seed: int,
     progress: StepProgress,
-) -> pycolmap.Reconstruction | None:
+) -> Grown | None:
     """One more of the photos that no ended component has; None where there is none."""
-    placed = {image for model in ended for image in model.reg_image_ids()}
-    waiting = [image for image in image_ids if image not in placed]
+    placed = {image for one in ended for image in one.model.reg_image_ids()}
+    waiting = tuple(image for image in image_ids if image not in placed)
 
     def registered(count: int) -> None:
         progress("map", min(1.0, (len(placed) + count) / len(image_ids)))
@@ -78,7 +98,8 @@ def _next_component(
     if len(waiting) < smallest:
         return None
     snapshots = work / f"{_GROWING}{len(ended)}"
-    return grow(Growth(_cache(database, waiting), snapshots, smallest, seed), registered)
+    cache = _cache(database, waiting)
+    return grow(Growth(database, waiting, cache, snapshots, smallest, seed), registered)
 
 
 def _cache(database: Path, image_ids: Sequence[int]) -> pycolmap.DatabaseCache:
@@ -93,9 +114,9 @@ def _cache(database: Path, image_ids: Sequence[int]) -> pycolmap.DatabaseCache:
 def write_models(mapped: Mapped, folder: Path) -> None:
     """Keep the components; the folder appears whole."""
     with atomic_folder(folder) as temporary:
-        for number, model in enumerate(mapped.models):
+        for number, one in enumerate(mapped.grown):
             (temporary / str(number)).mkdir()
-            model.write_binary(temporary / str(number))
+            write_files(one, temporary / str(number))
 
 
 def read_models(folder: Path) -> Mapped:
@@ -103,15 +124,10 @@ def read_models(folder: Path) -> Mapped:
     return Mapped(_read_numbered(folder))
 
 
-def _write_numbered(model: pycolmap.Reconstruction, folder: Path, number: int) -> None:
-    with atomic_folder(folder / str(number)) as temporary:
-        model.write_binary(temporary)
-
-
-def _read_numbered(folder: Path) -> tuple[pycolmap.Reconstruction, ...]:
+def _read_numbered(folder: Path) -> tuple[Grown, ...]:
     """The models of the folders with numbers for names; others are not whole, or snapshots."""
     numbers = sorted(int(path.name) for path in folder.iterdir() if path.name.isdigit())
-    return tuple(pycolmap.Reconstruction(folder / str(number)) for number in numbers)
+    return tuple(read_grown(folder / str(number)) for number in numbers)
 
 
 def left_out(

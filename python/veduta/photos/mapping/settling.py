@@ -7,10 +7,11 @@ is kept on the disk, so that a killed run goes on within it.
 from __future__ import annotations
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from veduta.photos.mapping.at_once import map_at_once
 from veduta.photos.mapping.conflicts import close_pairs
 from veduta.photos.mapping.doubt import (
     Doubt,
@@ -27,6 +28,7 @@ from veduta.photos.mapping.mapping import (
     read_models,
     write_models,
 )
+from veduta.photos.options import MapKind
 from veduta.photos.structure import structure_of
 from veduta.run.progress import StepProgress, no_progress
 
@@ -52,6 +54,7 @@ def map_settled(
     image_ids: Sequence[int],
     seed: int,
     progress: StepProgress = no_progress,
+    kind: MapKind = "incremental",
 ) -> Settled:
     """Map the photos of a database until their pairs agree.
 
@@ -59,8 +62,13 @@ def map_settled(
     """
     work.mkdir(exist_ok=True)
     dropped: tuple[Doubt, ...] = ()
+    map_all = map_at_once if kind == "global" else map_photos
+
+    def mapped_from(source: Path, growing: Path) -> Mapped:
+        return map_all(source, growing, image_ids, seed, progress)
+
     for number in range(ROUNDS):
-        mapped = _mapped(database, work, number, dropped, image_ids, seed, progress)
+        mapped = _mapped(database, work, number, dropped, mapped_from)
         noted = work / f"doubts-{number}.json"
         if not noted.exists():
             write_doubts(noted, _doubts(mapped, database, image_ids, dropped))
@@ -78,11 +86,12 @@ def _mapped(
     work: Path,
     number: int,
     dropped: Sequence[Doubt],
-    image_ids: Sequence[int],
-    seed: int,
-    progress: StepProgress,
+    mapped_from: Callable[[Path, Path], Mapped],
 ) -> Mapped:
-    """The components of a round, from the disk where it is finished."""
+    """The components of a round, from the disk where it is finished.
+
+    mapped_from: makes them of a database, with a folder to work in.
+    """
     models = work / f"models-{number}"
     if not models.exists():
         source = database
@@ -91,7 +100,7 @@ def _mapped(
             if not source.exists():
                 database_without(database, dropped, source)
         growing = work / f"round-{number}"
-        write_models(map_photos(source, growing, image_ids, seed, progress), models)
+        write_models(mapped_from(source, growing), models)
         shutil.rmtree(growing)
         if dropped:
             source.unlink()

@@ -15,8 +15,9 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.photos.choosing import median_of
 from veduta.photos.texture.cells import Sights
-from veduta.photos.texture.choice import median_of, signal
+from veduta.photos.texture.choice import signal
 from veduta.photos.texture.views import PlaneView
 
 ROUNDS = 4

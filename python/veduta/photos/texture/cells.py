@@ -7,26 +7,23 @@ the levelling work on these; the texture itself is made later at its full size.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb
-from veduta.photos.city.model import CityModel
 from veduta.photos.texture.faces import Face
+from veduta.photos.texture.halves import Halves, level_of
+from veduta.photos.texture.store import PictureStore
 from veduta.photos.texture.views import (
-    Blockers,
     PlaneView,
     View,
     density,
     plane_view,
-    pyramid,
-    seen_at,
     warped,
 )
-from veduta.run.progress import StepProgress, no_progress
 
 SAMPLES = 4
 """Samples along each side of a cell."""
@@ -36,26 +33,22 @@ MOST_CELLS = 12_000
 MOST_VIEWS = 16
 """Views that a face is made of, at most: those that show some cell best."""
 BEST_PER_CELL = 3
-LEVELS = 6
-"""Of the pictures' halves."""
+_PRUNED_AT = 3 * MOST_VIEWS
+"""Views of a face in memory at which those that show no cell best are dropped."""
 _LEAST_FACING = 0.12
 _LEAST_SHARE = 0.01
-_LEAST_DENSITY_PX_M2 = 6.0
+LEAST_DENSITY_PX_M2 = 6.0
 """A photo whose pixels are larger than 40 cm shows no texture."""
 _LINEAR = linear_of_srgb(np.arange(256) / 255.0).astype(np.float32)
 
 
 @dataclass(frozen=True)
 class Grid:
-    """The cells of a face, from its upper left corner.
-
-    inside: (rows, columns) how much of each lies in polygons.
-    """
+    """The cells of a face, from its upper left corner."""
 
     rows: int
     columns: int
     cell_m: float
-    inside: NDArray[np.float32]
 
     @property
     def samples(self) -> tuple[int, int]:
@@ -97,19 +90,6 @@ class Sights:
         with np.errstate(divide="ignore", invalid="ignore"):
             return np.where(count > 0, by_cell(light) / count, np.nan).astype(np.float32)
 
-    def chosen(self, kept: NDArray[np.int64]) -> Sights:
-        """The same in some of the views."""
-        return Sights(
-            self.face,
-            self.grid,
-            self.views[kept],
-            tuple(self.planes[row] for row in kept.tolist()),
-            self.colour[kept],
-            self.seen[kept],
-            self.density[kept],
-            self.margin[kept],
-        )
-
 
 def by_cell(samples: NDArray[np.float32]) -> NDArray[np.float32]:
     """Means over cells of (k, rows S, columns S) or with channels behind."""
@@ -123,67 +103,46 @@ def grid_of(face: Face) -> Grid:
     width, height = face.size_m
     cell = max(CELL_M, math.sqrt(width * height / MOST_CELLS))
     rows, columns = (max(1, math.ceil(size / cell - 1e-6)) for size in (height, width))
-    fine = face.inside((rows * SAMPLES, columns * SAMPLES), cell / SAMPLES)
-    return Grid(rows, columns, cell, by_cell(fine[None].astype(np.float32))[0])
+    return Grid(rows, columns, cell)
 
 
 def sights_of(
     views: Sequence[View],
-    city: CityModel,
-    faces: Sequence[Face],
-    progress: StepProgress = no_progress,
+    shown: Sequence[tuple[Face, NDArray[np.int64]]],
+    store: PictureStore,
+    progress: Callable[[float], None] = lambda _: None,
 ) -> list[Sights | None]:
-    """What the views show of each face; None for faces that none shows. Each picture is read once.
+    """What views show of faces, each given with the rows of the views that may show it.
 
-    Of many views of a face those are kept that show some cell best (`BEST_PER_CELL`).
+    None for faces that none shows. Of many views of a face those are kept that show some cell best
+    (`BEST_PER_CELL`). Each view is looked at once.
     """
-    blockers, near = Blockers(city), _Near(faces)
+    of_view: dict[int, list[int]] = {}
+    for number, (_, rows) in enumerate(shown):
+        for row in rows.tolist():
+            of_view.setdefault(row, []).append(number)
     grids: dict[int, Grid] = {}
-    found: list[list[_Sight]] = [[] for _ in faces]
-    for number, view in enumerate(views):
-        progress("texture: what photos see", number / len(views))
-        planes = [(row, plane_view(view, faces[row])) for row in near(view).tolist()]
-        wanted = [(row, plane) for row, plane in planes if plane is not None]
-        if not wanted:
-            continue
-        nearness = blockers.nearness(view)
-        valid = None if view.valid is None else view.valid()
-        seen = []
-        for row, plane in wanted:
-            grid = grids.setdefault(row, grid_of(faces[row]))
-            mask = seen_at(view, plane, nearness, valid, grid.samples, grid.pitch_m)
-            mask &= _facing(view, faces[row], grid)
+    found: list[list[_Sight]] = [[] for _ in shown]
+    for turn, row in enumerate(sorted(of_view)):
+        progress(turn / len(of_view))
+        view = views[row]
+        for number in of_view[row]:
+            face = shown[number][0]
+            plane = plane_view(view, face)
+            if plane is None:
+                continue
+            grid = grids.setdefault(number, grid_of(face))
+            mask = store.seen(row, plane, grid.samples, grid.pitch_m)
+            mask &= _facing(view, face, grid)
             mask &= _is_fine(view, plane, grid)
             if mask.mean() > _LEAST_SHARE:
-                seen.append((row, plane, mask))
-        if not seen:
-            continue
-        levels = pyramid(view.pixels(), LEVELS)
-        for row, plane, mask in seen:
-            found[row].append(_sight(number, view, levels, plane, grids[row], mask))
+                found[number].append(_sight(row, view, store.levels(row), plane, grid, mask))
+            if len(found[number]) >= _PRUNED_AT:
+                found[number] = _best(found[number])
     return [
-        _stacked(faces[row], grids[row], sights) if sights else None
-        for row, sights in enumerate(found)
+        _stacked(shown[number][0], grids[number], _best(sights)) if sights else None
+        for number, sights in enumerate(found)
     ]
-
-
-class _Near:
-    """The faces that lie in a view's picture and face it, all at once: a city has many."""
-
-    def __init__(self, faces: Sequence[Face]) -> None:
-        self._corners = np.array([face.corners() for face in faces]).reshape(-1, 4, 3)
-        self._normals = np.array([face.normal for face in faces]).reshape(-1, 3)
-
-    def __call__(self, view: View) -> NDArray[np.int64]:
-        """Rows; a few too many."""
-        ways = view.eye - self._corners
-        facing = (ways[:, 0] * self._normals).sum(axis=1) > 0
-        pose = view.intrinsics @ view.cam_from_world
-        x, y, depth = np.moveaxis(self._corners @ pose[:, :3].T + pose[:, 3], -1, 0)
-        width, height = view.camera.width_px * depth, view.camera.height_px * depth
-        sides = (depth <= 0, x < 0, y < 0, x > width, y > height)
-        beside = np.logical_or.reduce([side.all(axis=1) for side in sides])
-        return np.flatnonzero(facing & ~beside)
 
 
 @dataclass(frozen=True)
@@ -201,7 +160,7 @@ class _Sight:
 def _sight(
     number: int,
     view: View,
-    levels: Sequence[NDArray[np.uint8]],
+    halves: Halves,
     plane: PlaneView,
     grid: Grid,
     seen: NDArray[np.bool_],
@@ -209,20 +168,14 @@ def _sight(
     density_of = density(plane, view, (grid.rows, grid.columns), grid.cell_m)
     shown = seen.reshape(grid.rows, SAMPLES, grid.columns, SAMPLES).any(axis=(1, 3))
     # Rather too blurred than with moiré: samples are compared, and not looked at.
-    level = level_of(1.5 * float(np.median(density_of[shown])), grid.pitch_m)
-    colour = warped(levels, plane, level, grid.samples, grid.pitch_m)
+    level, pixels = halves.at(level_of(1.5 * float(np.median(density_of[shown])), grid.pitch_m))
+    colour = warped(pixels, plane, level, grid.samples, grid.pitch_m)
     return _Sight(number, plane, colour, seen, density_of, _margin(view, plane, grid))
-
-
-def level_of(density_px_m2: float, pitch_m: float) -> int:
-    """The half of a picture whose pixels are about as far apart as the samples."""
-    per_sample = math.sqrt(max(density_px_m2, 1e-9)) * pitch_m
-    return min(LEVELS - 1, max(0, round(math.log2(max(per_sample, 1.0)))))
 
 
 def _is_fine(view: View, plane: PlaneView, grid: Grid) -> NDArray[np.bool_]:
     """(rows S, columns S) whether there are pixels enough to be worth it."""
-    fine = density(plane, view, (grid.rows, grid.columns), grid.cell_m) >= _LEAST_DENSITY_PX_M2
+    fine = density(plane, view, (grid.rows, grid.columns), grid.cell_m) >= LEAST_DENSITY_PX_M2
     return np.asarray(fine.repeat(SAMPLES, axis=0).repeat(SAMPLES, axis=1))
 
 
@@ -250,8 +203,7 @@ def _margin(view: View, plane: PlaneView, grid: Grid) -> NDArray[np.float32]:
 
 
 def _stacked(face: Face, grid: Grid, sights: Sequence[_Sight]) -> Sights:
-    """The views that are among the best of some cell, at most `MOST_VIEWS`, in their order."""
-    every = Sights(
+    return Sights(
         face,
         grid,
         np.array([sight.view for sight in sights], dtype=np.int64),
@@ -261,9 +213,16 @@ def _stacked(face: Face, grid: Grid, sights: Sequence[_Sight]) -> Sights:
         np.stack([sight.density for sight in sights]),
         np.stack([sight.margin for sight in sights]),
     )
+
+
+def _best(sights: list[_Sight]) -> list[_Sight]:
+    """The views that are among the best of some cell, at most `MOST_VIEWS`, in their order."""
     if len(sights) <= MOST_VIEWS:
-        return every
-    value = every.density * every.share()
+        return sights
+    value = np.stack(
+        [sight.density * by_cell(sight.seen[None].astype(np.float32))[0] for sight in sights]
+    )
     rank = np.argsort(np.argsort(-value, axis=0, kind="stable"), axis=0)
     wins = ((rank < BEST_PER_CELL) & (value > 0)).sum(axis=(1, 2))
-    return every.chosen(np.sort(np.argsort(-wins, kind="stable")[:MOST_VIEWS]))
+    kept = np.sort(np.argsort(-wins, kind="stable")[:MOST_VIEWS])
+    return [sights[row] for row in kept.tolist()]

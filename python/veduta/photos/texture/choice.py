@@ -1,34 +1,25 @@
-"""Which photo shows each cell of a face: finely, not aside, undisturbed, and with few seams.
-
-What stands before a wall (trees, cars, people) is in no model. Seen from several places it is over
-different parts of the wall: where three or more photos show a cell, one that differs from their
-median is not believed.
-"""
+"""Which photo shows each cell of a face: finely, not aside, undisturbed, and with few seams."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta import _core
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
+from veduta.photos.choosing import FEWEST, OUTVOTED_COST, cheapest, median_of, outvoted
 from veduta.photos.texture.cells import SAMPLES, Sights, by_cell
 
-DIFFERS = 0.08
-"""Difference from the median at which a view shows something else: of sRGB (0..1), the root of the
-mean square over a cell."""
-DIFFERS_TIMES = 2.5
-"""... and it is so many times that of the view in the middle."""
-FEWEST = 3
+SAMPLE_DIFFERS = 0.12
+"""Difference of a sample's channels (sRGB, 0..1) from all that the median has around it at which a
+view shows something else."""
 MARGIN = 0.06
 """Closer to the picture's border (share of its smaller side) lenses are blurred and known less."""
 BURNT = 250
-_DISTURBED, _BLIND, _UNSEEN = 3.0, 1.0, 100.0
+_BLIND = 1.0
 _BURNT_COST, _DIFFERENCE_COST, _MARGIN_COST = 1.0, 2.0, 0.3
-SEAM_BASE, SEAM_SLOPE, SEAM_MOST = 0.08, 1.5, 1.0
-ROUNDS = 12
 
 
 @dataclass(frozen=True)
@@ -36,12 +27,14 @@ class Choice:
     """label: (rows, columns) which of the face's views; -1 where none sees the cell.
 
     order: (k, rows, columns) the views from best to worst by cell alone, for what the chosen one
-    does not show. usable: (k, rows, columns) which views show the cell undisturbed.
+    does not show. usable: (k, rows, columns) which views show the cell undisturbed. clear: (k, rows
+    S, columns S) the same of samples: a leaf or a bumper is smaller than a cell.
     """
 
     label: NDArray[np.int64]
     order: NDArray[np.int64]
     usable: NDArray[np.bool_]
+    clear: NDArray[np.bool_]
 
 
 def signal(sights: Sights, gains: NDArray[np.float64]) -> NDArray[np.float32]:
@@ -70,21 +63,8 @@ def undisturbed(
     count = by_cell(seen.astype(np.float32))
     with np.errstate(divide="ignore", invalid="ignore"):
         distance = np.sqrt(np.where(count > 0, by_cell(off) / count, np.nan))
-    usual = median_of(distance[..., None])[..., 0]
-    many = (count > 0).sum(axis=0) >= FEWEST
-    with np.errstate(invalid="ignore"):
-        differs = distance > np.maximum(DIFFERS, DIFFERS_TIMES * usual)
-    known = np.where(many & (count > 0), distance, 0.0).astype(np.float32)
-    return np.asarray((count > 0) & ~(differs & many)), known
-
-
-def median_of(values: NDArray[np.float32]) -> NDArray[np.float32]:
-    """Over the first axis, NaN left out; of two in the middle the mean; NaN where all are."""
-    ordered = np.sort(values, axis=0)
-    count = (~np.isnan(ordered)).sum(axis=0)[None]
-    low = np.take_along_axis(ordered, np.maximum((count - 1) // 2, 0), axis=0)[0]
-    high = np.take_along_axis(ordered, np.maximum(count // 2, 0).clip(max=len(values) - 1), axis=0)
-    return np.asarray((low + high[0]) / 2, dtype=np.float32)
+    known = np.where((count > 0) & ((count > 0).sum(axis=0) >= FEWEST), distance, 0.0)
+    return np.asarray((count > 0) & ~outvoted(distance)), known.astype(np.float32)
 
 
 def choose(
@@ -97,21 +77,32 @@ def choose(
     """The choice for a face. enough_px_m2: finer than the texture itself is no gain."""
     share = sights.share()
     cost = costs_of(sights, believed, distance, enough_px_m2)
-    colour = cell_colours(levelled, share)
-    shape = (sights.grid.rows, sights.grid.columns)
-    cells = shape[0] * shape[1]
-    label = _core.label_cells(
-        np.ascontiguousarray(np.moveaxis(cost, 0, -1).reshape(cells, -1)),
-        np.ascontiguousarray(np.moveaxis(colour, 0, 2).reshape(cells, -1)),
-        shape,
-        base=SEAM_BASE,
-        slope=SEAM_SLOPE,
-        most=SEAM_MOST,
-        rounds=ROUNDS,
-    ).astype(np.int64)
-    label[(share <= 0).all(axis=0)] = -1
+    label = cheapest(cost, share > 0, cell_colours(levelled, share))
     order = np.argsort(cost, axis=0, kind="stable")
-    return Choice(label, order, believed)
+    return Choice(label, order, believed, clear_samples(sights, levelled))
+
+
+def clear_samples(sights: Sights, levelled: NDArray[np.float32]) -> NDArray[np.bool_]:
+    """(k, rows S, columns S) where each view shows about what the median of all does.
+
+    Edges may lie a sample off: a view is compared with all that the median has around. Where fewer
+    than `FEWEST` views see a sample, or none is near the median, all are believed.
+    """
+    middle = median_of(levelled)
+    around = np.ones((3, 3), dtype=np.uint8)
+    low = cv2.erode(np.nan_to_num(middle, nan=np.inf), around)
+    high = cv2.dilate(np.nan_to_num(middle, nan=-np.inf), around)
+    many = sights.seen.sum(axis=0) >= FEWEST
+    other = np.zeros(sights.seen.shape, dtype=np.bool_)
+    for k, own in enumerate(levelled):
+        with np.errstate(invalid="ignore"):
+            off = np.maximum(low - own, own - high).max(axis=-1)
+            differs = (many & sights.seen[k] & (off > SAMPLE_DIFFERS)).astype(np.uint8)
+        # A sample alone is noise; what lies beside those that differ is a part of the same thing.
+        differs = cv2.morphologyEx(differs, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
+        other[k] = cv2.dilate(differs, around) > 0
+    shown = (sights.seen & ~other).any(axis=0)
+    return ~(other & shown)
 
 
 def costs_of(
@@ -127,10 +118,8 @@ def costs_of(
     cost += _MARGIN_COST * np.clip(1.0 - sights.margin / MARGIN, 0.0, 1.0)
     burnt = ((sights.colour >= BURNT).any(axis=-1) & sights.seen).astype(np.float32)
     cost += _BURNT_COST * by_cell(burnt)
-    cost += np.where(believed, 0.0, _DISTURBED)
-    # Cells that nobody sees are free: they take the view of their neighbours.
-    nobody = (share <= 0).all(axis=0)
-    return np.where(nobody, 0.0, np.where(share > 0, cost, _UNSEEN)).astype(np.float32)
+    cost += np.where(believed, 0.0, OUTVOTED_COST)
+    return np.where(share > 0, cost, np.inf).astype(np.float32)
 
 
 def cell_colours(levelled: NDArray[np.float32], share: NDArray[np.float32]) -> NDArray[np.float32]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
@@ -11,16 +10,21 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
-from veduta.photos.texture.cells import Sights, level_of
+from veduta.photos.texture.cells import SAMPLES, Sights
 from veduta.photos.texture.choice import Choice
+from veduta.photos.texture.halves import level_of
+from veduta.photos.texture.nearest import nearest_marked
 from veduta.photos.texture.store import PictureStore
-from veduta.photos.texture.views import View, seen_at, warped
+from veduta.photos.texture.views import warped
 
 FEATHER_M = 0.05
 """Deviation of the blur of the seams; at least `FEATHER_TEXELS`."""
 FEATHER_TEXELS = 2.0
-NEAR_M = 0.1
-"""So far from what was seen its colour goes on; beyond it is that of the face."""
+NEAR_M = 0.4
+"""Over so much of a distance from what was seen its colour fades to that of the face."""
+BLUR_M, MOST_BLUR = 0.1, 12.0
+"""Deviation of the blur of such colours (m), at most so many texels: else they are streaks."""
+RIM_TEXELS = 2
 _LEAST_WEIGHT = 1e-3
 _LINEAR = linear_of_srgb(np.arange(256) / 255.0)
 
@@ -44,7 +48,6 @@ def compose(
     choice: Choice,
     offsets: NDArray[np.float32],
     gains: NDArray[np.float64],
-    views: Sequence[View],
     store: PictureStore,
     texel_m: float,
 ) -> FaceTexture:
@@ -60,9 +63,7 @@ def compose(
         if own is None:
             continue
         view = int(sights.views[row])
-        seen = seen_at(
-            views[view], sights.planes[row], store.nearness(view), store.valid(view), shape, texel_m
-        )
+        seen = store.seen(view, sights.planes[row], shape, texel_m)
         chosen, spare = own
         # Where no chosen view sees a texel the next best steps in, with little weight: it loses to
         # one that is chosen and comes later.
@@ -104,6 +105,8 @@ def _own(
         chosen = np.asarray(cv2.GaussianBlur(chosen, (0, 0), deviation), dtype=np.float32)
     usable = choice.usable[row].astype(np.float32)
     spare = _enlarged(usable, shape, cell_m, texel_m, cv2.INTER_NEAREST)
+    clear = choice.clear[row].astype(np.float32)
+    spare *= _enlarged(clear, shape, cell_m / SAMPLES, texel_m, cv2.INTER_NEAREST)
     # What is disturbed in this view does not come in by the feather either.
     return chosen * spare, 2 * _LEAST_WEIGHT * spare
 
@@ -132,8 +135,9 @@ def _coloured(
     """(h, w, 3) levelled sRGB, 0..1 and above, of one view."""
     view = int(sights.views[row])
     seen = sights.share()[row] > 0
-    level = level_of(float(np.median(sights.density[row][seen])), texel_m)
-    pixels = warped(store.levels(view), sights.planes[row], level, shape, texel_m)
+    wanted = level_of(float(np.median(sights.density[row][seen])), texel_m)
+    level, picture = store.levels(view).at(wanted)
+    pixels = warped(picture, sights.planes[row], level, shape, texel_m)
     table = srgb_of_linear(_LINEAR[:, None] * gains[view]).astype(np.float32)
     return np.stack([table[pixels[..., channel], channel] for channel in range(3)], axis=-1)
 
@@ -148,19 +152,8 @@ def _spread(
     """The offsets of one view's cells at all texels; beyond them those of the nearest."""
     if not own.any():
         return np.zeros((*shape, 3), dtype=np.float32)
-    nearest = _nearest(own)
-    filled = offsets[own][nearest]
+    filled = offsets[own][nearest_marked(own)[0]]
     return _enlarged(filled, shape, cell_m, texel_m, cv2.INTER_LINEAR)
-
-
-def _nearest(marked: NDArray[np.bool_]) -> NDArray[np.int64]:
-    """For each place the number (in reading order) of the nearest marked one."""
-    _, label = cv2.distanceTransformWithLabels(
-        (~marked).astype(np.uint8), cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
-    )
-    number = np.zeros(int(label.max()) + 1, dtype=np.int64)
-    number[label[marked]] = np.arange(int(marked.sum()))
-    return np.asarray(number[label], dtype=np.int64)
 
 
 def _finished(
@@ -170,15 +163,30 @@ def _finished(
     texel_m: float,
     used: tuple[int, ...],
 ) -> FaceTexture:
-    seen = weight >= _LEAST_WEIGHT
+    seen = _without_rim(weight >= _LEAST_WEIGHT)
     inside = sights.face.inside(weight.shape, texel_m)
     colour = sum_ / np.maximum(weight, 1e-9)[..., None]
     pixels = np.round(np.clip(colour, 0.0, 1.0) * 255.0).astype(np.uint8)
     if seen.any() and not seen.all():
         shown = seen & inside if (seen & inside).any() else seen
-        pixels[~seen] = np.median(pixels[shown], axis=0).astype(np.uint8)
-        distance = cv2.distanceTransform((~seen).astype(np.uint8), cv2.DIST_L2, 5)
-        near = ~seen & (distance * texel_m <= NEAR_M)
-        pixels[near] = pixels[seen][_nearest(seen)[near]]
+        pixels[~seen] = _invented(pixels, seen, shown, texel_m)[~seen]
     share = float((seen & inside).sum() / max(1, int(inside.sum())))
     return FaceTexture(pixels, ~seen, texel_m, share, used)
+
+
+def _without_rim(seen: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """What is seen, but for texels beside what is not: they are mixed with what hides it."""
+    square = np.ones((2 * RIM_TEXELS + 1, 2 * RIM_TEXELS + 1), dtype=np.uint8)
+    inner = cv2.erode(seen.astype(np.uint8), square, borderValue=1) > 0
+    return np.asarray(inner) if inner.any() else seen
+
+
+def _invented(
+    pixels: NDArray[np.uint8], seen: NDArray[np.bool_], shown: NDArray[np.bool_], texel_m: float
+) -> NDArray[np.uint8]:
+    """The colours beside what was seen, blurred, and fading to that of the face."""
+    middle = np.median(pixels[shown], axis=0).astype(np.float32)
+    nearest, distance = nearest_marked(seen)
+    beside = cv2.GaussianBlur(pixels[seen][nearest], (0, 0), min(MOST_BLUR, BLUR_M / texel_m))
+    fades = np.exp(-distance * (texel_m / NEAR_M))[..., None]
+    return np.asarray(np.round(middle + fades * (beside - middle)), dtype=np.uint8)

@@ -5,7 +5,7 @@ Faces of classes that no photo shows from outside (the ground below a building) 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import cv2
@@ -68,12 +68,13 @@ class Face:
         return mask > 0
 
 
-def faces_of(city: CityModel) -> list[Face]:
-    """All faces that may be textured, building by building."""
+def faces_of(city: CityModel, buildings: Iterable[int] | None = None) -> list[Face]:
+    """All faces that may be textured, building by building; of these buildings (rows), or all."""
+    rows = range(len(city.buildings)) if buildings is None else buildings
     return [
         face
-        for number, building in enumerate(city.buildings)
-        for face in _faces(number, building.part, np.array(building.offset_m))
+        for row in rows
+        for face in _faces(row, city.buildings[row].part, np.array(city.buildings[row].offset_m))
     ]
 
 
@@ -83,10 +84,11 @@ def _faces(number: int, part: Part, offset: NDArray[np.float64]) -> Iterator[Fac
     shown = ~np.isin(part.features.class_code[part.polygon_feature], _UNSEEN)
     shown &= triangles.polygon_area_m2 > 0
     groups = _groups(part, world, triangles.polygon_normal)
-    for group in np.unique(groups[shown]).tolist():
-        polygons = np.flatnonzero((groups == group) & shown)
+    rows = np.flatnonzero(shown)
+    rows = rows[np.argsort(groups[rows], kind="stable")]
+    for polygons in np.split(rows, np.flatnonzero(np.diff(groups[rows])) + 1):
         area = float(triangles.polygon_area_m2[polygons].sum())
-        if area >= SMALLEST_M2:
+        if len(polygons) and area >= SMALLEST_M2:
             largest = polygons[triangles.polygon_area_m2[polygons].argmax()]
             normal = triangles.polygon_normal[largest]
             yield _face(number, part, world, polygons, normal, area)

@@ -1,17 +1,18 @@
-"""The textured model as files: CityJSON with its pictures, a GLB per building, tiles, parts.
+"""The textured model as files: CityJSON with its pictures, GLBs, tiles, parts of the place.
 
-model.city.json       all buildings; names the pictures
-textures/ID-N.jpg     the atlases, and textures/ID-N_mask.png: white is invented
-parts/ID.glb          a building
-tileset.json          the buildings as 3D Tiles, on the Earth where the CRS is known
+model.city.json            all buildings; names the pictures
+textures/ID-N.jpg          the atlases, and textures/ID-N_mask.png: white is invented
+parts/ID.glb               a building that photos show anything of
+parts/surroundings-N.glb   up to 2000 of the others, in a plain colour
+tileset.json               all of them as 3D Tiles, on the Earth where the CRS is known
 """
 
 from __future__ import annotations
 
 import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,46 +23,81 @@ from veduta.formats.cityjson_textured import TexturedPart, write_textured
 from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Box, Tile, union, write_tileset
 from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
+from veduta.photos.city.model import CityModel
 from veduta.photos.texture.part import TexturedBuilding
 from veduta.photos.texture.recipe import TexturedModel
+from veduta.photos.texture.surroundings import surroundings_of
 from veduta.place.manifest import IDENTITY, Bounds, PlacePart
+from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
 from veduta.run.progress import StepProgress, no_progress
 
 CITY, TEXTURES, PARTS, TILESET = "model.city.json", "textures", "parts", "tileset.json"
 JPEG_QUALITY = 90
 LEAF = 8
-"""Buildings below one node of the tree of tiles."""
+"""Files below one node of the tree of tiles."""
 _LONGEST_NAME = 60
 
 
 @dataclass(frozen=True)
 class TextureFiles:
-    """What lies in the folder. parts: for `place.json`, in the order of the buildings."""
+    """What lies in the folder.
+
+    parts: for `place.json`, the textured buildings in the model's order, then the surroundings.
+    pictures: the atlases. plain: how many buildings no photo shows.
+    """
 
     parts: tuple[PlacePart, ...]
     pictures: tuple[str, ...]
+    plain: int
+
+
+@dataclass(frozen=True)
+class _Leaf:
+    """A file below `parts/`, and what the place and the tiles say of it."""
+
+    place: PlacePart
+    offset_m: tuple[float, float, float]
+    box: Box
 
 
 def write_texture_files(
-    model: TexturedModel, folder: Path, progress: StepProgress = no_progress
+    model: TexturedModel,
+    folder: Path,
+    progress: StepProgress = no_progress,
+    made: Callable[[TexturedBuilding], None] = lambda _: None,
 ) -> TextureFiles:
-    """Write all of it into a folder that is there."""
+    """Write all of it into a folder that is there. Each building is told to `made`, and let go."""
     for name in (TEXTURES, PARTS):
         (folder / name).mkdir(exist_ok=True)
-    names = file_names([building.id for building in model.buildings])
+    everyone = model.city.buildings
+    names = file_names([building.id for building in everyone])
     pictures: list[str] = []
-    city, parts = [], []
-    for number, (building, name) in enumerate(zip(model.buildings, names, strict=True)):
-        progress("texture: write", number / len(names))
-        own = _write_atlases(building, name, folder)
+    city: dict[int, TexturedPart] = {}
+    leaves: dict[int, _Leaf] = {}
+    for building in model.buildings:
+        own = _write_atlases(building, names[building.row], folder)
         pictures += own.values()
-        write_glb(building.part, folder / PARTS / f"{name}.glb")
-        city.append(TexturedPart(building.part, building.offset_m, own, building.polygon_seen))
-        parts.append(_place_part(building, name))
-    write_textured(city, model.city.crs, model.city.origin_m, folder / CITY)
-    write_tileset(tile_tree(model, names), folder / TILESET)
-    return TextureFiles(tuple(parts), tuple(pictures))
+        leaves[building.row] = _write_part(
+            building.part, building.offset_m, names[building.row], folder
+        )
+        bare = replace(building.part, materials=())
+        city[building.row] = TexturedPart(bare, building.offset_m, own, building.polygon_seen)
+        made(building)
+    progress("texture: write", 0.0)
+    plain = [row for row in range(len(everyone)) if row not in city]
+    shared = surroundings_of(model.city, plain)
+    others = file_names([*names, *(one.part.id for one in shared)])[len(names) :]
+    written = [leaves[row] for row in sorted(leaves)]
+    for one, name in zip(shared, others, strict=True):
+        written.append(_write_part(one.part, one.offset_m, name, folder))
+    for row in plain:
+        seen = np.zeros(len(everyone[row].part.polygon_feature))
+        city[row] = TexturedPart(everyone[row].part, everyone[row].offset_m, {}, seen)
+    order = [city[row] for row in range(len(everyone))]
+    write_textured(order, model.city.crs, model.city.origin_m, folder / CITY)
+    write_tileset(_tile_tree(model.city, written), folder / TILESET)
+    return TextureFiles(tuple(leaf.place for leaf in written), tuple(pictures), len(plain))
 
 
 def file_names(ids: Sequence[str]) -> list[str]:
@@ -102,41 +138,42 @@ def _encoded(pixels: NDArray[np.uint8], kind: str) -> bytes:
     return file.getvalue()
 
 
-def _place_part(building: TexturedBuilding, name: str) -> PlacePart:
+def _write_part(part: Part, offset_m: tuple[float, float, float], name: str, folder: Path) -> _Leaf:
+    model = f"{PARTS}/{name}.glb"
+    write_glb(part, folder / model)
     transform = list(IDENTITY)
-    transform[12:15] = building.offset_m
-    low, high = building.part.bounds_m
-    return PlacePart(
-        id=building.id[:256],
-        name=building.id[:256],
-        model=f"{PARTS}/{name}.glb",
+    transform[12:15] = offset_m
+    low, high = part.bounds_m
+    place = PlacePart(
+        id=part.id[:256],
+        name=part.id[:256],
+        model=model,
         transform=tuple(transform),
         arrangement="single",
         bounds=Bounds(min=low, max=high),
     )
+    return _Leaf(place, offset_m, (low, high))
 
 
-def tile_tree(model: TexturedModel, names: Sequence[str]) -> Tile:
-    """A tile per building, few below each node; all shown at once where they are near."""
-    grid = grid_of_crs(model.city.crs)
-    earth = None if grid is None else _on_earth(grid, model, (0.0, 0.0, 0.0))
+def _tile_tree(city: CityModel, written: Sequence[_Leaf]) -> Tile:
+    """A tile per file, few below each node; all shown at once where they are near."""
+    grid = grid_of_crs(city.crs)
+    earth = None if grid is None else _on_earth(grid, city, (0.0, 0.0, 0.0))
     leaves = []
-    for building, name in zip(model.buildings, names, strict=True):
+    for leaf in written:
         local: NDArray[np.float64] = np.eye(4)
-        local[:3, 3] = building.offset_m
+        local[:3, 3] = leaf.offset_m
         if grid is not None and earth is not None:
-            local[:] = np.linalg.solve(earth, _on_earth(grid, model, building.offset_m))
-        box = building.part.bounds_m
-        content = f"{PARTS}/{name}.glb"
-        leaves.append((local, Tile(box, 0.0, content, (), local, building.offset_m)))
+            local[:] = np.linalg.solve(earth, _on_earth(grid, city, leaf.offset_m))
+        leaves.append((local, Tile(leaf.box, 0.0, leaf.place.model, (), local, leaf.offset_m)))
     root = _node(leaves)
     return Tile(root.box, root.error_m, None, root.children, earth, (0.0, 0.0, 0.0))
 
 
 def _on_earth(
-    grid: Grid, model: TexturedModel, place_m: tuple[float, float, float]
+    grid: Grid, city: CityModel, place_m: tuple[float, float, float]
 ) -> NDArray[np.float64]:
-    x, y, z = (np.array(model.city.origin_m) + place_m).tolist()
+    x, y, z = (np.array(city.origin_m) + place_m).tolist()
     return ecef_from_grid(grid, (x, y, z))
 
 

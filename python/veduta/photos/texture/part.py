@@ -29,15 +29,19 @@ PLAIN = (0.62, 0.60, 0.57)
 
 @dataclass(frozen=True)
 class TexturedBuilding:
-    """One building. polygon_seen: (p,) the share of each polygon's face that photos show.
+    """One building; `row` is its place in the city model.
 
-    atlases: how many of the part's materials, the first, are textures.
+    polygon_seen: (p,) the share of each polygon's face that photos show. atlases: how many of the
+    part's materials, the first, are textures. faces: with the texture of each, None where no photo
+    shows it.
     """
 
+    row: int
     part: Part
     offset_m: tuple[float, float, float]
     polygon_seen: NDArray[np.float64]
     atlases: int
+    faces: tuple[tuple[Face, FaceTexture | None], ...]
 
     @property
     def id(self) -> str:
@@ -46,6 +50,7 @@ class TexturedBuilding:
 
 
 def textured_building(
+    row: int,
     building: CityBuilding,
     faces: Sequence[tuple[Face, FaceTexture | None]],
     options: TextureOptions,
@@ -78,7 +83,8 @@ def textured_building(
         materials=tuple(materials),
         features=replace(part.features, provenance_code=_provenance(part, seen)),
     )
-    return TexturedBuilding(textured, building.offset_m, seen, len(packing.sizes))
+    atlases = len(packing.sizes)
+    return TexturedBuilding(row, textured, building.offset_m, seen, atlases, tuple(faces))
 
 
 def _byte(colour: tuple[float, float, float]) -> tuple[int, ...]:

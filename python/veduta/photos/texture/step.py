@@ -2,24 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 from veduta.photos.city.model import CityModel
 from veduta.photos.options import TextureOptions
-from veduta.photos.pictures import Pinhole
 from veduta.photos.structure import Structure
 from veduta.photos.texture.files import write_texture_files
 from veduta.photos.texture.recipe import texture_model
-from veduta.photos.texture.report import (
-    texture_line,
-    texture_measures,
-    texture_picture,
-    texture_tables,
-)
-from veduta.photos.texture.sources import views_of
+from veduta.photos.texture.report import TextureTold, texture_line
+from veduta.photos.texture.sources import ReadPhoto, views_of
 from veduta.photos.world.georeference import Georeference
 from veduta.place.manifest import PlacePart
 from veduta.run.page import Picture, Table
@@ -53,8 +46,7 @@ def can_texture(
 
 def texture_step(
     structure: Structure,
-    pinholes: Sequence[Pinhole],
-    pictures: Path,
+    read_photo: ReadPhoto,
     city: CityModel,
     options: TextureOptions,
     folder: Path,
@@ -62,16 +54,13 @@ def texture_step(
 ) -> Textured:
     """Texture the model and write it into the folder; NotFoundError where photos show none of it.
 
-    structure: in metres about the model's origin. pinholes: of its photos' pictures.
+    structure: in metres about the model's origin. read_photo: gives its photos by image id.
     """
-    views = views_of(structure, pinholes, pictures)
+    views = views_of(structure, read_photo)
     model = texture_model(views, city, options, progress)
-    files = write_texture_files(model, folder, progress)
-    measures = texture_measures(model)
+    told = TextureTold(structure.names, model.gains)
+    files = write_texture_files(model, folder, progress, told.take)
+    measures = told.measures(files.plain)
     return Textured(
-        files.parts,
-        measures,
-        texture_line(measures),
-        tuple(texture_tables(model, structure.names)),
-        (texture_picture(model),),
+        files.parts, measures, texture_line(measures), tuple(told.tables()), (told.picture(),)
     )

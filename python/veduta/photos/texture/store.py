@@ -2,62 +2,70 @@
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.photos.texture.cells import LEVELS
-from veduta.photos.texture.views import Blockers, Nearness, View, pyramid
+from veduta.photos.bounded import Bounded
+from veduta.photos.texture.halves import Halves, halves_of
+from veduta.photos.texture.sky import sky_on_model
+from veduta.photos.texture.views import Blockers, Nearness, PlaneView, View, seen_at
 
-MOST_BYTES = 1024**3
-
-
-@dataclass(frozen=True)
-class _Held:
-    levels: list[NDArray[np.uint8]]
-    nearness: Nearness
-    valid: NDArray[np.bool_] | None
-
-    @property
-    def size(self) -> int:
-        """Bytes."""
-        extra = 0 if self.valid is None else self.valid.nbytes
-        return sum(level.nbytes for level in self.levels) + self.nearness.nbytes + extra
+MOST_BYTES = 512 * 1024**2
+"""Of pictures; of what hides things from them, and of what they show, a quarter each."""
+COARSE_PX = 1600
+"""Longest side of pictures in which views are compared with each other."""
 
 
 class PictureStore:
-    """Pictures with their halves and what hides things from them; the oldest in use goes first."""
+    """Pictures with their halves, and what hides things from them; by rows of the views.
 
-    def __init__(self, views: Sequence[View], blockers: Blockers) -> None:
-        self._views, self._blockers = views, blockers
-        self._held: OrderedDict[int, _Held] = OrderedDict()
-        self._bytes = 0
+    longest_px: finer halves are not kept, so that more pictures are.
+    """
 
-    def levels(self, row: int) -> list[NDArray[np.uint8]]:
+    def __init__(
+        self, views: Sequence[View], blockers: Blockers, longest_px: int | None = None
+    ) -> None:
+        self.levels: Bounded[int, Halves] = Bounded(
+            lambda row: halves_of(views[row].pixels(), longest_px), _size, MOST_BYTES
+        )
         """The picture of a view and its halves."""
-        return self._get(row).levels
-
-    def nearness(self, row: int) -> Nearness:
+        self.nearness: Bounded[int, Nearness] = Bounded(
+            lambda row: blockers.nearness(views[row]), _nearness_size, MOST_BYTES // 4
+        )
         """`Blockers.nearness` of a view."""
-        return self._get(row).nearness
-
-    def valid(self, row: int) -> NDArray[np.bool_] | None:
+        self.valid: Bounded[int, NDArray[np.bool_] | None] = Bounded(
+            lambda row: _valid(views[row]), _mask_size, MOST_BYTES // 4
+        )
         """Where a view's picture shows anything; None for all of it."""
-        return self._get(row).valid
+        self.sky: Bounded[int, NDArray[np.bool_]] = Bounded(
+            lambda row: sky_on_model(views[row], self.levels(row), self.nearness(row)),
+            _mask_size,
+            MOST_BYTES // 4,
+        )
+        """`sky_on_model` of a view."""
+        self._views = views
 
-    def _get(self, row: int) -> _Held:
-        if row in self._held:
-            self._held.move_to_end(row)
-            return self._held[row]
-        view = self._views[row]
-        valid = None if view.valid is None else view.valid()
-        held = _Held(pyramid(view.pixels(), LEVELS), self._blockers.nearness(view), valid)
-        self._held[row] = held
-        self._bytes += held.size
-        while self._bytes > MOST_BYTES and len(self._held) > 1:
-            _, gone = self._held.popitem(last=False)
-            self._bytes -= gone.size
-        return held
+    def seen(
+        self, row: int, plane: PlaneView, shape: tuple[int, int], pitch_m: float
+    ) -> NDArray[np.bool_]:
+        """`seen_at` of a view."""
+        hides = (self.nearness(row), self.valid(row), self.sky(row))
+        return seen_at(self._views[row], plane, *hides, shape, pitch_m)
+
+
+def _valid(view: View) -> NDArray[np.bool_] | None:
+    return None if view.valid is None else view.valid()
+
+
+def _size(halves: Halves) -> int:
+    return halves.nbytes
+
+
+def _nearness_size(nearness: Nearness) -> int:
+    return nearness.nbytes
+
+
+def _mask_size(mask: NDArray[np.bool_] | None) -> int:
+    return 0 if mask is None else mask.nbytes

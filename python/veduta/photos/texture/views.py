@@ -8,7 +8,7 @@ what the neighbourhood of the place and `NEARER_M` explain.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import cv2
@@ -18,11 +18,12 @@ from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
 from veduta.photos.city.model import CityModel
-from veduta.photos.pictures import Pinhole
+from veduta.photos.straight import Pinhole
 from veduta.photos.texture.faces import Face
 
 STEP_PX = 2
-"""A ray for each square of so many pixels."""
+"""A ray for each square of so many pixels; more in photos longer than `RAYS` squares."""
+RAYS = 1000
 REACH_STEPS = 1
 """What hides a place hides so many steps around it, too: a registration is off by pixels."""
 NEARER_M = 0.3
@@ -48,6 +49,11 @@ class View:
         """(3,) where it was taken."""
         found: NDArray[np.float64] = -self.cam_from_world[:, :3].T @ self.cam_from_world[:, 3]
         return found
+
+    @property
+    def step_px(self) -> int:
+        """The side of the squares of pixels that have a ray each."""
+        return max(STEP_PX, round(max(self.camera.width_px, self.camera.height_px) / RAYS))
 
     @property
     def intrinsics(self) -> NDArray[np.float64]:
@@ -94,22 +100,28 @@ def plane_view(view: View, face: Face) -> PlaneView | None:
 
 @dataclass(frozen=True)
 class Nearness:
-    """The model in a view: reciprocal depths, 0 in the open, a row and column per `STEP_PX`.
+    """The model in a view: reciprocal depths, 0 in the open, a row and column per `step_px`.
 
-    least, most: (h, w) around each step.
+    least, most: (h, w) around each step. sky: (h, w) rays that go up and meet nothing.
+    triangles: those of the model that rays meet first.
     """
 
     least: NDArray[np.float32]
     most: NDArray[np.float32]
+    sky: NDArray[np.bool_]
+    triangles: NDArray[np.int64]
 
     @property
     def nbytes(self) -> int:
-        """Of both."""
-        return self.least.nbytes + self.most.nbytes
+        """Of all."""
+        return sum(one.nbytes for one in (self.least, self.most, self.sky, self.triangles))
 
 
 class Blockers:
-    """All faces of the model under one ray tracer."""
+    """All faces of the model under one ray tracer; triangles count on from building to building.
+
+    first: (buildings + 1,) the first triangle of each.
+    """
 
     def __init__(self, city: CityModel) -> None:
         corners = [
@@ -118,15 +130,17 @@ class Blockers:
             ]
             for building in city.buildings
         ]
+        self.first = np.cumsum([0, *map(len, corners)])
         self._tracer = EmbreeScene()
         self._mesh = TriangleMesh(self._tracer, np.concatenate(corners).astype(np.float32))
 
     def nearness(self, view: View) -> Nearness:
         """What stands in the way of a view."""
-        rows = -(-view.camera.height_px // STEP_PX)
-        columns = -(-view.camera.width_px // STEP_PX)
+        step = view.step_px
+        rows = -(-view.camera.height_px // step)
+        columns = -(-view.camera.width_px // step)
         x, y = np.meshgrid(np.arange(columns) + 0.5, np.arange(rows) + 0.5)
-        pixels = np.stack([x.ravel() * STEP_PX, y.ravel() * STEP_PX, np.ones(x.size)])
+        pixels = np.stack([x.ravel() * step, y.ravel() * step, np.ones(x.size)])
         rays = (np.linalg.solve(view.intrinsics, pixels).T @ view.cam_from_world[:, :3]).astype(
             np.float32
         )
@@ -136,10 +150,12 @@ class Blockers:
         near = np.zeros(len(rays), dtype=np.float32)
         near[met] = 1.0 / np.maximum(found["tfar"][met], 1e-3)
         reach = np.ones((2 * REACH_STEPS + 1, 2 * REACH_STEPS + 1), dtype=np.uint8)
-        steps = near.reshape(rows, columns)
+        squares = near.reshape(rows, columns)
         return Nearness(
-            np.asarray(cv2.erode(steps, reach), dtype=np.float32),
-            np.asarray(cv2.dilate(steps, reach), dtype=np.float32),
+            np.asarray(cv2.erode(squares, reach), dtype=np.float32),
+            np.asarray(cv2.dilate(squares, reach), dtype=np.float32),
+            np.asarray(~met & (rays[:, 2] > 0)).reshape(rows, columns),
+            np.unique(found["primID"][met]).astype(np.int64),
         )
 
 
@@ -148,12 +164,13 @@ def seen_at(
     plane: PlaneView,
     nearness: Nearness,
     valid: NDArray[np.bool_] | None,
+    sky: NDArray[np.bool_] | None,
     shape: tuple[int, int],
     pitch_m: float,
 ) -> NDArray[np.bool_]:
     """(rows, columns) which middles of squares of this pitch the view sees on the plane.
 
-    Not along the outlines of what it sees.
+    Not along the outlines of what it sees. sky: by steps, where the view shows sky instead.
     """
     rows, columns = shape
     x = (np.arange(columns) + 0.5) * pitch_m
@@ -168,34 +185,30 @@ def seen_at(
     row = np.where(seen, down, 0).astype(np.int64)
     if valid is not None:
         seen &= valid[row, column]
+    square = (row // view.step_px, column // view.step_px)
+    if sky is not None:
+        seen &= ~sky[square]
     # The grid's squares are read whole: the plane's own nearness varies over what they cover.
-    reach = STEP_PX * (REACH_STEPS + 0.5)
+    reach = view.step_px * (REACH_STEPS + 0.5)
     own = 1.0 / safe
     slack = reach * (abs(plane.inverse[0]) + abs(plane.inverse[1])) + NEARER_M * own * own
-    step = (row // STEP_PX, column // STEP_PX)
     # Beside an outline of the model a pixel may show what lies behind: the sky, another house.
     return np.asarray(
-        seen & (nearness.most[step] <= own + slack) & (nearness.least[step] >= own - slack)
+        seen & (nearness.most[square] <= own + slack) & (nearness.least[square] >= own - slack)
     )
 
 
-def pyramid(pixels: NDArray[np.uint8], levels: int) -> list[NDArray[np.uint8]]:
-    """The picture and its halves; a pixel of each lies on every second of the one before."""
-    found = [pixels]
-    while len(found) < levels and min(found[-1].shape[:2]) >= 16:
-        found.append(np.asarray(cv2.pyrDown(found[-1]), dtype=np.uint8))
-    return found
-
-
 def warped(
-    levels: Sequence[NDArray[np.uint8]],
+    pixels: NDArray[np.uint8],
     plane: PlaneView,
     level: int,
     shape: tuple[int, int],
     pitch_m: float,
 ) -> NDArray[np.uint8]:
-    """(rows, columns, 3) the view's colours at the middles of squares of this pitch."""
-    level = min(level, len(levels) - 1)
+    """(rows, columns, 3) the view's colours at the middles of squares of this pitch.
+
+    pixels: the view's picture, halved `level` times.
+    """
     squares = np.array([[pitch_m, 0, pitch_m / 2], [0, pitch_m, pitch_m / 2], [0, 0, 1.0]])
     # OpenCV counts from the middle of the first pixel, and so do the halves of a picture.
     index = np.array([[1.0, 0, -0.5], [0, 1.0, -0.5], [0, 0, 1.0]])
@@ -204,7 +217,7 @@ def warped(
     flags = cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP
     size = (shape[1], shape[0])
     picture = cv2.warpPerspective(
-        levels[level], matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE
+        pixels, matrix, size, flags=flags, borderMode=cv2.BORDER_REPLICATE
     )
     return np.asarray(picture, dtype=np.uint8)
 

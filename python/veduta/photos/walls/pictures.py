@@ -13,10 +13,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
+from veduta.photos.levelling import photo_gains
 from veduta.photos.structure import Structure
 from veduta.photos.walls.choice import chosen_photos
 from veduta.photos.walls.grid import WallGrid, wall_grids
-from veduta.photos.walls.levelling import photo_gains
 from veduta.photos.walls.views import WallView, cell_points, cell_size_px, wall_views
 from veduta.photos.walls.wall import Wall
 from veduta.run.progress import StepProgress, no_progress

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.formats.gltf import write_glb
-from veduta.imaging.read import read_image
 from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.upright import upright
 from veduta.photos.cameras.vertical_edges import edge_normals
@@ -38,13 +37,9 @@ class FoundWalls:
     pictures: tuple[WallPicture, ...]
 
 
-def photo_reader(structure: Structure, paths: Mapping[int, Path]) -> ReadPhoto:
-    """Reads a photo by its row in the structure; paths by image id."""
-
-    def read(row: int) -> NDArray[np.uint8]:
-        return read_image(paths[structure.image_ids[row]]).pixels
-
-    return read
+def photo_reader(structure: Structure, read_photo: ReadPhoto) -> ReadPhoto:
+    """Reads a photo by its row in the structure; `read_photo` by image id."""
+    return lambda row: read_photo(structure.image_ids[row])
 
 
 def set_upright(component: Component, read: Callable[[Structure], ReadPhoto]) -> Component:
@@ -58,17 +53,17 @@ def set_upright(component: Component, read: Callable[[Structure], ReadPhoto]) ->
 def picture_walls(
     structure: Structure,
     walls: tuple[Wall, ...],
-    paths: Mapping[int, Path],
+    read_photo: ReadPhoto,
     options: WallOptions,
     progress: StepProgress = no_progress,
 ) -> FoundWalls:
-    """The walls with their pictures, from the photos at these paths (by image id)."""
+    """The walls with their pictures, from the photos that `read_photo` gives by image id."""
     if not walls:
         return FoundWalls((), ())
     pictures = wall_pictures(
         structure,
         walls,
-        photo_reader(structure, paths),
+        photo_reader(structure, read_photo),
         options.wall_side_px,
         relief_depth(structure),
         progress,

@@ -8,7 +8,8 @@ the upright photo, x right and y down.
 from __future__ import annotations
 
 import re
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
@@ -36,12 +37,13 @@ class ControlPoint:
 
 @dataclass(frozen=True)
 class ControlPoints:
-    """The points of a file. crs: of their metres."""
+    """The points of a file. crs: of their metres. lines: those that name each photo."""
 
     path: Path
     crs: str
     points: tuple[ControlPoint, ...]
     notes: tuple[str, ...] = ()
+    lines: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
 
 
 def read_control(path: Path) -> ControlPoints:
@@ -56,6 +58,7 @@ def read_control(path: Path) -> ControlPoints:
     crs = _crs(path, lines[0][1])
     places: dict[str, NDArray[np.float64]] = {}
     seen: dict[str, list[tuple[str, tuple[float, float]]]] = {}
+    naming: dict[str, tuple[int, ...]] = {}
     for number, line in lines[1:]:
         words = line.split()
         try:
@@ -67,20 +70,33 @@ def read_control(path: Path) -> ControlPoints:
         place = np.array([x, y, z])
         if not np.isfinite([x, y, z, across, down]).all():
             raise InputError(path, f"line {number} has a number that is not finite", _LINE)
-        name = " ".join(words[6:])[:100] or f"{x:g} {y:g} {z:g}"
+        name = " ".join(words[6:])[:100] or f"{x:.12g} {y:.12g} {z:.12g}"
         known = places.setdefault(name, place)
         if not np.array_equal(known, place):
             fault = f"line {number} has the point {name!r} at another place than before"
             raise InputError(path, fault, "Give each point one place, or names of their own.")
         seen.setdefault(name, []).append((words[5], (across, down)))
+        naming[words[5]] = (*naming.get(words[5], ()), number)
     if not places:
         raise InputError(path, "has no control points", _LINE)
+    _require_degrees(path, crs, places)
     metres = metres_of(path, crs, np.array(list(places.values())))
     points = tuple(
         ControlPoint(name, metres.of(place[None])[0], tuple(seen[name]))
         for name, place in places.items()
     )
-    return ControlPoints(path, metres.crs, points, metres.notes)
+    return ControlPoints(path, metres.crs, points, metres.notes, naming)
+
+
+def _require_degrees(path: Path, crs: str, places: Mapping[str, NDArray[np.float64]]) -> None:
+    """InputError where longitudes and latitudes cannot be any: metres, or the wrong way round."""
+    if not pyproj.CRS.from_user_input(crs).is_geographic:
+        return
+    for name, (x, y, _) in places.items():
+        if abs(x) > 180.0 or abs(y) > 90.0:
+            fault = f"has the point {name} at {x:g} {y:g}, and {crs} is in degrees"
+            remedy = "Write longitude, latitude and height, or the CRS of the metres."
+            raise InputError(path, fault, remedy)
 
 
 def _text(path: Path) -> str:

@@ -182,13 +182,6 @@ def _fit(found: _Found, walls: Sequence[Wall], index: FacadeIndex) -> Fit:
     counted = plane & (refined.weight > 0.0)
     rms = float(np.sqrt(np.mean(refined.left_m[counted] ** 2))) if counted.any() else float("nan")
     sd = np.sqrt(np.diag(refined.covariance))
-    residuals = []
-    for row in np.unique(refined.wall[plane]).tolist():
-        own = plane & (refined.wall == row)
-        facade = next(int(f) for f in found.matches.facade[0, row, [1, 0, 2]] if f >= 0)
-        name = f"{walls[row].id} at {index.facades.names[facade]}"
-        distance = float(np.sqrt(np.mean(refined.left_m[own] ** 2)))
-        residuals.append(Residual(name, distance))
     return Fit(
         world_from_model=refined.world_from_model,
         scale_sd=float(sd[0]),
@@ -196,5 +189,23 @@ def _fit(found: _Found, walls: Sequence[Wall], index: FacadeIndex) -> Fit:
         shift_sd_m=sd[4:],
         rms_m=rms,
         score=found.score,
-        residuals=tuple(residuals),
+        residuals=residuals_of(refined, found.matches, walls, index.facades.names),
     )
+
+
+def residuals_of(
+    refined: Refined, matches: Matches, walls: Sequence[Wall], facades: Sequence[str]
+) -> tuple[Residual, ...]:
+    """What is left between each wall and the plane of its facade.
+
+    A wall that the last step has moved out of its facade's reach is named alone.
+    """
+    residuals = []
+    plane = refined.kind == PLANE
+    for row in np.unique(refined.wall[plane]).tolist():
+        own = plane & (refined.wall == row)
+        at = [int(facade) for facade in matches.facade[0, row, [1, 0, 2]] if facade >= 0]
+        name = f"{walls[row].id} at {facades[at[0]]}" if at else f"{walls[row].id} at no facade"
+        distance = float(np.sqrt(np.mean(refined.left_m[own] ** 2)))
+        residuals.append(Residual(name, distance))
+    return tuple(residuals)

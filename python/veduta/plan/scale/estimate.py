@@ -13,6 +13,7 @@ from veduta.plan.scale.assumed import assumed_scale, door_voter
 from veduta.plan.scale.bars import bar_voters
 from veduta.plan.scale.dimension_lines import line_voters
 from veduta.plan.scale.evidence import Voter
+from veduta.plan.scale.free_runs import wall_masks
 from veduta.plan.scale.options import VoteOptions
 from veduta.plan.scale.ratios import ratio_voters
 from veduta.plan.scale.room_sizes import room_voters
@@ -21,6 +22,8 @@ from veduta.plan.scale.width_rule import width_rule_voters
 from veduta.run.errors import InputError
 
 _RIVAL = 0.5  # a second group with so many of the votes is told of
+_DOUBT_SIGMA = 0.1
+_ALONE_SIGMA = 0.03
 _GIVEN_SIGMA = 0.001
 _DISAGREES = 0.03  # a given scale that differs so much from the sheet's own is told of
 
@@ -65,7 +68,7 @@ def find_voters(sizes: DrawnSizes, options: VoteOptions) -> list[Voter]:
     """All that the sheet says of its scale."""
     texts, rooms = list(sizes.texts), list(sizes.rooms)
     return [
-        *room_voters(texts, rooms, options.blur_px),
+        *room_voters(texts, rooms, options.blur_px, wall_masks(sizes.ink, sizes.walls)),
         *line_voters(texts, sizes.ink, options.blur_px),
         *bar_voters(texts),
         *ratio_voters(texts, sizes.dpi),
@@ -104,11 +107,18 @@ def _voted(voters: list[Voter]) -> Scale:
         )
         for voter, chosen, agrees in zip(voters, verdict.chosen, verdict.agrees, strict=True)
     ]
-    # Two scales with much the same support: which of them it is, is not known.
+    alike = {
+        voter.place
+        for voter, agrees in zip(voters, verdict.agrees, strict=True)
+        if agrees and voter.kind != "door"
+    }
+    # Two scales with much the same support: which of them it is, is not known. What only one thing
+    # on the sheet says may have been read or measured wrong without a trace.
     doubt = verdict.rival_mpp is not None and verdict.rival_share >= _RIVAL
+    least = _DOUBT_SIGMA if doubt else (_ALONE_SIGMA if len(alike) < 2 else 0.0)
     return Scale(
         metres_per_px=verdict.metres_per_px,
-        sigma=max(verdict.sigma, 0.1) if doubt else verdict.sigma,
+        sigma=max(verdict.sigma, least),
         basis="evidence",
         evidence=evidence,
     )

@@ -57,11 +57,11 @@ _RATIOS = (
     1000,
 )
 
-_METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m\b)?"
+_METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m(?=\W|x|$))?"
 _FEET = (
-    r"(?P<{0}f>\d{{1,3}})\s*(?:'|ft\b\.?)\s*-?\s*"
+    r"(?P<{0}f>\d{{1,3}})\s*(?:'|ft(?![a-wyz])\.?)\s*-?\s*"
     r"(?:(?P<{0}i>\d{{1,2}}(?:[.]\d+)?)(?!\d)(?:\s*(?P<{0}p>\d)/(?P<{0}q>\d{{1,2}}))?"
-    r"\s*(?:\"|''|in\b\.?)?)?"
+    r"\s*(?:\"|''|in(?![a-wyz])\.?)?)?"
 )
 _WHOLE = r"(?P<{0}n>\d{{2,5}})\s*(?P<{0}u>mm|cm)?"
 _SIDE = rf"(?:{_METRIC}|{_FEET}|{_WHOLE})"
@@ -70,6 +70,7 @@ _SIZE = re.compile(
 )
 _ALONE = re.compile(rf"^\W*{_SIDE.format('a')}\W*$", re.IGNORECASE)
 _WITH_UNIT = re.compile(r"(?<![\d.=])(\d{1,3}(?:[.]\d{1,3})?)\s*m(?![\w²?*])", re.IGNORECASE)
+_BARE_M = re.compile(r"(?<![\d.=])(\d{1,3}[.]\d)\s*m(?![\w²?*])")
 _SQUARE_M = re.compile(
     r"(?<![\d.])(\d{1,4}(?:[.]\d{1,2})?)\s*"
     r"(?:(?P<sure>[mM]\s?[2²]|㎡|sq\.?\s?m\w*\b|sqm\b|qm\b|kvm\b|mq\b)|(?P<slip>[mn]\s?[?*z°ª\"'2]|rn2))"
@@ -131,10 +132,14 @@ def _sizes(plain: str) -> Iterator[Quantity]:
 
 
 def _lengths(plain: str) -> Iterator[Quantity]:
-    match = _ALONE.match(plain)
-    if match:
-        for unit, value, step, trust in _side(match, "a"):
-            if match["an"] is None or unit != "ft":  # `157` alone is not taken for 15 feet 7
+    # The raised 2 is the first thing to be lost in print: `17,4 m` may be an area.
+    for match in _BARE_M.finditer(plain):
+        step = 10.0 ** -len(match[1].partition(".")[2])
+        yield from _within("area", (float(match[1]),), step, 0.3)
+    alone = _ALONE.match(plain)
+    if alone:
+        for unit, value, step, trust in _side(alone, "a"):
+            if alone["an"] is None or unit != "ft":  # `157` alone is not taken for 15 feet 7
                 yield from _within("length", (value,), step, trust)
         return
     for match in _WITH_UNIT.finditer(plain):

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import itertools
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -27,10 +27,14 @@ from veduta.plan.scale.evidence import (
     side_hypothesis,
     side_sigma,
 )
+from veduta.plan.scale.free_runs import free_runs
 from veduta.plan.scale.quantities import Quantity, read_quantities
 
 _UNLIKE = 0.25  # sides whose ratios differ by more (in logarithms) are not the two sides
 _ONE_SIDE_TRUST = 0.25  # one side alone, where the other is open to the next room
+_RUN_TRUST = 0.8
+_LABEL = 2.5  # heights of text between the lines of one label
+_AREA_OF_RUNS = 0.06  # the free runs of a room span a rectangle that is not quite its area
 _AREA_STATED = 0.02  # built-in cupboards and chimneys are counted, or not
 _TOTAL_STATED = 0.05  # inner walls are counted, or not
 
@@ -44,33 +48,114 @@ class Measured:
     trust: float
 
 
+@dataclass(frozen=True)
+class _Printed:
+    """A text with sizes, where it stands, and the room around it, None where none is known."""
+
+    text: Text
+    quantities: list[Quantity]
+    at: NDArray[np.float64]
+    room: int | None
+
+    @property
+    def areas(self) -> list[float]:
+        """Areas that it may state, m2."""
+        return [one.values[0] for one in self.quantities if one.kind == "area"]
+
+
 def room_voters(
-    texts: list[Text], rooms_px: list[NDArray[np.float64]], blur_px: float
+    texts: list[Text],
+    rooms_px: list[NDArray[np.float64]],
+    blur_px: float,
+    walls: Sequence[NDArray[np.uint8]] = (),
 ) -> list[Voter]:
     """Evidence from sizes and areas in texts; `rooms_px` are outlines (n, 2), as `texts` in pixels.
 
-    An area is that of the room it stands in, or of all rooms; a size is that of the room.
+    A size is that of the room it stands in. An area is too; where several stand in one room, they
+    are its parts; the largest on the sheet may be that of all rooms. `walls` are masks (h, w) of
+    walls (`free_runs`): by them, rooms whose outline is not known are measured as well.
     """
     rooms = [_polygon(outline) for outline in rooms_px]
+    printed = _printed(texts, rooms)
+    largest = max((area for one in printed for area in one.areas), default=0.0)
     total = sum(room.area for room in rooms)
-    voters = []
-    for text in texts:
-        quantities = [one for one in read_quantities(text.text) if one.kind in ("size", "area")]
-        at = Point(np.mean(text.box_px, axis=0))
-        inside = next((index for index, room in enumerate(rooms) if room.contains(at)), None)
-        room = None if inside is None else rooms[inside]
-        found = [one for quantity in quantities for one in _readings(quantity, room, at, blur_px)]
-        found += [
-            Hypothesis(_area_log(one, total), _TOTAL_STATED, 0.5 * one.trust)
-            for one in quantities
-            if one.kind == "area" and total > 0
-        ]
+    voters: list[Voter] = []
+    places: list[tuple[NDArray[np.float64], str]] = []
+    for one in printed:
+        found = list(_of_room(one, printed, rooms, walls, blur_px))
+        if total > 0:
+            found += [
+                Hypothesis(
+                    _area_log(quantity.values[0], total), _TOTAL_STATED, 0.5 * quantity.trust
+                )
+                for quantity in one.quantities
+                if quantity.kind == "area" and quantity.values[0] >= 0.99 * largest
+            ]
         if found:
-            sized = any(one.kind == "size" for one in quantities)
+            sized = any(quantity.kind != "area" for quantity in one.quantities)
             kind: EvidenceKind = "dimension" if sized else "area"
-            place = f"room {inside}" if inside is not None else "all rooms"
-            voters.append(Voter(kind, text.text, place, tuple(found), mass=text.score))
+            place = _place(one.text, one.at, places)
+            voters.append(Voter(kind, one.text.text, place, tuple(found), mass=one.text.score))
     return voters
+
+
+def _printed(texts: list[Text], rooms: list[Polygon]) -> list[_Printed]:
+    found = []
+    for text in texts:
+        quantities = [one for one in read_quantities(text.text) if one.kind != "ratio"]
+        at = np.mean(text.box_px, axis=0)
+        if quantities:
+            inside = next((i for i, room in enumerate(rooms) if room.contains(Point(at))), None)
+            found.append(_Printed(text, quantities, at, inside))
+    return found
+
+
+def _of_room(
+    one: _Printed,
+    printed: list[_Printed],
+    rooms: list[Polygon],
+    walls: Sequence[NDArray[np.uint8]],
+    blur_px: float,
+) -> Iterator[Hypothesis]:
+    """What a text says of the room around it."""
+    runs = _between_walls(walls, one.text)
+    room = None if one.room is None else rooms[one.room]
+    sides = [] if room is None else measured_sides(room, Point(one.at))
+    parts = [other.areas[0] for other in printed if other.room == one.room and other.areas]
+    for quantity in one.quantities:
+        if quantity.kind != "area":
+            for measured in (*sides, *runs):
+                yield from _of_sides(quantity, measured, blur_px)
+        elif room is not None:
+            alone = len(parts) < 2
+            yield _of_area(
+                quantity, quantity.values[0], room.area, quantity.trust if alone else 0.3
+            )
+            if not alone:
+                yield _of_area(quantity, sum(parts), room.area, 0.5 * quantity.trust)
+        if quantity.kind == "area" and (room is None or len(parts) > 1):
+            for run in runs:
+                log = _area_log(quantity.values[0], run.along * run.across)
+                yield Hypothesis(log, _AREA_OF_RUNS, quantity.trust * run.trust)
+
+
+def _between_walls(walls: Sequence[NDArray[np.uint8]], text: Text) -> list[Measured]:
+    widths, heights = free_runs(walls, text)
+    return [
+        Measured(width, height, _RUN_TRUST) for width, height in itertools.product(widths, heights)
+    ]
+
+
+def _place(
+    text: Text, at: NDArray[np.float64], places: list[tuple[NDArray[np.float64], str]]
+) -> str:
+    """A name for where a text stands: that of the label it belongs to, as in metres and in feet."""
+    reach = _LABEL * float(np.linalg.norm(np.subtract(text.box_px[3], text.box_px[0])))
+    for other, name in places:
+        if np.linalg.norm(at - other) <= reach:
+            return name
+    places.append((at, f"around ({at[0]:.0f}, {at[1]:.0f})"))
+    return places[-1][1]
 
 
 def measured_sides(room: Polygon, at: Point) -> list[Measured]:
@@ -89,20 +174,16 @@ def measured_sides(room: Polygon, at: Point) -> list[Measured]:
     ]
 
 
-def _readings(
-    quantity: Quantity, room: Polygon | None, at: Point, blur_px: float
-) -> Iterator[Hypothesis]:
-    if room is None:
-        return
-    if quantity.kind == "area":
-        yield Hypothesis(
-            _area_log(quantity, room.area),
-            math.hypot(_AREA_STATED, quantity.step / quantity.values[0] / math.sqrt(48.0)),
-            quantity.trust,
-        )
-        return
-    for sides in measured_sides(room, at):
+def _of_area(quantity: Quantity, metres2: float, pixels2: float, trust: float) -> Hypothesis:
+    rounding = quantity.step / quantity.values[0] / math.sqrt(48.0)
+    return Hypothesis(_area_log(metres2, pixels2), math.hypot(_AREA_STATED, rounding), trust)
+
+
+def _of_sides(quantity: Quantity, sides: Measured, blur_px: float) -> Iterator[Hypothesis]:
+    if quantity.kind == "size":
         yield from _of_size(quantity, sides, blur_px)
+    else:
+        yield from _of_one_side(quantity, quantity.values[0], sides, blur_px)
 
 
 def _of_size(quantity: Quantity, sides: Measured, blur_px: float) -> Iterator[Hypothesis]:
@@ -119,8 +200,16 @@ def _of_size(quantity: Quantity, sides: Measured, blur_px: float) -> Iterator[Hy
             math.hypot(*sigmas, unlike / 2.0) / math.sqrt(2.0),
             quantity.trust * sides.trust * math.exp(-0.5 * (unlike / 0.08) ** 2),
         )
-    for metres, pixels in itertools.product((a, b), (sides.along, sides.across)):
-        trust = _ONE_SIDE_TRUST * quantity.trust * sides.trust
+    for metres in (a, b):
+        yield from _of_one_side(quantity, metres, sides, blur_px)
+
+
+def _of_one_side(
+    quantity: Quantity, metres: float, sides: Measured, blur_px: float
+) -> Iterator[Hypothesis]:
+    """The paper's lounge: `5.0m` and 235 px between its walls give 47 px/m."""
+    trust = _ONE_SIDE_TRUST * quantity.trust * sides.trust
+    for pixels in (sides.along, sides.across):
         yield side_hypothesis(metres, pixels, quantity.step, blur_px, trust)
 
 
@@ -129,8 +218,8 @@ def _unlike(pairs: tuple[tuple[float, float], tuple[float, float]]) -> float:
     return math.log(a / along) - math.log(b / across)
 
 
-def _area_log(quantity: Quantity, area_px2: float) -> float:
-    return 0.5 * math.log(quantity.values[0] / area_px2)
+def _area_log(metres2: float, pixels2: float) -> float:
+    return 0.5 * math.log(metres2 / pixels2)
 
 
 def _polygon(outline: NDArray[np.float64]) -> Polygon:

@@ -45,6 +45,10 @@ def _engine(threads: int) -> RapidOCR:
             "Global.text_score": 0.0,
             "Det.limit_type": "min",
             "Det.limit_side_len": 32,
+            # Lower than usual (0.3, 0.5): letters between lines are found as well, and what is no
+            # text is dropped when it is read.
+            "Det.thresh": 0.2,
+            "Det.box_thresh": 0.35,
             "EngineConfig.onnxruntime.intra_op_num_threads": threads,
         }
     )

@@ -2,61 +2,49 @@
 
 from __future__ import annotations
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
-from veduta.plan.text.engine import LINE_PX, Line, read_line
+from veduta.plan.text.engine import Line, read_line
+from veduta.plan.text.letters import find_letters
 from veduta.plan.text.options import TextOptions
 from veduta.plan.text.regions import find_regions
+from veduta.plan.text.strips import in_colour, strip_of
 
+_SIGNS = frozenset("’‘“”′″–—×²㎡ØⅡ≤≥±√∅¼½¾")  # of plans, beyond the Latin letters
 _SURE = 0.9  # a line that is read so well stands the way in which it was read
 _LONG = 1.5  # a region this much longer than wide runs along its long side
 
 
-def read_texts(pixels: NDArray[np.uint8], options: TextOptions | None = None) -> list[Text]:
+def read_texts(
+    pixels: NDArray[np.uint8],
+    options: TextOptions | None = None,
+    overview: NDArray[np.float64] | None = None,
+) -> list[Text]:
     """The text on a sheet.
 
     `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (see `orientation`). Boxes
     are in its pixels; corners go clockwise in the direction of reading, from the upper left corner
-    of the first letter. Regions that say nothing with `options.score` are left out.
+    of the first letter. Regions that say nothing with `options.score` are left out. `overview`
+    (n, 4, 2) is what `find_overview` gave, where it was called before.
     """
     options = options or TextOptions()
     pixels = in_colour(pixels)
-    regions = find_regions(pixels, options)[: options.regions]
-    read = (_read_region(pixels, quad, options.threads) for quad in regions)
-    return [
+    regions = find_regions(pixels, options, overview)
+    read = (_read_region(pixels, quad, options.threads) for quad in regions[: options.regions])
+    texts = [
         Text(text=line.text, box_px=[(float(x), float(y)) for x, y in quad], score=line.score)
         for quad, line in read
-        if line.text and line.score >= options.score
+        if line.score >= options.score and _is_latin(line.text)
     ]
+    return [*texts, *find_letters(pixels, texts, options.threads)]
 
 
-def in_colour(pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
-    """(h, w, 3) of a picture that is (h, w) or (h, w, 3)."""
-    return np.repeat(pixels[:, :, None], 3, axis=2) if pixels.ndim == 2 else pixels
-
-
-def strip_of(pixels: NDArray[np.uint8], quad: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """The region inside `quad` (4, 2) as an upright line of text, LINE_PX high.
-
-    The first side of `quad` becomes the top. Cubic interpolation: small text is enlarged by it.
-    """
-    across = float(np.linalg.norm(quad[1] - quad[0]) + np.linalg.norm(quad[2] - quad[3]))
-    down = float(np.linalg.norm(quad[3] - quad[0]) + np.linalg.norm(quad[2] - quad[1]))
-    width = int(np.clip(round(LINE_PX * across / max(down, 1e-9)), 8, 60 * LINE_PX))
-    corners = np.array([(0, 0), (width, 0), (width, LINE_PX), (0, LINE_PX)], dtype=np.float32)
-    matrix = cv2.getPerspectiveTransform(quad.astype(np.float32), corners)
-    return np.asarray(
-        cv2.warpPerspective(
-            pixels,
-            matrix,
-            (width, LINE_PX),
-            flags=cv2.INTER_CUBIC,
-            borderMode=cv2.BORDER_REPLICATE,
-        ),
-        dtype=np.uint8,
+def _is_latin(text: str) -> bool:
+    """Whether it has letters or digits, and none of the scripts that symbols are misread for."""
+    return any(letter.isalnum() for letter in text) and all(
+        ord(letter) < 0x0250 or letter in _SIGNS for letter in text
     )
 
 

@@ -12,22 +12,38 @@ from collections.abc import Iterator
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta.plan.text.engine import find_lines
 from veduta.plan.text.options import TextOptions
 
 _OVERLAP = 0.15  # of a tile: a line of text on a border is whole in one of the two
 _LETTER_PX = (7, 60)  # height of letters, in pixels of the tile
+_TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
 
 
-def find_regions(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np.float64]:
-    """Quadrangles (n, 4, 2) around the lines of text of a sheet, in its pixels, each once.
+def find_overview(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np.float64]:
+    """Quadrangles (n, 4, 2) around the lines of text that are seen with the whole sheet in view.
 
-    `pixels` is (h, w, 3) sRGB.
+    `pixels` is (h, w, 3) sRGB; quadrangles are in its pixels.
     """
     factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
     found = find_lines(_resized(pixels, factor), options.threads) / factor
+    sides = np.linalg.norm(found - np.roll(found, -1, axis=1), axis=2)
+    # What is taller is a drawing that looks like text from afar, and would hide the text in it.
+    return found[sides.min(axis=1, initial=np.inf) < _TALLEST * max(pixels.shape)]
+
+
+def find_regions(
+    pixels: NDArray[np.uint8], options: TextOptions, overview: NDArray[np.float64] | None = None
+) -> NDArray[np.float64]:
+    """Quadrangles (n, 4, 2) around the lines of text of a sheet, in its pixels, each once.
+
+    `pixels` is (h, w, 3) sRGB; `overview` is what `find_overview` gave, where it was called before.
+    """
+    found = find_overview(pixels, options) if overview is None else overview
+    factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
     if factor < 1.0 and options.tiles:
         tile = int(options.tile_px)
         scale = max(factor, min(1.0, 2.5 * factor))
@@ -102,4 +118,17 @@ def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArr
     tall, wide = stats[1:, cv2.CC_STAT_HEIGHT], stats[1:, cv2.CC_STAT_WIDTH]
     fits = (np.maximum(tall, wide) >= low) & (np.maximum(tall, wide) <= high)
     fits &= np.minimum(tall, wide) >= 2
-    return np.asarray(centres[1:][fits], dtype=np.float64)
+    sizes = np.maximum(tall, wide)[fits]
+    return _in_company(np.asarray(centres[1:][fits], dtype=np.float64), sizes)
+
+
+def _in_company(centres: NDArray[np.float64], sizes: NDArray[np.int32]) -> NDArray[np.float64]:
+    """The marks that have two others of their size beside them: letters stand in words."""
+    if len(centres) < 3:
+        return np.zeros((0, 2))
+    found = cKDTree(centres).query(centres, k=min(6, len(centres)))
+    away, others = np.asarray(found[0]), np.asarray(found[1])
+    near = away[:, 1:] < 2.0 * sizes[:, None]
+    ratio = sizes[others[:, 1:]] / sizes[:, None]
+    alike = near & (ratio > 0.6) & (ratio < 1.6)
+    return np.asarray(centres[alike.sum(axis=1) >= 2], dtype=np.float64)

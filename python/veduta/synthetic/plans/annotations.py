@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
@@ -65,7 +66,7 @@ def _row(canvas: Canvas, style: Style, places: Sequence[float], at: float, uprig
         canvas.line([spot(place, -1.6 * TICK_M), spot(place, 1.6 * TICK_M)], pen, style.ink)
     height = float(np.clip(0.17 / canvas.metres_per_px, 9.0, 18.0))
     lift = 0.75 * height * canvas.metres_per_px + 0.02
-    for low, high in zip(places, places[1:]):
+    for low, high in pairwise(places):
         text = f"{high - low:.2f}"
         if style.sizes in ("comma", "area"):
             text = text.replace(".", ",")

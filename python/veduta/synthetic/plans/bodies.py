@@ -30,8 +30,9 @@ def whole_walls(walls: tuple[Wall, ...]) -> BaseGeometry:
         centre = LineString(curves.line(wall))
         bands.append(centre.buffer(wall.thickness_m / 2, cap_style="flat", join_style="mitre"))
         points = list(centre.coords)
-        for point, inner in ((points[0], points[1]), (points[-1], points[-2])):
-            ends.setdefault((point[0], point[1]), []).append((wall, LineString([inner, point])))
+        # Keyed by the junctions as given: an arc's own ends differ in their last digits.
+        for point, inner in ((wall.start_m, points[1]), (wall.end_m, points[-2])):
+            ends.setdefault(point, []).append((wall, LineString([inner, point])))
     for point, meeting in ends.items():
         bands += _corners(point, meeting)
     return unary_union(bands)

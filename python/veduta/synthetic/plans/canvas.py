@@ -106,7 +106,7 @@ class Canvas:
         mask = np.zeros(self.pixels.shape[:2], np.uint8)
         cv2.fillPoly(mask, self._rings(area), 255, cv2.LINE_AA, SHIFT)
         lines = self.pixels.copy()
-        height, width = mask.shape
+        height, width = self.pixels.shape[:2]
         gap = gap_m * FINE / self.metres_per_px * math.sqrt(2.0)
         for offset in np.arange(-height, width + height, gap):
             low = round(float(offset))
@@ -114,8 +114,10 @@ class Canvas:
             cv2.line(lines, (low, height), (low + height, 0), colour, pen, cv2.LINE_AA)
             if crossed:
                 cv2.line(lines, (low - height, 0), (low, height), colour, pen, cv2.LINE_AA)
-        share = mask[..., None].astype(np.float32) / 255.0
-        self.pixels[:] = np.round(share * lines + (1 - share) * self.pixels).astype(np.uint8)
+        inside = mask > 0
+        share = mask[inside][:, None].astype(np.float32) / 255.0
+        mixed = share * lines[inside] + (1 - share) * self.pixels[inside]
+        self.pixels[inside] = np.round(mixed).astype(np.uint8)
 
     def _rings(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
         parts: Sequence[BaseGeometry] = (
@@ -150,7 +152,7 @@ class Canvas:
         cv2.putText(patch, text, (pad, pad + round(size * 0.8)), (0, 0, 0), face, size, weight)
         if not upright:
             patch = np.rot90(patch).copy()
-        x, y = (self._fixed([centre_m])[0] / 2**SHIFT).round().astype(int)
+        x, y = (round(value / 2**SHIFT) for value in self._fixed([centre_m])[0].tolist())
         self._stamp(patch, x - patch.shape[1] // 2, y - patch.shape[0] // 2, colour)
 
     def _stamp(self, patch: Image, left: int, top: int, colour: Colour) -> None:

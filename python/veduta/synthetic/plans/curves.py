@@ -40,7 +40,7 @@ def at(
     along = chord / max(size, 1e-12)
     left = np.array([-along[1], along[0]])
     if abs(bulge) < 1e-9:
-        return a + shares[:, None] * chord + offset * left
+        return np.asarray(a + shares[:, None] * chord + offset * left)
     angle = 4.0 * math.atan(bulge)
     radius = size / (2.0 * math.sin(angle / 2.0))
     centre = (a + b) / 2.0 + left * radius * math.cos(angle / 2.0)

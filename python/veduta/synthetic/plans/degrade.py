@@ -115,8 +115,9 @@ def uneven_light(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[I
 def jpeg(rng: np.random.Generator, picture: Image, _: Colour) -> tuple[Image, Affine]:
     """Compressed too far."""
     quality = int(rng.integers(12, 30))
-    _, data = cv2.imencode(".jpg", picture[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])
-    return np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR)[..., ::-1], np.uint8), np.eye(3)
+    data = cv2.imencode(".jpg", picture[..., ::-1], [cv2.IMWRITE_JPEG_QUALITY, quality])[1]
+    back = np.asarray(cv2.imdecode(data, cv2.IMREAD_COLOR), np.uint8)
+    return np.ascontiguousarray(back[..., ::-1]), np.eye(3)
 
 
 def mirrored(_: np.random.Generator, picture: Image, __: Colour) -> tuple[Image, Affine]:

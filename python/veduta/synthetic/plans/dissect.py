@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 
@@ -113,7 +114,7 @@ def band(rng: np.random.Generator, box: Box, door_below: bool, spare: Box | None
     left = spare.right if spare else box.left
     places = steps(rng, left, box.right, 1.7, 4.6)
     cells: list[Cell] = []
-    for start, end in zip(places, places[1:]):
+    for start, end in pairwise(places):
         piece = Box(start, box.bottom, end, box.top)
         if piece.height > 3.4 and 1.7 <= piece.width <= 3.4 and rng.random() < 0.4:
             share = rng.uniform(0.4, 0.6)

@@ -77,7 +77,7 @@ def inner_type(rng: np.random.Generator, first: Use, second: Use) -> DoorType:
         return _pick(rng, {"swing": 0.85, "pocket": 0.1, "sliding": 0.05})
     if pair <= {"living", "dining", "kitchen", "hall", "corridor"}:
         return _pick(
-            rng, {"swing": 0.35, "plain": 0.3, "double": 0.12, "sliding": 0.11, "french": 0.12}
+            rng, {"swing": 0.3, "plain": 0.36, "double": 0.12, "sliding": 0.1, "french": 0.12}
         )
     return _pick(rng, {"swing": 0.9, "sliding": 0.05, "pocket": 0.05})
 

@@ -26,6 +26,7 @@ from veduta.synthetic.plans.names import UP
 from veduta.synthetic.plans.openings_drawn import draw_door, draw_window
 from veduta.synthetic.plans.places import swept
 from veduta.synthetic.plans.styles import Style
+from veduta.synthetic.plans.terraces import draw_terraces, terraces_of
 from veduta.synthetic.plans.walls_drawn import draw_floors, draw_stairs, draw_walls
 
 MARGIN_M = 1.0
@@ -55,7 +56,9 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     metres_per_px = 1.0 / rng.uniform(*style.px_per_m)
     if style.walls == "single-line":
         storey = with_thin_walls(storey, style.wall_pen_px * metres_per_px)
-    left, bottom, right, top = whole_walls(storey.walls).bounds
+    house = whole_walls(storey.walls)
+    terraces = [] if style.dimension_lines else terraces_of(rng, style, storey, house)
+    left, bottom, right, top = bounds = unary_union([house, *(one.area for one in terraces)]).bounds
     margin = ANNOTATED_MARGIN_M if _annotated(style) else MARGIN_M
     sheet = (left - margin, bottom - margin, right + margin, top + margin)
     canvas = Canvas(sheet, metres_per_px, style.paper)
@@ -65,6 +68,7 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     for opening in storey.openings:
         draw = draw_window if opening.kind == "window" else draw_door
         draw(canvas, style, storey.wall(opening.wall), opening)
+    draw_terraces(canvas, style, terraces)
     for stairs in storey.stairs:
         draw_stairs(canvas, style, stairs, UP[style.language])
     labels = labels_of(rng, canvas, style, storey, busy)
@@ -72,14 +76,16 @@ def draw_sheet(storey: Storey, style: Style, rng: np.random.Generator) -> Sheet:
     draw_things(canvas, style, furnish(rng, storey, style.furniture, taken))
     for label in labels:
         draw_label(canvas, style, label)
-    _annotate(canvas, style, storey)
+    _annotate(canvas, style, storey, bounds)
     says = any(label.size for label in labels) or style.dimension_lines or style.scale_bar
     return Sheet(canvas.picture(), canvas.px_from_m, storey, tuple(labels), says)
 
 
-def _annotate(canvas: Canvas, style: Style, storey: Storey) -> None:
-    """What stands around the house."""
-    left, bottom, right, top = bounds = whole_walls(storey.walls).bounds
+def _annotate(
+    canvas: Canvas, style: Style, storey: Storey, bounds: tuple[float, float, float, float]
+) -> None:
+    """What stands around the house and its terraces, whose bounds are given."""
+    left, bottom, right, top = bounds
     if style.dimension_lines:
         draw_dimension_lines(canvas, style, storey, bounds)
     if style.title:

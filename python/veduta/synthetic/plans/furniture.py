@@ -22,7 +22,7 @@ OFF_WALL_M = 0.03
 
 @dataclass(frozen=True)
 class Thing:
-    """Something that stands with its back against a wall, `wide` along it and `deep` into the room."""
+    """Stands with its back against a wall, `wide` along it and `deep` into the room."""
 
     symbol: str
     wide: float

@@ -30,6 +30,7 @@ class Label:
     size: str
     centre_m: tuple[float, float]
     box_m: tuple[float, float, float, float]
+    upright: bool = True
 
 
 def size_text(sizes: Sizes, room: Room, area: Polygon) -> str:
@@ -94,15 +95,18 @@ def _fit(
     size = size_text(style.sizes, room, area)
     for name, printed in ((names[0], size), (names[1], size), (names[1], "")):
         text = name.upper() if style.capitals else name
-        wide = max(text_size_px(text, height, style.font, style.weight)[0],
-                   text_size_px(printed, 0.85 * height, style.font, style.weight)[0] if printed else 0)  # fmt: skip
+        wide = text_size_px(text, height, style.font, style.weight)[0]
+        if printed:
+            below = text_size_px(printed, 0.85 * height, style.font, style.weight)[0]
+            wide = max(wide, below)
         high = height * (2.2 if printed else 1.1)
+        sides = (wide * canvas.metres_per_px, high * canvas.metres_per_px)
         for free in (area.difference(busy), area):
-            spot = _spot(free, wide * canvas.metres_per_px, high * canvas.metres_per_px)
-            if spot is not None:
-                return Label(
-                    room.id, text, printed, ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2), spot
-                )
+            for upright in (True, False):
+                spot = _spot(free, *(sides if upright else sides[::-1]))
+                if spot is not None:
+                    middle = ((spot[0] + spot[2]) / 2, (spot[1] + spot[3]) / 2)
+                    return Label(room.id, text, printed, middle, spot, upright)
     return None
 
 
@@ -127,13 +131,14 @@ def _spot(area: BaseGeometry, wide: float, high: float) -> tuple[float, float, f
 
 
 def draw_label(canvas: Canvas, style: Style, label: Label) -> None:
-    """The name over the size, centred."""
+    """The name over the size, centred; in a narrow room both run up the page."""
     height = text_height_px(canvas)
     x, y = label.centre_m
     lift = 0.6 * height * canvas.metres_per_px if label.size else 0.0
-    canvas.text(label.name, (x, y + lift), height, style.font, style.ink, style.weight)
-    if label.size:
-        canvas.text(label.size, (x, y - lift), 0.85 * height, style.font, style.ink, style.weight)
+    for text, size, off in ((label.name, height, lift), (label.size, 0.85 * height, -lift)):
+        at = (x, y + off) if label.upright else (x - off, y)
+        if text:
+            canvas.text(text, at, size, style.font, style.ink, style.weight, label.upright)
 
 
 def label_box(label: Label) -> Polygon:

@@ -38,6 +38,7 @@ from veduta.synthetic.seeds import stream
 ATTEMPTS = 60
 LEAST_CORRIDOR_M = 1.15
 WINDOWS: tuple[WindowType, ...] = ("single-line", "double-line", "triple-line", "filled")
+WING_SHARE = 0.25
 PLACE_ATTEMPTS = 8
 CLASH_M2 = 0.03
 OUTSIDE_DOORS: tuple[tuple[Use, DoorType, float], ...] = (
@@ -105,8 +106,12 @@ def _cells(rng: np.random.Generator, frame: Frame, number: int) -> list[Cell]:
         cells = corridor_cells(rng, frame.box, frame.corridor, frame.stairs, number == 0)
     else:
         cells = _cut_with_hall(rng, frame.box)
+    box = frame.box
+    if frame.stairs is None and rng.random() < WING_SHARE:
+        wide, deep = round(rng.uniform(3.4, 5.5), 2), round(rng.uniform(2.6, 3.8), 2)
+        left = float(rng.choice([box.left, box.right - wide]))
+        cells += cut(rng, Box(left, box.top, round(left + wide, 2), box.top + deep), 1.6, 4.0)
     if number == 0 and rng.random() < 0.25:
-        box = frame.box
         deep = round(rng.uniform(3.2, 3.8), 2)
         top = round(rng.uniform(5.2, 6.2), 2)
         cells.append(

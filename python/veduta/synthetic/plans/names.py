@@ -52,17 +52,27 @@ FULL: Mapping[Language, Mapping[Use, tuple[str, ...]]] = {
 }  # fmt: skip
 
 SHORT: Mapping[Language, Mapping[Use, str]] = {
-    "en": {"bathroom": "Bath", "storage": "St.", "wardrobe": "W", "utility": "Util.", "hall": "Hall",
-           "toilet": "WC", "study": "Study"},
-    "pt": {"bathroom": "Banho", "storage": "Arr.", "wardrobe": "Roup.", "toilet": "WC", "hall": "Hall",
-           "utility": "Lav."},
-    "fr": {"bathroom": "SDB", "storage": "Rgt", "wardrobe": "Dress.", "toilet": "WC", "corridor": "Dgt",
-           "utility": "Buand."},
-    "de": {"bathroom": "Bad", "storage": "Abst.", "utility": "HWR", "toilet": "WC", "hall": "Diele",
-           "corridor": "Flur", "study": "Arb."},
-    "fi": {"living": "OH", "dining": "RUOK", "kitchen": "K", "bedroom": "MH", "bathroom": "PH",
-           "utility": "KHH", "storage": "VAR", "wardrobe": "VH", "hall": "ET", "corridor": "KÄYT",
-           "sauna": "S", "garage": "AT", "toilet": "WC", "study": "TH"},
+    "en": {
+        "bathroom": "Bath", "storage": "St.", "wardrobe": "W", "utility": "Util.", "hall": "Hall",
+        "toilet": "WC", "study": "Study",
+    },
+    "pt": {
+        "bathroom": "Banho", "storage": "Arr.", "wardrobe": "Roup.", "toilet": "WC",
+        "hall": "Hall", "utility": "Lav.",
+    },
+    "fr": {
+        "bathroom": "SDB", "storage": "Rgt", "wardrobe": "Dress.", "toilet": "WC",
+        "corridor": "Dgt", "utility": "Buand.",
+    },
+    "de": {
+        "bathroom": "Bad", "storage": "Abst.", "utility": "HWR", "toilet": "WC", "hall": "Diele",
+        "corridor": "Flur", "study": "Arb.",
+    },
+    "fi": {
+        "living": "OH", "dining": "RUOK", "kitchen": "K", "bedroom": "MH", "bathroom": "PH",
+        "utility": "KHH", "storage": "VAR", "wardrobe": "VH", "hall": "ET", "corridor": "KÄYT",
+        "sauna": "S", "garage": "AT", "toilet": "WC", "study": "TH",
+    },
 }  # fmt: skip
 STOREYS: Mapping[Language, tuple[str, ...]] = {
     "en": ("Ground Floor", "First Floor", "Second Floor"),

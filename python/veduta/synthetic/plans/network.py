@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from shapely import contains_xy, unary_union
@@ -68,7 +69,7 @@ def _noded(lines: Sequence[LineString]) -> list[tuple[Point, Point]]:
     pieces = {
         tuple(sorted(((round(a[0], 3), round(a[1], 3)), (round(b[0], 3), round(b[1], 3)))))
         for part in parts
-        for a, b in zip(part.coords, part.coords[1:])
+        for a, b in pairwise(part.coords)
     }
     return sorted((first, second) for first, second in pieces)
 
@@ -91,9 +92,11 @@ def room_areas(cells: Sequence[Cell], walls: tuple[Wall, ...]) -> list[Polygon]:
     rooms = []
     for cell in cells:
         free = cell_area(cell).difference(bodies)
-        parts = [free] if isinstance(free, Polygon) else list(getattr(free, "geoms", []))
+        every = [free] if isinstance(free, Polygon) else list(getattr(free, "geoms", []))
+        parts = [part for part in every if isinstance(part, Polygon)]
         largest = max(parts, key=lambda part: part.area)
-        rooms.append(orient(Polygon(largest.exterior.simplify(1e-4))))
+        smooth = LineString(largest.exterior.coords).simplify(1e-4)
+        rooms.append(orient(Polygon(smooth.coords)))
     return rooms
 
 

@@ -28,7 +28,10 @@ def with_features(
     for feature, change in (("corner", _cut_corner), ("bay", _bay), ("bow", _bow)):
         if rng.random() >= shares.get(feature, 0.0):
             continue
-        outside = unary_union([Polygon(cell.corners) for cell in cells]).exterior
+        whole = unary_union([Polygon(cell.corners) for cell in cells])
+        if not isinstance(whole, Polygon):
+            return changed
+        outside = LineString(whole.exterior.coords)
         places = [
             (index, side)
             for index, cell in enumerate(changed)

@@ -48,11 +48,11 @@ def place_of(wall: Wall, opening: Opening) -> Place:
 
 
 def swept(wall: Wall, opening: Opening) -> Polygon:
-    """Where a door's leaf moves; before and behind one that does not swing, where one stands."""
+    """Where a door's leaf moves, and on its other side, where one stands before it."""
     place = place_of(wall, opening)
     reach = opening.width_m if opening.hinge != "both" else opening.width_m / 2
+    stand = place.half_m + STAND_M
     if opening.swing == "none":
-        stand = place.half_m + STAND_M
         return place.box(0, opening.width_m, -stand, stand)
     side = 1.0 if opening.swing == "left" else -1.0
-    return place.box(0, opening.width_m, 0.0, side * (place.half_m + reach))
+    return place.box(0, opening.width_m, -side * stand, side * (place.half_m + reach + 0.05))

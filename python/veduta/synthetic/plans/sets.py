@@ -3,12 +3,17 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
+from typing import get_args
 
 import numpy as np
 
+from veduta.synthetic.plans.annotations import RATIO
 from veduta.synthetic.plans.canvas import Image
 from veduta.synthetic.plans.degrade import DEGRADATIONS, Degradation
 from veduta.synthetic.plans.drawing import draw_sheet
+from veduta.synthetic.plans.house import Language
+from veduta.synthetic.plans.labels import INCH_M
 from veduta.synthetic.plans.layout import make_house
 from veduta.synthetic.plans.styles import STYLES, Style
 from veduta.synthetic.plans.truth_file import SheetTruth
@@ -18,6 +23,8 @@ FIRST_TEST_SEED = 10_000
 """Seeds from here on may have any style and degradation; those below, only known ones."""
 
 CLEAN_SHARE = 0.25
+OTHER_LANGUAGE_SHARE = 0.5
+LANGUAGES: tuple[Language, ...] = get_args(Language)
 
 
 def choice(seed: int) -> tuple[Style, Degradation]:
@@ -41,12 +48,18 @@ def sheets_of(
     """
     chosen, damage = choice(seed)
     style, fault = style or chosen, fault or damage
+    rng = stream(seed, "language")
+    if style.many_languages and rng.random() < OTHER_LANGUAGE_SHARE:
+        language = LANGUAGES[int(rng.integers(len(LANGUAGES)))]
+        style = replace(style, language=language)
     unseen = tuple(item.name for item in (style, fault) if item.split == "unseen")
     house = make_house(seed, style.language)
     for storey in house.storeys:
         sheet = draw_sheet(storey, style, stream(seed, f"sheet {storey.number}"))
         rng = stream(seed, f"scan {storey.number}")
         picture, scan_from_px = fault.apply(rng, sheet.picture, style.paper)
+        affine = np.asarray(scan_from_px @ sheet.px_from_m)
+        px_per_m = float(abs(np.linalg.det(affine[:2, :2])) ** 0.5)
         truth = SheetTruth(
             f"{seed:05d}-{storey.number}.png",
             seed,
@@ -54,8 +67,9 @@ def sheets_of(
             fault.name,
             unseen,
             style.walls,
-            np.asarray(scan_from_px @ sheet.px_from_m),
+            affine,
             sheet.says_scale,
+            px_per_m * INCH_M * RATIO if style.ratio else None,
             sheet.storey,
         )
         yield picture, truth

@@ -47,6 +47,11 @@ class Style:
     capitals: bool = False
     px_per_m: tuple[float, float] = (70.0, 110.0)
 
+    @property
+    def many_languages(self) -> bool:
+        """Whether it is drawn in other countries too: feet are read in English alone."""
+        return not self.sizes.startswith("feet")
+
 
 STYLES: tuple[Style, ...] = (
     Style("plain", "development", "en", sizes="metres"),

@@ -21,6 +21,7 @@ class SheetTruth:
 
     `px_from_m` (3, 3) is the affine from the plan frame (metres, y up) to pixels of the picture,
     x right and y down, origin at the upper left corner of the upper left pixel.
+    `dpi` is what the file says of its resolution, where the sheet bears a ratio such as 1:100.
     """
 
     file: str
@@ -31,6 +32,7 @@ class SheetTruth:
     walls_drawn: str
     px_from_m: NDArray[np.float64]
     says_scale: bool
+    dpi: float | None
     storey: Storey
 
     @property
@@ -69,6 +71,7 @@ def from_json(fields: Mapping[str, Any]) -> SheetTruth:
         fields["walls_drawn"],
         np.array(fields["px_from_m"], float),
         fields["says_scale"],
+        fields["dpi"],
         Storey(
             storey["number"],
             tuple(Wall(**_pairs(wall, "start_m", "end_m")) for wall in storey["walls"]),

@@ -54,4 +54,8 @@ def _free(wall: Wall, doors: Sequence[Opening]) -> list[tuple[float, float]]:
     for door in sorted(doors, key=lambda door: door.along_m):
         places += [door.along_m - CLEAR_M, door.along_m + door.width_m + CLEAR_M]
     places.append(curves.wall_length(wall) - CLEAR_M)
-    return [(low, high) for low, high in zip(places[::2], places[1::2]) if high - low > LEAST_M]
+    return [
+        (low, high)
+        for low, high in zip(places[::2], places[1::2], strict=True)
+        if high - low > LEAST_M
+    ]

@@ -1,0 +1,66 @@
+"""Drawings taken through `veduta plan`, in a few processes: what it says is on them."""
+
+from __future__ import annotations
+
+import tempfile
+import time
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+from veduta.plan.analyse import read_drawings
+from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.options import PlanOptions
+from veduta.plan.pipeline import run_plan
+from veduta.run.errors import VedutaError
+from veduta.run.pool import Task, run_tasks
+from veduta.run.progress import Progress, no_progress
+
+MEMORY = 1500 * 1024**2
+
+
+@dataclass(frozen=True)
+class Reading:
+    """One drawing. `storey` is None, and `reason` says why, where nothing could be read."""
+
+    storey: Storey | None
+    seconds: float
+    reason: str = ""
+
+
+def read_alone(path: Path) -> Reading:
+    """One drawing to its document; errors that people are told are results."""
+    started = time.perf_counter()
+    try:
+        read = read_drawings([path], PlanOptions(), [], no_progress)
+    except VedutaError as error:
+        return Reading(None, time.perf_counter() - started, str(error))
+    return Reading(read.document.storeys[0], time.perf_counter() - started)
+
+
+def read_with_house(path: Path) -> Reading:
+    """One drawing through the whole verb: the house, all files, and plan.json as written."""
+    started = time.perf_counter()
+    with tempfile.TemporaryDirectory() as folder:
+        out = Path(folder) / "out"
+        try:
+            result = run_plan([path], out, PlanOptions(), Progress(quiet=True))
+            if result.failure is not None:
+                return Reading(None, time.perf_counter() - started, result.failure.reason)
+            text = (out / "plan.json").read_text("utf-8")
+        except VedutaError as error:
+            return Reading(None, time.perf_counter() - started, str(error))
+    seconds = time.perf_counter() - started
+    return Reading(PlanDocument.model_validate_json(text).storeys[0], seconds)
+
+
+def read_plans(paths: Sequence[Path], jobs: int = 2, house: bool = True) -> list[Reading]:
+    """Drawings in `jobs` spawned processes; a crash is raised, with the drawing's name."""
+    done: dict[str, Reading] = {}
+    work = read_with_house if house else read_alone
+    for outcome in run_tasks(work, [Task(str(p), p, MEMORY) for p in paths], jobs=jobs):
+        if outcome.value is None:
+            fault = outcome.crash or outcome.traceback or str(outcome.error)
+            raise RuntimeError(f"{outcome.task.name}: {fault}")
+        done[outcome.task.name] = outcome.value
+    return [done[str(path)] for path in paths]

@@ -1,0 +1,173 @@
+"""Whether rendered photos of a street are laid into a city model rightly, or refused: whole runs.
+
+    python benchmarks/registration_rendered.py WORK [--seeds 20] [--first 0] [--keep]
+
+A street of six or more houses is rendered as 40 photos with lens distortion, changing exposure,
+noise and a GPS that is 5 m wrong. Structure from motion runs once a street; the model of that
+street and the model of another one, laid to the same place, are each tried with GPS and without.
+What is done is kept in WORK, and a second call goes on from there.
+"""
+
+from __future__ import annotations
+
+import argparse
+import io
+import json
+import subprocess
+import sys
+import time
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from PIL import Image
+from record import Row, keep_or_print
+from street_sets import IMAGES, StreetSet, write_model, write_set
+
+from veduta.formats.place_json import read_place
+from veduta.photos.world.absolute_orientation import absolute_orientation
+from veduta.synthetic.streets.plan import plan_street
+
+MOST_M, MOST_DEG = 0.3, 0.5
+WANTED = 0.95
+OTHER = 1000
+MODEL = "model.city.json"
+NOTES = (
+    f"right: accepted, the photos within {MOST_M} m of their true places in the mean, which"
+    f" includes what structure from motion has wrong, and all together turned by {MOST_DEG} degrees"
+    " at most. wrong: accepted, but not so.",
+    "Not in the model: the model is that of another street, laid to the same place.",
+    "Without GPS: the same photos without EXIF.",
+)
+
+
+def street(seed: int, work: Path) -> list[dict[str, Any]]:
+    """The outcomes of one street; from its file where it was run before."""
+    folder = work / f"street-{seed}"
+    done = folder / "outcomes.json"
+    if done.exists():
+        kept: list[dict[str, Any]] = json.loads(done.read_text())
+        return kept
+    if not (folder / MODEL).exists():
+        write_set(StreetSet(seed), folder)
+    write_model(plan_street(seed + OTHER), _made(folder / "other"))
+    _without_exif(folder / IMAGES, folder / "bare")
+    found = folder / "structure"
+    if not (found / "report.json").exists():
+        veduta(folder / IMAGES, found, "--georef", "off", "--no-walls")
+    outcomes = []
+    for in_model in (True, False):
+        for gps in (True, False):
+            photos = folder / (IMAGES if gps else "bare")
+            model = (folder if in_model else folder / "other") / MODEL
+            outcomes.append(outcome(folder, photos, model) | {"in_model": in_model, "gps": gps})
+    done.write_text(json.dumps(outcomes, indent=1))
+    return outcomes
+
+
+def outcome(folder: Path, photos: Path, model: Path) -> dict[str, Any]:
+    """The structure that was found, laid into a model."""
+    out = folder / f"{photos.name}-{model.parent.name}"
+    started = time.perf_counter()
+    given = ("--from-colmap", str(folder / "structure" / "sparse" / "0"))
+    veduta(photos, out, *given, "--model", str(model), "--georef", "model", "--no-texture")
+    seconds = time.perf_counter() - started
+    georef = json.loads((out / "georef.json").read_text())["components"][0]
+    accepted = georef["accepted"] == "model"
+    error_m, error_deg, placed = errors(folder, out, georef) if accepted else (None, None, None)
+    why = georef["tried"][0]["why"]
+    return {
+        "accepted": accepted,
+        "error_m": error_m,
+        "error_deg": error_deg,
+        "placed": placed,
+        "seconds": seconds,
+        "why": why,
+    }
+
+
+def errors(folder: Path, out: Path, georef: dict[str, Any]) -> tuple[float, float, int]:
+    """Mean distance of the photos (m), the turn of all together (degrees), how many there are."""
+    truth = json.loads((folder / "truth.json").read_text())
+    true = {photo["name"]: np.array(photo["position_m"]) for photo in truth["photos"]}
+    apart = np.array(georef["origin"]) - np.array(truth["origin_m"])
+    cameras = read_place(out / "place.json").cameras
+    found = np.array([camera.transform[12:15] for camera in cameras]) + apart
+    wanted = np.array([true[camera.name] for camera in cameras])
+    turn = absolute_orientation(found, wanted).rotation
+    cosine = np.clip((np.trace(turn) - 1.0) / 2.0, -1.0, 1.0)
+    distances = np.linalg.norm(found - wanted, axis=1)
+    return float(distances.mean()), float(np.rad2deg(np.arccos(cosine))), len(cameras)
+
+
+def veduta(photos: Path, out: Path, *options: str) -> None:
+    """One call of the command; a run that was killed goes on."""
+    program = [sys.executable, "-m", "veduta.cli.main", "photos", str(photos), "-o", str(out)]
+    subprocess.run([*program, *options, "--quiet"], check=True)
+
+
+def _without_exif(photos: Path, bare: Path) -> None:
+    """The same photos (to the pixel) without what the camera noted."""
+    _made(bare)
+    for path in sorted(photos.iterdir()):
+        with Image.open(path) as photo:
+            written = io.BytesIO()
+            photo.save(written, "JPEG", quality="keep", exif=b"")
+        (bare / path.name).write_bytes(written.getvalue())
+
+
+def _made(folder: Path) -> Path:
+    folder.mkdir(parents=True, exist_ok=True)
+    return folder
+
+
+def rows(found: list[dict[str, Any]]) -> list[Row]:
+    """A row for each kind of model, with and without GPS."""
+    return [
+        _row(
+            in_model,
+            gps,
+            [one for one in found if (one["in_model"], one["gps"]) == (in_model, gps)],
+        )
+        for in_model in (True, False)
+        for gps in (True, False)
+    ]
+
+
+def _row(in_model: bool, gps: bool, found: list[dict[str, Any]]) -> Row:
+    accepted = [one for one in found if one["accepted"]]
+    right = [one for one in accepted if one["error_m"] <= MOST_M and one["error_deg"] <= MOST_DEG]
+    wanted = len(right) >= WANTED * len(found) if in_model else not accepted
+    return {
+        "in the model": "yes" if in_model else "no",
+        "GPS": "5 m wrong" if gps else "none",
+        "streets": len(found),
+        "right": len(right),
+        "wrong": len(accepted) - len(right),
+        "refused": len(found) - len(accepted),
+        "met": "yes" if wanted and len(right) == len(accepted) else "**missed**",
+        "median m": float(np.median([one["error_m"] for one in accepted])) if accepted else None,
+        "largest m": max((one["error_m"] for one in accepted), default=None),
+        "largest degrees": max((one["error_deg"] for one in accepted), default=None),
+        "fewest photos placed": min((one["placed"] for one in accepted), default=None),
+        "s": float(np.mean([one["seconds"] for one in found])),
+    }
+
+
+def main() -> None:
+    """Measure, and print or keep the table."""
+    parser = argparse.ArgumentParser()
+    parser.add_argument("work", type=Path)
+    parser.add_argument("--seeds", type=int, default=20)
+    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--keep", action="store_true")
+    given = parser.parse_args()
+    found = []
+    for seed in range(given.first, given.first + given.seeds):
+        found += street(seed, given.work)
+        print(seed, json.dumps(found[-4:]), flush=True)
+    keep_or_print("registration-rendered", rows(found), NOTES, given.keep)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,46 @@
+"""`veduta plan IMAGE... -o OUT`."""
+
+from __future__ import annotations
+
+import shlex
+import sys
+from typing import TYPE_CHECKING
+
+SUMMARY = "Turn floor plans into a house that one can walk through"
+
+if TYPE_CHECKING:
+    from veduta.plan.pipeline import PlanResult
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, do the work, say what was found and where it is."""
+    from veduta.cli.arguments import parse
+    from veduta.cli.plan_call import PlanCall
+    from veduta.plan.pipeline import run_plan
+    from veduta.run.progress import Progress
+
+    call = parse(PlanCall, "veduta plan", arguments)
+    progress = Progress(quiet=call.quiet)
+    result = run_plan(call.drawings, call.out, call.options(), progress, force=call.force)
+    if result.failure:
+        print(f"error: {result.failure.subject}: {result.failure.reason}", file=sys.stderr)
+    if not call.quiet:
+        _tell(result)
+    return result.exit_code
+
+
+def _tell(result: PlanResult) -> None:
+    from veduta.cli.kept import tell_kept
+    from veduta.plan.load import DOCUMENT
+    from veduta.plan.report import summary_line
+
+    out = result.out
+    edited = [name for name in result.edited if name != DOCUMENT]
+    tell_kept(out, edited, result.foreign, up_to_date=result.up_to_date)
+    if result.outdated:
+        command = shlex.join(["veduta", "plan", str(out / DOCUMENT), "-o", str(out)])
+        print(f"{out / DOCUMENT}: was edited; to rebuild from it: {command}")
+    if result.failure is None and result.measures:
+        print(summary_line(result.measures))
+        print(f"Walk in it: {shlex.join(['veduta', 'view', str(out)])}")
+    print(f"What was done, and why: {out / 'report.html'}")

@@ -1,0 +1,183 @@
+"""The two photos that a map begins with, by the conditions of the thesis.
+
+Algorithm 6, 2 (a), and section 2.5.2 of the thesis: the two views have known intrinsic parameters,
+and the most matches of all that a homography does not model well (those of a plane, or of a camera
+that only turned, tell no depth); they are far enough apart for points to be well placed. Where the
+thesis gives no number the one that is taken stands here.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import cv2
+import numpy as np
+import pycolmap
+from numpy.typing import NDArray
+
+FEWEST = 20
+"""Matches of a pair (n_min of algorithm 6)."""
+SURE = 100
+"""From so many matches on a pair with known focal lengths goes before one with more matches."""
+MOST_PLANAR = 0.8
+"""Share of the matches that a homography may explain. That by which the engine calls a pair
+planar, too; true scenes with relief have 0.2 to 0.7."""
+NEAR_SHARE = 0.002
+"""Share of a photo's longer side up to which a homography explains a match."""
+LEAST_ANGLE_DEG = 8.0
+"""Median angle between the rays to the points of a pair."""
+HOMOGRAPHY_DRAWS = 500
+MOST_DRAWN = 1000
+"""Matches of a pair that are looked at, drawn at random: thousands tell no more."""
+MOST_WEIGHED = 400
+"""Pairs that are weighed at most, those with most matches first."""
+
+
+@dataclass(frozen=True)
+class WeighedPair:
+    """Two photos (image ids), and what the conditions ask of them.
+
+    matches: that are verified. planar: share of them that a homography explains. angle_deg: median
+    angle between the rays to their points; None where no pose was found. known: whether the focal
+    lengths of both are.
+    """
+
+    first: int
+    second: int
+    matches: int
+    known: bool
+    planar: float
+    angle_deg: float | None
+
+    @property
+    def fault(self) -> str | None:
+        """Which condition it does not meet; None where it meets all."""
+        if self.planar > MOST_PLANAR:
+            return f"a homography explains {self.planar:.0%} of the matches"
+        if self.angle_deg is None:
+            return "no pose was found"
+        if self.angle_deg < LEAST_ANGLE_DEG:
+            return f"the rays to their points are {self.angle_deg:.1f}° apart"
+        return None
+
+
+@dataclass(frozen=True)
+class Start:
+    """The pair that a component was grown from.
+
+    chosen_by: the conditions above, or the engine where they gave nothing to grow from.
+    passed_over: pairs that come before it and do not meet the conditions. refused: pairs that meet
+    them and from which the engine could grow nothing.
+    """
+
+    pair: WeighedPair
+    chosen_by: Literal["conditions", "engine"]
+    passed_over: int
+    refused: int
+
+
+def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> Iterator[WeighedPair]:
+    """The verified pairs of some photos, best first, each weighed when it is asked for.
+
+    Known focal lengths first where there are enough matches, then by the number of matches.
+    """
+    with pycolmap.Database.open(database) as opened:
+        cameras = {image: _camera_of(opened, image) for image in image_ids}
+        counted = _counted(opened, set(image_ids))
+        counted.sort(key=lambda pair: _place(pair, cameras))
+        for first, second, _ in counted[:MOST_WEIGHED]:
+            yield _read_and_weigh(opened, (first, second), cameras, seed)
+
+
+def weighed_pair(database: Path, pair: tuple[int, int], seed: int) -> WeighedPair:
+    """One pair of the database, weighed."""
+    with pycolmap.Database.open(database) as opened:
+        cameras = {image: _camera_of(opened, image) for image in pair}
+        return _read_and_weigh(opened, pair, cameras, seed)
+
+
+def _read_and_weigh(
+    opened: pycolmap.Database,
+    pair: tuple[int, int],
+    cameras: Mapping[int, pycolmap.Camera],
+    seed: int,
+) -> WeighedPair:
+    points = [opened.read_keypoints(image)[:, :2] for image in pair]
+    matches = opened.read_two_view_geometry(*pair).inlier_matches
+    return weigh(pair, [cameras[image] for image in pair], points, matches, seed)
+
+
+def weigh(
+    pair: tuple[int, int],
+    cameras: Sequence[pycolmap.Camera],
+    points: Sequence[NDArray[np.floating]],
+    matches: NDArray[np.integer],
+    seed: int,
+) -> WeighedPair:
+    """What the conditions ask of two photos.
+
+    points: (k, 2) the features of each (px). matches: (m, 2) rows of them that agree.
+    """
+    drawn = matches[np.random.default_rng(seed).permutation(len(matches))[:MOST_DRAWN]]
+    own = [
+        np.ascontiguousarray(places[drawn[:, side]], dtype=np.float64)
+        for side, places in enumerate(points)
+    ]
+    known = all(camera.has_prior_focal_length for camera in cameras)
+    planar = _planar_share(own, cameras[1], seed)
+    angle = _angle_deg(cameras, own, seed)
+    return WeighedPair(*pair, len(matches), known, planar, angle)
+
+
+def _camera_of(opened: pycolmap.Database, image: int) -> pycolmap.Camera:
+    return opened.read_camera(opened.read_image(image).camera_id)
+
+
+def _counted(opened: pycolmap.Database, images: set[int]) -> list[tuple[int, int, int]]:
+    """Pairs with enough verified matches, and how many."""
+    found = []
+    for pair_id, count in zip(*opened.read_two_view_geometry_num_inliers(), strict=True):
+        first, second = sorted(pycolmap.pair_id_to_image_pair(pair_id))
+        if count >= FEWEST and {first, second} <= images:
+            found.append((first, second, int(count)))
+    return found
+
+
+def _place(
+    pair: tuple[int, int, int], cameras: Mapping[int, pycolmap.Camera]
+) -> tuple[bool, bool, int, int, int]:
+    """Where a pair stands in the order."""
+    first, second, count = pair
+    known = all(cameras[image].has_prior_focal_length for image in (first, second))
+    return (count < SURE, not known, -count, first, second)
+
+
+def _planar_share(
+    points: Sequence[NDArray[np.float64]], camera: pycolmap.Camera, seed: int
+) -> float:
+    """Share of the matches that the best homography explains."""
+    near_px = NEAR_SHARE * max(camera.width, camera.height)
+    cv2.setRNGSeed(seed)
+    _, explained = cv2.findHomography(
+        points[0], points[1], cv2.USAC_DEFAULT, near_px, None, HOMOGRAPHY_DRAWS
+    )
+    return 0.0 if explained is None else float(np.mean(explained))
+
+
+def _angle_deg(
+    cameras: Sequence[pycolmap.Camera], points: Sequence[NDArray[np.float64]], seed: int
+) -> float | None:
+    """Median angle between the rays of the pose that the essential matrix gives (2.26, 2.27)."""
+    options = pycolmap.TwoViewGeometryOptions()
+    options.ransac.random_seed = seed
+    options.compute_relative_pose = True
+    rows = np.repeat(np.arange(len(points[0]), dtype=np.uint32)[:, None], 2, axis=1)
+    found = pycolmap.estimate_calibrated_two_view_geometry(
+        cameras[0], points[0], cameras[1], points[1], rows, options
+    )
+    if found.cam2_from_cam1 is None or found.tri_angle <= 0.0:
+        return None
+    return float(np.rad2deg(found.tri_angle))

@@ -1,0 +1,199 @@
+"""From the drawings of a house to its document: read, clean, find, measure, name, compose."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from shapely.geometry import Polygon
+
+from veduta.imaging.read import DAMAGE, read_image
+from veduta.plan.compose import Named, compose_storey
+from veduta.plan.document import PlanDocument, Scale, Storey
+from veduta.plan.drawn import Drawn, DrawnRoom
+from veduta.plan.names.guess import RoomFacts
+from veduta.plan.names.name import name_rooms
+from veduta.plan.options import PlanOptions
+from veduta.plan.reading import read_storey
+from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
+from veduta.plan.sheets import Pixels
+from veduta.plan.text.sheet_text import SheetText, read_sheet
+from veduta.run.errors import NotFoundError
+from veduta.run.progress import StepProgress
+from veduta.run.report import StepRecord, timed_step
+
+_NAMES = ("ground floor", "first floor", "second floor", "third floor")
+
+
+@dataclass(frozen=True)
+class ReadPlan:
+    """The document of all drawings, and their (h, w, 3) cleaned pixels."""
+
+    document: PlanDocument
+    sheets: list[Pixels]
+
+
+def read_drawings(
+    paths: Sequence[Path], options: PlanOptions, steps: list[StepRecord], progress: StepProgress
+) -> ReadPlan:
+    """A storey of each drawing, the lowest first; NotFoundError where one shows no plan."""
+    storeys: list[Storey] = []
+    sheets: list[Pixels] = []
+    for index, path in enumerate(paths):
+        name = _NAMES[index] if index < len(_NAMES) else f"floor {index}"
+        elevation = index * options.house.storey_height
+        storey, pixels = _read_one(path, name, elevation, options, steps, progress)
+        storeys.append(storey)
+        sheets.append(pixels)
+    return ReadPlan(PlanDocument(storeys=storeys), sheets)
+
+
+def _read_one(
+    path: Path,
+    name: str,
+    elevation_m: float,
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> tuple[Storey, Pixels]:
+    progress(f"read {path.name}", 0.0)
+    with timed_step(steps, f"read {path.name}") as step:
+        photo = read_image(path)
+        step.counts |= {"width_px": photo.pixels.shape[1], "height_px": photo.pixels.shape[0]}
+    progress("text", 0.0)
+    with timed_step(steps, "text") as step:
+        sheet = read_sheet(photo.pixels)
+        step.counts["texts"] = len(sheet.texts)
+    progress("walls, openings, rooms", 0.0)
+    with timed_step(steps, "walls, openings, rooms") as step:
+        drawn = read_storey(sheet.pixels, sheet.texts)
+        if not drawn.walls:
+            raise NotFoundError("a floor plan", f"{path.name} shows no walls", "Check the file.")
+        step.counts |= {
+            "walls": len(drawn.walls),
+            "openings": len(drawn.openings),
+            "rooms": len(drawn.rooms),
+        }
+    progress("scale and names", 0.0)
+    with timed_step(steps, "scale and names") as step:
+        scale = _scale(drawn, options, path)
+        named = _names(drawn, scale.metres_per_px)
+        step.counts["evidence"] = len(scale.evidence)
+    storey = compose_storey(
+        drawn,
+        scale,
+        file=path.name,
+        sha256=photo.sha256,
+        name=name,
+        elevation_m=elevation_m,
+        height_m=options.house.storey_height,
+        named=named,
+        notes=[*photo.notes, *_position_notes(sheet), *scale_notes(scale)],
+    )
+    return _of_file(storey, sheet), drawn.cleaned.pixels
+
+
+def _scale(drawn: Drawn, options: PlanOptions, path: Path) -> Scale:
+    """Of a pixel of the cleaned drawing; the option is of a pixel of the file."""
+    cleaned = drawn.cleaned
+    finer = math.sqrt(abs(float(np.linalg.det(cleaned.clean_from_scan[:2, :2]))))
+    given = options.scale.scale
+    dpi = _resolution(path)
+    sizes = DrawnSizes(
+        rooms=[room.outline_px for room in drawn.rooms],
+        doors=[one.width_px for one in drawn.openings if one.kind == "door"],
+        walls=[wall.thickness_px for wall in drawn.walls],
+        ink=cleaned.ink,
+        dpi=None if dpi is None else dpi * finer,
+        texts=drawn.texts,
+    )
+    return estimate_scale(sizes, None if given is None else given / 1000.0 / finer)
+
+
+def _resolution(path: Path) -> float | None:
+    """Pixels per inch, where the file states them."""
+    try:
+        with Image.open(path) as image:
+            dpi = image.info.get("dpi")
+    except DAMAGE:
+        return None
+    if not isinstance(dpi, tuple) or not dpi:
+        return None
+    value = float(dpi[0])
+    return value if math.isfinite(value) and value > 1.0 else None
+
+
+def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
+    """What rooms are for, by their ids."""
+    kinds = {opening.id: opening.kind for opening in drawn.openings}
+    index_of = {room.id: index for index, room in enumerate(drawn.rooms)}
+    rooms_of: dict[str, list[int]] = {}
+    for room in drawn.rooms:
+        for opening in room.openings:
+            rooms_of.setdefault(opening, []).append(index_of[room.id])
+    pairs = [
+        (found[0], found[1])
+        for opening, found in rooms_of.items()
+        if len(found) == 2 and kinds[opening] != "window"
+    ]
+    facts = [_facts(room, drawn, kinds, metres_per_px) for room in drawn.rooms]
+    outlines = [room.outline_px for room in drawn.rooms]
+    named = name_rooms(outlines, drawn.texts, facts, pairs)
+    return {
+        room.id: Named(one.use, one.score, one.name, one.origin)
+        for room, one in zip(drawn.rooms, named, strict=True)
+    }
+
+
+def _facts(
+    room: DrawnRoom, drawn: Drawn, kinds: Mapping[str, str], metres_per_px: float
+) -> RoomFacts:
+    shape = Polygon(room.outline_px)
+    around = Counter("window" if kinds[name] == "window" else "door" for name in room.openings)
+    stairs = any(shape.contains(Polygon(one.outline_px).centroid) for one in drawn.stairs)
+    return RoomFacts(
+        area_m2=room.area_px2 * metres_per_px**2,
+        elongation=_elongation(shape),
+        doors=around["door"],
+        windows=around["window"],
+        outdoors=room.outdoors,
+        stairs=stairs,
+    )
+
+
+def _elongation(shape: Polygon) -> float:
+    """Long side over short side of the least rectangle around it."""
+    around = shape.minimum_rotated_rectangle
+    if not isinstance(around, Polygon):
+        return 1.0
+    corners: NDArray[np.float64] = np.array(around.exterior.coords)
+    first, second = np.linalg.norm(np.diff(corners[:3], axis=0), axis=1)
+    return float(max(first, second) / max(min(first, second), 1e-9))
+
+
+def _position_notes(sheet: SheetText) -> list[str]:
+    notes = []
+    if sheet.position.mirrored:
+        notes.append("the scan is a mirror image, by its text: mirrored back")
+    if sheet.position.quarter_turns:
+        notes.append(f"turned by {90 * sheet.position.quarter_turns} degrees, by its text")
+    return notes
+
+
+def _of_file(storey: Storey, sheet: SheetText) -> Storey:
+    """With the way from the file's own pixels, and how the scan lay."""
+    clean_from_right = np.array(storey.sheet.clean_from_scan)
+    matrix = (clean_from_right @ sheet.right_from_scan).tolist()
+    turned = storey.sheet.rotation_rad + sheet.position.quarter_turns * math.pi / 2.0
+    changes = {
+        "clean_from_scan": matrix,
+        "mirrored": sheet.position.mirrored,
+        "rotation_rad": turned,
+    }
+    return storey.model_copy(update={"sheet": storey.sheet.model_copy(update=changes)})

@@ -1,0 +1,141 @@
+"""The plan as a drawing in metres: shapes with layers, for SVG, DXF and the overlay.
+
+Plan frame: x right, y up, metres. What is drawn follows from the document alone.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal, get_args
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import Polygon
+
+from veduta.plan.document import Storey
+from veduta.plan.house.space import Hole, Space, pieces_of
+
+Layer = Literal["rooms", "walls", "windows", "doors", "stairs", "names"]
+LAYERS: tuple[Layer, ...] = get_args(Layer)
+_ARC_STEPS = 12
+
+
+@dataclass(frozen=True)
+class Shape:
+    """Rings or open lines of a layer; rings: the outline first, then holes. (n, 2) each."""
+
+    layer: Layer
+    rings: tuple[NDArray[np.float64], ...] = ()
+    lines: tuple[NDArray[np.float64], ...] = ()
+    name: str = ""
+    kind: str = ""
+    """Use of a room, type of an opening."""
+
+
+@dataclass(frozen=True)
+class Label:
+    """Text in the middle of a room."""
+
+    text: str
+    detail: str
+    at_m: tuple[float, float]
+
+
+@dataclass(frozen=True)
+class Drawing:
+    """All shapes of a storey, lowest first."""
+
+    storey: Storey
+    shapes: tuple[Shape, ...]
+    labels: tuple[Label, ...]
+
+    @property
+    def bounds_m(self) -> tuple[float, float, float, float]:
+        """Left, bottom, right, top of all shapes; a metre where there are none."""
+        points = [
+            point for shape in self.shapes for part in (*shape.rings, *shape.lines)
+            for point in (part.min(axis=0), part.max(axis=0))
+        ]  # fmt: skip
+        if not points:
+            return (0.0, 0.0, 1.0, 1.0)
+        low, high = np.min(points, axis=0), np.max(points, axis=0)
+        return (float(low[0]), float(low[1]), float(high[0]), float(high[1]))
+
+
+def draw(space: Space) -> Drawing:
+    """The drawing of a storey."""
+    shapes = [
+        Shape("rooms", _rings(shape), name=room.id, kind=room.use)
+        for room, region in space.rooms
+        for shape in pieces_of(region)
+    ]
+    solid = space.walls
+    for hole in space.holes:
+        solid = solid.difference(hole.outline)
+    shapes += [Shape("walls", _rings(piece)) for piece in pieces_of(solid)]
+    shapes += [_opening(hole) for hole in space.holes]
+    for stairs in space.storey.stairs:
+        ring = np.array(stairs.outline_m)
+        shapes.append(Shape("stairs", (ring,), name=stairs.id))
+    labels = [
+        Label(room.name or room.use, f"{room.area_m2:.1f} m²", _middle(region))
+        for room, region in space.rooms
+        if not region.is_empty
+    ]
+    return Drawing(space.storey, tuple(shapes), tuple(labels))
+
+
+def _rings(shape: Polygon) -> tuple[NDArray[np.float64], ...]:
+    rings = (shape.exterior, *shape.interiors)
+    return tuple(np.array(ring.coords)[:-1] for ring in rings)
+
+
+def _middle(region: Polygon) -> tuple[float, float]:
+    """A point well inside."""
+    point = region.centroid
+    if not region.contains(point):
+        point = region.representative_point()
+    return (float(point.x), float(point.y))
+
+
+def _opening(hole: Hole) -> Shape:
+    """An opening as plans draw it: a window as lines along the wall, a leaf with its arc."""
+    start, way, width = hole.start, hole.along, hole.width_m
+    left = np.array([-way[1], way[0]])
+    half = hole.line.half_m
+    edges = [
+        np.array([start + offset * left, start + width * way + offset * left])
+        for offset in (-half, half)
+    ]
+    ends = [
+        np.array([start + along * way - half * left, start + along * way + half * left])
+        for along in (0.0, width)
+    ]
+    opening = hole.opening
+    if opening.kind == "window":
+        middle = np.array([start, start + width * way])
+        return Shape("windows", (), (*edges, *ends, middle), opening.id, opening.type)
+    lines = [*ends, *_leaves(hole)]
+    return Shape("doors", (), tuple(lines), opening.id, opening.type)
+
+
+def _leaves(hole: Hole) -> list[NDArray[np.float64]]:
+    """Open leaves and the arcs of their ends."""
+    opening, start, way, width = hole.opening, hole.start, hole.along, hole.width_m
+    if opening.hinge == "none" or opening.swing == "none":
+        return []
+    side = -1.0 if opening.swing == "right" else 1.0
+    left = side * np.array([-way[1], way[0]])
+    start = start + hole.line.half_m * left
+    if opening.hinge == "both":
+        hung = [(start, way, width / 2.0), (start + width * way, -way, width / 2.0)]
+    elif opening.hinge == "end":
+        hung = [(start + width * way, -way, width)]
+    else:
+        hung = [(start, way, width)]
+    lines = []
+    turn = np.linspace(0.0, np.pi / 2.0, _ARC_STEPS + 1)[:, None]
+    for hinge, closed, length in hung:
+        lines.append(np.array([hinge, hinge + length * left]))
+        lines.append(hinge + length * (np.cos(turn) * closed + np.sin(turn) * left))
+    return lines

@@ -1,0 +1,1 @@
+"""From a plan document to a house: footprints, solids, surfaces with classes and materials."""

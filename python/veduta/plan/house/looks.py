@@ -1,0 +1,116 @@
+"""Materials of a house by name, registered in the part when they are first used.
+
+No plan shows a material: all of them are invented, and their textures are painted by code.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES, painted
+from veduta.place.builder import PartBuilder, UvMap
+from veduta.place.material import Colour, Material, Texture
+from veduta.plan.document import Room, RoomUse
+
+
+@dataclass(frozen=True)
+class Look:
+    """A colour (sRGB), which multiplies the built-in texture where one is named."""
+
+    colour: Colour
+    texture: str | None = None
+    roughness: float = 0.9
+    opacity: float = 1.0
+    metalness: float = 0.0
+
+
+LOOKS: dict[str, Look] = {
+    "facade": Look((0.95, 0.93, 0.88), "plaster"),
+    "inner wall": Look((0.96, 0.95, 0.93)),
+    "tiled wall": Look((0.93, 0.95, 0.96), roughness=0.4),
+    "wall core": Look((0.80, 0.77, 0.72)),
+    "ceiling": Look((0.98, 0.98, 0.97)),
+    "wood floor": Look((0.86, 0.68, 0.47), "boards", roughness=0.55),
+    "tile floor": Look((0.86, 0.86, 0.84), "paving", roughness=0.4),
+    "concrete floor": Look((0.78, 0.78, 0.76), "concrete"),
+    "terrace floor": Look((0.80, 0.76, 0.70), "paving"),
+    "slab": Look((0.84, 0.83, 0.80)),
+    "skirting": Look((0.93, 0.92, 0.90), roughness=0.5),
+    "frame": Look((0.97, 0.97, 0.96), roughness=0.45),
+    "glass": Look((0.70, 0.82, 0.86), roughness=0.05, opacity=0.28),
+    "sill": Look((0.82, 0.81, 0.79), roughness=0.6),
+    "leaf": Look((0.80, 0.66, 0.48), "wood", roughness=0.5),
+    "entrance": Look((0.36, 0.27, 0.22), "wood", roughness=0.5),
+    "garage door": Look((0.82, 0.83, 0.84), "siding", roughness=0.5),
+    "handle": Look((0.62, 0.62, 0.60), roughness=0.3, metalness=0.8),
+    "roof": Look((0.66, 0.36, 0.27), "clay-tile", roughness=0.8),
+    "flat roof": Look((0.70, 0.70, 0.70), "gravel"),
+    "soffit": Look((0.93, 0.91, 0.87)),
+}
+_FLOORS: dict[RoomUse, str] = {
+    **dict.fromkeys(("kitchen", "bathroom", "toilet", "utility", "sauna"), "tile floor"),
+    **dict.fromkeys(("garage", "technical"), "concrete floor"),
+    **dict.fromkeys(("balcony", "terrace"), "terrace floor"),
+}
+_TILED: frozenset[RoomUse] = frozenset({"bathroom", "toilet", "sauna"})
+
+
+def floor_look(room: Room | None) -> str:
+    """What the floor of a room is made of."""
+    if room is None:
+        return "concrete floor"
+    return "terrace floor" if room.outdoors else _FLOORS.get(room.use, "wood floor")
+
+
+def wall_look(room: Room | None) -> str:
+    """What the walls around a room look like; None and outdoors is the facade."""
+    if room is None or room.outdoors:
+        return "facade"
+    return "tiled wall" if room.use in _TILED else "inner wall"
+
+
+class Looks:
+    """The materials of a part."""
+
+    def __init__(self, builder: PartBuilder) -> None:
+        self._builder = builder
+        self._numbers: dict[str, int] = {}
+
+    def of(self, name: str, ring_m: NDArray[np.float64]) -> tuple[int, UvMap | None]:
+        """The number of a material, and where a flat surface with this (n, 3) ring shows what."""
+        look = LOOKS[name]
+        if name not in self._numbers:
+            texture = None if look.texture is None else _texture(look.texture)
+            material = Material(
+                name.replace(" ", "-"), look.colour, look.roughness, look.metalness,
+                texture, look.opacity,
+            )  # fmt: skip
+            self._numbers[name] = self._builder.material(material)
+        if look.texture is None:
+            return self._numbers[name], None
+        return self._numbers[name], flat_map(ring_m, SURFACES[look.texture].size_m)
+
+
+def flat_map(ring_m: NDArray[np.float64], size_m: tuple[float, float]) -> UvMap:
+    """Texture coordinates in a polygon's plane: to the right and up, or east and north if level."""
+    normal = np.cross(ring_m, np.roll(ring_m, -1, axis=0)).sum(axis=0)
+    normal = normal / max(float(np.linalg.norm(normal)), 1e-12)
+    right = np.cross([0.0, 0.0, 1.0], normal)
+    length = float(np.linalg.norm(right))
+    right = np.array([1.0, 0.0, 0.0]) if length < 1e-3 else right / length
+    up = np.cross(normal, right)
+
+    def uv(points: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.stack([points @ right / size_m[0], 1.0 - points @ up / size_m[1]], axis=1)
+
+    return uv
+
+
+@lru_cache(maxsize=len(SURFACES))
+def _texture(name: str) -> Texture:
+    pixels = painted(PREFIX + name)
+    return Texture(pixels, np.ones(pixels.shape[:2], dtype=np.bool_))

@@ -1,0 +1,98 @@
+"""The roof over the highest storey: by the straight skeleton, or flat."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import orient
+
+from veduta import _core
+from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.frame import Sculptor, Surface, level
+from veduta.plan.house.space import pieces_of
+from veduta.plan.options import HouseOptions, RoofKind
+
+FLAT_M = 0.12
+_JOG_M = 0.08
+_LEAST_M2 = 1.0
+_UNDER_M = 0.005
+
+
+def add_roof(
+    region: BaseGeometry, height_m: float, sculptor: Sculptor, options: HouseOptions
+) -> list[str]:
+    """A roof over each piece of a region; what could not be built as asked is noted."""
+    notes: list[str] = []
+    if options.roof == "none":
+        return notes
+    for number, piece in enumerate(pieces_of(region), start=1):
+        shape = _smooth(piece)
+        if shape.area < _LEAST_M2:
+            continue
+        kind: RoofKind = "hip" if options.roof == "auto" else options.roof
+        found = None if kind == "flat" else _solid(shape, kind, options)
+        if found is None and kind != "flat":
+            notes.append(f"roof {number} is flat: a {kind} roof cannot be built over its outline")
+        feature = sculptor.builder.feature(
+            SemanticClass.ROOF, Provenance.INVENTED, f"roof {number}",
+            shell=sculptor.builder.new_shell(),
+        )  # fmt: skip
+        if found is None:
+            _add_flat(shape, height_m, sculptor, feature, options.overhang)
+        else:
+            _add_solid(found, height_m, sculptor, feature)
+    return notes
+
+
+def _smooth(piece: Polygon) -> Polygon:
+    """The outline without small jogs and holes: a roof has none of them."""
+    outline = Polygon(piece.exterior)
+    closed = outline.buffer(_JOG_M, join_style="mitre").buffer(-_JOG_M, join_style="mitre")
+    largest = max(pieces_of(closed), key=lambda one: one.area, default=outline)
+    simple = pieces_of(Polygon(largest.exterior).simplify(_JOG_M / 2.0))
+    return orient(simple[0]) if simple else orient(outline)
+
+
+Solid = list[list[NDArray[np.float64]]]
+
+
+def _solid(shape: Polygon, kind: str, options: HouseOptions) -> Solid | None:
+    """The rings of each face of the roof, its eaves at 0; None where there is none."""
+    points = np.array(shape.exterior.coords)[:-1]
+    try:
+        places, rings, faces, corners = _core.roof_solid(
+            kind,
+            points,
+            np.array([0, len(points)], dtype=np.int64),
+            math.tan(math.radians(options.roof_slope)),
+            overhang_m=options.overhang,
+            gable_overhang_m=options.overhang / 2.0,
+        )
+    except _core.RoofFault:
+        return None
+    return [
+        [places[corners[rings[ring] : rings[ring + 1]]] for ring in range(first, last)]
+        for first, last in zip(faces[:-1].tolist(), faces[1:].tolist(), strict=True)
+    ]
+
+
+def _add_solid(faces: Solid, height_m: float, sculptor: Sculptor, feature: int) -> None:
+    frame = level(height_m + _UNDER_M)
+    for rings in faces:
+        normal = np.cross(rings[0], np.roll(rings[0], -1, axis=0)).sum(axis=0)
+        look = "roof" if normal[2] > 1e-9 else "soffit"
+        sculptor.face(rings, frame, Surface(feature, look))
+
+
+def _add_flat(
+    shape: Polygon, height_m: float, sculptor: Sculptor, feature: int, overhang_m: float
+) -> None:
+    region = shape.buffer(min(overhang_m, 0.3), join_style="mitre")
+    sculptor.prism(
+        region, height_m, height_m + FLAT_M, level(0.0), Surface(feature, "soffit"),
+        high=Surface(feature, "flat roof"),
+    )  # fmt: skip

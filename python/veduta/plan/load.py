@@ -1,0 +1,221 @@
+"""Reading a plan document that somebody may have edited: every fault by its place in the file."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Iterable
+from pathlib import Path
+
+from pydantic import BaseModel, ValidationError
+from shapely.geometry import Polygon
+
+from veduta.plan.document import Opening, PlanDocument, Room, Storey, Wall
+from veduta.plan.house.lines import wall_lines
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+DOCUMENT = "plan.json"
+MAX_BYTES = 50_000_000
+MAX_STOREYS = 50
+MAX_PARTS = 20_000
+"""Of one kind in one storey: walls, openings, rooms and so on."""
+MAX_POINTS = 20_000
+MAX_COORDINATE = 1e6
+"""No number of a document is larger than this, by amount."""
+MAX_BULGE = 1.0
+"""A wall is at most half a circle."""
+LEAST_STOREY_M = 2.0
+_SHORTEST_M = 0.01
+_BEYOND_M = 0.02
+_REMEDY = "Mend it there; docs/plan.md says what each field means."
+_SHOWN_FAULTS = 5
+
+
+def load_document(path: Path) -> PlanDocument:
+    """The document in `path`; InputError names each place in the file and its fault.
+
+    The areas of rooms are made anew from their outlines.
+    """
+    document = _parse(path, _read(path))
+    faults = _faults(document)
+    if faults:
+        raise InputError(path, _shown(faults), _REMEDY)
+    return _with_areas(document)
+
+
+def _read(path: Path) -> bytes:
+    try:
+        require_file(path, MAX_BYTES)
+        return path.read_bytes()
+    except FileNotFoundError:
+        raise InputError(path, "does not exist", "Check its name.") from None
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(path, fault, "Check its permissions.") from error
+
+
+def _parse(path: Path, content: bytes) -> PlanDocument:
+    try:
+        json.loads(content)  # says the line of a fault
+        # Strictly: a number in quotes, or true, is a slip and no number.
+        return PlanDocument.model_validate_json(content, strict=True)
+    except json.JSONDecodeError as error:
+        fault = f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}"
+        raise InputError(path, fault, "Mend the file there.") from error
+    except (UnicodeDecodeError, RecursionError) as error:
+        raise InputError(path, f"is not JSON ({error})", "Check the file.") from error
+    except ValidationError as error:
+        faults = [f"{_place(fault['loc'])}: {fault['msg']}" for fault in error.errors()]
+        raise InputError(path, _shown(faults), _REMEDY) from error
+    except ValueError as error:  # after its kinds above: a number of too many digits
+        raise InputError(path, f"is not usable JSON ({error})", "Check the file.") from error
+
+
+def _shown(faults: list[str]) -> str:
+    more = len(faults) - _SHOWN_FAULTS
+    return "; ".join(faults[:_SHOWN_FAULTS]) + (f"; and {more} more" if more > 0 else "")
+
+
+def _place(location: tuple[int | str, ...]) -> str:
+    """A place in the file as a person would write it: `storeys[0].walls[3].thickness_m`."""
+    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in location]
+    return "".join(parts).lstrip(".") or "the document"
+
+
+def _faults(document: PlanDocument) -> list[str]:
+    """What the schema cannot say."""
+    if not 1 <= len(document.storeys) <= MAX_STOREYS:
+        return [f"storeys: {len(document.storeys)}, not between 1 and {MAX_STOREYS}"]
+    found = [
+        f"{place}: {value} is out of range"
+        for place, value in _numbers(document)
+        if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
+    ]
+    names = [storey.name for storey in document.storeys]
+    found += [
+        f"storeys[{index}].name: {name!r} is the name of another storey, too"
+        for index, name in enumerate(names)
+        if name in names[:index]
+    ]
+    for index, storey in enumerate(document.storeys):
+        place = f"storeys[{index}]"
+        # Geometry is looked at only where the ids hold together.
+        found += _id_faults(storey, place) or _storey_faults(storey, place)
+    return found
+
+
+def _id_faults(storey: Storey, place: str) -> list[str]:
+    """Ids that are there twice, and ids of nothing."""
+    found = []
+    for kind in ("junctions", "walls", "openings", "rooms", "stairs"):
+        items = getattr(storey, kind)
+        if len(items) > MAX_PARTS:
+            return [f"{place}.{kind}: {len(items)}, more than {MAX_PARTS}"]
+        seen: set[str] = set()
+        for index, item in enumerate(items):
+            if item.id in seen:
+                found.append(f"{place}.{kind}[{index}].id: {item.id!r} is there twice")
+            seen.add(item.id)
+    junctions = {item.id for item in storey.junctions}
+    walls = {item.id for item in storey.walls}
+    openings = {item.id for item in storey.openings}
+    for index, wall in enumerate(storey.walls):
+        at = f"{place}.walls[{index}]"
+        found += _unknown([(f"{at}.start", wall.start), (f"{at}.end", wall.end)], junctions)
+    for index, opening in enumerate(storey.openings):
+        found += _unknown([(f"{place}.openings[{index}].wall", opening.wall)], walls)
+    for index, room in enumerate(storey.rooms):
+        at = f"{place}.rooms[{index}]"
+        found += _unknown([(f"{at}.walls", name) for name in room.walls], walls)
+        found += _unknown([(f"{at}.openings", name) for name in room.openings], openings)
+    return found
+
+
+def _unknown(named: Iterable[tuple[str, str]], known: set[str]) -> list[str]:
+    return [f"{place}: there is no {name!r}" for place, name in named if name not in known]
+
+
+def _storey_faults(storey: Storey, place: str) -> list[str]:
+    found = []
+    if storey.height_m < LEAST_STOREY_M:
+        found.append(f"{place}.height_m: {storey.height_m:g} m, less than {LEAST_STOREY_M:g}")
+    at = {junction.id: junction.at_m for junction in storey.junctions}
+    for index, wall in enumerate(storey.walls):
+        found += _wall_faults(wall, math.dist(at[wall.start], at[wall.end]), place, index)
+    if found:
+        return found
+    lengths = {name: line.line.length for name, line in wall_lines(storey).items()}
+    for index, opening in enumerate(storey.openings):
+        found += _opening_faults(opening, lengths[opening.wall], f"{place}.openings[{index}]")
+    for index, room in enumerate(storey.rooms):
+        found += _room_faults(room, f"{place}.rooms[{index}]")
+    return found
+
+
+def _wall_faults(wall: Wall, length_m: float, place: str, index: int) -> list[str]:
+    at = f"{place}.walls[{index}]"
+    found = []
+    if length_m < _SHORTEST_M:
+        found.append(f"{at}: its junctions lie on each other")
+    if wall.thickness_m < _SHORTEST_M:
+        found.append(f"{at}.thickness_m: {wall.thickness_m:g} m, less than {_SHORTEST_M:g}")
+    if abs(wall.bulge) > MAX_BULGE:
+        found.append(f"{at}.bulge: {wall.bulge:g}, more than {MAX_BULGE:g} (half a circle)")
+    return found
+
+
+def _opening_faults(opening: Opening, length_m: float, place: str) -> list[str]:
+    if opening.along_m + opening.width_m > length_m + _BEYOND_M:
+        end = opening.along_m + opening.width_m
+        return [
+            f"{place}: ends at {end:.2f} m (along_m and width_m) of wall {opening.wall!r},"
+            f" which is {length_m:.2f} m long"
+        ]
+    return [
+        f"{place}.{side}: must be above zero"
+        for side in ("width_m", "height_m")
+        if getattr(opening, side) <= 0.0
+    ]
+
+
+def _room_faults(room: Room, place: str) -> list[str]:
+    rings = [("outline_m", room.outline_m)]
+    rings += [(f"holes_m[{index}]", ring) for index, ring in enumerate(room.holes_m)]
+    for name, ring in rings:
+        if not 3 <= len(ring) <= MAX_POINTS:
+            return [f"{place}.{name}: {len(ring)} points, not between 3 and {MAX_POINTS}"]
+        if not Polygon(ring).is_valid:
+            return [f"{place}.{name}: its line crosses or touches itself"]
+    return []
+
+
+def _with_areas(document: PlanDocument) -> PlanDocument:
+    storeys = [
+        storey.model_copy(
+            update={
+                "rooms": [
+                    room.model_copy(
+                        update={"area_m2": round(Polygon(room.outline_m, room.holes_m).area, 3)}
+                    )
+                    for room in storey.rooms
+                ]
+            }
+        )
+        for storey in document.storeys
+    ]
+    return document.model_copy(update={"storeys": storeys})
+
+
+def _numbers(value: object, place: str = "") -> list[tuple[str, float]]:
+    """All floats in the document with their places."""
+    if isinstance(value, float):
+        return [(place.lstrip("."), value)]
+    if isinstance(value, BaseModel):
+        fields = type(value).model_fields
+        parts = [(f"{place}.{fields[name].alias or name}", part) for name, part in value]
+    elif isinstance(value, list | tuple):
+        parts = [(f"{place}[{index}]", part) for index, part in enumerate(value)]
+    else:
+        return []
+    return [number for name, part in parts for number in _numbers(part, name)]

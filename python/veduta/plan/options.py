@@ -1,0 +1,64 @@
+"""The options of `veduta plan`."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]
+FrameKind = Literal["surround", "bottom", "none"]
+
+
+class ScaleOptions(Options):
+    """How large the drawing is."""
+
+    scale: Annotated[float, Field(gt=0.0, le=10_000.0)] | None = Field(
+        default=None,
+        description=(
+            "millimetres of the house that a pixel of the drawing stands for; by what the drawing"
+            " says if not given"
+        ),
+    )
+
+
+class HouseOptions(Options):
+    """What no plan shows: heights, the roof, frames and how doors stand."""
+
+    storey_height: Annotated[float, Field(ge=2.0, le=6.0)] = Field(
+        default=2.8, description="from one floor to the next (m), where a plan is read"
+    )
+    slab: Annotated[float, Field(ge=0.1, le=0.6)] = Field(
+        default=0.25, description="thickness of the slab between two storeys (m)"
+    )
+    plinth: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
+        default=0.04, description="height of the ground floor above the ground (m)"
+    )
+    roof: RoofKind = Field(
+        default="auto",
+        description="type of roof; auto: hipped, or flat where a hipped one cannot be built",
+    )
+    roof_slope: Annotated[float, Field(ge=5.0, le=70.0)] = Field(
+        default=32.0, description="slope of the roof (degrees)"
+    )
+    overhang: Annotated[float, Field(ge=0.0, le=2.0)] = Field(
+        default=0.45, description="how far the roof reaches over the walls (m)"
+    )
+    window_frames: FrameKind = Field(
+        default="surround", description="frame on all edges of windows, on the lowest, or on none"
+    )
+    door_frames: FrameKind = Field(
+        default="surround", description="frame on all edges of doors, on the lowest, or on none"
+    )
+    doors: Literal["open", "closed"] = Field(
+        default="open", description="how doors stand in the model; each can be opened in any case"
+    )
+
+
+class PlanOptions(Options):
+    """All options of the verb that change its result."""
+
+    scale: ScaleOptions = ScaleOptions()
+    house: HouseOptions = HouseOptions()

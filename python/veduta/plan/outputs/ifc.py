@@ -1,0 +1,345 @@
+"""`house.ifc`: the house for BIM software, as IFC4 (ISO 16739-1:2018), in metres.
+
+Project, site, building and storeys; walls with openings that doors and windows fill; slabs, the
+roof, and a space for each room. Ids derive from what is named, so that a rebuild keeps them.
+"""
+
+from __future__ import annotations
+
+import uuid
+from collections.abc import Sequence
+from typing import Any, Literal
+
+import ifcopenshell
+import ifcopenshell.guid
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import orient
+
+import veduta
+from veduta.place.semantics import SemanticClass
+from veduta.plan.document import Opening
+from veduta.plan.house.build import GROUND_SLAB_M, House
+from veduta.plan.house.lines import WallLine
+from veduta.plan.house.space import Hole, Space, pieces_of, solid_region
+from veduta.plan.options import HouseOptions
+
+Entity = Any
+_NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
+_PANEL_M = 0.05
+DoorOperation = Literal[
+    "SINGLE_SWING_LEFT", "SINGLE_SWING_RIGHT", "DOUBLE_DOOR_SINGLE_SWING", "SLIDING_TO_LEFT",
+    "SLIDING_TO_RIGHT", "FOLDING_TO_LEFT", "FOLDING_TO_RIGHT", "ROLLINGUP", "NOTDEFINED",
+]  # fmt: skip
+
+
+def house_ifc(house: House, options: HouseOptions) -> bytes:
+    """The file's content."""
+    model = _Model()
+    storeys = []
+    for index, space in enumerate(house.spaces):
+        above = house.spaces[index + 1].slab if index + 1 < len(house.spaces) else Polygon()
+        storeys.append(_storey(model, space, above, options, is_lowest=index == 0))
+    model.aggregate(model.building, storeys, "storeys")
+    roof = _roof(model, house)
+    if roof is not None:
+        model.contain(storeys[-1], [roof], "roof")
+    return model.content()
+
+
+class _Model:
+    """The file as it grows, with what every model begins with."""
+
+    def __init__(self) -> None:
+        self.file = ifcopenshell.file(schema="IFC4")
+        self.body, project = self._project()
+        self.site = self.product("IfcSite", "Site", None, CompositionType="ELEMENT")
+        self.building = self.product(
+            "IfcBuilding", "House", self.site.ObjectPlacement, CompositionType="ELEMENT"
+        )
+        self.aggregate(project, [self.site], "site")
+        self.aggregate(self.site, [self.building], "building")
+
+    def make(self, kind: str, *values: Any, **named: Any) -> Entity:
+        """An entity without an id of its own."""
+        return self.file.create_entity(kind, *values, **named)
+
+    def rooted(self, kind: str, name: str, **named: Any) -> Entity:
+        """An entity with a stable id."""
+        own = uuid.uuid5(_NAMESPACE, f"{kind} {name}")
+        return self.make(kind, GlobalId=ifcopenshell.guid.compress(own.hex), Name=name, **named)
+
+    def product(
+        self, kind: str, name: str, within: Entity | None, up_m: float = 0.0, **named: Any
+    ) -> Entity:
+        """Something that stands somewhere; up_m: above the placement that it lies in."""
+        placement = self.make("IfcLocalPlacement", within, self._axes((0.0, 0.0, up_m)))
+        return self.rooted(kind, name, ObjectPlacement=placement, **named)
+
+    def aggregate(self, whole: Entity, parts: Sequence[Entity], name: str) -> None:
+        """Parts of a whole."""
+        if parts:
+            self.rooted(
+                "IfcRelAggregates", f"{name} of {whole.Name}",
+                RelatingObject=whole, RelatedObjects=list(parts),
+            )  # fmt: skip
+
+    def contain(self, storey: Entity, elements: Sequence[Entity], name: str) -> None:
+        """Elements of a storey."""
+        if elements:
+            self.rooted(
+                "IfcRelContainedInSpatialStructure", f"{name} of {storey.Name}",
+                RelatingStructure=storey, RelatedElements=list(elements),
+            )  # fmt: skip
+
+    def solid(self, region: BaseGeometry, low_m: float, high_m: float) -> Entity:
+        """A shape: a region drawn out between two heights."""
+        items = [self._extruded(piece, low_m, high_m) for piece in pieces_of(region)]
+        return self._shape("SweptSolid", items)
+
+    def mesh(self, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Entity:
+        """A shape: triangles. points: (n, 3). triangles: (m, 3)."""
+        corners = self.make("IfcCartesianPointList3D", points.round(5).tolist())
+        faces = self.make(
+            "IfcTriangulatedFaceSet", Coordinates=corners, CoordIndex=(triangles + 1).tolist()
+        )
+        return self._shape("Tessellation", [faces])
+
+    def content(self) -> bytes:
+        """The file, the same for the same house."""
+        header = self.file.header
+        header.file_name.time_stamp = "1970-01-01T00:00:00"
+        header.file_name.name = "house.ifc"
+        header.file_name.originating_system = f"Veduta {veduta.__version__}"
+        header.file_name.preprocessor_version = f"Veduta {veduta.__version__}"
+        text: str = self.file.to_string()  # type: ignore[no-untyped-call]
+        return text.encode()
+
+    def _project(self) -> tuple[Entity, Entity]:
+        units = [
+            self.make("IfcSIUnit", UnitType=kind, Name=name)
+            for kind, name in (
+                ("LENGTHUNIT", "METRE"),
+                ("AREAUNIT", "SQUARE_METRE"),
+                ("VOLUMEUNIT", "CUBIC_METRE"),
+                ("PLANEANGLEUNIT", "RADIAN"),
+            )
+        ]
+        context = self.make(
+            "IfcGeometricRepresentationContext",
+            ContextType="Model",
+            CoordinateSpaceDimension=3,
+            Precision=1e-5,
+            WorldCoordinateSystem=self._axes((0.0, 0.0, 0.0)),
+        )
+        body = self.make(
+            "IfcGeometricRepresentationSubContext",
+            ContextIdentifier="Body",
+            ContextType="Model",
+            ParentContext=context,
+            TargetView="MODEL_VIEW",
+        )
+        project = self.rooted(
+            "IfcProject", "House from a floor plan",
+            RepresentationContexts=[context],
+            UnitsInContext=self.make("IfcUnitAssignment", units),
+        )  # fmt: skip
+        return body, project
+
+    def _axes(self, at: tuple[float, float, float]) -> Entity:
+        return self.make("IfcAxis2Placement3D", self.make("IfcCartesianPoint", at))
+
+    def _shape(self, kind: str, items: list[Entity]) -> Entity:
+        shape = self.make("IfcShapeRepresentation", self.body, "Body", kind, items)
+        return self.make("IfcProductDefinitionShape", Representations=[shape])
+
+    def _extruded(self, piece: Polygon, low_m: float, high_m: float) -> Entity:
+        shape = orient(piece)
+        outer = self._curve(shape.exterior.coords)
+        inner = [self._curve(ring.coords) for ring in shape.interiors]
+        if inner:
+            profile = self.make("IfcArbitraryProfileDefWithVoids", "AREA", None, outer, inner)
+        else:
+            profile = self.make("IfcArbitraryClosedProfileDef", "AREA", None, outer)
+        up = self.make("IfcDirection", (0.0, 0.0, 1.0))
+        return self.make(
+            "IfcExtrudedAreaSolid", profile, self._axes((0.0, 0.0, low_m)), up, high_m - low_m
+        )
+
+    def _curve(self, ring: Any) -> Entity:
+        points = [
+            self.make("IfcCartesianPoint", (round(float(x), 6), round(float(y), 6)))
+            for x, y in list(ring)[:-1]
+        ]
+        return self.make("IfcPolyline", [*points, points[0]])
+
+
+def _storey(
+    model: _Model, space: Space, above: BaseGeometry, options: HouseOptions, *, is_lowest: bool
+) -> Entity:
+    """A storey with everything in it."""
+    name, up = space.storey.name, space.storey.elevation_m
+    storey = model.product(
+        "IfcBuildingStorey", name, model.building.ObjectPlacement, up,
+        CompositionType="ELEMENT", Elevation=up,
+    )  # fmt: skip
+    place = storey.ObjectPlacement
+    height = space.storey.height_m - options.slab
+    walls = _walls(model, space, height, place)
+    fillings = [
+        _opening(model, hole, walls[hole.line.wall.id], name, place) for hole in space.holes
+    ]
+    slabs = []
+    if is_lowest:
+        slabs.append(
+            _slab(model, f"{name} floor", space.slab, (-GROUND_SLAB_M, 0.0), place, "BASESLAB")
+        )
+    over = solid_region(space.covered.union(above))
+    if not over.is_empty:
+        ends = (height, height + options.slab)
+        slabs.append(_slab(model, f"{name} ceiling", over, ends, place, "FLOOR"))
+    elements = [*walls.values(), *(one for one in fillings if one is not None), *slabs]
+    model.contain(storey, elements, "elements")
+    spaces = _spaces(model, space, height, place)
+    model.aggregate(storey, spaces, "rooms")
+    return storey
+
+
+def wall_regions(space: Space) -> dict[str, BaseGeometry]:
+    """What of the walls' footprint each wall has, by their ids: nothing twice, nothing left."""
+    rest = space.walls
+    regions: dict[str, BaseGeometry] = {}
+    for name, line in space.lines.items():
+        regions[name] = line.strip.intersection(rest)
+        rest = rest.difference(line.strip)
+    for wedge in pieces_of(rest):
+        nearest = min(regions, key=lambda name: _distance(space.lines[name], wedge))
+        regions[nearest] = regions[nearest].union(wedge)
+    return regions
+
+
+def _distance(line: WallLine, wedge: Polygon) -> float:
+    return float(line.strip.distance(wedge.centroid))
+
+
+def _walls(model: _Model, space: Space, height: float, place: Entity) -> dict[str, Entity]:
+    found = {}
+    for name, region in wall_regions(space).items():
+        wall = space.lines[name].wall
+        found[name] = model.product(
+            "IfcWall", f"{space.storey.name} wall {name}", place,
+            PredefinedType="SOLIDWALL" if wall.outer else "PARTITIONING",
+        )  # fmt: skip
+        if region.area > 1e-6:
+            found[name].Representation = model.solid(region, 0.0, height)
+    return found
+
+
+def _opening(model: _Model, hole: Hole, wall: Entity, storey: str, place: Entity) -> Entity | None:
+    """The void in the wall, and the door or window that fills it; None for a gap."""
+    name = f"{storey} {hole.opening.id}"
+    void = model.product("IfcOpeningElement", f"{name} opening", place, PredefinedType="OPENING")
+    void.Representation = model.solid(hole.outline, max(hole.low_m, 0.0), hole.high_m)
+    model.rooted(
+        "IfcRelVoidsElement", f"{name} void",
+        RelatingBuildingElement=wall, RelatedOpeningElement=void,
+    )  # fmt: skip
+    if hole.opening.kind == "gap":
+        return None
+    filling = _filling(model, hole, name, place)
+    model.rooted(
+        "IfcRelFillsElement", f"{name} filling",
+        RelatingOpeningElement=void, RelatedBuildingElement=filling,
+    )  # fmt: skip
+    return filling
+
+
+def _filling(model: _Model, hole: Hole, name: str, place: Entity) -> Entity:
+    size = {"OverallHeight": hole.high_m - hole.low_m, "OverallWidth": hole.width_m}
+    if hole.opening.kind == "window":
+        filling = model.product("IfcWindow", name, place, PredefinedType="WINDOW", **size)
+    else:
+        filling = model.product(
+            "IfcDoor", name, place,
+            PredefinedType="GATE" if hole.opening.type == "garage" else "DOOR",
+            OperationType=door_operation(hole.opening),
+            **size,
+        )  # fmt: skip
+    panel = hole.line.piece(hole.start_m, hole.end_m, _PANEL_M / 2.0)
+    filling.Representation = model.solid(panel, hole.low_m, hole.high_m)
+    return filling
+
+
+def door_operation(opening: Opening) -> DoorOperation:
+    """IFC's word for how a door opens (IfcDoorTypeOperationEnum).
+
+    The hinges are at the left as seen by who looks in the direction in which the door opens.
+    """
+    at_left = (opening.hinge == "start") == (opening.swing == "left")
+    if opening.type == "garage":
+        return "ROLLINGUP"
+    if opening.type in {"double", "french"} or opening.hinge == "both":
+        return "DOUBLE_DOOR_SINGLE_SWING"
+    if opening.hinge == "none" or opening.swing == "none":
+        return "NOTDEFINED"
+    if opening.type in {"sliding", "pocket"}:
+        return "SLIDING_TO_LEFT" if at_left else "SLIDING_TO_RIGHT"
+    if opening.type == "folding":
+        return "FOLDING_TO_LEFT" if at_left else "FOLDING_TO_RIGHT"
+    return "SINGLE_SWING_LEFT" if at_left else "SINGLE_SWING_RIGHT"
+
+
+def _slab(
+    model: _Model,
+    name: str,
+    region: BaseGeometry,
+    ends_m: tuple[float, float],
+    place: Entity,
+    kind: Literal["FLOOR", "BASESLAB"],
+) -> Entity:
+    slab = model.product("IfcSlab", name, place, PredefinedType=kind)
+    slab.Representation = model.solid(region, *ends_m)
+    return slab
+
+
+def _spaces(model: _Model, space: Space, height: float, place: Entity) -> list[Entity]:
+    """A space for each room, with its floor area."""
+    found = []
+    for room, region in space.floors:
+        if room is None:
+            continue
+        name = f"{space.storey.name} {room.id}"
+        own = model.product(
+            "IfcSpace", name, place, LongName=room.name or room.use, ObjectType=room.use,
+            CompositionType="ELEMENT", PredefinedType="EXTERNAL" if room.outdoors else "INTERNAL",
+        )  # fmt: skip
+        own.Representation = model.solid(region, 0.0, height)
+        area = model.make("IfcQuantityArea", Name="NetFloorArea", AreaValue=float(region.area))
+        quantities = model.rooted(
+            "IfcElementQuantity", f"{name} quantities", MethodOfMeasurement="BaseQuantities",
+            Quantities=[area],
+        )  # fmt: skip
+        quantities.Name = "Qto_SpaceBaseQuantities"
+        model.rooted(
+            "IfcRelDefinesByProperties", f"{name} sizes",
+            RelatedObjects=[own], RelatingPropertyDefinition=quantities,
+        )  # fmt: skip
+        found.append(own)
+    return found
+
+
+def _roof(model: _Model, house: House) -> Entity | None:
+    """The roof as it is in the part, its triangles about the building's origin."""
+    part = house.part
+    is_roof = part.features.class_code == SemanticClass.ROOF.code
+    chosen = is_roof[part.polygon_feature[part.triangles.polygon]]
+    if not chosen.any():
+        return None
+    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
+    roof = model.product("IfcRoof", "Roof", model.building.ObjectPlacement)
+    roof.PredefinedType = "NOTDEFINED"
+    points = part.positions_m[used].astype(np.float64)
+    roof.Representation = model.mesh(points, corners.reshape(-1, 3).astype(np.int64))
+    return roof

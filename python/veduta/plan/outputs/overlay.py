@@ -1,0 +1,210 @@
+"""`overlay.png`: what was found, drawn over the cleaned drawing of each storey."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Sequence
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+from shapely.geometry import Polygon, box
+
+from veduta.plan.document import Sheet, Storey
+from veduta.plan.drawing import Drawing, Layer, Shape
+from veduta.plan.outputs.colours import LAYER_COLOURS, USE_COLOURS, Rgb, rgb
+
+SIDE_PX = 1800
+"""Drawings are enlarged or reduced so that their longer side has this many pixels."""
+PANEL_PX = 300
+GAP_PX = 24
+FADED = 0.45
+"""How much of the drawing's ink is left."""
+_OPACITY: dict[Layer, float] = {"rooms": 0.42, "walls": 0.55}
+_INK: Rgb = (31, 42, 55)
+_FAINT: Rgb = (104, 112, 122)
+_PAPER: Rgb = (250, 249, 246)
+_SHIFT = 4
+"""OpenCV draws at 1/16 px."""
+_DOUBTFUL = 0.5
+_LINE_PX = 25
+_SHIFTS_PX = (0, 30, -30, 60, -60, 90, -90)
+"""By how much a label is moved, the nearest free place first."""
+
+
+def overlay(drawings: Sequence[Drawing], sheets: Sequence[NDArray[np.uint8]]) -> NDArray[np.uint8]:
+    """(h, w, 3) sRGB: the storeys below each other, each over its (h, w, 3) cleaned drawing."""
+    panels = [_storey(drawing, pixels) for drawing, pixels in zip(drawings, sheets, strict=True)]
+    width = max(panel.shape[1] for panel in panels)
+    height = sum(panel.shape[0] for panel in panels) + GAP_PX * (len(panels) - 1)
+    canvas = np.full((height, width, 3), _PAPER, dtype=np.uint8)
+    top = 0
+    for panel in panels:
+        canvas[top : top + panel.shape[0], : panel.shape[1]] = panel
+        top += panel.shape[0] + GAP_PX
+    return canvas
+
+
+def png(pixels: NDArray[np.uint8]) -> bytes:
+    """(h, w, 3) sRGB as a PNG file."""
+    file = io.BytesIO()
+    Image.fromarray(pixels).save(file, format="PNG", compress_level=3)
+    return file.getvalue()
+
+
+def pixels_of(sheet: Sheet, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(n, 2) points of the plan frame (m) in the cleaned image (px)."""
+    flipped = points_m * np.array([1.0, -1.0]) / sheet.metres_per_px
+    moved: NDArray[np.float64] = flipped + np.array(sheet.origin_px)
+    return moved
+
+
+def _storey(drawing: Drawing, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+    sheet = drawing.storey.sheet
+    scale = SIDE_PX / max(pixels.shape[:2])
+    way = cv2.INTER_AREA if scale < 1.0 else cv2.INTER_CUBIC
+    sized = cv2.resize(pixels, None, fx=scale, fy=scale, interpolation=way)
+    faded = 255.0 - FADED * (255.0 - sized.astype(np.float32))
+    picture = faded.astype(np.uint8)
+    for shape in drawing.shapes:
+        _draw(picture, shape, sheet, scale)
+    canvas = Image.new("RGB", (picture.shape[1] + PANEL_PX, max(picture.shape[0], 520)), _PAPER)
+    canvas.paste(Image.fromarray(picture), (0, 0))
+    pen = ImageDraw.Draw(canvas)
+    _room_names(pen, drawing, scale)
+    _opening_ids(pen, drawing, scale)
+    _legend(pen, drawing.storey, picture.shape[1] + 24)
+    return np.asarray(canvas, dtype=np.uint8)
+
+
+def _draw(picture: NDArray[np.uint8], shape: Shape, sheet: Sheet, scale: float) -> None:
+    colour = rgb(LAYER_COLOURS[shape.layer])
+    if shape.layer == "rooms":
+        colour = rgb({str(use): code for use, code in USE_COLOURS.items()}[shape.kind])
+    rings = [_at(sheet, ring, scale) for ring in shape.rings]
+    lines = [_at(sheet, line, scale) for line in shape.lines]
+    opacity = _OPACITY.get(shape.layer)
+    if opacity is not None:
+        _fill(picture, rings, colour, opacity)
+    if shape.layer != "rooms":
+        width = 3 if shape.layer in {"doors", "windows"} else 2
+        cv2.polylines(picture, rings, True, colour, width, cv2.LINE_AA, _SHIFT)
+        cv2.polylines(picture, lines, False, colour, width, cv2.LINE_AA, _SHIFT)
+
+
+def _fill(
+    picture: NDArray[np.uint8], rings: list[NDArray[np.int32]], colour: Rgb, opacity: float
+) -> None:
+    """Tint what lies within the rings; only the box around them is looked at."""
+    corners = np.concatenate(rings) >> _SHIFT
+    left, top = np.maximum(corners.min(axis=0) - 1, 0).tolist()
+    right, bottom = (corners.max(axis=0) + 2).tolist()
+    part = picture[top:bottom, left:right]
+    if part.size == 0:
+        return
+    mask = np.zeros(part.shape[:2], dtype=np.uint8)
+    moved = [ring - np.array([left, top], dtype=np.int32) * (1 << _SHIFT) for ring in rings]
+    cv2.fillPoly(mask, moved, 255, cv2.LINE_AA, _SHIFT)
+    share = (opacity / 255.0) * mask[..., None].astype(np.float32)
+    part[:] = (part * (1.0 - share) + np.array(colour, dtype=np.float32) * share).astype(np.uint8)
+
+
+def _at(sheet: Sheet, points_m: NDArray[np.float64], scale: float) -> NDArray[np.int32]:
+    """OpenCV has the centre of the first pixel at (0, 0)."""
+    places = pixels_of(sheet, points_m) * scale - 0.5
+    return np.round(places * (1 << _SHIFT)).astype(np.int32)
+
+
+def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
+    font, small = _font(22), _font(17)
+    written = [
+        box(
+            *(np.array(text.box_px).min(axis=0) * scale),
+            *(np.array(text.box_px).max(axis=0) * scale),
+        )
+        for text in drawing.storey.texts
+    ]
+    for label in drawing.labels:
+        width = max(font.getlength(label.text), small.getlength(label.detail))
+        x, y = _beside(_spot(drawing.storey.sheet, label.at_m, scale), width, written)
+        _haloed(pen, (x, y - 12), label.text, font, _INK)
+        # Pillow's own font has no superscripts.
+        _haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
+
+
+def _beside(at: tuple[float, float], width: float, written: list[Polygon]) -> tuple[float, float]:
+    """A little above or below what the plan itself says there, so that both can be read."""
+
+    def covered(down: float) -> float:
+        x, y = at[0], at[1] + down
+        own = box(x - width / 2, y - _LINE_PX, x + width / 2, y + _LINE_PX)
+        return float(sum(own.intersection(text).area for text in written))
+
+    return (at[0], at[1] + min(_SHIFTS_PX, key=covered))
+
+
+def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
+    """Ids beside their openings; what is doubtful has a question mark."""
+    scores = {opening.id: opening.score for opening in drawing.storey.openings}
+    font = _font(15)
+    for shape in drawing.shapes:
+        if shape.layer not in {"doors", "windows"}:
+            continue
+        middle = np.mean([line.mean(axis=0) for line in shape.lines[:2]], axis=0)
+        doubt = "?" if scores[shape.name] < _DOUBTFUL else ""
+        colour = rgb(LAYER_COLOURS[shape.layer])
+        at = _spot(drawing.storey.sheet, (float(middle[0]), float(middle[1])), scale)
+        _haloed(pen, at, f"{shape.name}{doubt}", font, colour)
+
+
+def _spot(sheet: Sheet, at_m: tuple[float, float], scale: float) -> tuple[float, float]:
+    x, y = (pixels_of(sheet, np.array([at_m])) * scale)[0].tolist()
+    return (x, y)
+
+
+def _haloed(
+    pen: ImageDraw.ImageDraw,
+    at: tuple[float, float],
+    text: str,
+    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
+    colour: Rgb,
+) -> None:
+    pen.text(at, text, fill=colour, font=font, anchor="mm", stroke_width=3, stroke_fill=_PAPER)
+
+
+def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
+    title, font, small = _font(24), _font(18), _font(15)
+    pen.text((x, 24), storey.name, fill=_INK, font=title)
+    y = 76
+    doors = [one for one in storey.openings if one.kind == "door"]
+    windows = [one for one in storey.openings if one.kind == "window"]
+    gaps = [one for one in storey.openings if one.kind == "gap"]
+    for colour, count, name in (
+        (LAYER_COLOURS["walls"], len(storey.walls), "walls"),
+        (LAYER_COLOURS["doors"], len(doors), "doors"),
+        (LAYER_COLOURS["doors"], len(gaps), "gaps"),
+        (LAYER_COLOURS["windows"], len(windows), "windows"),
+        (LAYER_COLOURS["rooms"], len(storey.rooms), "rooms"),
+    ):
+        pen.rectangle((x, y + 3, x + 18, y + 17), fill=rgb(colour))
+        pen.text((x + 30, y), f"{count} {name}", fill=_INK, font=font)
+        y += 30
+    y += 12
+    for use in dict.fromkeys(room.use for room in storey.rooms):
+        pen.rectangle((x, y + 2, x + 18, y + 16), fill=rgb(USE_COLOURS[use]), outline=_FAINT)
+        pen.text((x + 30, y), use, fill=_INK, font=small)
+        y += 24
+    y += 12
+    scale = storey.scale
+    for line in (
+        f"{1000 * scale.metres_per_px:.2f} mm per pixel",
+        f"± {100 * scale.sigma:.1f} % ({scale.basis})",
+        "d3? is doubtful: score below 0.5",
+    ):
+        pen.text((x, y), line, fill=_FAINT, font=small)
+        y += 22
+
+
+def _font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
+    return ImageFont.load_default(size)

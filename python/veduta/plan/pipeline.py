@@ -1,0 +1,191 @@
+"""`veduta plan`: a document of walls, openings and rooms becomes a house; all files are written.
+
+An edited document takes the same way as one that was just found.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+from veduta.plan.analyse import read_drawings
+from veduta.plan.call import Call, plan_call
+from veduta.plan.document import PlanDocument
+from veduta.plan.house.build import build_house
+from veduta.plan.load import DOCUMENT, load_document
+from veduta.plan.options import PlanOptions
+from veduta.plan.report import failure_report, measures, plan_report
+from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.writing import Result, result_of, write_result
+from veduta.run.digests import file_digest, result_key
+from veduta.run.errors import NotFoundError
+from veduta.run.options import Options
+from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
+from veduta.run.pool import Task
+from veduta.run.progress import Progress, StepProgress
+from veduta.run.record import CALL
+from veduta.run.report import Failure, StepRecord, timed_step
+
+VERSION = "1"
+"""Raised when any step changes its result: no older result is then taken for a new one's."""
+COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
+MADE_FROM = "document_sha256"
+"""In the summary of a result: the document that its house was made from."""
+
+
+@dataclass
+class PlanResult:
+    """What the call came to; `measures` is of its report."""
+
+    out: Path
+    up_to_date: bool = False
+    measures: dict[str, Any] = field(default_factory=dict)
+    failure: Failure | None = None
+    outdated: bool = False
+    """Whether plan.json was changed since the house was made from it."""
+    edited: list[str] = field(default_factory=list)
+    foreign: list[str] = field(default_factory=list)
+
+    @property
+    def exit_code(self) -> int:
+        """0 done, 3 there is no plan in the drawings."""
+        return 3 if self.failure else 0
+
+
+def run_plan(
+    paths: Sequence[Path],
+    out: Path,
+    options: PlanOptions,
+    progress: Progress,
+    *,
+    force: bool = False,
+) -> PlanResult:
+    """Make a house of drawings or of a document in OUT, by the rules of `run.outputs`."""
+    call = plan_call(paths)
+    in_place = call.is_in_place(out)
+    # Checked before anything is written because of it.
+    checked = load_document(call.paths[0]) if call.kind == "document" else None
+    used: Options = options if call.kind == "drawings" else options.house
+    key = result_key(COMMAND[call.kind], VERSION, used, call.identity)
+    with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
+        result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
+        if not result.up_to_date and not _is_left(opened, call):
+            with progress.over(1):
+                progress.started(Task(call.subject, None))
+                _make(call, checked, options, opened, key, progress.step)
+                progress.finished(call.subject, opened.record.items[CALL].failure)
+        _tell(result, opened)
+    return result
+
+
+def _is_made(opened: OutFolder, call: Call, key: str, *, force: bool) -> bool:
+    if opened.standing is Standing.AMENDED:
+        item = opened.record.items.get(CALL)
+        made_from = None if item is None else item.summary.get(MADE_FROM)
+        same = made_from == call.digests[0] and opened.is_current(CALL, key)
+        return same and not force
+    return opened.standing is Standing.UP_TO_DATE
+
+
+def _is_left(opened: OutFolder, call: Call) -> bool:
+    """New drawings of a house beside a document that somebody has edited would contradict it."""
+    if call.kind == "document" or DOCUMENT not in opened.edited():
+        return False
+    if not opened.keep(CALL):
+        return False
+    opened.finish()
+    return True
+
+
+def _make(
+    call: Call,
+    checked: PlanDocument | None,
+    options: PlanOptions,
+    opened: OutFolder,
+    key: str,
+    progress: StepProgress,
+) -> None:
+    """All steps; drawings in which there is no plan end in a report that says why."""
+    steps: list[StepRecord] = []
+    used: Options = options if call.kind == "drawings" else options.house
+    work = opened.work_folder(CALL)
+    try:
+        document, sheets, notes = _document(call, checked, options, steps, progress)
+        result = _house(document, sheets, options, steps, progress)
+    except NotFoundError as error:
+        failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
+        report, page = failure_report(call.subject, failure, used, steps)
+        with writing_to(opened.path):
+            (work / "report.json").write_bytes(report.to_json())
+            (work / "report.html").write_bytes(page)
+        opened.publish(CALL, key, work, {}, failure)
+    else:
+        progress("write", 0.0)
+        with writing_to(opened.path), timed_step(steps, "write"):
+            write_result(result, work, options.house)
+        report, page = plan_report(result, call.subject, used, steps, notes)
+        with writing_to(opened.path):
+            (work / "report.json").write_bytes(report.to_json())
+            (work / "report.html").write_bytes(page)
+        # An edited document in OUT stays as it is.
+        stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
+        made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
+        opened.publish(CALL, key, work, {**measures(result.document), MADE_FROM: made_from})
+    if opened.standing is not Standing.AMENDED:
+        opened.finish()
+
+
+def _document(
+    call: Call,
+    checked: PlanDocument | None,
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> tuple[PlanDocument, list[Pixels], list[str]]:
+    """The document and the cleaned drawings, with what is to be said of them."""
+    if checked is None:
+        read = read_drawings(call.paths, options, steps, progress)
+        return read.document, read.sheets, []
+    progress("load", 0.0)
+    with timed_step(steps, "load") as step:
+        sheets, notes = load_sheets(call.paths[0].parent, checked)
+        step.counts["storeys"] = len(checked.storeys)
+    return checked, sheets, notes
+
+
+def _house(
+    document: PlanDocument,
+    sheets: list[Pixels],
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Result:
+    progress("house", 0.0)
+    with timed_step(steps, "house") as step:
+        house = build_house(document, options.house)
+        part = house.part
+        step.counts |= {
+            "features": len(part.features),
+            "polygons": len(part.polygon_feature),
+            "triangles": len(part.triangles.indices),
+        }
+        step.rejected.extend(part.notes)
+    progress("drawings", 0.0)
+    with timed_step(steps, "drawings"):
+        return result_of(document, house, sheets)
+
+
+def _tell(result: PlanResult, opened: OutFolder) -> None:
+    """What lies in OUT now."""
+    item = opened.record.items.get(CALL)
+    if item is not None:
+        result.failure = item.failure
+        result.measures = dict(item.summary)
+        made_from = result.measures.pop(MADE_FROM, None)
+        document = opened.path / DOCUMENT
+        if made_from is not None and document.is_file():
+            result.outdated = made_from != file_digest(document)
+    result.edited = opened.edited()
+    result.foreign = sorted(set(opened.kept) - set(opened.record.files))

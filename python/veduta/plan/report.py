@@ -1,0 +1,211 @@
+"""What `report.json` and `report.html` say of a plan and its house."""
+
+from __future__ import annotations
+
+import io
+from collections import Counter, defaultdict
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.sheets import sheet_name
+from veduta.plan.writing import Result
+from veduta.run.options import Options
+from veduta.run.page import Bars, Page, Picture, Table, render
+from veduta.run.report import Failure, Report, StepRecord, counted
+
+FILES = (
+    ("plan.json", "everything that was found, in metres; edit it and rebuild"),
+    ("overlay.png", "what was found, over the cleaned drawing, with the ids of the openings"),
+    ("plan.svg", "the plan as a drawing"),
+    ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms"),
+    ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
+    ("house.glb", "the house as glTF 2.0, each leaf of a door with an animation"),
+    ("place.json", "the house as a place, for `veduta view`"),
+    ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
+)
+THUMBNAIL_PX = 1200
+DOUBTFUL = 0.5
+_BASIS = {
+    "evidence": "by what is written and drawn on the sheet",
+    "given": "as given",
+    "assumed": "assumed: nothing on the sheet says it",
+    "edited": "as edited",
+}
+
+
+def measures(document: PlanDocument) -> dict[str, Any]:
+    """The plan in numbers."""
+    storeys = document.storeys
+    openings = [opening for storey in storeys for opening in storey.openings]
+    rooms = [room for storey in storeys for room in storey.rooms]
+    inner = [room for room in rooms if not room.outdoors]
+    doubtful = sum(opening.score < DOUBTFUL for opening in openings)
+    return {
+        "storeys": len(storeys),
+        "walls": sum(len(storey.walls) for storey in storeys),
+        "rooms": len(rooms),
+        "doors": sum(opening.kind == "door" for opening in openings),
+        "windows": sum(opening.kind == "window" for opening in openings),
+        "gaps": sum(opening.kind == "gap" for opening in openings),
+        "stairs": sum(len(storey.stairs) for storey in storeys),
+        "doubtful_openings": doubtful,
+        "mended_rooms": sum(room.mended for room in rooms),
+        "area_m2": round(sum(room.area_m2 for room in inner), 2),
+        "scale_basis": [storey.scale.basis for storey in storeys],
+        "scale_sigma": [storey.scale.sigma for storey in storeys],
+    }
+
+
+def summary_line(found: dict[str, Any]) -> str:
+    """What was found, in a line."""
+    parts = [
+        counted(found["storeys"], "storey"),
+        counted(found["rooms"], "room"),
+        f"{found['area_m2']:.1f} m²",
+        counted(found["doors"], "door"),
+        counted(found["windows"], "window"),
+    ]
+    doubt = f" ({found['doubtful_openings']} doubtful)" if found["doubtful_openings"] else ""
+    scale = "; the scale is assumed" if "assumed" in found["scale_basis"] else ""
+    return ", ".join(parts) + doubt + scale
+
+
+def plan_report(
+    result: Result, subject: str, options: Options, steps: list[StepRecord], notes: Sequence[str]
+) -> tuple[Report, bytes]:
+    """The report of a plan that became a house, and its page."""
+    document, part = result.document, result.house.part
+    storey_notes = [f"{s.name}: {note}" for s in document.storeys for note in s.notes]
+    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes])
+    found = measures(document)
+    report = Report(
+        verb="plan",
+        subject=subject,
+        state="done",
+        options=options.model_dump(mode="json"),
+        steps=steps,
+        measures=found,
+        notes=list(said),
+    )
+    page = Page(
+        title=subject,
+        summary=summary_line(found),
+        facts=_facts(document, found),
+        pictures=_pictures(result),
+        tables=[
+            *(_rooms(storey) for storey in document.storeys),
+            *(_openings(storey) for storey in document.storeys),
+            *(table for storey in document.storeys for table in _evidence(storey)),
+            _provenance(result),
+        ],
+        bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in steps])],
+        files=FILES,
+    )
+    return report, render(report, page)
+
+
+def failure_report(
+    subject: str, failure: Failure, options: Options, steps: list[StepRecord]
+) -> tuple[Report, bytes]:
+    """The report of drawings that gave nothing: how far it came, and why it ended there."""
+    report = Report(
+        verb="plan",
+        subject=subject,
+        state="failed",
+        options=options.model_dump(mode="json"),
+        steps=steps,
+        failures=[failure],
+    )
+    return report, render(report, Page(title=subject, summary="Nothing was built."))
+
+
+def _facts(document: PlanDocument, found: dict[str, Any]) -> list[tuple[str, str]]:
+    facts = [
+        ("rooms", str(found["rooms"])),
+        ("area", f"{found['area_m2']:.1f} m² without balconies and terraces"),
+    ]
+    for storey in document.storeys:
+        scale = storey.scale
+        size = f"{1000 * scale.metres_per_px:.2f} mm/px ± {100 * scale.sigma:.1f} %"
+        facts.append((f"scale, {storey.name}", f"{size}, {_BASIS[scale.basis]}"))
+    return facts
+
+
+def _pictures(result: Result) -> list[Picture]:
+    found = "Walls, doors, windows and rooms over the drawing. A question mark: doubtful."
+    pictures = [_picture("Found", found, result.overlay, "overlay.png")]
+    for index, (storey, pixels) in enumerate(
+        zip(result.document.storeys, result.sheets, strict=True)
+    ):
+        note = f"{storey.sheet.file}, laid straight"
+        pictures.append(_picture(f"Drawing: {storey.name}", note, pixels, sheet_name(index)))
+    return pictures
+
+
+def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Picture:
+    image = Image.fromarray(pixels)
+    image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
+    file = io.BytesIO()
+    image.save(file, format="JPEG", quality=88)
+    return Picture(title, note, file.getvalue(), "image/jpeg", link)
+
+
+def _rooms(storey: Storey) -> Table:
+    rows = [
+        (
+            room.id, room.name, room.use, round(room.use_score, 2), round(room.area_m2, 2),
+            len(room.openings), "yes" if room.mended else "", room.origin,
+        )
+        for room in storey.rooms
+    ]  # fmt: skip
+    columns = ("id", "written", "use", "sure", "area m²", "openings", "mended", "origin")
+    note = "Sure: how far the use can be trusted, 0 to 1. Mended: a gap in its walls was closed."
+    return Table(f"Rooms of {storey.name}", columns, rows, note=note)
+
+
+def _openings(storey: Storey) -> Table:
+    rows = [
+        (
+            opening.id, opening.kind, opening.type, opening.wall, round(opening.width_m, 2),
+            opening.hinge, opening.swing, round(opening.score, 2), opening.origin,
+        )
+        for opening in storey.openings
+    ]  # fmt: skip
+    columns = ("id", "kind", "type", "wall", "width m", "hinge", "swing", "score", "origin")
+    return Table(f"Openings of {storey.name}", columns, rows)
+
+
+def _evidence(storey: Storey) -> list[Table]:
+    if not storey.scale.evidence:
+        return []
+    rows = [
+        (
+            one.kind, one.text, round(1000 * one.metres_per_px, 3), round(100 * one.sigma, 1),
+            "yes" if one.agrees else "no",
+        )
+        for one in storey.scale.evidence
+    ]  # fmt: skip
+    columns = ("evidence", "read", "mm per pixel", "± %", "agrees")
+    return [Table(f"The scale of {storey.name}", columns, rows)]
+
+
+def _provenance(result: Result) -> Table:
+    part = result.house.part
+    count: Counter[tuple[str, str]] = Counter()
+    area: defaultdict[tuple[str, str], float] = defaultdict(float)
+    for row in range(len(part.features)):
+        key = (part.features.semantic(row).value, part.features.provenance(row).value)
+        count[key] += 1
+        area[key] += float(part.feature_area_m2[row])
+    rows = [(*key, count[key], round(area[key], 1)) for key in sorted(count)]
+    note = (
+        "measured: drawn on the plan; inferred: follows from it (no plan shows heights);"
+        " invented: nothing shows it"
+    )
+    columns = ("surface", "provenance", "features", "area m²")
+    return Table("Where the surfaces come from", columns, rows, note=note)

@@ -1,0 +1,56 @@
+"""The recipe of the package: a scan, set right by its text, and the text on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.document import Text
+from veduta.plan.text.options import TextOptions
+from veduta.plan.text.orientation import Position, find_position, right_from_scan, set_right
+from veduta.plan.text.reading import read_texts
+from veduta.plan.text.regions import find_overview
+from veduta.plan.text.strips import in_colour
+
+
+@dataclass(frozen=True)
+class SheetText:
+    """A scan set right: `pixels` (h, w, 3), `right_from_scan` (3, 3) takes the scan's pixels there.
+
+    `texts` are in `pixels`. `position` says how the scan lay.
+    """
+
+    pixels: NDArray[np.uint8]
+    right_from_scan: NDArray[np.float64]
+    position: Position
+    texts: list[Text]
+
+
+def read_sheet(scan: NDArray[np.uint8], options: TextOptions | None = None) -> SheetText:
+    """Read a scan (h, w, 3) or (h, w) that may lie on its side, on its head, or be mirrored."""
+    options = options or TextOptions()
+    scan = in_colour(scan)
+    overview = find_overview(scan, options)
+    position = find_position(scan, options, overview)
+    pixels = set_right(scan, position)
+    # Of a scan that lay wrong more text is found when it is right.
+    texts = read_texts(pixels, options, overview if position.is_upright else None)
+    size = (scan.shape[1], scan.shape[0])
+    return SheetText(pixels, right_from_scan(position, size), position, texts)
+
+
+def moved_texts(texts: list[Text], target_from_source: NDArray[np.float64]) -> list[Text]:
+    """Texts in another frame of pixels, by an affine (3, 3)."""
+    linear, shift = target_from_source[:2, :2], target_from_source[:2, 2]
+    return [
+        text.model_copy(
+            update={
+                "box_px": [
+                    (float(x), float(y)) for x, y in np.array(text.box_px) @ linear.T + shift
+                ]
+            }
+        )
+        for text in texts
+    ]

@@ -1,0 +1,58 @@
+"""All files of a plan but its report."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.formats.gltf import write_glb
+from veduta.formats.place_json import write_place
+from veduta.plan.document import PlanDocument
+from veduta.plan.drawing import draw
+from veduta.plan.house.build import House
+from veduta.plan.house.placing import place_of
+from veduta.plan.load import DOCUMENT
+from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.dxf import plan_dxf
+from veduta.plan.outputs.ifc import house_ifc
+from veduta.plan.outputs.overlay import overlay, png
+from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.sheets import sheet_name
+
+MODEL = "house.glb"
+
+
+@dataclass(frozen=True)
+class Result:
+    """What was made: sheets are the cleaned drawings, overlay the picture that shows all."""
+
+    document: PlanDocument
+    house: House
+    sheets: Sequence[NDArray[np.uint8]]
+    overlay: NDArray[np.uint8]
+
+
+def result_of(document: PlanDocument, house: House, sheets: Sequence[NDArray[np.uint8]]) -> Result:
+    """With the overlay drawn; sheets in the order of the document's storeys."""
+    drawings = {space.storey.name: draw(space) for space in house.spaces}
+    ordered = [drawings[storey.name] for storey in document.storeys]
+    return Result(document, house, sheets, overlay(ordered, sheets))
+
+
+def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
+    """Write the document, the drawings, the model and the place."""
+    text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
+    (folder / DOCUMENT).write_text(text, encoding="utf-8")
+    for index, pixels in enumerate(result.sheets):
+        (folder / sheet_name(index)).write_bytes(png(pixels))
+    (folder / "overlay.png").write_bytes(png(result.overlay))
+    drawings = [draw(space) for space in result.house.spaces]
+    (folder / "plan.svg").write_bytes(plan_svg(drawings))
+    (folder / "plan.dxf").write_bytes(plan_dxf(drawings))
+    (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
+    write_glb(result.house.part, folder / MODEL)
+    write_place(place_of(result.house, MODEL, DOCUMENT, options), folder / "place.json")

@@ -1,0 +1,78 @@
+"""The command `veduta plan`: a document becomes a house; what lies in OUT, and what stays."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+from sample_plan import sample_plan
+from test_validators import validate_gltf
+
+from veduta.formats.place_json import read_place
+from veduta.plan.options import PlanOptions
+from veduta.plan.pipeline import PlanResult, run_plan
+from veduta.run.errors import InputError
+from veduta.run.progress import Progress
+
+FILES = {
+    ".veduta", "house.glb", "house.ifc", "overlay.png", "place.json", "plan.dxf", "plan.json",
+    "plan.svg", "report.html", "report.json", "sheet-1.png",
+}  # fmt: skip
+
+
+def plan(document: Path, out: Path, *, force: bool = False) -> PlanResult:
+    return run_plan([document], out, PlanOptions(), Progress(quiet=True), force=force)
+
+
+@pytest.fixture
+def document(tmp_path: Path) -> Path:
+    path = tmp_path / "plan.json"
+    path.write_text(sample_plan().model_dump_json(by_alias=True))
+    return path
+
+
+def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, document: Path) -> None:
+    out = tmp_path / "out"
+    made = plan(document, out)
+    assert (made.exit_code, made.outdated, made.up_to_date) == (0, False, False)
+    assert {path.name for path in out.iterdir()} == FILES
+    assert made.measures["rooms"] == 2
+    assert read_place(out / "place.json").parts[0].model == "house.glb"
+    issues = validate_gltf(out / "house.glb")
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    report = json.loads((out / "report.json").read_text())
+    assert (report["verb"], report["state"]) == ("plan", "done")
+    assert "sheet-1.png is missing: overlay.png has a blank sheet" in report["notes"]
+
+    assert plan(document, out).up_to_date
+    before = (out / "house.glb").read_bytes()
+    content = json.loads((out / "plan.json").read_text())
+    content["storeys"][0]["openings"][2]["width_m"] = 2.2
+    edited = json.dumps(content)
+    (out / "plan.json").write_text(edited)
+    again = plan(document, out)
+    assert (again.up_to_date, again.outdated) == (True, True)
+    assert (out / "house.glb").read_bytes() == before
+
+    rebuilt = plan(out / "plan.json", out)
+    assert (rebuilt.up_to_date, rebuilt.outdated) == (False, False)
+    assert (out / "plan.json").read_text() == edited
+    assert (out / "house.glb").read_bytes() != before
+    assert plan(out / "plan.json", out).up_to_date
+
+
+def test_a_faulty_document_leaves_nothing_behind(tmp_path: Path, document: Path) -> None:
+    content = json.loads(document.read_text())
+    content["storeys"][0]["openings"][0]["wall"] = "gone"
+    document.write_text(json.dumps(content))
+    with pytest.raises(InputError, match=r"storeys\[0\].openings\[0\].wall: there is no 'gone'"):
+        plan(document, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_documents_and_drawings_do_not_go_together(tmp_path: Path, document: Path) -> None:
+    drawing = tmp_path / "plan.png"
+    drawing.write_bytes(b"")
+    with pytest.raises(InputError, match="is a document among other inputs"):
+        run_plan([document, drawing], tmp_path / "out", PlanOptions(), Progress(quiet=True))

@@ -1,0 +1,104 @@
+"""Labels belong to rooms; rooms without one are guessed, and said to be."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from veduta.plan.document import Text
+from veduta.plan.names.guess import RoomFacts, guess_uses
+from veduta.plan.names.name import name_rooms
+
+
+def _box(x: float, y: float, wide: float, tall: float) -> NDArray[np.float64]:
+    return np.array([(x, y), (x + wide, y), (x + wide, y + tall), (x, y + tall)], dtype=float)
+
+
+def _text(words: str, x: float, y: float) -> Text:
+    half = 4.0 * len(words)
+    box = [(x - half, y - 6), (x + half, y - 6), (x + half, y + 6), (x - half, y + 6)]
+    return Text(text=words, box_px=box, score=1.0)
+
+
+def test_each_label_goes_to_its_room() -> None:
+    rooms = [_box(0, 0, 400, 300), _box(410, 0, 300, 300), _box(720, 0, 20, 60)]
+    texts = [_text("OH", 200, 150), _text("MH", 560, 150), _text("VH", 730, 30), _text("N", 900, 9)]
+    facts = [RoomFacts(12.0), RoomFacts(9.0), RoomFacts(0.12)]
+    named = name_rooms(rooms, texts, facts, [(0, 1), (1, 2)])
+    assert [(one.use, one.name, one.origin) for one in named] == [
+        ("living", "OH", "measured"),
+        ("bedroom", "MH", "measured"),
+        ("wardrobe", "VH", "measured"),
+    ]
+
+
+def test_two_lines_are_one_label() -> None:
+    texts = [_text("LAUNDRY", 200, 150), _text("ROOM", 200, 164), _text("6'1\" x 6'0\"", 200, 178)]
+    (named,) = name_rooms([_box(0, 0, 400, 300)], texts, [RoomFacts(3.4)], [])
+    assert (named.use, named.name) == ("utility", "LAUNDRY ROOM")
+
+
+def test_an_open_space_is_what_leads_it() -> None:
+    texts = [_text("Kitchen", 60, 50), _text("Living room", 200, 200), _text("Dining", 300, 60)]
+    (named,) = name_rooms([_box(0, 0, 400, 300)], texts, [RoomFacts(40.0)], [])
+    assert (named.use, named.name) == ("living", "Living room")
+
+
+def test_a_word_of_two_languages_is_that_of_the_sheet() -> None:
+    """TH is a room with a fireplace in Finnish and a staircase in German."""
+    rooms = [_box(0, 0, 100, 100), _box(110, 0, 100, 100), _box(220, 0, 100, 100)]
+    facts = [RoomFacts(9.0)] * 3
+    finnish = [_text("TH", 50, 50), _text("MH", 160, 50), _text("Keittiö", 270, 50)]
+    german = [_text("TH", 50, 50), _text("Bad", 160, 50), _text("Küche", 270, 50)]
+    assert name_rooms(rooms, finnish, facts, [])[0].use == "living"
+    assert name_rooms(rooms, german, facts, [])[0].use == "stairs"
+
+
+def test_without_labels_a_flat_is_guessed() -> None:
+    """Hall, living room, bedroom, bathroom, cupboard behind the bedroom."""
+    facts = [
+        RoomFacts(7.0, 1.8, doors=5, windows=0),
+        RoomFacts(26.0, 1.3, doors=2, windows=2),
+        RoomFacts(12.0, 1.2, doors=2, windows=1),
+        RoomFacts(4.8, 1.3, doors=1, windows=0),
+        RoomFacts(1.4, 1.8, doors=1, windows=0),
+    ]
+    named = name_rooms(
+        [_box(500 * i, 0, 400, 300) for i in range(5)], [], facts,
+        [(0, 1), (0, 2), (0, 3), (2, 4)],
+    )  # fmt: skip
+    assert [one.use for one in named] == ["hall", "living", "bedroom", "bathroom", "wardrobe"]
+    assert all(one.origin == "inferred" and one.name == "" and one.score < 1 for one in named)
+
+
+@pytest.mark.parametrize(("area", "use"), [(5.0, "balcony"), (30.0, "terrace")])
+def test_outdoors(area: float, use: str) -> None:
+    assert guess_uses([RoomFacts(area, outdoors=True)], [], [None])[0][0] == use
+
+
+@given(
+    st.lists(
+        st.builds(
+            RoomFacts,
+            area_m2=st.floats(0.01, 500.0),
+            elongation=st.floats(1.0, 30.0),
+            doors=st.integers(0, 12),
+            windows=st.integers(0, 9),
+        ),
+        max_size=8,
+    )
+)
+def test_any_rooms_get_a_use_and_a_probability(facts: list[RoomFacts]) -> None:
+    doors = [(i, i + 1) for i in range(len(facts) - 1)]
+    guesses = guess_uses(facts, doors, [None] * len(facts))
+    assert len(guesses) == len(facts)
+    assert all(0 <= score <= 1 and math.isfinite(score) for _, score in guesses)
+
+
+def test_what_is_known_is_kept() -> None:
+    assert guess_uses([RoomFacts(12.0)], [], ["sauna"]) == [("sauna", 1.0)]

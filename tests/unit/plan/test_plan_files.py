@@ -1,0 +1,131 @@
+"""The drawings and the building model of a plan, each through its format's own checks."""
+
+from __future__ import annotations
+
+import io
+import logging
+from xml.etree import ElementTree
+
+import ezdxf
+import ezdxf.recover
+import ifcopenshell
+import ifcopenshell.validate
+import numpy as np
+import pytest
+from sample_plan import MARGIN_PX, PIXEL_M, opening, sample_plan, sample_storey
+from shapely.geometry import Polygon
+
+from veduta.plan.document import PlanDocument
+from veduta.plan.drawing import Drawing, draw
+from veduta.plan.house.build import build_house
+from veduta.plan.house.space import space_of
+from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.dxf import plan_dxf
+from veduta.plan.outputs.ifc import door_operation, house_ifc, wall_regions
+from veduta.plan.outputs.overlay import overlay, pixels_of
+from veduta.plan.outputs.svg import plan_svg
+
+HEIGHT_M = 2.55
+SVG = "{http://www.w3.org/2000/svg}"
+
+
+def two_storeys() -> PlanDocument:
+    upper = sample_storey(name="upper floor", elevation_m=2.8)
+    return sample_plan(sample_storey(), upper)
+
+
+def drawings(document: PlanDocument) -> list[Drawing]:
+    return [draw(space_of(storey, HEIGHT_M)) for storey in document.storeys]
+
+
+def test_dxf_audits_clean_and_has_the_walls_in_metres() -> None:
+    content = plan_dxf(drawings(two_storeys()))
+    document, auditor = ezdxf.recover.read(io.BytesIO(content))
+    assert not auditor.errors
+    assert not auditor.fixes
+    assert document.units == ezdxf.units.M
+    rings = [
+        Polygon(line.get_points("xy"))
+        for line in document.modelspace().query('LWPOLYLINE[layer=="A-WALL"]')
+    ]
+    expected = drawings(sample_plan())[0]
+    areas = [Polygon(s.rings[0]).area for s in expected.shapes if s.layer == "walls"]
+    assert sorted(ring.area for ring in rings) == pytest.approx(sorted(2 * areas))
+    texts = [text.dxf.text for text in document.modelspace().query("TEXT")]
+    assert texts.count("Living") == 2
+    assert plan_dxf(drawings(two_storeys())) == content
+
+
+def test_svg_is_xml_with_a_group_for_each_layer_and_names_escaped() -> None:
+    storey = sample_storey()
+    rooms = [storey.rooms[0].model_copy(update={"name": "<Salon & Co>"}), storey.rooms[1]]
+    content = plan_svg(drawings(sample_plan(sample_storey(rooms=rooms), two_storeys().storeys[1])))
+    root = ElementTree.fromstring(content)
+    assert [group.get("id") for group in root.findall(f"{SVG}g")] == ["ground floor", "upper floor"]
+    layers = [group.get("class") for group in root.findall(f"{SVG}g/{SVG}g")]
+    assert layers == 2 * ["rooms", "walls", "windows", "doors", "names"]
+    assert "<Salon & Co>" in [text.text for text in root.iter(f"{SVG}text")]
+
+
+def test_overlay_draws_walls_where_the_sheet_has_them() -> None:
+    document = sample_plan()
+    sheet = document.storeys[0].sheet
+    corner = pixels_of(sheet, np.array([[0.0, 0.0], [8.0, 5.0]]))
+    assert corner[0] == pytest.approx([MARGIN_PX, 5.0 / PIXEL_M + MARGIN_PX])
+    assert corner[1] == pytest.approx([8.0 / PIXEL_M + MARGIN_PX, MARGIN_PX])
+    paper = np.full((sheet.height_px, sheet.width_px, 3), 255, dtype=np.uint8)
+    picture = overlay(drawings(document), [paper])
+    scale = 1800 / max(paper.shape[:2])
+    wall = (pixels_of(sheet, np.array([[0.0, 2.0]]))[0] * scale).astype(int)
+    room = (pixels_of(sheet, np.array([[2.0, 4.0]]))[0] * scale).astype(int)
+    assert picture[wall[1], wall[0]].mean() < 160
+    assert picture[room[1], room[0]].mean() > 220
+    assert (picture[5, 5] == 255).all()
+
+
+def test_ifc_is_valid_and_has_everything() -> None:
+    document = two_storeys()
+    house = build_house(document, HouseOptions())
+    content = house_ifc(house, HouseOptions())
+    model = ifcopenshell.file.from_string(content.decode())
+    logger = ifcopenshell.validate.json_logger()
+    logging.disable(logging.CRITICAL)
+    ifcopenshell.validate.validate(model, logger)
+    logging.disable(logging.NOTSET)
+    assert logger.statements == []
+    counts = {
+        "IfcBuildingStorey": 2, "IfcWall": 14, "IfcOpeningElement": 8, "IfcDoor": 4,
+        "IfcWindow": 4, "IfcSpace": 4, "IfcSlab": 3, "IfcRoof": 1,
+    }  # fmt: skip
+    assert {kind: len(model.by_type(kind)) for kind in counts} == counts
+    for kind in ("IfcDoor", "IfcWindow"):
+        for one in model.by_type(kind):
+            assert len(one.FillsVoids) == 1
+            assert one.FillsVoids[0].RelatingOpeningElement.VoidsElements
+    areas = {one.LongName: one.IsDefinedBy[0] for one in model.by_type("IfcSpace")}
+    living = areas["Living"].RelatingPropertyDefinition.Quantities[0].AreaValue
+    assert living == pytest.approx(4.79 * 4.7, abs=1e-3)
+    assert house_ifc(house, HouseOptions()) == content
+
+
+def test_walls_of_the_building_model_share_the_footprint() -> None:
+    space = space_of(sample_storey(), HEIGHT_M)
+    regions = wall_regions(space)
+    assert sum(region.area for region in regions.values()) == pytest.approx(space.walls.area)
+    assert set(regions) == {wall.id for wall in space.storey.walls}
+
+
+@pytest.mark.parametrize(
+    ("hinge", "swing", "operation"),
+    [
+        ("start", "left", "SINGLE_SWING_LEFT"),
+        ("end", "left", "SINGLE_SWING_RIGHT"),
+        ("start", "right", "SINGLE_SWING_RIGHT"),
+        ("end", "right", "SINGLE_SWING_LEFT"),
+        ("none", "none", "NOTDEFINED"),
+        ("both", "left", "DOUBLE_DOOR_SINGLE_SWING"),
+    ],
+)
+def test_doors_open_as_ifc_calls_it(hinge: str, swing: str, operation: str) -> None:
+    """Looking along the swing, hinges at the left are a left door (IfcDoorTypeOperationEnum)."""
+    assert door_operation(opening("d", "w", 0.0, 0.9, hinge=hinge, swing=swing)) == operation

@@ -1,0 +1,98 @@
+"""Edited documents: each fault is told by its place and its reason."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+from sample_plan import sample_plan
+
+from veduta.plan.load import load_document
+from veduta.run.errors import InputError
+
+
+def written(path: Path, *changes: tuple[list[str | int], Any]) -> Path:
+    """The sample's document with values changed at places."""
+    content = json.loads(sample_plan().model_dump_json(by_alias=True))
+    for place, value in changes:
+        target = content["storeys"][0]
+        for step in place[:-1]:
+            target = target[step]
+        if value is KeyError:
+            del target[place[-1]]
+        else:
+            target[place[-1]] = value
+    file = path / "plan.json"
+    file.write_text(json.dumps(content))
+    return file
+
+
+def test_a_sound_document_is_read_and_its_areas_made_anew(tmp_path: Path) -> None:
+    document = load_document(written(tmp_path, (["rooms", 0, "area_m2"], 1.0)))
+    assert document.storeys[0].rooms[0].area_m2 == pytest.approx(4.79 * 4.7, abs=1e-3)
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "told"),
+    [
+        (["walls", 0, "start"], "nowhere", "storeys[0].walls[0].start: there is no 'nowhere'"),
+        (["walls", 0, "thickness_m"], 0.0, "storeys[0].walls[0].thickness_m: 0 m"),
+        (["walls", 0, "thickness_m"], "0.3", "storeys[0].walls[0].thickness_m: Input should be"),
+        (["walls", 1, "id"], "south-1", "storeys[0].walls[1].id: 'south-1' is there twice"),
+        (["walls", 1, "end"], "b", "storeys[0].walls[1]: its junctions lie on each other"),
+        (["walls", 0, "bulge"], 3.0, "storeys[0].walls[0].bulge: 3, more than 1"),
+        (["openings", 0, "wall"], "x", "storeys[0].openings[0].wall: there is no 'x'"),
+        (["openings", 0, "width_m"], 9.0, "storeys[0].openings[0]: ends at 9.60 m"),
+        (["openings", 2, "height_m"], 0.0, "storeys[0].openings[2].height_m: must be above zero"),
+        (["openings", 0, "kind"], "hatch", "storeys[0].openings[0].kind: Input should be"),
+        (["rooms", 0, "outline_m"], [[0, 0], [1, 1]], "storeys[0].rooms[0].outline_m: 2 points"),
+        (
+            ["rooms", 0, "outline_m"],
+            [[0, 0], [1, 1], [1, 0], [0, 1]],
+            "storeys[0].rooms[0].outline_m: its line crosses",
+        ),
+        (["rooms", 1, "openings"], ["gone"], "storeys[0].rooms[1].openings: there is no 'gone'"),
+        (["junctions", 0, "at_m"], [1e9, 0.0], "storeys[0].junctions[0].at_m[0]: 1000000000.0 is"),
+        (["height_m"], 1.0, "storeys[0].height_m: 1 m, less than 2"),
+        (["scale"], KeyError, "storeys[0].scale: Field required"),
+        (["colour"], "red", "storeys[0].colour: Extra inputs are not permitted"),
+    ],
+)
+def test_the_field_and_the_reason_are_named(
+    tmp_path: Path, place: list[str | int], value: Any, told: str
+) -> None:
+    with pytest.raises(InputError) as caught:
+        load_document(written(tmp_path, (place, value)))
+    assert told in caught.value.fault
+    assert caught.value.subject.endswith("plan.json")
+
+
+def test_no_storey_at_all(tmp_path: Path) -> None:
+    file = tmp_path / "plan.json"
+    file.write_text('{"storeys": []}')
+    with pytest.raises(InputError, match="storeys: 0, not between 1 and 50"):
+        load_document(file)
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        ('{"storeys": [', "line 1, column 14: not JSON"),
+        ('{"storeys": [' + "1" * 5000 + "]}", "is not usable JSON"),
+    ],
+)
+def test_what_is_no_json_is_told(tmp_path: Path, content: str, told: str) -> None:
+    file = tmp_path / "plan.json"
+    file.write_text(content)
+    with pytest.raises(InputError) as caught:
+        load_document(file)
+    assert told in caught.value.fault
+
+
+def test_a_missing_file_and_a_folder(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        load_document(tmp_path / "plan.json")
+    with pytest.raises(InputError, match="is a folder"):
+        load_document(tmp_path)

@@ -1,0 +1,105 @@
+"""Text that was drawn is read: small, upwards, in all eight positions of a sheet."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from PIL import Image, ImageDraw, ImageFont
+
+from veduta.plan.document import Text
+from veduta.plan.text.options import TextOptions
+from veduta.plan.text.orientation import Position, right_from_scan, set_right
+from veduta.plan.text.reading import read_texts
+from veduta.plan.text.regions import without_duplicates
+from veduta.plan.text.sheet_text import moved_texts, read_sheet
+
+WORDS = {
+    "KITCHEN": (150, 80),
+    "4.94 x 3.06": (150, 110),
+    "Bedroom": (420, 90),
+    "17,4 m2": (420, 300),
+}
+POSITIONS = [(mirrored, turns) for mirrored in (False, True) for turns in range(4)]
+
+
+@lru_cache(maxsize=1)
+def _sheet() -> NDArray[np.uint8]:
+    """A plan of two rooms, 560 x 400, with text 20 px high and one word that runs upwards."""
+    page = Image.new("RGB", (560, 400), "white")
+    pen = ImageDraw.Draw(page)
+    pen.rectangle((10, 10, 550, 390), outline="black", width=8)
+    pen.rectangle((270, 10, 276, 390), fill="black")
+    font = ImageFont.load_default(20)
+    for words, at in WORDS.items():
+        pen.text(at, words, fill="black", font=font, anchor="mm")
+    side = Image.new("RGB", (120, 30), "white")
+    ImageDraw.Draw(side).text((60, 15), "CLOSET", fill="black", font=font, anchor="mm")
+    page.paste(side.rotate(90, expand=True), (60, 200))
+    return np.asarray(page)
+
+
+def _plain(text: Text) -> str:
+    """What is the same in print: signs of multiplication, and the raised 2."""
+    return text.text.replace("×", "x").replace("²", "2")
+
+
+def _centre(text: Text) -> NDArray[np.float64]:
+    return np.mean(text.box_px, axis=0)
+
+
+def test_words_and_their_places() -> None:
+    found = {_plain(text): text for text in read_texts(_sheet())}
+    assert set(found) == {*WORDS, "CLOSET"}
+    for words, at in WORDS.items():
+        assert _centre(found[words]) == pytest.approx(at, abs=4)
+    upper_left, upper_right = found["CLOSET"].box_px[:2]
+    assert upper_right[1] < upper_left[1] - 50  # it is read upwards
+
+
+def test_a_sheet_that_lies_wrong_is_set_right() -> None:
+    """It was mirrored, then turned by a quarter; `test_pixels_go` has the other positions."""
+    wrong = np.ascontiguousarray(np.rot90(np.fliplr(_sheet()), -1))
+    read = read_sheet(wrong)
+    assert np.array_equal(read.pixels, _sheet())
+    assert {"KITCHEN", "Bedroom"} <= {text.text for text in read.texts}
+    back = moved_texts(read.texts, np.linalg.inv(read.right_from_scan))
+    there = moved_texts(back, read.right_from_scan)
+    assert np.allclose([_centre(a) - _centre(b) for a, b in zip(there, read.texts, strict=True)], 0)
+
+
+@pytest.mark.parametrize(("mirrored", "turns"), POSITIONS)
+def test_pixels_go_where_the_matrix_says(mirrored: bool, turns: int) -> None:
+    """A marked pixel of a sheet of 5 x 3 is found where its centre is taken to."""
+    scan = np.zeros((3, 5, 3), dtype=np.uint8)
+    scan[1, 3] = 255
+    position = Position(mirrored, turns, 1.0, 0.0)
+    row, column = np.argwhere(set_right(scan, position)[:, :, 0])[0]
+    taken = right_from_scan(position, (5, 3)) @ (3.5, 1.5, 1.0)
+    assert taken == pytest.approx((column + 0.5, row + 0.5, 1.0))
+
+
+def test_a_blank_sheet_and_a_tiny_one_say_nothing() -> None:
+    for size in ((60, 80), (30, 30), (1, 1)):
+        read = read_sheet(np.full((*size, 3), 255, dtype=np.uint8))
+        assert read.texts == []
+        assert read.position.is_upright
+
+
+def test_a_region_in_another_is_the_same_text() -> None:
+    large = np.array([(0, 0), (100, 0), (100, 20), (0, 20)], dtype=float)
+    inside, beside = large * 0.9 + 2.0, large + np.array([150.0, 0.0])
+    kept = without_duplicates(np.array([inside, large, beside]))
+    assert np.array_equal(kept, [large, beside])
+
+
+def test_small_text_of_a_large_sheet_is_found_in_tiles() -> None:
+    large = np.full((1500, 2400, 3), 255, dtype=np.uint8)
+    large[1000:1400, 1700:2260] = _sheet()
+    options = TextOptions(overview_px=420, tile_px=640)
+    in_tiles = read_texts(large, options)
+    at_once = read_texts(large, options.model_copy(update={"tiles": 0}))
+    assert "KITCHEN" in {_plain(text) for text in in_tiles}
+    assert "KITCHEN" not in {_plain(text) for text in at_once}
