@@ -30,7 +30,8 @@ def drawn_from(
     graph = wall_graph(axes)
     bodies = [_body(edge, graph, axes) for edge in graph.edges]
     spaces = closed_spaces(bodies, found.thin_px)
-    walls, openings = [], []
+    walls: list[DrawnWall] = []
+    openings: list[DrawnOpening] = []
     for index, edge in enumerate(graph.edges):
         start, end = graph.nodes[edge.first], graph.nodes[edge.second]
         name = f"w{index + 1}"

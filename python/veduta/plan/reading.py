@@ -18,7 +18,7 @@ from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import Sheet, look_at
-from veduta.plan.openings.gaps import find_gaps
+from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.walls.axes import axes_of
 from veduta.plan.walls.find import Found, find_walls
@@ -53,7 +53,7 @@ def read_cleaned(
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
     """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
-    gaps = find_gaps(found.pieces)
+    gaps = [one for gap in find_gaps(found.pieces) if (one := trimmed(gap, found.solid))]
     seen = [look_at(gap, sheet) for gap in gaps]
     first = [judge(gap, view, found.thin_px, None) for gap, view in zip(gaps, seen, strict=True)]
     kept = [one.gap for one in first if one is not None]

@@ -15,6 +15,9 @@ LIGHT_REACH = 1 / 11
 LEAST_CONTRAST = 0.2
 """Fainter than this share of the darkest ink is no line: shaded floors and JPEG's rings are not."""
 
+COMMON = 0.1
+"""Lines have at least this part of the runs of what is commonest: there may be more wall."""
+
 NOISY = 0.03
 """Standard deviation of the noise, as a share of black, from which a sheet is smoothed first."""
 
@@ -83,7 +86,7 @@ def line_width(mask: NDArray[np.bool_]) -> float:
     smooth[[0, 39]] = 0
     # Walls may be as common as lines: the thinnest common width is that of lines.
     rising = (smooth >= np.roll(smooth, 1)) & (smooth >= np.roll(smooth, -1))
-    best = int(np.argmax(rising & (smooth >= 0.5 * smooth.max())))
+    best = int(np.argmax(rising & (smooth >= COMMON * smooth.max())))
     near = np.arange(max(1, best - 1), min(39, best + 2))
     total = counts[near].sum()
     return float((near * counts[near]).sum() / total) if total else 1.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +23,8 @@ class Gap:
     """An interruption from an end of wall `piece` to `target`: its end, or its side.
 
     `start` and `end` (2,) lie on the centre line of `piece`; the end is on the target's face.
-    `at_end` says which end of the piece this is (else its start).
+    `at_end` says which end of the piece this is (else its start). `far` is where the target's
+    face is, where a stub too short to be a piece stands between it and the opening.
     """
 
     piece: int
@@ -33,6 +34,7 @@ class Gap:
     start: NDArray[np.float64]
     end: NDArray[np.float64]
     thickness_px: float
+    far: NDArray[np.float64]
 
     @property
     def width_px(self) -> float:
@@ -76,7 +78,28 @@ def _ahead(pieces: list[Piece], index: int, at_end: bool) -> Gap | None:
     thickness = piece.thickness_px if to_side else min(piece.thickness_px, other.thickness_px)
     if distance <= max(3.0, 0.3 * thickness) or distance > FARTHEST * thickness:
         return None
-    return Gap(index, at_end, target, to_side, origin, origin + distance * ray, thickness)
+    end = origin + distance * ray
+    return Gap(index, at_end, target, to_side, origin, end, thickness, end)
+
+
+def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:
+    """The gap without solid wall at its ends; None where all of it is solid.
+
+    Stubs of wall beside a junction are shorter than any piece that is followed.
+    """
+    along = (gap.end - gap.start) / max(gap.width_px, 1e-9)
+    normal = np.array([-along[1], along[0]])
+    steps = np.arange(0.5, gap.width_px, 1.0)
+    beside = np.linspace(-0.35, 0.35, 7) * gap.thickness_px
+    points = gap.start + steps[:, None, None] * along + beside[None, :, None] * normal
+    index = np.floor(points).astype(int)
+    x = np.clip(index[..., 0], 0, solid.shape[1] - 1)
+    y = np.clip(index[..., 1], 0, solid.shape[0] - 1)
+    empty = np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
+    if len(empty) < 3:
+        return None
+    low, high = float(empty[0]), float(empty[-1] + 1)
+    return replace(gap, start=gap.start + low * along, end=gap.start + high * along)
 
 
 def _to_end(

@@ -36,7 +36,8 @@ def outdoors(
     """The mask, reduced by SHRINK, of what is reached from the border."""
     height, width = shape[0] // SHRINK + 3, shape[1] // SHRINK + 3
     walls = np.zeros((height, width), np.uint8)
-    for one in [*pieces, *closed]:
+    strokes: list[Piece | Gap] = [*pieces, *closed]
+    for one in strokes:
         run = (one.end - one.start) / max(float(np.hypot(*(one.end - one.start))), 1e-9)
         more = 0.6 * one.thickness_px * run
         start, end = (one.start - more) / SHRINK + 1, (one.end + more) / SHRINK + 1

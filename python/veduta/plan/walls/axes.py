@@ -51,7 +51,7 @@ def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
         line = reduce(merged, lines)
         mine = [one for one in judged if one.gap.piece in inside]
         for one in mine:
-            line = _prolonged(line, one.gap.start, one.gap.end)
+            line = _prolonged(line, one.gap.start, one.gap.far)
         axes.append(Axis(line, tuple(_placed(line, one) for one in mine)))
     return axes
 

@@ -19,6 +19,9 @@ NARROW = 0.04
 PANE_BREADTH = 1.45
 """The band is so many times as broad as a pane with its two lines, or more."""
 
+BROADER = 1.3
+"""Cells broader than the usual insides of the thickest walls, by this factor, are furniture."""
+
 SMALL_SHARE = 0.5
 """Walls are hatched if so much of the area of all narrow cells is in short ones."""
 
@@ -41,6 +44,7 @@ def fill_cells(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     left, top = stats[:, cv2.CC_STAT_LEFT], stats[:, cv2.CC_STAT_TOP]
     right, bottom = left + stats[:, cv2.CC_STAT_WIDTH], top + stats[:, cv2.CC_STAT_HEIGHT]
     narrow &= (left > 0) & (top > 0) & (right < width) & (bottom < height)
+    narrow &= breadth <= BROADER * _common_breadth(breadth, stats[:, cv2.CC_STAT_AREA], narrow)
     filled = ink | narrow[labels]
     # A cell beside the middle of a band must see how broad the band is there.
     depth = cv2.distanceTransform(filled.astype(np.uint8), cv2.DIST_L2, 3)
@@ -55,6 +59,19 @@ def fill_cells(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     broader = small | (band > PANE_BREADTH * (breadth + 2 * line_px))
     pane = narrow & long & broader & (area > 0.6 * (breadth * long_side - breadth**2))
     return np.asarray(filled & ~pane[labels], dtype=np.bool_)
+
+
+def _common_breadth(
+    breadth: NDArray[np.float64], area: NDArray[np.int32], narrow: NDArray[np.bool_]
+) -> float:
+    """The largest breadth of long cells that is no exception; infinite where few cells are long."""
+    length = area / np.maximum(breadth, 1.0)
+    long = narrow & (length >= 5 * breadth)
+    if area[long].sum() < SMALL_SHARE * area[narrow].sum() or not long.any():
+        return float("inf")
+    order = np.argsort(-breadth[long])
+    total = np.cumsum(length[long][order])
+    return float(breadth[long][order][np.searchsorted(total, 0.2 * total[-1])])
 
 
 def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:

@@ -29,6 +29,9 @@ MORE_WALL = 1.9
 
 SMALL_MARK = 0.05
 
+PALE = 0.65
+"""What has less than this part of the walls' usual ink is no wall."""
+
 
 @dataclass(frozen=True)
 class Found:
@@ -45,6 +48,10 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
     mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     solid = thick_strokes(mask, thickness)
+    if drawing == "filled":
+        # Shaded panes are thick strokes, too, but paler than the walls.
+        level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
+        solid = thick_strokes(mask & (cleaned.ink > PALE * level), thickness)
     pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
