@@ -26,7 +26,6 @@ def check(words: str) -> None:
 @pytest.mark.parametrize(
     ("beside", "idle", "named"),
     [
-        (GIVEN, "--mapping global", "--from-colmap"),
         (GIVEN, "--lens radial", "--from-colmap"),
         (GIVEN, "--cameras shared", "--from-colmap"),
         (GIVEN, "--principal-point free", "--from-colmap"),

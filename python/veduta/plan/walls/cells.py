@@ -32,10 +32,10 @@ PANE_LENGTH = 1.7
 def fill_cells(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     """The mask of ink with narrow cells filled, but for panes."""
     extent = _longer_side(ink)
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(
-        (~ink).astype(np.uint8), connectivity=4
-    )
-    inside = cv2.distanceTransform((~ink).astype(np.uint8), cv2.DIST_L2, 3)
+    paper = (~ink).astype(np.uint8)
+    count, found, places, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
+    labels, stats = np.asarray(found, np.int32), np.asarray(places, np.int32)
+    inside = np.asarray(cv2.distanceTransform(paper, cv2.DIST_L2, 3), np.float32)
     breadth = 2 * _most(inside, labels, count)
     narrow = breadth <= NARROW * extent
     narrow[0] = False

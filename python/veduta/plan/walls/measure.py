@@ -31,7 +31,7 @@ def measured(piece: Piece, soft: NDArray[np.float32]) -> Piece:
     # The centre of the upper left pixel is (0.5, 0.5).
     flat = points.reshape(-1, 2).T[::-1] - 0.5
     values = map_coordinates(soft, flat, order=1, mode="nearest", prefilter=False)
-    profile = np.median(values.reshape(count, len(across)), axis=0)
+    profile = np.median(values.reshape(count, len(across)).astype(np.float64), axis=0)
     inside = float(np.median(profile[np.abs(across) < 0.5 * half]))
     low = _face(profile[::-1], -across[::-1], inside, half, reach)
     high = _face(profile, across, inside, half, reach)

@@ -60,8 +60,9 @@ def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bo
     grey = ink.astype(np.uint8)
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
     # A square keeps the corners of upright walls, a disc follows slanted ones.
-    opened = cv2.morphologyEx(grey, cv2.MORPH_OPEN, square)
-    opened |= cv2.morphologyEx(grey, cv2.MORPH_OPEN, disc)
+    opened = np.maximum(
+        cv2.morphologyEx(grey, cv2.MORPH_OPEN, square), cv2.morphologyEx(grey, cv2.MORPH_OPEN, disc)
+    )
     return opened.astype(np.bool_) & _large(ink, LEAST_MARK * thickness.most_px)
 
 

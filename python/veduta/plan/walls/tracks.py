@@ -94,7 +94,8 @@ def _links(
     height = int(bottom.max()) + 2
     key = column * height + bottom
     wanted = (column + 1) * height + top + 1
-    pairs_first, pairs_second = [], []
+    pairs_first: list[NDArray[np.int64]] = []
+    pairs_second: list[NDArray[np.int64]] = []
     candidate = np.searchsorted(key, wanted)
     for shift in (0, 1):
         other = candidate + shift
