@@ -22,20 +22,21 @@ from typing import Any
 import numpy as np
 from PIL import Image
 from record import Row, keep_or_print
+from scipy.spatial.transform import Rotation
 from street_sets import IMAGES, StreetSet, write_model, write_set
 
 from veduta.formats.place_json import read_place
-from veduta.photos.world.absolute_orientation import absolute_orientation
 from veduta.synthetic.streets.plan import plan_street
 
 MOST_M, MOST_DEG = 0.3, 0.5
 WANTED = 0.95
 OTHER = 1000
 MODEL = "model.city.json"
+LAID = ("--georef", "model", "--no-texture")
 NOTES = (
     f"right: accepted, the photos within {MOST_M} m of their true places in the mean, which"
-    f" includes what structure from motion has wrong, and all together turned by {MOST_DEG} degrees"
-    " at most. wrong: accepted, but not so.",
+    f" includes what structure from motion has wrong, and turned by {MOST_DEG} degrees"
+    " at most in the mean of all. wrong: accepted, but not so.",
     "Not in the model: the model is that of another street, laid to the same place.",
     "Without GPS: the same photos without EXIF.",
 )
@@ -47,7 +48,7 @@ def street(seed: int, work: Path) -> list[dict[str, Any]]:
     done = folder / "outcomes.json"
     if done.exists():
         kept: list[dict[str, Any]] = json.loads(done.read_text())
-        return kept
+        return [one | measured(folder, one["in_model"], one["gps"]) for one in kept]
     if not (folder / MODEL).exists():
         write_set(StreetSet(seed), folder)
     write_model(plan_street(seed + OTHER), _made(folder / "other"))
@@ -55,49 +56,62 @@ def street(seed: int, work: Path) -> list[dict[str, Any]]:
     found = folder / "structure"
     if not (found / "report.json").exists():
         veduta(folder / IMAGES, found, "--georef", "off", "--no-walls")
-    outcomes = []
-    for in_model in (True, False):
-        for gps in (True, False):
-            photos = folder / (IMAGES if gps else "bare")
-            model = (folder if in_model else folder / "other") / MODEL
-            outcomes.append(outcome(folder, photos, model) | {"in_model": in_model, "gps": gps})
+    outcomes = [
+        register(folder, in_model, gps) | measured(folder, in_model, gps)
+        for in_model in (True, False)
+        for gps in (True, False)
+    ]
     done.write_text(json.dumps(outcomes, indent=1))
     return outcomes
 
 
-def outcome(folder: Path, photos: Path, model: Path) -> dict[str, Any]:
-    """The structure that was found, laid into a model."""
-    out = folder / f"{photos.name}-{model.parent.name}"
+def register(folder: Path, in_model: bool, gps: bool) -> dict[str, Any]:
+    """Lay the structure that was found into a model."""
+    model = (folder if in_model else folder / "other") / MODEL
+    given = ("--from-colmap", str(folder / "structure" / "sparse" / "0"), "--model", str(model))
     started = time.perf_counter()
-    given = ("--from-colmap", str(folder / "structure" / "sparse" / "0"))
-    veduta(photos, out, *given, "--model", str(model), "--georef", "model", "--no-texture")
-    seconds = time.perf_counter() - started
+    veduta(folder / _photos(gps), _out(folder, in_model, gps), *given, *LAID)
+    return {"in_model": in_model, "gps": gps, "seconds": time.perf_counter() - started}
+
+
+def measured(folder: Path, in_model: bool, gps: bool) -> dict[str, Any]:
+    """Whether the fit was accepted, and how far off it is."""
+    out = _out(folder, in_model, gps)
     georef = json.loads((out / "georef.json").read_text())["components"][0]
-    accepted = georef["accepted"] == "model"
-    error_m, error_deg, placed = errors(folder, out, georef) if accepted else (None, None, None)
-    why = georef["tried"][0]["why"]
-    return {
-        "accepted": accepted,
-        "error_m": error_m,
-        "error_deg": error_deg,
-        "placed": placed,
-        "seconds": seconds,
-        "why": why,
-    }
+    found = {"accepted": georef["accepted"] == "model", "why": georef["tried"][0]["why"]}
+    if not found["accepted"]:
+        return found
+    error_m, error_deg, placed = errors(folder, out, georef)
+    return found | {"error_m": error_m, "error_deg": error_deg, "placed": placed}
 
 
 def errors(folder: Path, out: Path, georef: dict[str, Any]) -> tuple[float, float, int]:
     """Mean distance of the photos (m), the turn of all together (degrees), how many there are."""
     truth = json.loads((folder / "truth.json").read_text())
-    true = {photo["name"]: np.array(photo["position_m"]) for photo in truth["photos"]}
+    true = {photo["name"]: photo for photo in truth["photos"]}
     apart = np.array(georef["origin"]) - np.array(truth["origin_m"])
     cameras = read_place(out / "place.json").cameras
-    found = np.array([camera.transform[12:15] for camera in cameras]) + apart
-    wanted = np.array([true[camera.name] for camera in cameras])
-    turn = absolute_orientation(found, wanted).rotation
-    cosine = np.clip((np.trace(turn) - 1.0) / 2.0, -1.0, 1.0)
-    distances = np.linalg.norm(found - wanted, axis=1)
-    return float(distances.mean()), float(np.rad2deg(np.arccos(cosine))), len(cameras)
+    found = [np.array(camera.transform).reshape(4, 4).T for camera in cameras]
+    wanted = [true[camera.name] for camera in cameras]
+    distances = [
+        np.linalg.norm(one[:3, 3] + apart - np.array(photo["position_m"]))
+        for one, photo in zip(found, wanted, strict=True)
+    ]
+    # Places along a street say little of how it is turned about itself: the photos' own turns do.
+    turns = [
+        one[:3, :3] @ np.array(photo["cam_from_world"])[:3, :3]
+        for one, photo in zip(found, wanted, strict=True)
+    ]
+    turn = Rotation.from_matrix(np.array(turns)).mean().magnitude()
+    return float(np.mean(distances)), float(np.rad2deg(turn)), len(cameras)
+
+
+def _out(folder: Path, in_model: bool, gps: bool) -> Path:
+    return folder / f"{_photos(gps)}-{folder.name if in_model else 'other'}"
+
+
+def _photos(gps: bool) -> str:
+    return IMAGES if gps else "bare"
 
 
 def veduta(photos: Path, out: Path, *options: str) -> None:
