@@ -9,6 +9,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.document import Origin
 from veduta.plan.openings.classify import Judged
 from veduta.plan.walls.join import SAME_THICKNESS, merged
 from veduta.plan.walls.pieces import Piece
@@ -29,10 +30,14 @@ class OnAxis:
 
 @dataclass(frozen=True)
 class Axis:
-    """A wall's whole centre line with its openings, before it is parted at junctions."""
+    """A wall's whole centre line with its openings, before it is parted at junctions.
+
+    Its origin is `inferred` where nothing is drawn that shows it, and it closes a room.
+    """
 
     line: Piece
     openings: tuple[OnAxis, ...]
+    origin: Origin = "measured"
 
 
 def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
