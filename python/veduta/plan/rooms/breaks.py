@@ -15,12 +15,16 @@ from numpy.typing import NDArray
 from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, PARALLEL_RAD, Gap, parted
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import Edge, Graph
+from veduta.plan.walls.join import UPRIGHT_RAD
 
 GOES_ON_RAD = np.radians(30.0)
 """A wall goes on at a junction where another leaves it in this direction, or nearly."""
 
 FARTHEST = 24.0
-"""Nothing is closed over more (thin) wall thicknesses than this: the widest double doors."""
+"""Breaks towards the side of a wall reach over so many (thin) wall thicknesses at most."""
+
+IN_LINE_FARTHEST = 45.0
+"""Those between two walls in one line reach farther: a bay window may lie before them."""
 
 SLANTED_FARTHEST = 12.0
 """Nor between two ends of walls that do not lie in one line."""
@@ -28,13 +32,16 @@ SLANTED_FARTHEST = 12.0
 STUB = (0.5, 2.5)
 """Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
 
+LONG = 4.0
+"""Slanted pieces of wall have a direction if so many times as long as thick."""
+
 
 @dataclass(frozen=True)
 class Break:
     """A wall that may go on from `start` to `end`, (2,) pixels on its centre line.
 
     `gaps` are what of it is not solid. `slanted`: it joins two ends that do not lie in one line, so
-    that only what is drawn there can speak for it.
+    that only what is drawn there can speak for it. `in_line`: walls in one line lie at both ends.
     """
 
     start: NDArray[np.float64]
@@ -42,6 +49,7 @@ class Break:
     thickness_px: float
     gaps: tuple[Gap, ...]
     slanted: bool = False
+    in_line: bool = False
 
     @property
     def width_px(self) -> float:
@@ -69,7 +77,7 @@ def find_breaks(
     """All places where a wall of the graph may go on; most of them are none."""
     walls = _Walls(graph, axes)
     rays = [*_from_nodes(graph, walls), *_from_stubs(graph, walls, solid, thin_px)]
-    found = [one for ray in rays if (one := walls.ahead(ray, FARTHEST * thin_px, solid))]
+    found = [one for ray in rays if (one := walls.ahead(ray, thin_px, solid))]
     found += _between_ends(graph, walls, solid, thin_px)
     return list({one.key: one for one in found}.values())
 
@@ -85,8 +93,18 @@ class _Walls:
         self.length = np.hypot(run[:, 0], run[:, 1])
         self.way = run / np.maximum(self.length, 1e-9)[:, None]
         self.thickness = np.array([axes[one.axis].line.thickness_px for one in self.edges])
+        self.added = np.array([axes[one.axis].closing for one in self.edges])
 
-    def ahead(self, ray: _Ray, farthest_px: float, solid: NDArray[np.bool_]) -> Break | None:
+    def points_on(self, index: int) -> bool:
+        """Whether an edge's direction says where the wall would go on.
+
+        That of a stub that is not upright does not, nor that of what was closed itself.
+        """
+        upright = float(np.abs(self.way[index]).max()) > np.cos(UPRIGHT_RAD)
+        long = float(self.length[index]) > LONG * float(self.thickness[index])
+        return not self.added[index] and (upright or long)
+
+    def ahead(self, ray: _Ray, thin_px: float, solid: NDArray[np.bool_]) -> Break | None:
         """The way to the nearest wall ahead of a ray."""
         apart = self.start - ray.origin
         cross = ray.way[0] * self.way[:, 1] - ray.way[1] * self.way[:, 0]
@@ -94,12 +112,16 @@ class _Walls:
         to_line = (apart[:, 0] * self.way[:, 1] - apart[:, 1] * self.way[:, 0]) / safe
         along = (apart[:, 0] * ray.way[1] - apart[:, 1] * ray.way[0]) / safe
         half = self.thickness / 2
-        crossing = (np.abs(cross) >= np.sin(CROSSING_RAD)) & (along >= -half)
-        crossing &= along <= self.length + half
+        # Walls whose corner is missing end before they would meet.
+        slack = half + 0.5 * ray.thickness_px + 3.0
+        crossing = (np.abs(cross) >= np.sin(CROSSING_RAD)) & (along >= -slack)
+        crossing &= along <= self.length + slack
         to_end, in_line = self._to_ends(ray)
         reach = np.where(crossing, to_line, np.where(in_line, to_end, np.inf))
         face = reach - np.where(crossing, half / np.abs(safe), 0.0)
-        usable = (face > max(3.0, 0.5 * ray.thickness_px)) & (face <= farthest_px)
+        farthest = np.where(crossing, FARTHEST, IN_LINE_FARTHEST) * thin_px
+        usable = (face > max(3.0, 0.5 * ray.thickness_px)) & (face <= farthest)
+        usable &= ~(crossing & (to_line < 0))
         usable[list(ray.beside)] = False
         if not usable.any():
             return None
@@ -108,7 +130,7 @@ class _Walls:
         stop = ray.origin + float(face[nearest]) * ray.way
         end = ray.origin + float(reach[nearest]) * ray.way
         gap = Gap(-1, True, -1, to_side, ray.origin, stop, ray.thickness_px, stop)
-        return Break(ray.origin, end, ray.thickness_px, parted(gap, solid))
+        return Break(ray.origin, end, ray.thickness_px, parted(gap, solid), in_line=not to_side)
 
     def _to_ends(self, ray: _Ray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """How far ahead walls in the ray's line begin, and which are in its line."""
@@ -133,7 +155,9 @@ def _from_nodes(graph: Graph, walls: _Walls) -> Iterator[_Ray]:
     for node, leaving in at.items():
         beside = frozenset(index for index, _ in leaving)
         for index, away in leaving:
-            if not any(float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving):
+            if walls.points_on(index) and not any(
+                float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving
+            ):
                 yield _Ray(graph.nodes[node], -away, float(walls.thickness[index]), beside)
 
 

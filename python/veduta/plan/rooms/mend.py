@@ -7,6 +7,7 @@ outdoors. The best one is closed first, as it changes what the others part.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
@@ -20,7 +21,7 @@ from veduta.plan.document import Origin, Text
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import Sheet, look_at
 from veduta.plan.openings.gaps import Gap
-from veduta.plan.rooms.breaks import FARTHEST, Break, find_breaks
+from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.walls.axes import Axis, OnAxis
@@ -45,10 +46,18 @@ SURE_ARC = 0.6
 
 MOST_ROUNDS = 24
 
-Reason = Literal["a door is drawn there", "it is solid", "labels of two rooms", "open to outdoors"]
+Reason = Literal[
+    "a door is drawn there",
+    "it is solid there",
+    "two rooms are named in one space",
+    "a room is open to the outdoors",
+]
 
 
-_UNDRAWN: tuple[Reason, ...] = ("labels of two rooms", "open to outdoors")
+_UNDRAWN: tuple[Reason, ...] = (
+    "two rooms are named in one space",
+    "a room is open to the outdoors",
+)
 
 
 @dataclass(frozen=True)
@@ -107,13 +116,16 @@ class _Looker:
         low, high = DOOR_BY_WALL if door_px is None else DOOR_WIDTHS
         unit = thin if door_px is None else door_px
         self.door_px = (low * unit, high * unit)
+        self.leaking: list[Point] = []
         self.seen: dict[tuple[int, ...], Judged | None] = {}
 
     def closings(
         self, graph: Graph, axes: Sequence[Axis], failed: set[tuple[int, ...]]
     ) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
-        spaces = self._spaces(wall_bodies(graph, axes))
+        bodies = wall_bodies(graph, axes)
+        spaces = self._spaces(bodies)
+        self.leaking = self._leaking(bodies)
         tree = STRtree([space for space, _ in spaces])
         found = []
         for one in find_breaks(graph, axes, self.found.solid, self.found.thin_px):
@@ -130,15 +142,33 @@ class _Looker:
 
     def _spaces(self, bodies: Sequence[Polygon]) -> list[tuple[Polygon, bool]]:
         """Rooms, and what is outdoors, which alone reaches the border of the sheet."""
-        height, width = self.found.solid.shape
         rooms = [(one.polygon(), False) for one in closed_spaces(list(bodies), self.found.thin_px)]
-        around = box(-20, -20, width + 20, height + 20)
+        around = self._border()
         free = around.difference(unary_union([one.buffer(0.6) for one in bodies]))
         border = around.exterior
         for part in getattr(free, "geoms", [free]):
             if isinstance(part, Polygon) and part.distance(border) < 1:
                 rooms.append((part, True))
         return rooms
+
+    def _leaking(self, bodies: Sequence[Polygon]) -> list[Point]:
+        """Points in rooms that only breaks of usual width open to the outdoors.
+
+        No disc as broad as these gets there from the border of the sheet.
+        """
+        reach = WIDEST_BREAK / 2 * self.found.thin_px
+        around = self._border()
+        free = around.difference(unary_union(bodies).buffer(reach))
+        parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
+        closed = closed_spaces(list(bodies), self.found.thin_px)
+        inside = [one.representative_point() for one in parts if one.distance(around.exterior) > 1]
+        return [one for one in inside if not any(room.polygon().contains(one) for room in closed)]
+
+    def _border(self) -> Polygon:
+        """A frame well outside the sheet, so that one can go all around the house."""
+        height, width = self.found.solid.shape
+        away = WIDEST_BREAK * self.found.thin_px + 20
+        return box(-away, -away, width + away, height + away)
 
     def _parts(self, space: Polygon, body: Polygon) -> list[Polygon]:
         """The parts of a space beside a break that are as broad as rooms are."""
@@ -149,23 +179,31 @@ class _Looker:
 
     def _judged(self, one: Break, parts: list[Polygon], outdoors: bool) -> _Closing | None:
         if not one.gaps:
-            return None if one.slanted else _Closing(one, "it is solid", 3.0)
+            return None if one.slanted else _Closing(one, "it is solid there", 3.0)
         drawn = tuple(self._look(gap, one.key, outdoors) for gap in one.gaps)
         doors = [each.score for each in drawn if each is not None and self._is_door(each)]
         if doors:
             return _Closing(one, "a door is drawn there", 2.0 + max(doors), drawn)
-        window = all(each is not None and each.kind == "window" for each in drawn)
+        window = all(each is not None and each.kind != "gap" for each in drawn)
         widest = FARTHEST if window else WIDEST_BREAK
+        if outdoors and one.in_line:
+            widest = IN_LINE_FARTHEST
         if one.slanted or one.width_px > widest * self.found.thin_px:
             return None
-        narrow = 1.0 - one.width_px / (FARTHEST * self.found.thin_px)
-        named = [any(part.contains(label) for label in self.labels) for part in parts]
-        if outdoors:
-            inside = [one for one, part in zip(named, parts, strict=True) if not self._open(part)]
-            return _Closing(one, "open to outdoors", 1.0 + narrow, drawn) if any(inside) else None
-        if sum(named) > 1:
-            return _Closing(one, "labels of two rooms", narrow, drawn)
-        return None
+        # What is narrow and has lines drawn in it is the better place.
+        worth = 0.2 * window + 0.7 / (1.0 + one.width_px / (WIDEST_BREAK * self.found.thin_px))
+        held = [sum(part.contains(label) for label in self.labels) for part in parts]
+        if not outdoors:
+            enough = sum(count > 0 for count in held) > 1
+            return (
+                _Closing(one, "two rooms are named in one space", worth, drawn) if enough else None
+            )
+        inside = [part for part in parts if not self._open(part)]
+        closed = [*self.labels, *self.leaking]
+        count = sum(part.contains(point) for part in inside for point in closed)
+        # The break that is nearest to the outdoors has the most rooms behind it.
+        worth = 1.0 + count / (count + 1) * 0.9 + 0.1 * worth
+        return _Closing(one, "a room is open to the outdoors", worth, drawn) if count else None
 
     def _is_door(self, judged: Judged) -> bool:
         """Whether a door's leaf is drawn, and as wide as the others."""
@@ -174,8 +212,7 @@ class _Looker:
 
     def _open(self, part: Polygon) -> bool:
         """Whether it reaches the border of the sheet."""
-        height, width = self.found.solid.shape
-        return bool(part.distance(box(-20, -20, width + 20, height + 20).exterior) < 1)
+        return bool(part.distance(self._border().exterior) < 1)
 
     def _look(self, gap: Gap, key: tuple[int, ...], outdoors: bool) -> Judged | None:
         place = (*key, *(int(value) for value in gap.start))
@@ -207,7 +244,7 @@ def _axis(closing: _Closing, thin_px: float) -> Axis:
         first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))
         if judged.kind == "door" or gap.width_px >= NARROWEST_GAP * thin_px:
             openings.append(OnAxis(judged, float(first), float(last), along=True))
-    return Axis(line, tuple(openings), origin)
+    return Axis(line, tuple(openings), origin, closing=True)
 
 
 def _plain(gap: Gap) -> Judged:
@@ -216,15 +253,11 @@ def _plain(gap: Gap) -> Judged:
 
 def _note(closing: _Closing, axis: Axis) -> str:
     middle = (closing.broken.start + closing.broken.end) / 2
-    kinds = " and ".join(f"a {each.judged.kind}" for each in axis.openings)
+    place = f"at pixel ({middle[0]:.0f}, {middle[1]:.0f}) of the cleaned drawing"
+    if not closing.broken.gaps:
+        return f"a wall is carried on {place}, as {closing.reason}"
+    count = Counter(each.judged.kind for each in axis.openings)
+    kinds = " and ".join(f"{n} {kind}s" if n > 1 else f"a {kind}" for kind, n in count.items())
     done = f"closed as {kinds}" if kinds else "mended as wall"
-    why = {
-        "a door is drawn there": "a door is drawn there",
-        "it is solid": "it is solid there",
-        "labels of two rooms": "two rooms are named in one space",
-        "open to outdoors": "a named room is open to the outdoors",
-    }[closing.reason]
-    return (
-        f"a wall is broken over {closing.broken.width_px:.0f} px at pixel "
-        f"({middle[0]:.0f}, {middle[1]:.0f}) of the cleaned drawing: {done}, as {why}"
-    )
+    wide = f"{closing.broken.width_px:.0f} px"
+    return f"a wall is broken over {wide} {place}: {done}, as {closing.reason}"

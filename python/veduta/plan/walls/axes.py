@@ -32,12 +32,14 @@ class OnAxis:
 class Axis:
     """A wall's whole centre line with its openings, before it is parted at junctions.
 
-    Its origin is `inferred` where nothing is drawn that shows it, and it closes a room.
+    `closing`: it was put where a wall is broken. Its origin is `inferred` where nothing is drawn
+    there that shows it.
     """
 
     line: Piece
     openings: tuple[OnAxis, ...]
     origin: Origin = "measured"
+    closing: bool = False
 
 
 def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
