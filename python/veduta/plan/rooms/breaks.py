@@ -177,10 +177,7 @@ def _from_stubs(
             for low, high in pairs:
                 if not STUB[0] * thin_px <= high - low <= STUB[1] * thin_px:
                     continue
-                at = float(low + high) / 2
-                if min(at, float(walls.length[index]) - at) < 0.8 * thick:
-                    continue
-                foot = walls.start[index] + at * way
+                foot = walls.start[index] + float(low + high) / 2 * way
                 yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))
 
 

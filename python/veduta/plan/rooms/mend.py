@@ -241,6 +241,9 @@ def _axis(closing: _Closing, thin_px: float) -> Axis:
     openings = []
     for gap, seen in zip(one.gaps, closing.drawn, strict=True):
         judged = seen if seen is not None and seen.kind != "gap" else _plain(gap)
+        if judged.kind == "window" and closing.reason == "two rooms are named in one space":
+            # Lines across the way from room to room are panels, as of a wardrobe or a terrace.
+            judged = Judged(gap, "door", "sliding", "none", "none", 0.4)
         first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))
         if judged.kind == "door" or gap.width_px >= NARROWEST_GAP * thin_px:
             openings.append(OnAxis(judged, float(first), float(last), along=True))
