@@ -17,18 +17,29 @@ from veduta.plan.drawn import (
     DrawnRoom,
     DrawnWall,
 )
-from veduta.plan.rooms.close import Space, closed_spaces, contains, wall_body
+from veduta.plan.rooms.close import Space, closed_spaces, contains, wall_bodies, wall_body
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import Edge, Graph, openings_on, wall_graph
 
+MENDED_SCORE = 0.3
+"""Of walls that nothing but the room behind them speaks for."""
+
+NEAR_PX = 2.5
+ON_OUTLINE = 0.3
+"""An opening leads into a room if so much of its width lies on the room's outline."""
+
 
 def drawn_from(
-    cleaned: Cleaned, found: Found, axes: Sequence[Axis], texts: Sequence[Text]
+    cleaned: Cleaned,
+    found: Found,
+    axes: Sequence[Axis],
+    texts: Sequence[Text],
+    notes: Sequence[str] = (),
 ) -> Drawn:
     """Number everything and close the rooms."""
     graph = wall_graph(axes)
-    bodies = [_body(edge, graph, axes) for edge in graph.edges]
+    bodies = wall_bodies(graph, axes)
     spaces = closed_spaces(bodies, found.thin_px)
     walls: list[DrawnWall] = []
     openings: list[DrawnOpening] = []
@@ -44,11 +55,12 @@ def drawn_from(
                 thickness_px=line.thickness_px,
                 drawing=line.drawing,
                 outer=_is_outer(start, end, line.thickness_px, spaces),
-                score=0.9,
+                score=0.9 if axes[edge.axis].origin == "measured" else MENDED_SCORE,
+                origin=axes[edge.axis].origin,
             )
         )
         for one in openings_on(edge, axes[edge.axis]):
-            opening = _opening(one, edge, graph, f"o{len(openings) + 1}", name)
+            opening = _opening(one, edge, graph, f"o{len(openings) + 1}", walls[-1])
             if opening is not None:
                 openings.append(opening)
     return Drawn(
@@ -61,23 +73,8 @@ def drawn_from(
         openings=tuple(openings),
         rooms=tuple(_rooms(spaces, walls, bodies, openings, graph)),
         texts=tuple(texts),
-        notes=cleaned.notes,
+        notes=(*cleaned.notes, *notes),
     )
-
-
-def _body(edge: Edge, graph: Graph, axes: Sequence[Axis]) -> Polygon:
-    """Its rectangle, prolonged to the far faces of the walls that it meets."""
-    thickness = axes[edge.axis].line.thickness_px
-    more = []
-    for node in (edge.first, edge.second):
-        others = [
-            axes[other.axis].line.thickness_px
-            for other in graph.edges
-            if other is not edge and node in (other.first, other.second)
-        ]
-        more.append(min(others) / 2 if others else 0.0)
-    start, end = graph.nodes[edge.first], graph.nodes[edge.second]
-    return wall_body(start, end, thickness, (more[0], more[1]))
 
 
 def _is_outer(
@@ -97,7 +94,9 @@ def _is_outer(
     return open_sides > 0
 
 
-def _opening(one: OnAxis, edge: Edge, graph: Graph, name: str, wall: str) -> DrawnOpening | None:
+def _opening(
+    one: OnAxis, edge: Edge, graph: Graph, name: str, wall: DrawnWall
+) -> DrawnOpening | None:
     length = float(np.hypot(*(graph.nodes[edge.second] - graph.nodes[edge.first])))
     low, high = max(one.first, edge.low), min(one.last, edge.high)
     along = low - edge.low
@@ -111,7 +110,7 @@ def _opening(one: OnAxis, edge: Edge, graph: Graph, name: str, wall: str) -> Dra
         swing = {"left": "right", "right": "left"}.get(swing, swing)  # type: ignore[assignment]
     return DrawnOpening(
         id=name,
-        wall=wall,
+        wall=wall.id,
         kind=judged.kind,
         type=judged.type,
         along_px=max(0.0, along),
@@ -119,6 +118,7 @@ def _opening(one: OnAxis, edge: Edge, graph: Graph, name: str, wall: str) -> Dra
         hinge=hinge,
         swing=swing,
         score=round(judged.score, 3),
+        origin=wall.origin,
     )
 
 
@@ -129,26 +129,52 @@ def _rooms(
     openings: Sequence[DrawnOpening],
     graph: Graph,
 ) -> list[DrawnRoom]:
+    holes = _holes(walls, openings, graph)
     rooms = []
     for index, space in enumerate(spaces):
-        near = space.polygon().buffer(2.5)
+        near = space.polygon().buffer(NEAR_PX)
         around = [wall for wall, body in zip(walls, bodies, strict=True) if _along(near, body)]
         names = {wall.id for wall in around}
+        mended = any(wall.origin != "measured" for wall in around)
         rooms.append(
             DrawnRoom(
                 id=f"r{index + 1}",
                 outline_px=space.outline_px,
                 holes_px=space.holes_px,
                 walls=tuple(wall.id for wall in around),
-                openings=tuple(one.id for one in openings if one.wall in names),
-                mended=False,
-                score=0.9,
+                openings=tuple(
+                    one.id
+                    for one, hole in zip(openings, holes, strict=True)
+                    if one.wall in names and _leads_in(near, hole, one.width_px)
+                ),
+                mended=mended,
+                score=0.6 if mended else 0.9,
             )
         )
     return rooms
+
+
+def _holes(
+    walls: Sequence[DrawnWall], openings: Sequence[DrawnOpening], graph: Graph
+) -> list[Polygon]:
+    """The rectangles of openings in their walls."""
+    of = {wall.id: wall for wall in walls}
+    found = []
+    for one in openings:
+        wall = of[one.wall]
+        start, end = (graph.nodes[int(name[1:]) - 1] for name in (wall.start, wall.end))
+        way = (end - start) / max(float(np.hypot(*(end - start))), 1e-9)
+        low, high = start + one.along_px * way, start + (one.along_px + one.width_px) * way
+        found.append(wall_body(low, high, wall.thickness_px, (0.0, 0.0)))
+    return found
 
 
 def _along(near: Polygon, body: Polygon) -> bool:
     """Whether a wall runs along a room, and does not only touch its corner."""
     common = near.intersection(body)
     return bool(common.area > 12.0)
+
+
+def _leads_in(near: Polygon, hole: Polygon, width_px: float) -> bool:
+    """Whether a good part of an opening lies on a room's outline, grown by NEAR_PX."""
+    return bool(near.intersection(hole).area > ON_OUTLINE * NEAR_PX * width_px)

@@ -1,7 +1,8 @@
 """The recipe of reading: the picture of a storey in, its walls, openings and rooms out.
 
 The order: straighten, tell ink from paper, find solid strokes, follow them into pieces, look for
-openings between the pieces, join them into axes, let those meet, and close rooms.
+openings between the pieces, join them into axes, close where those are broken, let them meet, and
+find rooms.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import Sheet, look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.rooms.mend import mended
 from veduta.plan.walls.axes import axes_of
 from veduta.plan.walls.find import Found, find_walls
 
@@ -48,7 +50,8 @@ def read_cleaned(
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
-    return drawn_from(cleaned, found, axes, texts)
+    whole = mended(axes, found, sheet, texts)
+    return drawn_from(cleaned, found, whole.axes, texts, whole.notes)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -17,6 +17,9 @@ BESIDE = 0.55
 FARTHEST = 60.0
 """Openings are at most so many wall thicknesses wide (a garage door in a thin wall)."""
 
+LEAST_PX = 3
+"""What is narrower is a flaw of the ink."""
+
 
 @dataclass(frozen=True)
 class Gap:
@@ -87,6 +90,26 @@ def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:
 
     Stubs of wall beside a junction are shorter than any piece that is followed.
     """
+    along, empty = _empty(gap, solid)
+    if len(empty) < LEAST_PX:
+        return None
+    low, high = float(empty[0]), float(empty[-1] + 1)
+    return replace(gap, start=gap.start + low * along, end=gap.start + high * along)
+
+
+def parted(gap: Gap, solid: NDArray[np.bool_]) -> tuple[Gap, ...]:
+    """What of the gap is not solid, piece by piece, as two doors with a pillar between them."""
+    along, empty = _empty(gap, solid)
+    runs = np.split(empty, np.flatnonzero(np.diff(empty) > LEAST_PX) + 1)
+    return tuple(
+        replace(gap, start=gap.start + run[0] * along, end=gap.start + (run[-1] + 1) * along)
+        for run in runs
+        if len(run) >= LEAST_PX
+    )
+
+
+def _empty(gap: Gap, solid: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
+    """The way along the gap, and at which whole pixels along it there is no solid wall."""
     along = (gap.end - gap.start) / max(gap.width_px, 1e-9)
     normal = np.array([-along[1], along[0]])
     steps = np.arange(0.5, gap.width_px, 1.0)
@@ -95,11 +118,7 @@ def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:
     index = np.floor(points).astype(int)
     x = np.clip(index[..., 0], 0, solid.shape[1] - 1)
     y = np.clip(index[..., 1], 0, solid.shape[0] - 1)
-    empty = np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
-    if len(empty) < 3:
-        return None
-    low, high = float(empty[0]), float(empty[-1] + 1)
-    return replace(gap, start=gap.start + low * along, end=gap.start + high * along)
+    return along, np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
 
 
 def _to_end(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -9,6 +10,9 @@ from numpy.typing import NDArray
 from shapely import affinity, set_precision, unary_union
 from shapely.geometry import Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
+
+from veduta.plan.walls.axes import Axis
+from veduta.plan.walls.graph import Graph
 
 LEAST_WIDTH = 2.2
 """A room is at least so many (thin) wall thicknesses wide: shafts and slots are none."""
@@ -40,6 +44,24 @@ def wall_body(
     upright = box(-more_px[0], -half, length + more_px[1], half)
     turned = affinity.rotate(upright, angle, origin=(0, 0))
     return affinity.translate(turned, float(start[0]), float(start[1]))
+
+
+def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
+    """Each edge's rectangle, prolonged to the far faces of the walls that it meets."""
+    thick = [axes[edge.axis].line.thickness_px for edge in graph.edges]
+    at: dict[int, list[int]] = {}
+    for index, edge in enumerate(graph.edges):
+        at.setdefault(edge.first, []).append(index)
+        at.setdefault(edge.second, []).append(index)
+    bodies = []
+    for index, edge in enumerate(graph.edges):
+        more = []
+        for node in (edge.first, edge.second):
+            others = [thick[other] for other in at[node] if other != index]
+            more.append(min(others) / 2 if others else 0.0)
+        start, end = graph.nodes[edge.first], graph.nodes[edge.second]
+        bodies.append(wall_body(start, end, thick[index], (more[0], more[1])))
+    return bodies
 
 
 def closed_spaces(bodies: list[Polygon], thin_px: float) -> list[Space]:

@@ -9,6 +9,7 @@ from functools import reduce
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.document import Origin
 from veduta.plan.openings.classify import Judged
 from veduta.plan.walls.join import SAME_THICKNESS, merged
 from veduta.plan.walls.pieces import Piece
@@ -29,10 +30,16 @@ class OnAxis:
 
 @dataclass(frozen=True)
 class Axis:
-    """A wall's whole centre line with its openings, before it is parted at junctions."""
+    """A wall's whole centre line with its openings, before it is parted at junctions.
+
+    `closing`: it was put where a wall is broken. Its origin is `inferred` where nothing is drawn
+    there that shows it.
+    """
 
     line: Piece
     openings: tuple[OnAxis, ...]
+    origin: Origin = "measured"
+    closing: bool = False
 
 
 def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:

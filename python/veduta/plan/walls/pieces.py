@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,12 +28,12 @@ class Piece:
     drawing: WallDrawing = "filled"
     bulge: float = 0.0
 
-    @property
+    @cached_property
     def length_px(self) -> float:
         """From end to end, on the chord."""
         return float(np.hypot(*(self.end - self.start)))
 
-    @property
+    @cached_property
     def direction(self) -> NDArray[np.float64]:
         """Unit vector from start to end."""
         return np.asarray((self.end - self.start) / max(self.length_px, 1e-9))

@@ -1,0 +1,48 @@
+"""Which texts say that a room is here: its name or its size, a label each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.document import Text
+from veduta.plan.names.vocabulary import meanings
+from veduta.plan.scale.quantities import read_quantities
+
+LINE_GAP = 1.2
+"""Heights of text between two lines of one label."""
+
+
+def room_labels(texts: Sequence[Text]) -> list[NDArray[np.float64]]:
+    """The middles (2,) of labels, in pixels of the texts; lines over each other are one label."""
+    boxes = [np.array(one.box_px, dtype=float) for one in texts if _says_room(one)]
+    groups: list[list[NDArray[np.float64]]] = []
+    for box in sorted(boxes, key=lambda one: float(one[:, 1].min())):
+        home = next((group for group in groups if any(_one_label(box, x) for x in group)), None)
+        if home is None:
+            groups.append([box])
+        else:
+            home.append(box)
+    return [np.asarray(np.concatenate(group).mean(axis=0)) for group in groups]
+
+
+def _says_room(text: Text) -> bool:
+    if any(one.kind in ("size", "area") for one in read_quantities(text.text)):
+        return True
+    return bool(meanings(text.text))
+
+
+def _one_label(first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
+    """Whether two upright boxes stand over each other, or touch side by side."""
+    low, high = (
+        np.maximum(first.min(axis=0), second.min(axis=0)),
+        np.minimum(first.max(axis=0), second.max(axis=0)),
+    )
+    height = min(float(np.ptp(one[:, 1])) for one in (first, second))
+    apart = low - high
+    return bool(
+        (apart[0] < 0 and apart[1] < LINE_GAP * height)
+        or (apart[1] < -0.4 * height and apart[0] < LINE_GAP * height)
+    )

@@ -1,0 +1,266 @@
+"""Rooms do not leak: where a wall is broken the space is closed, and that is said.
+
+A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
+drawn there, solid ink, a name or size of a room on either side, or a room that is open to the
+outdoors. The best one is closed first, as it changes what the others part.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely import STRtree, unary_union
+from shapely.geometry import Point, Polygon, box
+
+from veduta.plan.document import Origin, Text
+from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.gaps import Gap
+from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
+from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
+from veduta.plan.rooms.labels import room_labels
+from veduta.plan.walls.axes import Axis, OnAxis
+from veduta.plan.walls.find import Found
+from veduta.plan.walls.graph import Graph, wall_graph
+from veduta.plan.walls.pieces import Piece
+
+WIDEST_BREAK = 12.0
+"""Breaks for which nothing is drawn are at most so many (thin) wall thicknesses wide."""
+
+NARROWEST_GAP = 4.0
+"""Nobody walks through what is narrower, in (thin) wall thicknesses: it is wall."""
+
+DOOR_WIDTHS = (0.55, 1.6)
+"""Doors differ from the usual door of the sheet by these factors at most."""
+
+DOOR_BY_WALL = (3.5, 14.0)
+"""Widths of doors in (thin) wall thicknesses, where few doors are known."""
+
+SURE_ARC = 0.6
+"""An arc beside a corner is a door's only if it is drawn well: bowls and tables have arcs, too."""
+
+MOST_ROUNDS = 24
+
+Reason = Literal[
+    "a door is drawn there",
+    "it is solid there",
+    "two rooms are named in one space",
+    "a room is open to the outdoors",
+]
+
+
+_UNDRAWN: tuple[Reason, ...] = (
+    "two rooms are named in one space",
+    "a room is open to the outdoors",
+)
+
+
+@dataclass(frozen=True)
+class Mended:
+    """The axes with those that close rooms, and a note for each of these."""
+
+    axes: list[Axis]
+    notes: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class _Closing:
+    """A break that is worth closing, why, and how much speaks for it."""
+
+    broken: Break
+    reason: Reason
+    worth: float
+    drawn: tuple[Judged | None, ...] = ()
+
+
+def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Text] = ()) -> Mended:
+    """Close what is broken, the best break first, as long as that makes another room."""
+    now, notes = list(axes), list[str]()
+    looker = _Looker(found, sheet, room_labels(texts), _usual_door(axes))
+    failed: set[tuple[int, ...]] = set()
+    graph = wall_graph(now)
+    rooms = len(closed_spaces(wall_bodies(graph, now), found.thin_px))
+    for _ in range(MOST_ROUNDS):
+        closings = looker.closings(graph, now, failed)
+        if not closings:
+            break
+        best = max(closings, key=lambda one: one.worth)
+        failed.add(best.broken.key)
+        more = [*now, _axis(best, found.thin_px)]
+        tried = wall_graph(more)
+        count = len(closed_spaces(wall_bodies(tried, more), found.thin_px))
+        if count > rooms:
+            now, graph, rooms = more, tried, count
+            notes.append(_note(best, more[-1]))
+    return Mended(now, tuple(notes))
+
+
+class _Looker:
+    """What speaks for closing a break."""
+
+    def __init__(
+        self,
+        found: Found,
+        sheet: Sheet,
+        labels: Sequence[NDArray[np.float64]],
+        door_px: float | None,
+    ) -> None:
+        self.found, self.sheet = found, sheet
+        self.labels = [Point(*one) for one in labels]
+        thin = found.thin_px
+        low, high = DOOR_BY_WALL if door_px is None else DOOR_WIDTHS
+        unit = thin if door_px is None else door_px
+        self.door_px = (low * unit, high * unit)
+        self.leaking: list[Point] = []
+        self.seen: dict[tuple[int, ...], Judged | None] = {}
+
+    def closings(
+        self, graph: Graph, axes: Sequence[Axis], failed: set[tuple[int, ...]]
+    ) -> list[_Closing]:
+        """All breaks of these walls that are worth closing."""
+        bodies = wall_bodies(graph, axes)
+        spaces = self._spaces(bodies)
+        self.leaking = self._leaking(bodies)
+        tree = STRtree([space for space, _ in spaces])
+        found = []
+        for one in find_breaks(graph, axes, self.found.solid, self.found.thin_px):
+            if one.key in failed:
+                continue
+            body = wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)).buffer(0.7)
+            for index in tree.query(body, predicate="intersects"):
+                space, outdoors = spaces[int(index)]
+                parts = self._parts(space, body)
+                if len(parts) > 1:
+                    closing = self._judged(one, parts, outdoors)
+                    found += [] if closing is None else [closing]
+        return found
+
+    def _spaces(self, bodies: Sequence[Polygon]) -> list[tuple[Polygon, bool]]:
+        """Rooms, and what is outdoors, which alone reaches the border of the sheet."""
+        rooms = [(one.polygon(), False) for one in closed_spaces(list(bodies), self.found.thin_px)]
+        around = self._border()
+        free = around.difference(unary_union([one.buffer(0.6) for one in bodies]))
+        border = around.exterior
+        for part in getattr(free, "geoms", [free]):
+            if isinstance(part, Polygon) and part.distance(border) < 1:
+                rooms.append((part, True))
+        return rooms
+
+    def _leaking(self, bodies: Sequence[Polygon]) -> list[Point]:
+        """Points in rooms that only breaks of usual width open to the outdoors.
+
+        No disc as broad as these gets there from the border of the sheet.
+        """
+        reach = WIDEST_BREAK / 2 * self.found.thin_px
+        around = self._border()
+        free = around.difference(unary_union(bodies).buffer(reach))
+        parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
+        closed = closed_spaces(list(bodies), self.found.thin_px)
+        inside = [one.representative_point() for one in parts if one.distance(around.exterior) > 1]
+        return [one for one in inside if not any(room.polygon().contains(one) for room in closed)]
+
+    def _border(self) -> Polygon:
+        """A frame well outside the sheet, so that one can go all around the house."""
+        height, width = self.found.solid.shape
+        away = WIDEST_BREAK * self.found.thin_px + 20
+        return box(-away, -away, width + away, height + away)
+
+    def _parts(self, space: Polygon, body: Polygon) -> list[Polygon]:
+        """The parts of a space beside a break that are as broad as rooms are."""
+        rest = space.difference(body)
+        parts = [one for one in getattr(rest, "geoms", [rest]) if isinstance(one, Polygon)]
+        least = LEAST_WIDTH / 2 * self.found.thin_px
+        return [one for one in parts if one.area > 4 * least**2 and not one.buffer(-least).is_empty]
+
+    def _judged(self, one: Break, parts: list[Polygon], outdoors: bool) -> _Closing | None:
+        if not one.gaps:
+            return None if one.slanted else _Closing(one, "it is solid there", 3.0)
+        drawn = tuple(self._look(gap, one.key, outdoors) for gap in one.gaps)
+        doors = [each.score for each in drawn if each is not None and self._is_door(each)]
+        if doors:
+            return _Closing(one, "a door is drawn there", 2.0 + max(doors), drawn)
+        window = all(each is not None and each.kind != "gap" for each in drawn)
+        widest = FARTHEST if window else WIDEST_BREAK
+        if outdoors and one.in_line:
+            widest = IN_LINE_FARTHEST
+        if one.slanted or one.width_px > widest * self.found.thin_px:
+            return None
+        # What is narrow and has lines drawn in it is the better place.
+        worth = 0.2 * window + 0.7 / (1.0 + one.width_px / (WIDEST_BREAK * self.found.thin_px))
+        held = [sum(part.contains(label) for label in self.labels) for part in parts]
+        if not outdoors:
+            enough = sum(count > 0 for count in held) > 1
+            return (
+                _Closing(one, "two rooms are named in one space", worth, drawn) if enough else None
+            )
+        inside = [part for part in parts if not self._open(part)]
+        closed = [*self.labels, *self.leaking]
+        count = sum(part.contains(point) for part in inside for point in closed)
+        # The break that is nearest to the outdoors has the most rooms behind it.
+        worth = 1.0 + count / (count + 1) * 0.9 + 0.1 * worth
+        return _Closing(one, "a room is open to the outdoors", worth, drawn) if count else None
+
+    def _is_door(self, judged: Judged) -> bool:
+        """Whether a door's leaf is drawn, and as wide as the others."""
+        fits = self.door_px[0] <= judged.gap.width_px <= self.door_px[1]
+        return fits and judged.hinge != "none" and judged.score >= SURE_ARC
+
+    def _open(self, part: Polygon) -> bool:
+        """Whether it reaches the border of the sheet."""
+        return bool(part.distance(self._border().exterior) < 1)
+
+    def _look(self, gap: Gap, key: tuple[int, ...], outdoors: bool) -> Judged | None:
+        place = (*key, *(int(value) for value in gap.start))
+        if place not in self.seen:
+            view = look_at(gap, self.sheet)
+            self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
+        return self.seen[place]
+
+
+def _usual_door(axes: Sequence[Axis]) -> float | None:
+    """The median width of doors with leaves, in pixels; None where fewer than three are known."""
+    widths = [
+        one.judged.gap.width_px
+        for axis in axes
+        for one in axis.openings
+        if one.judged.kind == "door" and one.judged.type == "swing"
+    ]
+    return float(np.median(widths)) if len(widths) >= 3 else None
+
+
+def _axis(closing: _Closing, thin_px: float) -> Axis:
+    """The wall that closes a break, with the openings in it."""
+    one = closing.broken
+    line = Piece(one.start, one.end, one.thickness_px)
+    origin: Origin = "inferred" if closing.reason in _UNDRAWN else "measured"
+    openings = []
+    for gap, seen in zip(one.gaps, closing.drawn, strict=True):
+        judged = seen if seen is not None and seen.kind != "gap" else _plain(gap)
+        if judged.kind == "window" and closing.reason == "two rooms are named in one space":
+            # Lines across the way from room to room are panels, as of a wardrobe or a terrace.
+            judged = Judged(gap, "door", "sliding", "none", "none", 0.4)
+        first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))
+        if judged.kind == "door" or gap.width_px >= NARROWEST_GAP * thin_px:
+            openings.append(OnAxis(judged, float(first), float(last), along=True))
+    return Axis(line, tuple(openings), origin, closing=True)
+
+
+def _plain(gap: Gap) -> Judged:
+    return Judged(gap, "gap", "plain", "none", "none", 0.3)
+
+
+def _note(closing: _Closing, axis: Axis) -> str:
+    middle = (closing.broken.start + closing.broken.end) / 2
+    place = f"at pixel ({middle[0]:.0f}, {middle[1]:.0f}) of the cleaned drawing"
+    if not closing.broken.gaps:
+        return f"a wall is carried on {place}, as {closing.reason}"
+    count = Counter(each.judged.kind for each in axis.openings)
+    kinds = " and ".join(f"{n} {kind}s" if n > 1 else f"a {kind}" for kind, n in count.items())
+    done = f"closed as {kinds}" if kinds else "mended as wall"
+    wide = f"{closing.broken.width_px:.0f} px"
+    return f"a wall is broken over {wide} {place}: {done}, as {closing.reason}"
