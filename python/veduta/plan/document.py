@@ -39,7 +39,7 @@ class Sheet(_Record):
 
     file: str = Field(description="file name of the drawing")
     sha256: str
-    page: int = Field(default=0, description="page of a PDF, from 0")
+    page: int = Field(default=0, ge=0, description="page of a PDF, from 1; 0: a picture")
     width_px: int
     height_px: int
     mirrored: bool = Field(default=False, description="the scan was a mirror image")
