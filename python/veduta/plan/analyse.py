@@ -20,9 +20,10 @@ from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
+from veduta.plan.remarks import remarks
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
 from veduta.plan.sheets import Pixels
-from veduta.plan.text.sheet_text import SheetText, read_sheet
+from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -97,9 +98,15 @@ def _read_one(
         elevation_m=elevation_m,
         height_m=options.house.storey_height,
         named=named,
-        notes=[*scan.notes, *_position_notes(sheet), *scale_notes(scale)],
+        notes=[
+            *scan.notes,
+            *_position_notes(sheet),
+            *remarks(drawn, sheet.pixels.shape[:2], scale.metres_per_px),
+            *scale_notes(scale),
+        ],
     )
-    return _of_file(storey, sheet), drawn.cleaned.pixels
+    of_file = sheet_of_file(storey.sheet, sheet)
+    return storey.model_copy(update={"sheet": of_file}), drawn.cleaned.pixels
 
 
 def _remedy(drawing: Drawing) -> str:
@@ -180,16 +187,3 @@ def _position_notes(sheet: SheetText) -> list[str]:
     if sheet.position.quarter_turns:
         notes.append(f"turned by {90 * sheet.position.quarter_turns} degrees, by its text")
     return notes
-
-
-def _of_file(storey: Storey, sheet: SheetText) -> Storey:
-    """With the way from the file's own pixels, and how the scan lay."""
-    clean_from_right = np.array(storey.sheet.clean_from_scan)
-    matrix = (clean_from_right @ sheet.right_from_scan).tolist()
-    turned = storey.sheet.rotation_rad + sheet.position.quarter_turns * math.pi / 2.0
-    changes = {
-        "clean_from_scan": matrix,
-        "mirrored": sheet.position.mirrored,
-        "rotation_rad": turned,
-    }
-    return storey.model_copy(update={"sheet": storey.sheet.model_copy(update=changes)})

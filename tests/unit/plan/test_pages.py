@@ -115,21 +115,21 @@ def test_five_hundred_pages_are_refused_with_what_to_do(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"book.pdf: has 500 pages; .* such as --pages 2-3,5"):
         find_drawings([pdf])
     assert [one.page for one in find_drawings([pdf], [499, 7])] == [499, 7]
-    with pytest.raises(InputError, match="has 500 pages, and no page 501"):
+    with pytest.raises(InputError, match=r"has 500 pages, and no page 501"):
         find_drawings([pdf], [501])
 
 
 def test_more_drawings_than_storeys_are_refused(tmp_path: Path) -> None:
     one = blank_pdf(tmp_path / "a.pdf", pages.MOST_DRAWINGS - 1)
     other = blank_pdf(tmp_path / "b.pdf", 2)
-    with pytest.raises(InputError, match="b.pdf: would be storey 21 of 21"):
+    with pytest.raises(InputError, match=r"b.pdf: would be storey 21 of 21"):
         find_drawings([one, other])
 
 
 def test_an_encrypted_pdf_is_refused(tmp_path: Path) -> None:
     pdf = tmp_path / "secret.pdf"
     pdf.write_bytes(ENCRYPTED)
-    with pytest.raises(InputError, match="is an encrypted PDF. Save it without a password"):
+    with pytest.raises(InputError, match=r"is an encrypted PDF\. Save it without a password"):
         find_drawings([pdf])
     # The very same file without the word for it opens: it is the encryption that is refused.
     pdf.write_bytes(ENCRYPTED.replace(b"/Encrypt 4 0 R", b""))
@@ -141,7 +141,7 @@ def test_a_cut_pdf_is_damaged(tmp_path: Path, part: float) -> None:
     content = shaded_pdf(tmp_path / "a.pdf", [9, 99]).read_bytes()
     pdf = tmp_path / "cut.pdf"
     pdf.write_bytes(content[: int(part * len(content))])
-    with pytest.raises(InputError, match="cut.pdf: is a PDF that is truncated or damaged"):
+    with pytest.raises(InputError, match=r"cut.pdf: is a PDF that is truncated or damaged"):
         read_drawing(find_drawings([pdf], [2])[0])
 
 
