@@ -25,16 +25,16 @@ BORDER = 0.03
 
 MOST_INK = 0.3
 LEAST_PAPER = 0.6
-"""A sheet with more ink and less paper, as shares of it, is no drawing. None of ten plans had more than
-0.20 of ink or less than 0.71 of paper; none of 38 photos of streets, animals and facades had less
-than 0.35 of what counts as ink, or more than 0.53 of paper."""
+"""A sheet with more ink and less paper, as shares of it, is no drawing. None of ten plans had more
+than 0.20 of ink or less than 0.71 of paper; none of 38 photos of streets, animals and facades had
+less than 0.35 of what counts as ink, or more than 0.53 of paper."""
 
 PAPER = 0.1
 """What is at most so dark is paper."""
 
 LEAST_TEXTURE = 6.0
-"""Grey levels within 5 x 5 px, at the median: drawings on paper of any colour are plain at most places
-(0 to 2 on those plans), photos are not (9 to 66)."""
+"""Grey levels within 5 x 5 px, at the median: drawings on paper of any colour are plain at most
+places (0 to 2 on those plans), photos are not (9 to 66)."""
 
 
 def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Cleaned:
