@@ -11,6 +11,7 @@ from pathlib import Path
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import PlanDocument, Storey
 from veduta.plan.options import PlanOptions
+from veduta.plan.pages import Drawing
 from veduta.plan.pipeline import run_plan
 from veduta.run.errors import VedutaError
 from veduta.run.pool import Task, run_tasks
@@ -32,7 +33,7 @@ def read_alone(path: Path) -> Reading:
     """One drawing to its document; errors that people are told are results."""
     started = time.perf_counter()
     try:
-        read = read_drawings([path], PlanOptions(), [], no_progress)
+        read = read_drawings([Drawing(path)], PlanOptions(), [], no_progress)
     except VedutaError as error:
         return Reading(None, time.perf_counter() - started, str(error))
     return Reading(read.document.storeys[0], time.perf_counter() - started)

@@ -5,13 +5,14 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+import pypdfium2
 import pytest
 from PIL import Image
 from sample_plan import sample_plan
 from test_validators import validate_gltf
 
 from veduta.formats.place_json import read_place
-from veduta.plan.options import PlanOptions
+from veduta.plan.options import InputOptions, PlanOptions
 from veduta.plan.pipeline import PlanResult, run_plan
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
@@ -88,3 +89,42 @@ def test_a_blank_drawing_ends_in_a_report_that_says_so(tmp_path: Path) -> None:
     assert report["state"] == "failed"
     assert "blank" in report["failures"][0]["reason"]
     assert not (tmp_path / "out" / "house.glb").exists()
+
+
+def test_a_pdf_of_another_kind_leaves_nothing_behind(tmp_path: Path) -> None:
+    book = tmp_path / "book.pdf"
+    pages = pypdfium2.PdfDocument.new()
+    for _ in range(500):
+        pages.new_page(595, 842)
+    pages.save(book)
+    with pytest.raises(InputError, match="has 500 pages"):
+        run_plan([book], tmp_path / "out", PlanOptions(), Progress(quiet=True))
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_page_without_a_plan_is_named(tmp_path: Path) -> None:
+    house = tmp_path / "house.pdf"
+    pages = pypdfium2.PdfDocument.new()
+    for _ in range(2):
+        pages.new_page(595, 842)
+    pages.save(house)
+    options = PlanOptions(input=InputOptions(pages="2"))
+    result = run_plan([house], tmp_path / "out", options, Progress(quiet=True))
+    assert result.exit_code == 3
+    report = json.loads((tmp_path / "out" / "report.json").read_text())
+    assert report["steps"][0]["name"] == "read house.pdf page 2"
+    assert "house.pdf page 2 is blank" in report["failures"][0]["reason"]
+
+
+def test_pages_are_of_no_use_to_a_document(tmp_path: Path, document: Path) -> None:
+    options = PlanOptions(input=InputOptions(pages="2"))
+    with pytest.raises(InputError, match="--pages: is for PDFs"):
+        run_plan([document], tmp_path / "out", options, Progress(quiet=True))
+
+
+def test_thirty_pixels_are_too_few_for_a_plan(tmp_path: Path) -> None:
+    drawing = tmp_path / "thumb.png"
+    Image.new("RGB", (30, 40), "white").save(drawing)
+    result = run_plan([drawing], tmp_path / "out", PlanOptions(), Progress(quiet=True))
+    assert result.failure is not None
+    assert "thumb.png is 30 x 40 px. Scan it" in result.failure.reason

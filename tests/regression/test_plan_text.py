@@ -55,7 +55,10 @@ def test_all_printed_sizes_are_read(veduta_data: Path, name: str) -> None:
 
 @pytest.mark.parametrize("name", sorted(METRES))
 def test_each_size_agrees_with_the_scale_of_the_others(veduta_data: Path, name: str) -> None:
-    """Within 3 % of all rooms but one, within 1 % for half of them (one partition is missed)."""
+    """Within 3 % of all rooms but one, within 1 % for half of them.
+
+    Which side of which room disagrees, and why, is not known.
+    """
     sheet = _sheet(_path(veduta_data, f"uk-dimensions/{name}.jpg"))
     drawn = read_storey(sheet.pixels, sheet.texts)
     sizes = DrawnSizes(

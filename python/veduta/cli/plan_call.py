@@ -9,14 +9,17 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.plan.options import HouseOptions, PlanOptions, ScaleOptions
+from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, ScaleOptions
 
 Drawings = Annotated[
     tyro.conf.Positional[tuple[Path, ...]],
     tyro.conf.arg(
         metavar="IMAGE...",
         help_behavior_hint="",
-        help="drawings of the storeys, the lowest first; or a plan.json to rebuild from",
+        help=(
+            "drawings of the storeys, the lowest first: pictures, or PDFs with a storey on each"
+            " page; or a plan.json to rebuild from"
+        ),
     ),
 ]
 
@@ -25,8 +28,9 @@ Drawings = Annotated[
 class PlanCall:
     """Turn floor plans into a house that one can walk through.
 
-    Each drawing is a storey, the lowest first. What is found is in OUT/plan.json, the house in
-    OUT/house.glb, OUT/house.ifc and OUT/place.json, the plan in OUT/plan.dxf and OUT/plan.svg.
+    Each picture, and each page of a PDF, is a storey, the lowest first. What is found is in
+    OUT/plan.json, the house in OUT/house.glb, OUT/house.ifc and OUT/place.json, the plan in
+    OUT/plan.dxf and OUT/plan.svg.
 
     An edited OUT/plan.json in the place of the drawings rebuilds all of it.
 
@@ -35,6 +39,7 @@ class PlanCall:
 
     drawings: Drawings
     out: Out
+    input: InputOptions = field(default_factory=InputOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     house: HouseOptions = field(default_factory=HouseOptions)
     force: Force = False
@@ -42,4 +47,4 @@ class PlanCall:
 
     def options(self) -> PlanOptions:
         """What changes the result."""
-        return PlanOptions(scale=self.scale, house=self.house)
+        return PlanOptions(input=self.input, scale=self.scale, house=self.house)

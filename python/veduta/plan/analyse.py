@@ -6,25 +6,24 @@ import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 from shapely.geometry import Polygon
 
-from veduta.imaging.read import DAMAGE, read_image
 from veduta.plan.compose import Named, compose_storey
 from veduta.plan.document import PlanDocument, Scale, Storey
 from veduta.plan.drawn import Drawn, DrawnRoom
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
 from veduta.plan.options import PlanOptions
+from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
+from veduta.plan.remarks import remarks
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
 from veduta.plan.sheets import Pixels
-from veduta.plan.text.sheet_text import SheetText, read_sheet
+from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -41,41 +40,44 @@ class ReadPlan:
 
 
 def read_drawings(
-    paths: Sequence[Path], options: PlanOptions, steps: list[StepRecord], progress: StepProgress
+    drawings: Sequence[Drawing],
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
 ) -> ReadPlan:
     """A storey of each drawing, the lowest first; NotFoundError where one shows no plan."""
     storeys: list[Storey] = []
     sheets: list[Pixels] = []
-    for index, path in enumerate(paths):
+    for index, drawing in enumerate(drawings):
         name = _NAMES[index] if index < len(_NAMES) else f"floor {index}"
         elevation = index * options.house.storey_height
-        storey, pixels = _read_one(path, name, elevation, options, steps, progress)
+        storey, pixels = _read_one(drawing, name, elevation, options, steps, progress)
         storeys.append(storey)
         sheets.append(pixels)
     return ReadPlan(PlanDocument(storeys=registered(storeys)), sheets)
 
 
 def _read_one(
-    path: Path,
+    drawing: Drawing,
     name: str,
     elevation_m: float,
     options: PlanOptions,
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> tuple[Storey, Pixels]:
-    progress(f"read {path.name}", 0.0)
-    with timed_step(steps, f"read {path.name}") as step:
-        photo = read_image(path)
-        step.counts |= {"width_px": photo.pixels.shape[1], "height_px": photo.pixels.shape[0]}
+    progress(f"read {drawing.label}", 0.0)
+    with timed_step(steps, f"read {drawing.label}") as step:
+        scan = read_drawing(drawing)
+        step.counts |= {"width_px": scan.pixels.shape[1], "height_px": scan.pixels.shape[0]}
     progress("text", 0.0)
     with timed_step(steps, "text") as step:
-        sheet = read_sheet(photo.pixels)
+        sheet = read_sheet(scan.pixels)
         step.counts["texts"] = len(sheet.texts)
     progress("walls, openings, rooms", 0.0)
     with timed_step(steps, "walls, openings, rooms") as step:
-        drawn = read_storey(sheet.pixels, sheet.texts)
+        drawn = read_storey(sheet.pixels, sheet.texts, subject=drawing.label)
         if not drawn.walls:
-            raise NotFoundError("a floor plan", f"{path.name} shows no walls", "Check the file.")
+            raise NotFoundError("a floor plan", f"{drawing.label} shows no walls", _remedy(drawing))
         step.counts |= {
             "walls": len(drawn.walls),
             "openings": len(drawn.openings),
@@ -83,51 +85,51 @@ def _read_one(
         }
     progress("scale and names", 0.0)
     with timed_step(steps, "scale and names") as step:
-        scale = _scale(drawn, options, path)
+        scale = _scale(drawn, options, scan)
         named = _names(drawn, scale.metres_per_px)
         step.counts["evidence"] = len(scale.evidence)
     storey = compose_storey(
         drawn,
         scale,
-        file=path.name,
-        sha256=photo.sha256,
+        file=drawing.path.name,
+        sha256=scan.sha256,
+        page=drawing.page,
         name=name,
         elevation_m=elevation_m,
         height_m=options.house.storey_height,
         named=named,
-        notes=[*photo.notes, *_position_notes(sheet), *scale_notes(scale)],
+        notes=[
+            *scan.notes,
+            *_position_notes(sheet),
+            *remarks(drawn, sheet.pixels.shape[:2], scale.metres_per_px),
+            *scale_notes(scale),
+        ],
     )
-    return _of_file(storey, sheet), drawn.cleaned.pixels
+    of_file = sheet_of_file(storey.sheet, sheet)
+    return storey.model_copy(update={"sheet": of_file}), drawn.cleaned.pixels
 
 
-def _scale(drawn: Drawn, options: PlanOptions, path: Path) -> Scale:
+def _remedy(drawing: Drawing) -> str:
+    if drawing.page:
+        return "Name the pages that are plans with --pages."
+    return "Give the picture of a drawn plan."
+
+
+def _scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> Scale:
     """Of a pixel of the cleaned drawing; the option is of a pixel of the file."""
     cleaned = drawn.cleaned
     finer = math.sqrt(abs(float(np.linalg.det(cleaned.clean_from_scan[:2, :2]))))
     given = options.scale.scale
-    dpi = _resolution(path)
     sizes = DrawnSizes(
         rooms=[room.outline_px for room in drawn.rooms],
         doors=[one.width_px for one in drawn.openings if one.kind == "door"],
         walls=[wall.thickness_px for wall in drawn.walls],
         ink=cleaned.ink,
-        dpi=None if dpi is None else dpi * finer,
+        dpi=None if scan.dpi is None else scan.dpi * finer,
+        on_paper=scan.on_paper,
         texts=drawn.texts,
     )
     return estimate_scale(sizes, None if given is None else given / 1000.0 / finer)
-
-
-def _resolution(path: Path) -> float | None:
-    """Pixels per inch, where the file states them."""
-    try:
-        with Image.open(path) as image:
-            dpi = image.info.get("dpi")
-    except DAMAGE:
-        return None
-    if not isinstance(dpi, tuple) or not dpi:
-        return None
-    value = float(dpi[0])
-    return value if math.isfinite(value) and value > 1.0 else None
 
 
 def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
@@ -185,16 +187,3 @@ def _position_notes(sheet: SheetText) -> list[str]:
     if sheet.position.quarter_turns:
         notes.append(f"turned by {90 * sheet.position.quarter_turns} degrees, by its text")
     return notes
-
-
-def _of_file(storey: Storey, sheet: SheetText) -> Storey:
-    """With the way from the file's own pixels, and how the scan lay."""
-    clean_from_right = np.array(storey.sheet.clean_from_scan)
-    matrix = (clean_from_right @ sheet.right_from_scan).tolist()
-    turned = storey.sheet.rotation_rad + sheet.position.quarter_turns * math.pi / 2.0
-    changes = {
-        "clean_from_scan": matrix,
-        "mirrored": sheet.position.mirrored,
-        "rotation_rad": turned,
-    }
-    return storey.model_copy(update={"sheet": storey.sheet.model_copy(update=changes)})

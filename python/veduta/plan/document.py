@@ -39,12 +39,15 @@ class Sheet(_Record):
 
     file: str = Field(description="file name of the drawing")
     sha256: str
-    page: int = Field(default=0, description="page of a PDF, from 0")
+    page: int = Field(default=0, ge=0, description="page of a PDF, from 1; 0: a picture")
     width_px: int
     height_px: int
     mirrored: bool = Field(default=False, description="the scan was a mirror image")
     rotation_rad: float = Field(
-        default=0.0, description="by which the scan was turned to lie straight, counter-clockwise"
+        default=0.0,
+        description=(
+            "by which the scan was turned, counter-clockwise, before it was mirrored back"
+        ),
     )
     clean_from_scan: list[list[float]] = Field(
         description="3x3 affine matrix, row major; takes pixels of the file to cleaned pixels"

@@ -4,12 +4,47 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from veduta.run.options import Options
 
 RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]
 FrameKind = Literal["surround", "bottom", "none"]
+
+
+PAGES = r"^[1-9]\d{0,4}(-[1-9]\d{0,4})?(,[1-9]\d{0,4}(-[1-9]\d{0,4})?)*$"
+_MOST_PAGES = 100
+"""So many are looked at: far more than a house has storeys."""
+
+
+class InputOptions(Options):
+    """What of the files is read."""
+
+    pages: Annotated[str, Field(pattern=PAGES, max_length=200)] | None = Field(
+        default=None,
+        description=(
+            "pages of a PDF, such as 2-3,5: a storey each, the lowest first; all pages if not given"
+        ),
+    )
+
+    @field_validator("pages")
+    @classmethod
+    def _ascending(cls, pages: str | None) -> str | None:
+        for part in (pages or "").split(","):
+            first, _, last = part.partition("-")
+            if last and int(last) < int(first):
+                raise ValueError(f"{part} runs backwards; single pages may be in any order")
+        return pages
+
+    def page_numbers(self) -> list[int] | None:
+        """The pages from 1 in the order in which they were named; None for all."""
+        if self.pages is None:
+            return None
+        found: list[int] = []
+        for part in self.pages.split(","):
+            first, _, last = part.partition("-")
+            found += range(int(first), min(int(last or first), int(first) + _MOST_PAGES) + 1)
+        return found[:_MOST_PAGES]
 
 
 class ScaleOptions(Options):
@@ -60,5 +95,6 @@ class HouseOptions(Options):
 class PlanOptions(Options):
     """All options of the verb that change its result."""
 
+    input: InputOptions = InputOptions()
     scale: ScaleOptions = ScaleOptions()
     house: HouseOptions = HouseOptions()

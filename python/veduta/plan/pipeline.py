@@ -16,11 +16,12 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.house.build import build_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import PlanOptions
+from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
-from veduta.run.errors import NotFoundError
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.options import Options
 from veduta.run.outputs import OutFolder, Standing, open_out, writing_to
 from veduta.run.pool import Task
@@ -28,7 +29,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "1"
+VERSION = "2"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -67,6 +68,7 @@ def run_plan(
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
     checked = load_document(call.paths[0]) if call.kind == "document" else None
+    drawings = _drawings(call, options)
     used: Options = options if call.kind == "drawings" else options.house
     key = result_key(COMMAND[call.kind], VERSION, used, call.identity)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
@@ -74,10 +76,19 @@ def run_plan(
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked, options, opened, key, progress.step)
+                _make(call, checked or drawings, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
+
+
+def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:
+    """What is to be read: none where a house is rebuilt."""
+    if call.kind == "drawings":
+        return find_drawings(call.paths, options.input.page_numbers())
+    if options.input.pages is not None:
+        raise InputError("--pages", "is for PDFs, and a document is given", "Leave it out.")
+    return []
 
 
 def _is_made(opened: OutFolder, call: Call, key: str, *, force: bool) -> bool:
@@ -101,7 +112,7 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
 
 def _make(
     call: Call,
-    checked: PlanDocument | None,
+    given: PlanDocument | list[Drawing],
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -112,7 +123,7 @@ def _make(
     used: Options = options if call.kind == "drawings" else options.house
     work = opened.work_folder(CALL)
     try:
-        document, sheets, notes = _document(call, checked, options, steps, progress)
+        document, sheets, notes = _document(call, given, options, steps, progress)
         result = _house(document, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
@@ -139,20 +150,20 @@ def _make(
 
 def _document(
     call: Call,
-    checked: PlanDocument | None,
+    given: PlanDocument | list[Drawing],
     options: PlanOptions,
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> tuple[PlanDocument, list[Pixels], list[str]]:
     """The document and the cleaned drawings, with what is to be said of them."""
-    if checked is None:
-        read = read_drawings(call.paths, options, steps, progress)
+    if not isinstance(given, PlanDocument):
+        read = read_drawings(given, options, steps, progress)
         return read.document, read.sheets, []
     progress("load", 0.0)
     with timed_step(steps, "load") as step:
-        sheets, notes = load_sheets(call.paths[0].parent, checked)
-        step.counts["storeys"] = len(checked.storeys)
-    return checked, sheets, notes
+        sheets, notes = load_sheets(call.paths[0].parent, given)
+        step.counts["storeys"] = len(given.storeys)
+    return given, sheets, notes
 
 
 def _house(

@@ -30,14 +30,15 @@ def read_storey(
     pixels: NDArray[np.uint8],
     texts: Sequence[Text] | TextReader | None = None,
     metres_per_px_hint: float | None = None,
+    subject: str = "the drawing",
 ) -> Drawn:
     """Walls, openings and rooms of one storey from (h, w, 3) sRGB pixels.
 
     `texts` are in pixels of the given picture, or a function that reads them from a cleaned one.
     `metres_per_px_hint` is of the given picture; without it, sizes count in wall thicknesses.
-    Raises NotFoundError where the picture shows no plan.
+    Raises NotFoundError where the picture, which it calls `subject`, shows no plan.
     """
-    cleaned = clean_sheet(pixels)
+    cleaned = clean_sheet(pixels, subject)
     found_texts = texts_of(cleaned, texts)
     return read_cleaned(cleaned, found_texts, metres_per_px_hint)
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.pages import drawing_label
 from veduta.plan.sheets import sheet_name
 from veduta.plan.writing import Result
 from veduta.run.options import Options
@@ -142,7 +143,7 @@ def _pictures(result: Result) -> list[Picture]:
     for index, (storey, pixels) in enumerate(
         zip(result.document.storeys, result.sheets, strict=True)
     ):
-        note = f"{storey.sheet.file}, laid straight"
+        note = f"{drawing_label(storey.sheet.file, storey.sheet.page)}, laid straight"
         pictures.append(_picture(f"Drawing: {storey.name}", note, pixels, sheet_name(index)))
     return pictures
 

@@ -9,12 +9,13 @@ import pytest
 from numpy.typing import NDArray
 from PIL import Image, ImageDraw, ImageFont
 
-from veduta.plan.document import Text
+from veduta.plan.clean.straighten import laid_straight
+from veduta.plan.document import Sheet, Text
 from veduta.plan.text.options import TextOptions
 from veduta.plan.text.orientation import Position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
 from veduta.plan.text.regions import without_duplicates
-from veduta.plan.text.sheet_text import moved_texts, read_sheet
+from veduta.plan.text.sheet_text import SheetText, moved_texts, read_sheet, sheet_of_file
 
 WORDS = {
     "KITCHEN": (150, 80),
@@ -79,6 +80,28 @@ def test_pixels_go_where_the_matrix_says(mirrored: bool, turns: int) -> None:
     row, column = np.argwhere(set_right(scan, position)[:, :, 0])[0]
     taken = right_from_scan(position, (5, 3)) @ (3.5, 1.5, 1.0)
     assert taken == pytest.approx((column + 0.5, row + 0.5, 1.0))
+
+
+@pytest.mark.parametrize("skew_rad", [0.0, 0.05])
+@pytest.mark.parametrize(("mirrored", "turns"), POSITIONS)
+def test_how_a_scan_lay_is_what_its_matrix_does(
+    mirrored: bool, turns: int, skew_rad: float
+) -> None:
+    """To turn by `rotation_rad`, then to mirror, is the linear part of `clean_from_scan`."""
+    position = Position(mirrored, turns, 1.0, 0.0)
+    pixels = np.zeros((30, 50, 3), dtype=np.uint8)
+    _, clean_from_right = laid_straight(set_right(pixels, position), skew_rad, 2.0)
+    read = SheetText(pixels, right_from_scan(position, (50, 30)), position, [])
+    sheet = Sheet(
+        file="a.png", sha256="0", width_px=1, height_px=1, metres_per_px=0.01,
+        rotation_rad=skew_rad, clean_from_scan=clean_from_right.tolist(), origin_px=(0.0, 0.0),
+    )  # fmt: skip
+    found = sheet_of_file(sheet, read)
+    assert found.mirrored == mirrored
+    cos, sin = np.cos(found.rotation_rad), np.sin(found.rotation_rad)
+    turned = np.array([[cos, sin], [-sin, cos]])  # counter-clockwise, where y points down
+    expected = 2.0 * (np.diag([-1.0, 1.0]) @ turned if mirrored else turned)
+    assert np.array(found.clean_from_scan)[:2, :2] == pytest.approx(expected, abs=1e-9)
 
 
 def test_a_blank_sheet_and_a_tiny_one_say_nothing() -> None:

@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.place.part import PLANE_TOLERANCE_M, Part
+
+_SHOWN = 6
 
 
 def sound_part(part: Part) -> Part:
@@ -34,7 +37,6 @@ def _without_unsound(part: Part) -> Part:
         replace(mover, polygons=row_of[mover.polygons[kept[mover.polygons]]])
         for mover in part.movers
     )
-    count = int((~kept).sum())
     return replace(
         part,
         positions_m=part.positions_m[vertices],
@@ -44,5 +46,13 @@ def _without_unsound(part: Part) -> Part:
         polygon_feature=part.polygon_feature[kept],
         polygon_material=part.polygon_material[kept],
         movers=tuple(mover for mover in movers if len(mover.polygons)),
-        notes=(*part.notes, f"{count} slivers of surfaces are left out"),
+        notes=(*part.notes, _left_out(part, kept)),
     )
+
+
+def _left_out(part: Part, kept: NDArray[np.bool_]) -> str:
+    """The note: how many polygons, and of which features."""
+    rows = np.unique(part.polygon_feature[~kept])
+    names = ", ".join(part.features.name[row] for row in rows[:_SHOWN])
+    more = f" and {len(rows) - _SHOWN} more" if len(rows) > _SHOWN else ""
+    return f"{int((~kept).sum())} slivers of surfaces are left out, of {names}{more}"

@@ -33,7 +33,8 @@ class DrawnSizes:
     """What the drawing shows, in pixels of the cleaned image.
 
     `rooms` are outlines (n, 2); `doors` widths of openings for doors; `walls` thicknesses; `ink`
-    (h, w), 0 paper to 1 ink; `dpi` the resolution that the file states, None where it does not.
+    (h, w), 0 paper to 1 ink; `dpi` the resolution that the file states, None where it does not;
+    `on_paper` whether it is that of a page of known size.
     """
 
     rooms: Sequence[NDArray[np.float64]]
@@ -41,6 +42,7 @@ class DrawnSizes:
     walls: Sequence[float]
     ink: NDArray[np.float32]
     dpi: float | None = None
+    on_paper: bool = False
     texts: Sequence[Text] = field(default=())
 
 
@@ -71,7 +73,7 @@ def find_voters(sizes: DrawnSizes, options: VoteOptions) -> list[Voter]:
         *room_voters(texts, rooms, options.blur_px, wall_masks(sizes.ink, sizes.walls)),
         *line_voters(texts, sizes.ink, options.blur_px),
         *bar_voters(texts),
-        *ratio_voters(texts, sizes.dpi),
+        *ratio_voters(texts, sizes.dpi, on_paper=sizes.on_paper),
         *width_rule_voters(texts, rooms, sizes.ink),
     ]
 

@@ -13,16 +13,18 @@ _SIGMA = 0.01  # of what was printed and scanned at its own size
 _SCREEN_DPI = 100.0  # below, the number is the program's that wrote the file, not a scanner's
 
 
-def ratio_voters(texts: list[Text], dpi: float | None) -> list[Voter]:
+def ratio_voters(texts: list[Text], dpi: float | None, *, on_paper: bool = False) -> list[Voter]:
     """The scale by a printed ratio; none without a resolution.
 
     A sheet is often printed to another size than it was drawn for, and the resolution of a picture
-    from the web is none: this alone decides nothing where rooms have sizes.
+    from the web is none: this alone decides nothing where rooms have sizes. `on_paper`: the
+    resolution is that of a page whose size is known, as in a PDF, and no program's guess.
     """
     if dpi is None or dpi <= 0.0:
         return []
-    scanned = any(abs(dpi - known) < 0.5 for known in _SCANNERS_DPI)
-    trust = 0.2 if dpi < _SCREEN_DPI else (0.7 if scanned else 0.5)
+    scanned = on_paper or any(abs(dpi - known) < 0.5 for known in _SCANNERS_DPI)
+    doubtful = dpi < _SCREEN_DPI and not on_paper
+    trust = 0.2 if doubtful else (0.7 if scanned else 0.5)
     return [
         Voter(
             "ratio",

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.document import Text
+from veduta.plan.document import Sheet, Text
 from veduta.plan.text.options import TextOptions
 from veduta.plan.text.orientation import Position, find_position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
@@ -39,6 +40,24 @@ def read_sheet(scan: NDArray[np.uint8], options: TextOptions | None = None) -> S
     texts = read_texts(pixels, options, overview if position.is_upright else None)
     size = (scan.shape[1], scan.shape[0])
     return SheetText(pixels, right_from_scan(position, size), position, texts)
+
+
+def sheet_of_file(sheet: Sheet, read: SheetText) -> Sheet:
+    """The sheet with the way from the file's own pixels; it had that from `read.pixels`.
+
+    The scan was turned by quarters, mirrored, then laid straight. What is turned after a mirror is
+    turned the other way before it, so that both turns are one.
+    """
+    matrix = np.array(sheet.clean_from_scan) @ read.right_from_scan
+    straight = -sheet.rotation_rad if read.position.mirrored else sheet.rotation_rad
+    turned = straight + read.position.quarter_turns * math.pi / 2.0
+    return sheet.model_copy(
+        update={
+            "clean_from_scan": matrix.tolist(),
+            "mirrored": read.position.mirrored,
+            "rotation_rad": math.remainder(turned, 2.0 * math.pi),
+        }
+    )
 
 
 def moved_texts(texts: list[Text], target_from_source: NDArray[np.float64]) -> list[Text]:

@@ -1,0 +1,32 @@
+"""What is refused as no drawing, and what is not."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from test_reading import two_rooms
+
+from veduta.plan.clean.sheet import clean_sheet
+from veduta.run.errors import NotFoundError
+
+
+def test_a_photo_is_no_drawing() -> None:
+    """Leaves and shadows: noise of all sizes, as the spectrum of photos has it."""
+    rng = np.random.default_rng(4)
+    photo = np.zeros((480, 640, 3))
+    for size in (4, 12, 40, 120, 480):
+        coarse = rng.normal(size=(size * 3 // 4 + 1, size, 3)).astype(np.float32)
+        photo += cv2.resize(coarse, (640, 480), interpolation=cv2.INTER_CUBIC)
+    pixels = np.clip(128 + 35 * photo, 0, 255).astype(np.uint8)
+    with pytest.raises(NotFoundError, match=r"hall.jpg is no drawing: \d+% of it is dark"):
+        clean_sheet(pixels, "hall.jpg")
+
+
+def test_drawings_on_paper_of_any_colour_are_drawings() -> None:
+    """Yellowed, a little noisy, and light lines on blue."""
+    noise = np.random.default_rng(5).normal(0, 6, (1000, 1400, 3))
+    grainy = np.clip(two_rooms((244, 226, 178), 40) + noise, 0, 255).astype(np.uint8)
+    blue = np.where(two_rooms() > 128, (30, 70, 150), (230, 235, 245)).astype(np.uint8)
+    for sheet in (two_rooms(), grainy, blue):
+        assert clean_sheet(sheet).ink.max() > 0.9
