@@ -19,6 +19,7 @@ from veduta.plan.document import PlanDocument, Scale, Storey
 from veduta.plan.drawn import Drawn, DrawnRoom
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
+from veduta.plan.names.strays import stray_names
 from veduta.plan.options import PlanOptions
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
@@ -95,7 +96,7 @@ def _read_one(
         elevation_m=elevation_m,
         height_m=options.house.storey_height,
         named=named,
-        notes=[*photo.notes, *_position_notes(sheet), *scale_notes(scale)],
+        notes=[*photo.notes, *_position_notes(sheet), *scale_notes(scale), *_strays(drawn)],
     )
     return _of_file(storey, sheet), drawn.cleaned.pixels
 
@@ -150,6 +151,12 @@ def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
         room.id: Named(one.use, one.score, one.name, one.origin)
         for room, one in zip(drawn.rooms, named, strict=True)
     }
+
+
+def _strays(drawn: Drawn) -> list[str]:
+    """What names on the sheet tell of rooms that were not found."""
+    outlines = [room.outline_px for room in drawn.rooms]
+    return stray_names(outlines, [one.at_px for one in drawn.junctions], drawn.texts)
 
 
 def _facts(
