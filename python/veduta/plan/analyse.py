@@ -16,6 +16,7 @@ from veduta.plan.document import PlanDocument, Scale, Storey
 from veduta.plan.drawn import Drawn, DrawnRoom
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
+from veduta.plan.names.strays import stray_names
 from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
@@ -103,6 +104,7 @@ def _read_one(
             *_position_notes(sheet),
             *remarks(drawn, sheet.pixels.shape[:2], scale.metres_per_px),
             *scale_notes(scale),
+            *_strays(drawn),
         ],
     )
     of_file = sheet_of_file(storey.sheet, sheet)
@@ -152,6 +154,12 @@ def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
         room.id: Named(one.use, one.score, one.name, one.origin)
         for room, one in zip(drawn.rooms, named, strict=True)
     }
+
+
+def _strays(drawn: Drawn) -> list[str]:
+    """What names on the sheet tell of rooms that were not found."""
+    outlines = [room.outline_px for room in drawn.rooms]
+    return stray_names(outlines, [one.at_px for one in drawn.junctions], drawn.texts)
 
 
 def _facts(

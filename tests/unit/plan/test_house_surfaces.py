@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 import pytest
-from sample_plan import HEIGHT_M, opening, rectangle, room, sample_plan, sample_storey
+from sample_plan import HEIGHT_M, opening, rectangle, room, sample_plan, sample_storey, wall
 from shapely.geometry import MultiPoint, Polygon
 
 from veduta.place.part import Part
@@ -168,6 +168,37 @@ def test_the_visitor_stands_before_the_front_door() -> None:
     assert 0.6 <= place.start.eye[0] <= 1.6
     assert place.start.target[1] == pytest.approx(0.0)
     assert place.parts[0].transform[14] == pytest.approx(0.1)
+
+
+def test_the_visitor_comes_nearer_where_a_part_of_the_house_is_in_the_way() -> None:
+    storey = sample_storey()
+    # A shed 3.3 m before the front door, at y = -3.3.
+    junctions = [
+        Junction(id=f"s{index}", at_m=at, type="L")
+        for index, at in enumerate([(0.0, -6.0), (3.0, -6.0), (3.0, -3.3), (0.0, -3.3)])
+    ]
+    walls = [wall(f"shed-{i}", f"s{i}", f"s{(i + 1) % 4}") for i in range(4)]
+    shaded = sample_storey(junctions=[*storey.junctions, *junctions], walls=[*storey.walls, *walls])
+    house = build_house(sample_plan(shaded), HouseOptions())
+    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    # 3 m from the middle of the door's wall; the shed begins at 3.15 m.
+    assert place.start.eye[1] == pytest.approx(-3.0)
+
+
+def test_without_a_door_the_visitor_sees_the_whole_house() -> None:
+    house = build_house(sample_plan(sample_storey(openings=[], rooms=[])), HouseOptions())
+    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    # Its front is 8.3 m wide, between outer faces, and lies at y = -0.15.
+    assert place.start.eye == pytest.approx((4.0, -0.15 - 0.7 * 8.3, 1.7))
+    assert place.start.target[0] == pytest.approx(4.0)
+
+
+def test_a_gap_is_a_way_in_where_there_is_no_door() -> None:
+    gap = opening("gap", "west", 1.0, 1.0, kind="gap", type="plain", score=0.4)
+    house = build_house(sample_plan(sample_storey(openings=[gap], rooms=[])), HouseOptions())
+    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    # The western wall runs south from (0, 5): its middle of the gap is at y = 3.5.
+    assert place.start.eye == pytest.approx((-5.0, 3.5, 1.7))
 
 
 def test_the_same_plan_gives_the_same_house() -> None:

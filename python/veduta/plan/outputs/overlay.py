@@ -197,11 +197,13 @@ def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
         y += 24
     y += 12
     scale = storey.scale
-    for line in (
+    doubtful = [one.id for one in storey.openings if one.score < _DOUBTFUL]
+    lines = [
         f"{1000 * scale.metres_per_px:.2f} mm per pixel",
         f"± {100 * scale.sigma:.1f} % ({scale.basis})",
-        "d3? is doubtful: score below 0.5",
-    ):
+        *([f"{doubtful[0]}? is doubtful: score below {_DOUBTFUL}"] if doubtful else []),
+    ]
+    for line in lines:
         pen.text((x, y), line, fill=_FAINT, font=small)
         y += 22
 
