@@ -36,7 +36,7 @@ export interface ProvenanceLook {
 export const PROVENANCE_LOOKS: Readonly<Record<Provenance, ProvenanceLook>> = {
   measured: {
     label: "Measured",
-    meaning: "Found in the photo. Its place and size were read from the image.",
+    meaning: "Found in a photo or a drawing. Its place and size were read from there.",
     colour: "#2f7fd1",
   },
   inferred: {
@@ -46,7 +46,7 @@ export const PROVENANCE_LOOKS: Readonly<Record<Provenance, ProvenanceLook>> = {
   },
   invented: {
     label: "Invented",
-    meaning: "Nothing in the photo shows it. It was added, or painted in, to complete the building.",
+    meaning: "No photo or drawing shows it. It was added, or painted in, to complete the building.",
     colour: "#c2487a",
   },
 };
