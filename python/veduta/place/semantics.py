@@ -23,9 +23,10 @@ class SemanticClass(StrEnum):
     SHOP = "shop"
     CHIMNEY = "chimney"
     CORNICE = "cornice"
-    OTHER = "other"
     FLOOR = "floor"
     CEILING = "ceiling"
+    # The last: to the engine it stands for all names that it does not know.
+    OTHER = "other"
 
     @property
     def code(self) -> int:
@@ -72,9 +73,9 @@ CITYJSON_SURFACE: dict[SemanticClass, str] = {
     SemanticClass.BALCONY: "OuterFloorSurface",
     SemanticClass.CHIMNEY: "WallSurface",
     SemanticClass.CORNICE: "OuterCeilingSurface",
-    SemanticClass.OTHER: "WallSurface",
     SemanticClass.FLOOR: "FloorSurface",
     SemanticClass.CEILING: "CeilingSurface",
+    SemanticClass.OTHER: "WallSurface",
 }
 # Classes that CityJSON models as openings: they name the surface that they open as parent.
 OPENINGS: frozenset[SemanticClass] = frozenset(

@@ -211,9 +211,10 @@ def open_out(
                 out.record.save(path)
         try:
             yield out
-        except InputError:
+        except InputError as error:
             shutil.rmtree(work, ignore_errors=True)
-            _remove_bare(out, made=made)
+            if not isinstance(error.__cause__, OSError):  # a full disk: the call goes on from there
+                _remove_bare(out, made=made)
             raise
         finally:
             shutil.rmtree(work, ignore_errors=True)

@@ -13,9 +13,9 @@ export type SemanticClass =
   | "shop"
   | "chimney"
   | "cornice"
-  | "other"
   | "floor"
-  | "ceiling";
+  | "ceiling"
+  | "other";
 /**
  * Where a surface comes from.
  */
