@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import json
 import math
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from pydantic import BaseModel, ValidationError
 
 from veduta.facade.document import (
     CLASSES,
@@ -21,8 +19,8 @@ from veduta.facade.document import (
 from veduta.facade.reconcile import contradictions, reconciled
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.imaging.read import read_image
+from veduta.run.edited import SHOWN_FAULTS, numbers_of, read_edited
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 DOCUMENT = "facade.json"
 PHOTO = "rectified.jpg"
@@ -40,7 +38,6 @@ MAX_COORDINATE = 1e6
 _ROOF_OF_FACADE = 10
 """A roof is at most this many times as high as the facade below it."""
 _REMEDY = "Mend it there; docs/facade.md says what each field means."
-_SHOWN_FAULTS = 5
 
 
 def load_document(path: Path) -> FacadeDocument:
@@ -48,10 +45,10 @@ def load_document(path: Path) -> FacadeDocument:
 
     What an edit contradicts elsewhere in the document is made anew: see `reconcile`.
     """
-    document = _parse(path, _read(path))
+    document = read_edited(path, FacadeDocument, MAX_BYTES, _REMEDY)
     faults = _faults(document) or contradictions(document)
     if faults:
-        raise InputError(path, "; ".join(faults[:_SHOWN_FAULTS]), _REMEDY)
+        raise InputError(path, "; ".join(faults[:SHOWN_FAULTS]), _REMEDY)
     return reconciled(document)
 
 
@@ -74,47 +71,11 @@ def load_photo(document_path: Path, document: FacadeDocument) -> NDArray[np.uint
     return pixels
 
 
-def _read(path: Path) -> bytes:
-    try:
-        require_file(path, MAX_BYTES)
-        return path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(path, "does not exist", "Check its name.") from None
-    except OSError as error:
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(path, fault, "Check its permissions.") from error
-
-
-def _parse(path: Path, content: bytes) -> FacadeDocument:
-    try:
-        json.loads(content)  # says the line of a fault
-        # Strictly: a number in quotes, or true, is a slip and no number.
-        return FacadeDocument.model_validate_json(content, strict=True)
-    except json.JSONDecodeError as error:
-        fault = f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}"
-        raise InputError(path, fault, "Mend the file there.") from error
-    except (UnicodeDecodeError, RecursionError) as error:
-        raise InputError(path, f"is not JSON ({error})", "Check the file.") from error
-    except ValidationError as error:
-        faults = [f"{_place(fault['loc'])}: {fault['msg']}" for fault in error.errors()]
-        more = len(faults) - _SHOWN_FAULTS
-        shown = "; ".join(faults[:_SHOWN_FAULTS]) + (f"; and {more} more" if more > 0 else "")
-        raise InputError(path, shown, _REMEDY) from error
-    except ValueError as error:  # after its kinds above: a number of too many digits
-        raise InputError(path, f"is not usable JSON ({error})", "Check the file.") from error
-
-
-def _place(location: tuple[int | str, ...]) -> str:
-    """A place in the file as a person would write it: `elements[3].width_px`."""
-    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in location]
-    return "".join(parts).lstrip(".") or "the document"
-
-
 def _faults(document: FacadeDocument) -> list[str]:
     """What the schema cannot say."""
     found = [
         f"{place}: {value} is out of range"
-        for place, value in _numbers(document)
+        for place, value in numbers_of(document)
         if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
     ]
     if document.classes != list(CLASSES):
@@ -210,19 +171,3 @@ def _size_faults(document: FacadeDocument) -> list[str]:
 def _sized(document: FacadeDocument) -> list[tuple[str, Element | FacadeBox]]:
     elements = [(f"elements[{index}]", item) for index, item in enumerate(document.elements)]
     return [("facade", document.facade), *elements]
-
-
-def _numbers(value: object, place: str = "") -> list[tuple[str, float]]:
-    """All floats in the document with their places."""
-    if isinstance(value, float):
-        return [(place.lstrip("."), value)]
-    if isinstance(value, BaseModel):
-        fields = type(value).model_fields
-        parts = [(f"{place}.{fields[name].alias or name}", part) for name, part in value]
-    elif isinstance(value, dict):
-        parts = [(f"{place}.{name}", part) for name, part in value.items()]
-    elif isinstance(value, list | tuple):
-        parts = [(f"{place}[{index}]", part) for index, part in enumerate(value)]
-    else:
-        return []
-    return [number for name, part in parts for number in _numbers(part, name)]

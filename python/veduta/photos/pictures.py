@@ -6,15 +6,14 @@ straight in it, so the distortion of the lens is taken out.
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image
 
+from veduta.imaging.encode import jpeg_bytes
 from veduta.photos.straight import Pinhole, pinhole_of, straightened
 from veduta.photos.structure import Structure
 from veduta.run.progress import StepProgress, no_progress
@@ -48,7 +47,7 @@ def write_pictures(
         camera = structure.camera(row)
         pinhole = pinhole_of(camera, LONGEST_PX)
         picture = straightened(pixels, camera, pinhole)
-        (folder / picture_name(image_id)).write_bytes(_jpeg(picture))
+        (folder / picture_name(image_id)).write_bytes(jpeg_bytes(picture, JPEG_QUALITY))
         cameras.append(pinhole)
     colours = np.round(sums / np.maximum(counts, 1.0)[:, None]).astype(np.uint8)
     return replace(structure, colours=colours), tuple(cameras)
@@ -65,9 +64,3 @@ def _colours(pixels: NDArray[np.uint8], places: NDArray[np.float64]) -> NDArray[
     columns = np.clip(places[:, 0].astype(np.int64), 0, width - 1)
     rows = np.clip(places[:, 1].astype(np.int64), 0, height - 1)
     return pixels[rows, columns].astype(np.float64)
-
-
-def _jpeg(pixels: NDArray[np.uint8]) -> bytes:
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="JPEG", quality=JPEG_QUALITY)
-    return file.getvalue()

@@ -156,6 +156,36 @@ class Stairs(_Record):
     origin: Origin = "measured"
 
 
+class Furniture(_Record):
+    """A thing that stands in a room, hangs on its wall, or stands on another thing."""
+
+    id: str
+    object: str = Field(description="name of the object in the catalogue")
+    room: str = Field(description="id of a room")
+    at_m: Point = Field(description="middle of its base")
+    turn_rad: float = Field(
+        default=0.0, description="of its front from -y of the plan, counter-clockwise"
+    )
+    size_m: tuple[Metres, Metres, Metres] = Field(
+        description="width (along its back), depth (from back to front), height"
+    )
+    above_m: Metres = Field(default=0.0, description="from the floor to its base")
+    on: str | None = Field(default=None, description="id of the thing that it stands on")
+    origin: Origin = "invented"
+
+
+class Light(_Record):
+    """A lamp; it shines from `at_m` and `above_m`."""
+
+    id: str
+    kind: Literal["ceiling", "wall", "floor", "table"]
+    room: str = Field(description="id of a room")
+    at_m: Point
+    above_m: Metres = Field(description="from the floor to where it shines from")
+    lumen: Annotated[float, Field(gt=0.0, le=100_000.0)]
+    origin: Origin = "invented"
+
+
 class Text(_Record):
     """A piece of text on the sheet."""
 
@@ -177,6 +207,12 @@ class Storey(_Record):
     openings: list[Opening]
     rooms: list[Room]
     stairs: list[Stairs] = []
+    furniture: list[Furniture] | None = Field(
+        default=None, description="null: not furnished yet; [] is left empty"
+    )
+    lights: list[Light] | None = Field(
+        default=None, description="null: not lit yet; [] is left dark"
+    )
     texts: list[Text] = []
     notes: list[str] = Field(default=[], description="what was assumed, mended or left out")
 

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Iterable
 from pathlib import Path
 
-from pydantic import BaseModel, ValidationError
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Opening, PlanDocument, Room, Storey, Wall
 from veduta.plan.house.lines import wall_lines
+from veduta.run.edited import numbers_of, read_edited, shown_faults
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 DOCUMENT = "plan.json"
 MAX_BYTES = 50_000_000
@@ -29,7 +27,6 @@ LEAST_STOREY_M = 2.0
 _SHORTEST_M = 0.01
 _BEYOND_M = 0.02
 _REMEDY = "Mend it there; docs/plan.md says what each field means."
-_SHOWN_FAULTS = 5
 
 
 def load_document(path: Path) -> PlanDocument:
@@ -37,50 +34,11 @@ def load_document(path: Path) -> PlanDocument:
 
     The areas of rooms are made anew from their outlines.
     """
-    document = _parse(path, _read(path))
+    document = read_edited(path, PlanDocument, MAX_BYTES, _REMEDY)
     faults = _faults(document)
     if faults:
-        raise InputError(path, _shown(faults), _REMEDY)
+        raise InputError(path, shown_faults(faults), _REMEDY)
     return _with_areas(document)
-
-
-def _read(path: Path) -> bytes:
-    try:
-        require_file(path, MAX_BYTES)
-        return path.read_bytes()
-    except FileNotFoundError:
-        raise InputError(path, "does not exist", "Check its name.") from None
-    except OSError as error:
-        fault = f"cannot be read ({error.strerror})"
-        raise InputError(path, fault, "Check its permissions.") from error
-
-
-def _parse(path: Path, content: bytes) -> PlanDocument:
-    try:
-        json.loads(content)  # says the line of a fault
-        # Strictly: a number in quotes, or true, is a slip and no number.
-        return PlanDocument.model_validate_json(content, strict=True)
-    except json.JSONDecodeError as error:
-        fault = f"line {error.lineno}, column {error.colno}: not JSON: {error.msg}"
-        raise InputError(path, fault, "Mend the file there.") from error
-    except (UnicodeDecodeError, RecursionError) as error:
-        raise InputError(path, f"is not JSON ({error})", "Check the file.") from error
-    except ValidationError as error:
-        faults = [f"{_place(fault['loc'])}: {fault['msg']}" for fault in error.errors()]
-        raise InputError(path, _shown(faults), _REMEDY) from error
-    except ValueError as error:  # after its kinds above: a number of too many digits
-        raise InputError(path, f"is not usable JSON ({error})", "Check the file.") from error
-
-
-def _shown(faults: list[str]) -> str:
-    more = len(faults) - _SHOWN_FAULTS
-    return "; ".join(faults[:_SHOWN_FAULTS]) + (f"; and {more} more" if more > 0 else "")
-
-
-def _place(location: tuple[int | str, ...]) -> str:
-    """A place in the file as a person would write it: `storeys[0].walls[3].thickness_m`."""
-    parts = [f"[{part}]" if isinstance(part, int) else f".{part}" for part in location]
-    return "".join(parts).lstrip(".") or "the document"
 
 
 def _faults(document: PlanDocument) -> list[str]:
@@ -89,7 +47,7 @@ def _faults(document: PlanDocument) -> list[str]:
         return [f"storeys: {len(document.storeys)}, not between 1 and {MAX_STOREYS}"]
     found = [
         f"{place}: {value} is out of range"
-        for place, value in _numbers(document)
+        for place, value in numbers_of(document)
         if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
     ]
     names = [storey.name for storey in document.storeys]
@@ -205,17 +163,3 @@ def _with_areas(document: PlanDocument) -> PlanDocument:
         for storey in document.storeys
     ]
     return document.model_copy(update={"storeys": storeys})
-
-
-def _numbers(value: object, place: str = "") -> list[tuple[str, float]]:
-    """All floats in the document with their places."""
-    if isinstance(value, float):
-        return [(place.lstrip("."), value)]
-    if isinstance(value, BaseModel):
-        fields = type(value).model_fields
-        parts = [(f"{place}.{fields[name].alias or name}", part) for name, part in value]
-    elif isinstance(value, list | tuple):
-        parts = [(f"{place}[{index}]", part) for index, part in enumerate(value)]
-    else:
-        return []
-    return [number for name, part in parts for number in _numbers(part, name)]

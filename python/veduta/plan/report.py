@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections import Counter, defaultdict
 from collections.abc import Sequence
 from typing import Any
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from veduta.imaging.encode import jpeg_bytes
 from veduta.plan.document import PlanDocument, Storey
 from veduta.plan.pages import drawing_label
 from veduta.plan.sheets import sheet_name
@@ -151,9 +151,7 @@ def _pictures(result: Result) -> list[Picture]:
 def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Picture:
     image = Image.fromarray(pixels)
     image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
-    file = io.BytesIO()
-    image.save(file, format="JPEG", quality=88)
-    return Picture(title, note, file.getvalue(), "image/jpeg", link)
+    return Picture(title, note, jpeg_bytes(image, 88), "image/jpeg", link)
 
 
 def _rooms(storey: Storey) -> Table:

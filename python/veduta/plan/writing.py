@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
+from veduta.imaging.encode import png_bytes
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import draw
 from veduta.plan.house.build import House
@@ -19,7 +20,7 @@ from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
-from veduta.plan.outputs.overlay import overlay, png
+from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.sheets import sheet_name
 
@@ -48,8 +49,8 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):
-        (folder / sheet_name(index)).write_bytes(png(pixels))
-    (folder / "overlay.png").write_bytes(png(result.overlay))
+        (folder / sheet_name(index)).write_bytes(png_bytes(pixels, compress_level=3))
+    (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     drawings = [draw(space) for space in result.house.spaces]
     (folder / "plan.svg").write_bytes(plan_svg(drawings))
     (folder / "plan.dxf").write_bytes(plan_dxf(drawings))

@@ -2,16 +2,14 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
-from PIL import Image
 
 from veduta.formats.gltf import write_glb
+from veduta.imaging.encode import png_bytes
 from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.upright import upright
 from veduta.photos.cameras.vertical_edges import edge_normals
@@ -81,15 +79,9 @@ def write_walls(
     document = walls_document(found.walls, found.pictures, structure, unit)
     write_bytes(out / DOCUMENT, (document.model_dump_json(by_alias=True, indent=2) + "\n").encode())
     for picture in found.pictures:
-        write_bytes(walls / Path(picture_file(picture.grid.wall)).name, _png(picture.pixels))
+        write_bytes(walls / Path(picture_file(picture.grid.wall)).name, png_bytes(picture.pixels))
     part = walls_part(found.pictures)
     if part is None:
         return None
     write_glb(part, walls / Path(MODEL).name)
     return place_part(part)
-
-
-def _png(pixels: NDArray[np.uint8]) -> bytes:
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="PNG")
-    return file.getvalue()

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 from collections.abc import Sequence
 
 import cv2
@@ -44,13 +43,6 @@ def overlay(drawings: Sequence[Drawing], sheets: Sequence[NDArray[np.uint8]]) ->
         canvas[top : top + panel.shape[0], : panel.shape[1]] = panel
         top += panel.shape[0] + GAP_PX
     return canvas
-
-
-def png(pixels: NDArray[np.uint8]) -> bytes:
-    """(h, w, 3) sRGB as a PNG file."""
-    file = io.BytesIO()
-    Image.fromarray(pixels).save(file, format="PNG", compress_level=3)
-    return file.getvalue()
 
 
 def pixels_of(sheet: Sheet, points_m: NDArray[np.float64]) -> NDArray[np.float64]:
