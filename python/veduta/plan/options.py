@@ -10,6 +10,7 @@ from veduta.run.options import Options
 
 RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]
 FrameKind = Literal["surround", "bottom", "none"]
+LightKind = Literal["ceiling", "wall", "none"]
 
 
 PAGES = r"^[1-9]\d{0,4}(-[1-9]\d{0,4})?(,[1-9]\d{0,4}(-[1-9]\d{0,4})?)*$"
@@ -89,6 +90,10 @@ class HouseOptions(Options):
     )
     doors: Literal["open", "closed"] = Field(
         default="open", description="how doors stand in the model; each can be opened in any case"
+    )
+    lights: LightKind = Field(
+        default="ceiling",
+        description="lamps of rooms at their ceilings, on their walls, or none at all",
     )
 
 

@@ -14,6 +14,7 @@ from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.house.build import build_house
+from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
@@ -124,7 +125,8 @@ def _make(
     work = opened.work_folder(CALL)
     try:
         document, sheets, notes = _document(call, given, options, steps, progress)
-        result = _house(document, sheets, options, steps, progress)
+        lit = _lights(document, options, steps, progress)
+        result = _house(lit.document, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -164,6 +166,25 @@ def _document(
         sheets, notes = load_sheets(call.paths[0].parent, given)
         step.counts["storeys"] = len(given.storeys)
     return given, sheets, notes
+
+
+def _lights(
+    document: PlanDocument,
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Lit:
+    """The document with lamps in each storey that has none yet."""
+    progress("lights", 0.0)
+    with timed_step(steps, "lights") as step:
+        lit = light_house(document, options.house)
+        step.counts |= {
+            "lamps": sum(len(storey.lights or []) for storey in lit.document.storeys),
+            "points_looked_at": lit.points,
+            "points_in_the_dark": lit.dark,
+        }
+        step.rejected.extend(lit.notes)
+    return lit
 
 
 def _house(

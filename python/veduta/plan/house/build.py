@@ -11,7 +11,7 @@ from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.house.doors import add_door
-from veduta.plan.house.floors import add_ceilings, add_floors, add_skirting, add_slab
+from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
@@ -19,6 +19,7 @@ from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space, solid_region, space_of
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
+from veduta.plan.lights.bodies import add_lamps
 from veduta.plan.options import HouseOptions
 
 GROUND_SLAB_M = 0.2
@@ -67,6 +68,7 @@ def _add_storey(
     add_floors(space, sculptor)
     add_ceilings(space, height, sculptor)
     add_skirting(space, sculptor)
+    add_lamps(storey, height - FINISH_M, sculptor)
     over = solid_region(space.covered.union(above))
     top = storey.elevation_m + storey.height_m
     add_slab(over, top - options.slab, top, f"{storey.name} slab", sculptor)

@@ -26,6 +26,7 @@ class Look:
     roughness: float = 0.9
     opacity: float = 1.0
     metalness: float = 0.0
+    glow: float = 0.0
 
 
 LOOKS: dict[str, Look] = {
@@ -47,6 +48,8 @@ LOOKS: dict[str, Look] = {
     "entrance": Look((0.36, 0.27, 0.22), "wood", roughness=0.5),
     "garage door": Look((0.82, 0.83, 0.84), "siding", roughness=0.5),
     "handle": Look((0.62, 0.62, 0.60), roughness=0.3, metalness=0.8),
+    "lamp glass": Look((1.0, 0.97, 0.91), roughness=0.4, glow=0.45),
+    "lamp metal": Look((0.72, 0.70, 0.66), roughness=0.35, metalness=0.7),
     "roof": Look((0.66, 0.36, 0.27), "clay-tile", roughness=0.8),
     "flat roof": Look((0.70, 0.70, 0.70), "gravel"),
     "soffit": Look((0.93, 0.91, 0.87)),
@@ -87,7 +90,7 @@ class Looks:
             texture = None if look.texture is None else _texture(look.texture)
             material = Material(
                 name.replace(" ", "-"), look.colour, look.roughness, look.metalness,
-                texture, look.opacity,
+                texture, look.opacity, look.glow,
             )  # fmt: skip
             self._numbers[name] = self._builder.material(material)
         if look.texture is None:
