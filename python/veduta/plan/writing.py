@@ -22,6 +22,7 @@ from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.sheets import sheet_name
 
 MODEL = "house.glb"
@@ -56,4 +57,6 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / "plan.dxf").write_bytes(plan_dxf(drawings))
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
     write_glb(result.house.part, folder / MODEL)
-    write_place(place_of(result.house, MODEL, DOCUMENT, options), folder / "place.json")
+    place = place_of(result.house, MODEL, DOCUMENT, options)
+    (folder / "house.x3d").write_bytes(house_x3d(result.house, options, place.start))
+    write_place(place, folder / "place.json")

@@ -30,6 +30,7 @@ _MOST_ANGLES = 8
 _FROM_WALL_M = 0.35
 _MOST_SITES = 300
 _CLOSER = 0.9
+_OBLONG = 1.5
 _ROUNDS = 40
 
 
@@ -78,30 +79,35 @@ def _rows(region: Polygon, angle: float, reach_m: float, least: int) -> NDArray[
     """(k, 2) lamps in rows of one direction, as many as are asked for where there is room."""
     about = (0.0, 0.0)
     turned = rotate(region, -angle, origin=about, use_radians=True)
-    diameter = 2.0 * reach_m
-    best = _turned_rows(turned, diameter)
+    depth = turned.bounds[3] - turned.bounds[1]
+    # AV3D: rows as far apart as the diameter of illumination at most.
+    rows = max(1, math.ceil(depth / (2.0 * reach_m) - 1e-9))
+    along = 2.0 * reach_m
+    lamps = _turned_rows(turned, rows, along)
     for _ in range(_ROUNDS):
-        if len(best) >= least:
+        if len(lamps) >= least:
             break
-        diameter *= _CLOSER
-        best = _turned_rows(turned, diameter)
-    if not len(best):
-        return best
+        # Brighter: another row where rows are further apart than the lamps in them.
+        if depth / rows > _OBLONG * along:
+            rows += 1
+        else:
+            along *= _CLOSER
+        lamps = _turned_rows(turned, rows, along)
     cos, sin = math.cos(angle), math.sin(angle)
-    return _thinned(Field(region), best @ np.array([[cos, sin], [-sin, cos]]), diameter / 2.0)
+    turned_back = lamps @ np.array([[cos, sin], [-sin, cos]])
+    return _thinned(Field(region), turned_back, min(along, depth / rows) / 2.0)
 
 
-def _turned_rows(region: Polygon, diameter_m: float) -> NDArray[np.float64]:
-    """(k, 2) lamps in level rows: AV3D's calculations."""
+def _turned_rows(region: Polygon, rows: int, along_m: float) -> NDArray[np.float64]:
+    """(k, 2) lamps in level rows, in each at most so far apart: AV3D's calculations."""
     left, bottom, right, top = region.bounds
-    rows = max(1, math.ceil((top - bottom) / diameter_m - 1e-9))
     spacing = (top - bottom) / rows
     lamps = []
     for row in range(rows):
         y = bottom + spacing * (row + 0.5)
         line = LineString([(left - 1.0, y), (right + 1.0, y)])
         for start, end in _segments(line.intersection(region)):
-            count = max(1, math.ceil((end - start) / diameter_m - 1e-9))
+            count = max(1, math.ceil((end - start) / along_m - 1e-9))
             along = start + (end - start) * (np.arange(count) + 0.5) / count
             lamps += [(x, y) for x in along]
     return np.array(lamps, dtype=np.float64).reshape(-1, 2)
@@ -121,7 +127,7 @@ def _thinned(field: Field, lamps: NDArray[np.float64], reach_m: float) -> NDArra
         near = np.array([one for one in kept if np.hypot(*(one - lamp)) < reach_m - 1e-9])
         if not len(near) or not field.sees(lamp, near).any():
             kept.append(lamp)
-    return np.array(kept)
+    return np.array(kept).reshape(-1, 2)
 
 
 def _sites(region: Polygon) -> NDArray[np.float64]:

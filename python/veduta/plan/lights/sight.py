@@ -76,7 +76,7 @@ class Field:
     def _seen(self, first: NDArray[np.float64], second: NDArray[np.float64]) -> NDArray[np.bool_]:
         shapely.prepare(self.region)
         ways = shapely.linestrings(np.stack([first, second], axis=1))
-        seen: NDArray[np.bool_] = shapely.covers(self.region, ways)
+        seen: NDArray[np.bool_] = np.asarray(shapely.covers(self.region, ways))
         return seen
 
 
