@@ -95,6 +95,13 @@ class HouseOptions(Options):
         default="ceiling",
         description="lamps of rooms at their ceilings, on their walls, or none at all",
     )
+    surroundings: Literal["garden", "none"] = Field(
+        default="garden", description="what lies around the house: ground with plants, or nothing"
+    )
+    ground_slope: Annotated[float, Field(ge=0.0, le=15.0)] = Field(
+        default=0.0,
+        description="how steeply the ground falls before the house and rises behind it (degrees)",
+    )
 
 
 class PlanOptions(Options):

@@ -27,6 +27,8 @@ FILES = (
     ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
     ("house.glb", "the house as glTF 2.0, each leaf of a door with an animation"),
     ("house.x3d", "the house as X3D 4.0: doors that open, lamps that switch on, views of rooms"),
+    ("ground.glb", "the ground around it: lawn, paths, a drive to the garage"),
+    ("garden.glb", "what grows there"),
     ("place.json", "the house as a place, for `veduta view`"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
 )

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
+from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import draw
 from veduta.plan.house.build import House
@@ -24,6 +25,7 @@ from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.sheets import sheet_name
+from veduta.plan.surroundings.build import build_surroundings, with_surroundings
 
 MODEL = "house.glb"
 
@@ -58,5 +60,14 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
     write_glb(result.house.part, folder / MODEL)
     place = place_of(result.house, MODEL, DOCUMENT, options)
-    (folder / "house.x3d").write_bytes(house_x3d(result.house, options, place.start))
+    around: list[Part] = []
+    if options.surroundings != "none":
+        surroundings = build_surroundings(result.house.spaces[0], options)
+        around = [surroundings.ground, *([surroundings.garden] if surroundings.garden else [])]
+        models = {part.id: f"{part.id}.glb" for part in around}
+        for part in around:
+            write_glb(part, folder / models[part.id])
+        place = with_surroundings(place, surroundings, models)
+    x3d = house_x3d(result.house, options, place.start, others=around)
+    (folder / "house.x3d").write_bytes(x3d)
     write_place(place, folder / "place.json")

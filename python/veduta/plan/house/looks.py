@@ -52,6 +52,14 @@ LOOKS: dict[str, Look] = {
     "lamp metal": Look((0.72, 0.70, 0.66), roughness=0.35, metalness=0.7),
     "roof": Look((0.66, 0.36, 0.27), "clay-tile", roughness=0.8),
     "flat roof": Look((0.70, 0.70, 0.70), "gravel"),
+    "lawn": Look((0.42, 0.54, 0.27), "lawn"),
+    "path": Look((0.78, 0.75, 0.70), "paving"),
+    "drive": Look((0.66, 0.65, 0.63), "cobbles"),
+    "bark": Look((0.38, 0.29, 0.21)),
+    "leaves": Look((0.33, 0.48, 0.20)),
+    "needles": Look((0.16, 0.33, 0.20)),
+    "bush": Look((0.27, 0.42, 0.19)),
+    "gravel": Look((0.74, 0.72, 0.69), "gravel"),
     "soffit": Look((0.93, 0.91, 0.87)),
 }
 _FLOORS: dict[RoomUse, str] = {

@@ -15,6 +15,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely import STRtree
 from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import X3dScene, look_from, place_of
 from veduta.place.flatten import flattened
@@ -172,7 +173,7 @@ def _add_views(
         )  # fmt: skip
 
 
-def room_view(space: Space, room: Room, region: shapely.Geometry, up_m: float) -> View | None:
+def room_view(space: Space, room: Room, region: BaseGeometry, up_m: float) -> View | None:
     """From the corner of a room that is furthest from its middle, to its middle."""
     whole = max(pieces_of(region), key=lambda piece: piece.area)
     inner = whole.buffer(-_FROM_WALL_M, join_style="mitre")

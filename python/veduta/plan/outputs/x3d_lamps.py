@@ -67,7 +67,7 @@ class RoomLamps:
     def _sensor(self, group: Element, region: Polygon, floor_m: float, height_m: float) -> Element:
         """Around the room: the smallest box, however it is turned."""
         box = region.minimum_rotated_rectangle
-        corners = np.array(box.exterior.coords)
+        corners = np.array(box.boundary.coords)
         along, across = corners[1] - corners[0], corners[2] - corners[1]
         middle = corners[:4].mean(axis=0)
         turned = self._scene.node(
