@@ -121,7 +121,11 @@ class X3dScene:
             transparency=round(1.0 - material.opacity, 4),
         )
         if texture is not None:
-            self.node(look, "ImageTexture", url=[_address(texture, material.colour)])
+            image = self.node(look, "ImageTexture", url=[_address(texture, material.colour)])
+            self.node(
+                image, "TextureProperties", generateMipMaps=True, anisotropicDegree=4.0,
+                minificationFilter="AVG_PIXEL_AVG_MIPMAP", magnificationFilter="AVG_PIXEL",
+            )  # fmt: skip
 
     def content(self) -> bytes:
         """The file; it can be called once."""

@@ -24,7 +24,10 @@ FILES = (
     ("overlay.png", "what was found, over the cleaned drawing, with the ids of the openings"),
     ("plan.svg", "the plan as a drawing"),
     ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms"),
-    ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
+    (
+        "house.ifc",
+        "the house for BIM software (IFC4): walls, openings, doors, windows, spaces, lamps",
+    ),
     ("house.glb", "the house as glTF 2.0, each leaf of a door with an animation"),
     ("house.x3d", "the house as X3D 4.0: doors that open, lamps that switch on, views of rooms"),
     ("ground.glb", "the ground around it: lawn, paths, a drive to the garage"),
