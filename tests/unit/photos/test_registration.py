@@ -83,7 +83,6 @@ def test_a_wall_that_has_lost_its_facade_is_named_alone() -> None:
         facade=np.array([[[-1, -1, -1], [-1, -1, 1]]]),
         off_m=none,
         edges_m=none[..., :2],
-        tops_m=none[..., 0],
         lift_m=np.zeros(1),
         evidence=np.zeros((1, count)),
     )
