@@ -22,6 +22,8 @@ Points = NDArray[np.float64]
 MOST_ENTITIES = 400_000
 """Blocks in blocks can make any number of entities out of a small file."""
 _DEEPEST = 12
+_MOST_WORDS = 4
+"""Lines of more words are remarks for builders, and no names of rooms."""
 _FLAT = 2e-3
 """Curves stray by at most this share of their size from the lines that stand for them."""
 _LINES = frozenset({"LINE", "ARC", "CIRCLE", "ELLIPSE", "SPLINE", "LWPOLYLINE", "POLYLINE"})
@@ -69,11 +71,14 @@ class Entities:
     missing: list[str] = field(default_factory=list)
     """Files that this one refers to and does not hold."""
     more: bool = False
-    """Whether there were more than `MOST_ENTITIES`."""
+    """Whether there were more than are read."""
 
 
-def entities_of(document: DxfDocument) -> Entities:
-    """What the model space shows: layers that are off or frozen are left out."""
+def entities_of(document: DxfDocument, most: int = MOST_ENTITIES) -> Entities:
+    """What the model space shows: layers that are off or frozen are left out.
+
+    After `most` entities no more are read.
+    """
     found = Entities()
     hidden = {
         layer.dxf.name.lower()
@@ -82,7 +87,7 @@ def entities_of(document: DxfDocument) -> Entities:
     }
     shown = _shown(document.modelspace(), "other", "0", hidden, found, 0)
     for number, (role, entity) in enumerate(shown):
-        if number >= MOST_ENTITIES:
+        if number >= most:
             found.more = True
             break
         try:
@@ -214,7 +219,7 @@ def _words(entity: DXFGraphic) -> list[Word]:
     shares = np.linspace(0.0, 1.0, len(lines) + 1)
     found = []
     for line, above, below in zip(lines, shares[:-1], shares[1:], strict=True):
-        if line:
+        if line and sum(word[:1].isalpha() for word in line.split()) <= _MOST_WORDS:
             box = [
                 up_left + above * (low_left - up_left),
                 up_right + above * (low_right - up_right),
