@@ -28,6 +28,10 @@ WALLED = 0.55
 REACH_M = 0.02
 """Lines are made longer by this: some corners are not closed."""
 NEAR_M = 0.005
+LEAST_LONG = 1.2
+"""A face is a wall, where no layer tells, if it is so many times as long as it is wide."""
+PANE = 1.3
+"""It is a pane if the band of faces at its middle is so many times as broad."""
 MOST_LINES = 60_000
 LEAST_NAMED = 1.0
 """Layers of walls are believed if their lines are so many times as long as what they enclose is
@@ -77,9 +81,9 @@ def named_walls(found: Entities) -> bool:
 
 
 def solid_walls(found: Entities, unit_m: float) -> Walls:
-    """The solid of all walls, where layers tell which lines are walls; else it is empty."""
+    """The solid of all walls: by layers, or else by which faces are as narrow and long as walls."""
     if not named_walls(found):
-        return Walls(Polygon(), by_name=False)
+        return Walls(unary_union(_unnamed_cells(found, unit_m)), by_name=False)
     walls = [one for one in found.strokes if one.role == "wall"]
     cells = _cells(found, walls, unit_m)
     painted = [_painted(rings) for role, rings in found.filled if role == "wall"]
@@ -111,7 +115,7 @@ def _cells(found: Entities, walls: Sequence[Stroke], unit_m: float) -> list[Poly
     bodies = tree.geometries
     kept, widths = [], []
     for face in polygonize(meshed):
-        width = 2.0 * maximum_inscribed_circle(face, tolerance=near).length * unit_m
+        width = _width(face, near) * unit_m
         if not THINNEST_M <= width <= THICKEST_M:
             continue
         around = unary_union(bodies[tree.query(face.exterior, predicate="intersects")])
@@ -129,6 +133,60 @@ def _common(widths: Sequence[float], lengths: Sequence[float]) -> float:
     order = np.argsort(widths)
     total = np.cumsum(np.array(lengths)[order])
     return float(np.array(widths)[order][np.searchsorted(total, COMMON * total[-1])])
+
+
+def _unnamed_cells(found: Entities, unit_m: float) -> list[Polygon]:
+    """Long narrow faces between lines of no told layer, but for panes, which lie side by side."""
+    shown = [one for one in found.strokes if one.role in ("other", "wall", *OPENINGS)]
+    reach, near = REACH_M / unit_m, NEAR_M / unit_m
+    lines = [_longer(one.points, reach) for one in shown if one.arc is None][:MOST_LINES]
+    if not lines:
+        return []
+    meshed = unary_union(shapely.set_precision([LineString(one) for one in lines], near / 50))
+    faces = [
+        (face, width)
+        for face in polygonize(meshed)
+        if THINNEST_M <= (width := _width(face, near) * unit_m) <= THICKEST_M
+        and face.length * unit_m >= (2.0 + 2.0 * LEAST_LONG) * width
+    ]
+    most = BROADER * _common([width for _, width in faces], [face.length for face, _ in faces])
+    band = unary_union([face.buffer(near, join_style="mitre") for face, _ in faces])
+    parts = list(getattr(band, "geoms", [band]))
+    tree = STRtree(parts)
+    kept = []
+    for face, width in faces:
+        around = unary_union([parts[index] for index in tree.query(face)])
+        here = around.intersection(face.buffer(width / unit_m, join_style="mitre"))
+        if width <= most and not _is_pane(face, here, width, near, unit_m):
+            kept.append(face)
+    return kept
+
+
+def _is_pane(face: Polygon, here: BaseGeometry, width: float, near: float, unit_m: float) -> bool:
+    """Whether a face is only a part of the breadth of the band that it lies in.
+
+    Seen where most of it is: at its ends all walls are broad.
+    """
+    middle = face.centroid
+    part = next(
+        (one for one in getattr(here, "geoms", [here]) if one.distance(middle) < near), None
+    )
+    if part is None:
+        return False
+    box = face.minimum_rotated_rectangle
+    corners = shapely.get_coordinates(box)[:3]
+    sides = np.diff(corners, axis=0)
+    lengths = np.hypot(*sides.T)
+    along = sides[int(np.argmax(lengths))] / max(float(lengths.max()), 1e-9)
+    across = np.array([-along[1], along[0]]) * 2.0 * width / unit_m
+    at = np.array([middle.x, middle.y])
+    cut = LineString([at - across, at + across]).intersection(part)
+    breadth = max((one.length for one in getattr(cut, "geoms", [cut])), default=0.0) * unit_m
+    return breadth > PANE * (width + 2.0 * NEAR_M)
+
+
+def _width(face: Polygon, near: float) -> float:
+    return float(2.0 * maximum_inscribed_circle(face, tolerance=near).length)
 
 
 def _painted(rings: list[Points]) -> BaseGeometry:

@@ -52,7 +52,7 @@ def read_vectors(path: Path, given_m: float | None = None) -> VectorPlan:
     sheet = lay_out(found, walls, unit.metres_per_px)
     segments = _segments(found, walls, sheet)
     known = KnownWalls(
-        sheet.solid if walls.by_name else None, lambda axes: exact_axes(axes, segments)
+        sheet.solid if not walls.solid.is_empty else None, lambda axes: exact_axes(axes, segments)
     )
     drawn = read_cleaned(sheet.cleaned, sheet.cleaned.texts or (), known=known)
     drawn = replace(drawn, openings=named_openings(drawn, found, sheet))
