@@ -28,6 +28,9 @@ WALLED = 0.55
 REACH_M = 0.02
 """Lines are made longer by this: some corners are not closed."""
 NEAR_M = 0.005
+LEAF_M = (0.5, 1.35)
+LEAF_SWEEP = (60.0, 100.0)
+"""Radius of the arcs of door leaves, and their angle (degrees)."""
 LEAST_LONG = 1.2
 """A face is a wall, where no layer tells, if it is so many times as long as it is wide."""
 PANE = 1.3
@@ -153,13 +156,32 @@ def _unnamed_cells(found: Entities, unit_m: float) -> list[Polygon]:
     band = unary_union([face.buffer(near, join_style="mitre") for face, _ in faces])
     parts = list(getattr(band, "geoms", [band]))
     tree = STRtree(parts)
+    leaves = [leaf for one in shown if one.arc is not None for leaf in _closed_leaves(one, unit_m)]
     kept = []
     for face, width in faces:
+        if any(_is_closed_by(face, leaf, near) for leaf in leaves):
+            continue
         around = unary_union([parts[index] for index in tree.query(face)])
         here = around.intersection(face.buffer(width / unit_m, join_style="mitre"))
         if width <= most and not _is_pane(face, here, width, near, unit_m):
             kept.append(face)
     return kept
+
+
+def _closed_leaves(stroke: Stroke, unit_m: float) -> list[LineString]:
+    """Where a door's leaf may be when it is closed: from its hinge to both ends of its arc."""
+    if stroke.arc is None:
+        return []
+    radius, x, y, sweep = stroke.arc
+    if not (LEAF_M[0] <= radius * unit_m <= LEAF_M[1] and LEAF_SWEEP[0] <= sweep <= LEAF_SWEEP[1]):
+        return []
+    return [LineString([(x, y), tuple(end)]) for end in (stroke.points[0], stroke.points[-1])]
+
+
+def _is_closed_by(face: Polygon, leaf: LineString, near: float) -> bool:
+    """Whether a leaf lies along nearly all of a face."""
+    inside = leaf.intersection(face.buffer(8.0 * near)).length
+    return bool(inside > 0.7 * leaf.length and face.length < 3.2 * leaf.length)
 
 
 def _is_pane(face: Polygon, here: BaseGeometry, width: float, near: float, unit_m: float) -> bool:

@@ -17,6 +17,7 @@ from ezdxf.document import Drawing as DxfDocument
 
 from veduta.plan.document import Scale, ScaleEvidence
 from veduta.plan.vector.entities import Entities
+from veduta.plan.vector.faces import LEAF_M, LEAF_SWEEP
 from veduta.plan.vector.layers import OPENINGS
 from veduta.run.errors import InputError
 
@@ -31,8 +32,6 @@ _ARCHITECTURAL = (3, 4)
 """DIMLUNIT and LUNITS of feet and inches, which count in inches."""
 HOUSE_M = (2.5, 200.0)
 """Least and most of the longer side of what is drawn as walls."""
-_LEAF_M = (0.5, 1.35)
-"""Radius of the arcs of door leaves."""
 _USUAL_LEAF_M = 0.85
 _WALL_M = 0.18
 _FEET = re.compile(r"\d\s*'\s*-?\s*\d*|\d\s*\"")
@@ -148,13 +147,17 @@ def _of_writing(document: DxfDocument, found: Entities) -> list[Witness]:
 
 def _of_leaves(found: Entities) -> list[Witness]:
     """Quarter circles of doors: their radius is the width of a leaf."""
-    arcs = [one for one in found.strokes if one.arc is not None and 60 <= one.arc[3] <= 100]
+    arcs = [
+        one
+        for one in found.strokes
+        if one.arc is not None and LEAF_SWEEP[0] <= one.arc[3] <= LEAF_SWEEP[1]
+    ]
     named = [one for one in arcs if one.role in OPENINGS]
     radii = [one.arc[0] for one in named or arcs if one.arc is not None]
     if not radii:
         return []
     usual = float(np.median(radii if named else sorted(radii)[len(radii) // 2 :]))
-    units = [name for name, size in METRES.items() if _LEAF_M[0] <= usual * size <= _LEAF_M[1]]
+    units = [name for name, size in METRES.items() if LEAF_M[0] <= usual * size <= LEAF_M[1]]
     units.sort(key=lambda name: abs(math.log(usual * METRES[name] / _USUAL_LEAF_M)))
     if not units:
         return []
