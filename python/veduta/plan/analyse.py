@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,6 +24,7 @@ from veduta.plan.registering import registered
 from veduta.plan.remarks import remarks
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
 from veduta.plan.sheets import Pixels
+from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.vector.read import VectorPlan, read_vectors
@@ -90,6 +91,7 @@ def _read_one(
     progress("scale and names", 0.0)
     with timed_step(steps, "scale and names") as step:
         scale = _scale(drawn, options, scan)
+        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
         named = _names(drawn, scale.metres_per_px)
         step.counts["evidence"] = len(scale.evidence)
     storey = compose_storey(
@@ -136,6 +138,7 @@ def _read_vectors(
     progress("scale and names", 0.0)
     with timed_step(steps, "scale and names") as step:
         scale = _vector_scale(plan)
+        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
         named = _names(drawn, scale.metres_per_px)
         step.counts["evidence"] = len(scale.evidence)
     storey = compose_storey(

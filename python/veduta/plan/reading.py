@@ -8,7 +8,7 @@ find rooms.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,6 +23,7 @@ from veduta.plan.openings.evidence import Sheet, look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.rooms.mend import mended
+from veduta.plan.stairs.find import find_flights
 from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.find import Found, find_walls
 
@@ -63,15 +64,19 @@ def read_cleaned(
 ) -> Drawn:
     """As `read_storey`, of a cleaned sheet; texts are in its pixels.
 
+    `stairs` of the result are all that look like flights: `stairs.find.true_flights` tells which of
+    them are, by the scale.
+
     `known` walls are not looked for in the ink.
     """
-    found = find_walls(cleaned, texts, None if known is None else known.solid)
+    flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
+    found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
     settled = known.settle(whole.axes) if known else whole.axes
-    return drawn_from(cleaned, found, settled, texts, whole.notes)
+    return replace(drawn_from(cleaned, found, settled, texts, whole.notes), stairs=flights)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
-from veduta.plan.drawn import Cleaned
+from veduta.plan.drawn import Cleaned, DrawnStairs
+from veduta.plan.stairs.find import without_flights
 from veduta.plan.walls.cells import fill_cells, stroke_length
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
@@ -47,14 +48,19 @@ class Found:
 
 
 def find_walls(
-    cleaned: Cleaned, texts: Sequence[Text] = (), known: NDArray[np.bool_] | None = None
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    known: NDArray[np.bool_] | None = None,
+    flights: Sequence[DrawnStairs] = (),
 ) -> Found:
     """Find the pieces; NotFoundError where no strokes are walls.
 
-    `known` is the (h, w) mask of all that is wall, where that is known and not looked for.
+    `known` is the (h, w) mask of all that is wall, where that is known and not looked for. Treads
+    of `flights` are no walls.
     """
     if known is None:
         ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
+        ink = without_flights(ink, flights, cleaned.line_px)
         mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     else:
         ink = mask = known
@@ -68,8 +74,8 @@ def find_walls(
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
     # What was filled in is as solid as ink.
-    soft = np.where(mask & ~ink, np.float32(1), cleaned.ink) if known is None else known
-    soft = np.asarray(soft, np.float32)
+    ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
+    soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
