@@ -19,6 +19,7 @@ from shapely.ops import unary_union
 from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn, DrawnStairs
 from veduta.plan.stairs.arrow import way_up
+from veduta.plan.walls.runs import run_lengths_down
 
 TREAD_M = (0.19, 0.38)
 """From one nosing to the next."""
@@ -41,6 +42,8 @@ INSIDE = 0.85
 """So much of a flight lies in the rooms."""
 MISSED = 1
 """So many treads in a row may be hidden, by the word beside an arrow."""
+WALL = 0.8
+"""A row of ink with this share of the treads' width is a wall's face."""
 ACROSS = 0.5
 """A floor is tiled if it has this part of the lines across the treads."""
 
@@ -63,11 +66,13 @@ def find_flights(
 ) -> tuple[DrawnStairs, ...]:
     """What looks like flights in the (h, w) mask of ink, whatever its scale; the best first."""
     extent = _extent(ink)
+    turned_ink = np.ascontiguousarray(ink.T)
     level = _lines(ink, line_px, extent)
-    upright = _lines(np.ascontiguousarray(ink.T), line_px, extent)
+    upright = _lines(turned_ink, line_px, extent)
     found: list[tuple[float, Polygon, int, bool]] = []
     for lines, others, turned in ((level, upright, False), (upright, level, True)):
         for chain in _chains(lines, extent):
+            chain = _to_walls(chain, turned_ink if turned else ink)
             area = _area(chain)
             if not _crossed(area, len(chain), others):
                 shape = _turned(area) if turned else area
@@ -132,8 +137,10 @@ def _extent(ink: NDArray[np.bool_]) -> float:
 def _lines(ink: NDArray[np.bool_], line_px: float, extent: float) -> list[_Line]:
     """Thin horizontal lines of the mask, those in one row with a gap for an arrow made one."""
     least = max(5, round(LEAST_LINE * extent))
+    # Walls that treads end at are no part of them.
+    thin = ink & (run_lengths_down(ink) <= 1.8 * line_px + 3.0)
     # A line that is askew by a pixel over its length is still one.
-    thick = cv2.dilate(ink.astype(np.uint8), np.ones((3, 1), np.uint8))
+    thick = cv2.dilate(thin.astype(np.uint8), np.ones((3, 1), np.uint8))
     opened = cv2.morphologyEx(thick, cv2.MORPH_OPEN, np.ones((1, least), np.uint8))
     _, _, stats, centres = cv2.connectedComponentsWithStats(opened, connectivity=8)
     most = 2.5 * line_px + 4.0
@@ -219,6 +226,24 @@ def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
         if after is None:
             return chain
         chain.append(after)
+
+
+def _to_walls(chain: list[_Line], ink: NDArray[np.bool_]) -> list[_Line]:
+    """The chain with the face of a wall as its first or last tread, where one stands there."""
+    step = float(np.median(_steps(chain)))
+    left = round(np.median([one.left for one in chain]))
+    right = round(np.median([one.right for one in chain]))
+    rows = ink[:, left:right].mean(axis=1) > WALL
+    found = list(chain)
+    for end, way in ((chain[0], -1), (chain[-1], 1)):
+        near, far = (end.y + way * share * step for share in (1.0 - EVEN, 1.0 + EVEN))
+        low, high = round(max(0.0, min(near, far))), round(max(near, far)) + 1
+        dark = np.flatnonzero(rows[low:high]) + low
+        if len(dark):
+            face = float(dark[0] if way > 0 else dark[-1] + 1)
+            one = _Line(face, left, right)
+            found = [one, *found] if way < 0 else [*found, one]
+    return found
 
 
 def _steps(chain: Sequence[_Line]) -> NDArray[np.float64]:
