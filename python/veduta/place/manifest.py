@@ -109,9 +109,7 @@ class Tour(_Record):
 
     id: str = Field(min_length=1, max_length=256)
     name: str
-    times_s: list[Finite] = Field(
-        min_length=2, max_length=100_000, description="ascending, from 0"
-    )
+    times_s: list[Finite] = Field(min_length=2, max_length=100_000, description="ascending, from 0")
     eyes: list[Vector] = Field(description="one for each time (m, world frame)")
     directions: list[Vector] = Field(description="unit vectors, one for each time")
     stretches: list[TourStretch] = Field(

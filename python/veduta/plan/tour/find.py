@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -12,6 +13,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.place.camera_path import CameraPath
+from veduta.plan.document import RoomUse
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
 from veduta.plan.tour import gaze, pace
@@ -20,35 +22,29 @@ from veduta.plan.tour.grid import Grid, cells_of
 from veduta.plan.tour.leaves import open_leaves
 from veduta.plan.tour.outside import Outside, outside_of
 from veduta.plan.tour.smooth import smoothed
-from veduta.plan.tour.stops import Stop, short_order, stops_of, title_of
+from veduta.plan.tour.stops import Stop, short_order, squares_in, stops_of
+from veduta.plan.tour.stretches import Stretch, stretches_of
 
 EYE_M = 1.7
 FOV_RAD = math.radians(60.0)
-OUTSIDE = "Outside"
 SHORT_M = 1.2
 """One stops so far before the middle of a room at most, to see it in front ..."""
 SHORT_SHARE = 0.4
 """... and by no more than this share of the way in it."""
-
-
-@dataclass(frozen=True)
-class Stretch:
-    """When the visitor is in a room (or outside: None)."""
-
-    room: str | None
-    title: str
-    start_s: float
-    end_s: float
+THROUGH: frozenset[RoomUse] = frozenset({"hall", "corridor", "stairs"})
+"""Where one passes, and stops only if the way does not lead through."""
+ON_FLOOR_M = 0.05
+INDOORS = "the tour is indoors only: no way in from outside that is wide enough leads to most rooms"
 
 
 @dataclass(frozen=True)
 class Tour:
-    """The camera's path in the frame of the house, the rooms passed, and what was left out."""
+    """The camera's path in the frame of the house, the rooms passed, and what it leaves out."""
 
     path: CameraPath
     stretches: tuple[Stretch, ...]
     length_m: float
-    missed: tuple[str, ...]
+    notes: tuple[str, ...]
     grounds: tuple[Ground, ...]
 
 
@@ -61,25 +57,24 @@ class Leg:
 
 
 def find_tour(house: House, speed_m_s: float) -> Tour | None:
-    """The tour; None where there is nowhere to walk."""
+    """The tour; None where there is no room in which one can stand."""
     first = house.spaces[0]
     ways_in = entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
     grounds = _grounds(house, outside)
     grid = Grid([cells_of(ground) for ground in grounds])
-    start = _start(grid, grounds, outside)
-    if start is None:
+    begin = _begin(grid, grounds, outside)
+    if begin is None:
         return None
-    found = stops_of(grounds, grid, start)
-    legs = _legs(start, found.stops, grid, grounds)
-    motions = _motions(legs, outside, first.slab, speed_m_s)
-    if not motions:
-        return None
-    timed = pace.timed(motions)
+    found = stops_of(grounds, grid, begin.node)
+    legs = _legs_through(begin.node, found.stops, grid, grounds)
+    around = outside if begin.is_outside else None
+    timed = pace.timed(_motions(legs, around, first.slab, speed_m_s))
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
     length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
-    return Tour(path, _stretches(timed, grounds), length, found.missed, tuple(grounds))
+    notes = (*found.missed, *((INDOORS,) if around is None else ()))
+    return Tour(path, stretches_of(timed, grounds), length, notes, tuple(grounds))
 
 
 def _grounds(house: House, outside: Outside | None) -> list[Ground]:
@@ -91,18 +86,52 @@ def _grounds(house: House, outside: Outside | None) -> list[Ground]:
     ]
 
 
-def _start(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> int | None:
-    """Before the house; where no way leads in, the square from which most rooms are reached."""
-    begin = None if outside is None else grid.nearest(0, outside.ring_m[0])
-    if begin is not None and stops_of(grounds, grid, begin).stops:
-        return begin
-    return None
+@dataclass(frozen=True)
+class _Begin:
+    """The square at which the tour begins and ends."""
+
+    node: int
+    is_outside: bool
 
 
-def _legs(
+def _begin(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> _Begin | None:
+    """Before the house, if most rooms are reached from there, else in the midst of the most."""
+    rooms = Counter[int]()
+    first: dict[int, int] = {}
+    for storey, ground in enumerate(grounds):
+        for _, shape in ground.space.rooms:
+            squares = squares_in(shape, grid, storey)
+            pieces = {grid.piece_of(square): int(square) for square in squares}
+            rooms.update(pieces.keys())
+            first = pieces | first
+    if not rooms:
+        return None
+    most, count = rooms.most_common(1)[0]
+    front = None if outside is None else grid.nearest(0, outside.ring_m[0])
+    if front is not None and 2 * rooms[grid.piece_of(front)] >= count:
+        return _Begin(front, is_outside=True)
+    stops = stops_of(grounds, grid, first[most]).stops
+    inviting = min(stops, key=lambda stop: (stop.storey, stop.room.use not in THROUGH))
+    return _Begin(inviting.node, is_outside=False)
+
+
+def _legs_through(
     start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]
 ) -> list[Leg]:
-    """From the start through all stops and back to it."""
+    """From the start through all stops and back; halls that one passes anyway are no stops."""
+    chosen = [stop for stop in stops if stop.room.use not in THROUGH] or list(stops)
+    legs = _legs(start, chosen, grid, grounds)
+    late = [stop for stop in stops if stop not in chosen and not _passes(legs, stop, grounds)]
+    return _legs(start, chosen + late, grid, grounds) if late else legs
+
+
+def _passes(legs: Sequence[Leg], stop: Stop, grounds: Sequence[Ground]) -> bool:
+    points = np.concatenate([leg.points_m for leg in legs])
+    level = points[np.abs(points[:, 2] - grounds[stop.storey].elevation_m) < ON_FLOOR_M]
+    return bool(shapely.contains_xy(stop.shape, level[:, 0], level[:, 1]).any())
+
+
+def _legs(start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]) -> list[Leg]:
     nodes = [start, *(stop.node for stop in stops)]
     costs = np.array([grid.costs(node, nodes) for node in nodes])
     legs: list[Leg] = []
@@ -165,27 +194,3 @@ def _motions(
 
 def _middle(stop: Stop | None) -> NDArray[np.float64] | None:
     return None if stop is None else np.array(stop.shape.centroid.coords[0])
-
-
-def _stretches(timed: pace.Timed, grounds: Sequence[Ground]) -> tuple[Stretch, ...]:
-    """When the visitor is in which room."""
-    rooms = [_room_at(feet, grounds) for feet in timed.feet_m]
-    found: list[Stretch] = []
-    for room, title, time in (
-        (*name, float(time)) for name, time in zip(rooms, timed.times_s, strict=True)
-    ):
-        if found and found[-1].room == room and found[-1].title == title:
-            last = found.pop()
-            found.append(Stretch(room, title, last.start_s, time))
-        else:
-            if found:
-                last = found.pop()
-                found.append(Stretch(last.room, last.title, last.start_s, time))
-            found.append(Stretch(room, title, time, time))
-    return tuple(found)
-
-
-def _room_at(feet: NDArray[np.float64], grounds: Sequence[Ground]) -> tuple[str | None, str]:
-    ground = min(grounds, key=lambda one: abs(one.elevation_m - feet[2]))
-    room = ground.space.room_at(feet[:2])
-    return (None, OUTSIDE) if room is None else (room.id, title_of(room))

@@ -105,6 +105,4 @@ def _is_passable(hole: Hole) -> bool:
 def _passage(hole: Hole) -> Polygon:
     """What an opening leaves free between its linings, through the whole wall."""
     inset = min(FRAME_M, (hole.end_m - hole.start_m) / 3.0)
-    return hole.line.piece(
-        hole.start_m + inset, hole.end_m - inset, hole.line.half_m + _THROUGH_M
-    )
+    return hole.line.piece(hole.start_m + inset, hole.end_m - inset, hole.line.half_m + _THROUGH_M)

@@ -72,7 +72,10 @@ def turn(
     left = (leave_rad - arrive_rad) % (2.0 * math.pi)
     short = left if left <= math.pi else left - 2.0 * math.pi
     depths = depths_of(at_m, shape)
-    on_left, on_right = _depth(depths, arrive_rad, ASIDE_RAD), _depth(depths, arrive_rad, -ASIDE_RAD)
+    on_left, on_right = (
+        _depth(depths, arrive_rad, ASIDE_RAD),
+        _depth(depths, arrive_rad, -ASIDE_RAD),
+    )
     side = 1.0 if on_left >= on_right else -1.0
     if abs(short) < STRAIGHT_RAD:
         return [arrive_rad, arrive_rad + side * ASIDE_RAD, arrive_rad + short]
@@ -101,9 +104,7 @@ def _depth(depths: NDArray[np.float64], start_rad: float, span_rad: float) -> fl
     return float((depths[rows] ** 2).mean())
 
 
-def _last_course(
-    points_m: NDArray[np.float64], course: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _last_course(points_m: NDArray[np.float64], course: NDArray[np.float64]) -> NDArray[np.float64]:
     """Directions with those at the end, where there is nothing ahead, as the one before them."""
     size = np.linalg.norm(course[:, :2], axis=1)
     known = np.flatnonzero(size > 0.3)

@@ -63,9 +63,7 @@ def _ring(space: Space) -> NDArray[np.float64]:
     return ring if largest.exterior.is_ccw else ring[::-1]
 
 
-def _sight(
-    ring: NDArray[np.float64], door: NDArray[np.float64], walls: BaseGeometry
-) -> int | None:
+def _sight(ring: NDArray[np.float64], door: NDArray[np.float64], walls: BaseGeometry) -> int | None:
     """The nearest point of the ring from which one walks straight to the door."""
     away = np.linalg.norm(ring - door, axis=1)
     for row in np.argsort(away)[:: max(1, round(0.5 / _STEP_M))]:

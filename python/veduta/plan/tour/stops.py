@@ -50,13 +50,17 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
     stops: list[Stop] = []
     missed: list[str] = []
     for storey, ground in enumerate(grounds):
+        before, notes = len(stops), []
         for room, shape in ground.space.rooms:
             within = squares_in(shape, grid, storey)
             there = within[reached[within]]
             if len(there):
                 stops.append(Stop(room, shape, storey, _midst(shape, grid, there)))
             else:
-                missed.append(_why(room, ground, free=len(within) > 0))
+                notes.append(_why(room, ground, free=len(within) > 0))
+        if len(stops) == before and len(notes) > 1:
+            notes = [f"the tour leaves out {ground.space.storey.name}: no way leads to it"]
+        missed += notes
     return Stops(tuple(stops), tuple(missed))
 
 
