@@ -104,8 +104,11 @@ class TourStretch(_Record):
 
 
 class Tour(_Record):
-    """A guided tour: where the eye is and looks, key by key. Between two keys the eye moves on a
-    straight line, and the direction turns the shorter way at an even pace."""
+    """A guided tour: where the eye is and looks, key by key.
+
+    Between two keys the eye moves on a straight line, and the direction turns the shorter way at an
+    even pace.
+    """
 
     id: str = Field(min_length=1, max_length=256)
     name: str
@@ -178,9 +181,9 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
 
     The rule: both are in the same CRS (or both in none), and both have a scale. Parts, points,
     cameras and tours of the second move by the difference of the origins, and their files are
-    looked for below `second_folder`. One that both have under one id is kept once if it is the same in all
-    that it says, and refused otherwise: an id names one thing. They keep their order, the first
-    place's before the second's; the start is the first's.
+    looked for below `second_folder`. One that both have under one id is kept once if it is the same
+    in all that it says, and refused otherwise: an id names one thing. They keep their order, the
+    first place's before the second's; the start is the first's.
     """
     if first.crs != second.crs:
         raise InputError(

@@ -11,6 +11,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from veduta.place.camera_path import CameraPath
 from veduta.plan.document import RoomUse
@@ -100,15 +101,14 @@ def _begin(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> _B
     first: dict[int, int] = {}
     for storey, ground in enumerate(grounds):
         for _, shape in ground.space.rooms:
-            squares = squares_in(shape, grid, storey)
-            pieces = {grid.piece_of(square): int(square) for square in squares}
+            pieces = grid.pieces_of(squares_in(shape, grid, storey))
             rooms.update(pieces.keys())
             first = pieces | first
     if not rooms:
         return None
     most, count = rooms.most_common(1)[0]
     front = None if outside is None else grid.nearest(0, outside.ring_m[0])
-    if front is not None and 2 * rooms[grid.piece_of(front)] >= count:
+    if front is not None and 2 * rooms[next(iter(grid.pieces_of(np.array([front]))))] >= count:
         return _Begin(front, is_outside=True)
     stops = stops_of(grounds, grid, first[most]).stops
     inviting = min(stops, key=lambda stop: (stop.storey, stop.room.use not in THROUGH))
@@ -133,7 +133,7 @@ def _passes(legs: Sequence[Leg], stop: Stop, grounds: Sequence[Ground]) -> bool:
 
 def _legs(start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]) -> list[Leg]:
     nodes = [start, *(stop.node for stop in stops)]
-    costs = np.array([grid.costs(node, nodes) for node in nodes])
+    costs = grid.costs(nodes)
     legs: list[Leg] = []
     here = start
     for row in short_order(costs):
@@ -171,7 +171,7 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
 
 
 def _motions(
-    legs: Sequence[Leg], outside: Outside | None, slab: Polygon, speed_m_s: float
+    legs: Sequence[Leg], outside: Outside | None, slab: BaseGeometry, speed_m_s: float
 ) -> list[pace.Motion]:
     motions: list[pace.Motion] = []
     if outside is not None:

@@ -3,7 +3,7 @@
 Each square that can be crossed is a node, with edges to its eight neighbours; a diagonal is one
 only where both squares beside it are free, so that no corner is cut. Flights of stairs join the
 grids of two storeys. Near walls a metre costs more, so that the ways keep to the middle of doors
-and rooms. rustworkx searches (A*, Hart et al. 1968).
+and rooms. rustworkx searches (A*, Hart et al. 1968); scipy has the costs between all stops.
 """
 
 from __future__ import annotations
@@ -17,6 +17,8 @@ import rustworkx
 import shapely
 from numpy.typing import NDArray
 from scipy.ndimage import distance_transform_edt, label
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import dijkstra
 
 from veduta.plan.tour.free import Ground
 
@@ -107,7 +109,7 @@ class Grid:
         self._piece = self._pieces()
         self._graph = rustworkx.PyGraph(multigraph=False)
         self._graph.add_nodes_from(range(len(self.places_m)))
-        self.links: dict[tuple[int, int], Link] = {}
+        self._edges: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
         self._add_edges()
         for link in links:
             self._add_link(link)
@@ -124,17 +126,19 @@ class Grid:
         shy = SHY_COST * np.maximum(0.0, 1.0 - self.clear_m / SHY_M) ** 2
         for cells, first in zip(self.storeys, self.first, strict=False):
             ends = cells.edges + first
-            costs = cells.lengths_m * (1.0 + shy[ends].mean(axis=1))
-            self._graph.extend_from_weighted_edge_list(
-                list(zip(ends[:, 0].tolist(), ends[:, 1].tolist(), costs.tolist(), strict=True))
-            )
+            self._join(ends, cells.lengths_m * (1.0 + shy[ends].mean(axis=1)))
+
+    def _join(self, ends: NDArray[np.int64], costs: NDArray[np.float64]) -> None:
+        self._edges.append((ends, costs))
+        self._graph.extend_from_weighted_edge_list(
+            list(zip(ends[:, 0].tolist(), ends[:, 1].tolist(), costs.tolist(), strict=True))
+        )
 
     def _add_link(self, link: Link) -> None:
         foot, head = self.nearest(link.lower, link.foot_m), self.nearest(link.upper, link.head_m)
         if foot is None or head is None:
             return
-        self._graph.add_edge(foot, head, link.length_m)
-        self.links[foot, head] = link
+        self._join(np.array([[foot, head]]), np.array([link.length_m]))
         joined, kept = self._piece[head], self._piece[foot]
         self._piece[self._piece == joined] = kept
 
@@ -149,9 +153,10 @@ class Grid:
         best = int(away.argmin())
         return int(chosen[best]) if away[best] <= within_m else None
 
-    def piece_of(self, node: int) -> int:
-        """The connected piece that a square lies in."""
-        return int(self._piece[node])
+    def pieces_of(self, squares: NDArray[np.int64]) -> dict[int, int]:
+        """The connected pieces that squares lie in, and one of the squares in each."""
+        pieces, rows = np.unique(self._piece[squares], return_index=True)
+        return dict(zip(pieces.tolist(), squares[rows].tolist(), strict=True))
 
     def reachable(self, node: int) -> NDArray[np.bool_]:
         """(n,) the squares to which there is a way."""
@@ -174,9 +179,11 @@ class Grid:
         bound: list[float] = away.tolist()
         return bound
 
-    def costs(self, start: int, goals: Sequence[int]) -> list[float]:
-        """What the cheapest ways to some squares cost; infinite where there is none."""
-        found = rustworkx.graph_dijkstra_shortest_path_lengths(self._graph, start, float)
-        return [
-            0.0 if goal == start else found[goal] if goal in found else math.inf for goal in goals
-        ]
+    def costs(self, nodes: Sequence[int]) -> NDArray[np.float64]:
+        """(k, k) what the cheapest ways between some squares cost; infinite where there is none."""
+        ends = np.concatenate([edge for edge, _ in self._edges])
+        costs = np.concatenate([cost for _, cost in self._edges])
+        count = len(self.places_m)
+        matrix = coo_array((costs, (ends[:, 0], ends[:, 1])), shape=(count, count)).tocsr()
+        found: NDArray[np.float64] = dijkstra(matrix, directed=False, indices=list(nodes))
+        return found[:, list(nodes)]

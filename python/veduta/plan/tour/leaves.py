@@ -17,7 +17,7 @@ from veduta.plan.house.doors import OPENED
 
 @dataclass(frozen=True)
 class OpenLeaf:
-    """A leaf that stands open: its footprint (plan frame, m), and from where to where it reaches."""
+    """A leaf that stands open: its footprint (plan frame, m) and between which heights it is."""
 
     footprint: BaseGeometry
     low_m: float
@@ -43,4 +43,5 @@ def _corners(part: Part, polygons: NDArray[np.int64]) -> NDArray[np.float64]:
     """(n, 3) the corners of some polygons of a part."""
     first = part.ring_offsets[part.polygon_offsets]
     rows = np.concatenate([np.arange(first[row], first[row + 1]) for row in polygons])
-    return part.positions_m[rows].astype(np.float64)
+    corners: NDArray[np.float64] = part.positions_m[rows].astype(np.float64)
+    return corners

@@ -1,4 +1,4 @@
-"""When the visitor is where: walking no faster than asked, and turning no faster than one can see."""
+"""When the visitor is where: never walking faster than asked, nor turning faster than one sees."""
 
 from __future__ import annotations
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import numpy as np
+
 from veduta.place.manifest import Tour as PlaceTour
 from veduta.place.manifest import TourStretch
 from veduta.plan.tour.find import Tour
@@ -13,7 +15,7 @@ NAME = "Tour of the house"
 def placed_tour(tour: Tour, raised_m: float) -> PlaceTour:
     """In the world frame, which is higher than the plan's by `raised_m`; rounded to 0.1 mm."""
     path = tour.path
-    eyes = path.eyes_m + [0.0, 0.0, raised_m]
+    eyes = path.eyes_m + np.array([0.0, 0.0, raised_m])
     return PlaceTour(
         id=ID,
         name=NAME,

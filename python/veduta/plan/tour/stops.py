@@ -71,7 +71,8 @@ def squares_in(shape: Polygon, grid: Grid, storey: int) -> NDArray[np.int64]:
     x, y = grid.places_m[chosen].T
     near = chosen[(x >= left) & (x <= right) & (y >= bottom) & (y <= top)]
     inside: NDArray[np.bool_] = shapely.contains_xy(shape, *grid.places_m[near].T)
-    return near[inside]
+    within: NDArray[np.int64] = near[inside]
+    return within
 
 
 def short_order(costs: NDArray[np.float64]) -> list[int]:
