@@ -18,11 +18,12 @@ from veduta.plan.document import RoomUse
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
 from veduta.plan.tour import gaze, pace
+from veduta.plan.tour.climbs import Climb, climbs_of
 from veduta.plan.tour.free import Ground, ground_of
 from veduta.plan.tour.grid import Grid, cells_of
 from veduta.plan.tour.leaves import open_leaves
 from veduta.plan.tour.outside import Outside, outside_of
-from veduta.plan.tour.smooth import smoothed
+from veduta.plan.tour.smooth import STEP_M, resampled, smoothed
 from veduta.plan.tour.stops import Stop, short_order, squares_in, stops_of
 from veduta.plan.tour.stretches import Stretch, stretches_of
 
@@ -62,8 +63,9 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
     first = house.spaces[0]
     ways_in = entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
-    grounds = _grounds(house, outside)
-    grid = Grid([cells_of(ground) for ground in grounds])
+    climbs = climbs_of(house.spaces)
+    grounds = _grounds(house, outside, climbs)
+    grid = Grid([cells_of(ground) for ground in grounds], climbs)
     begin = _begin(grid, grounds, outside)
     if begin is None:
         return None
@@ -78,11 +80,16 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
     return Tour(path, stretches_of(timed, grounds), length, notes, tuple(grounds))
 
 
-def _grounds(house: House, outside: Outside | None) -> list[Ground]:
+def _grounds(house: House, outside: Outside | None, climbs: Sequence[Climb]) -> list[Ground]:
     leaves = open_leaves(house.part)
     around = Polygon() if outside is None else outside.region
     return [
-        ground_of(space, leaves, around if number == 0 else Polygon(), ())
+        ground_of(
+            space,
+            leaves,
+            around if number == 0 else Polygon(),
+            [climb.flight for climb in climbs if climb.lower + 1 == number],
+        )
         for number, space in enumerate(house.spaces)
     ]
 
@@ -166,7 +173,10 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     for run in np.split(np.array(squares), breaks):
         ground = grounds[grid.storey[run[0]]]
         flat = smoothed(grid.places_m[run], ground.free)
-        pieces.append(np.column_stack([flat, np.full(len(flat), ground.elevation_m)]))
+        level = np.column_stack([flat, np.full(len(flat), ground.elevation_m)])
+        if pieces:  # up or down a flight
+            pieces.append(resampled(np.stack([pieces[-1][-1], level[0]]), STEP_M)[1:-1])
+        pieces.append(level)
     return np.concatenate(pieces)
 
 
@@ -185,9 +195,10 @@ def _motions(
             motions.append(pace.walk(leg.points_m, *view, speed_m_s))
         if leg.stop is not None and number + 1 < len(legs):
             here = leg.points_m[-1]
-            yaws = gaze.turn(
-                here[:2], leg.stop.shape, float(motions[-1].yaw[-1]), float(views[number + 1][0][0])
-            )
+            # Who did not have to walk looks where he looked.
+            arrive = motions[-1].yaw if motions else view[0]
+            leave = views[number + 1][0]
+            yaws = gaze.turn(here[:2], leg.stop.shape, float(arrive[-1]), float(leave[0]))
             motions.append(pace.look(here, yaws, gaze.LEVEL_RAD))
     return motions
 

@@ -20,6 +20,7 @@ from scipy.ndimage import distance_transform_edt, label
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import dijkstra
 
+from veduta.plan.tour.climbs import Climb
 from veduta.plan.tour.free import Ground
 
 CELL_M = 0.06
@@ -47,17 +48,6 @@ class Cells:
     piece: NDArray[np.int64]
     edges: NDArray[np.int64]
     lengths_m: NDArray[np.float64]
-
-
-@dataclass(frozen=True)
-class Link:
-    """A flight of stairs: from a place in one storey to one in another, and how long it is."""
-
-    lower: int
-    upper: int
-    foot_m: tuple[float, float]
-    head_m: tuple[float, float]
-    length_m: float
 
 
 def cells_of(ground: Ground) -> Cells:
@@ -100,7 +90,7 @@ def _neighbours(
 class Grid:
     """The squares of all storeys as one graph; a node's number counts through the storeys."""
 
-    def __init__(self, storeys: Sequence[Cells], links: Sequence[Link] = ()) -> None:
+    def __init__(self, storeys: Sequence[Cells], climbs: Sequence[Climb] = ()) -> None:
         self.storeys = tuple(storeys)
         self.first = np.cumsum([0, *(len(cells.places_m) for cells in storeys)])
         self.places_m = np.concatenate([cells.places_m for cells in storeys])
@@ -111,8 +101,8 @@ class Grid:
         self._graph.add_nodes_from(range(len(self.places_m)))
         self._edges: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
         self._add_edges()
-        for link in links:
-            self._add_link(link)
+        for climb in climbs:
+            self._add_climb(climb)
 
     def _pieces(self) -> NDArray[np.int64]:
         """Numbers of connected pieces that differ between storeys."""
@@ -134,11 +124,12 @@ class Grid:
             list(zip(ends[:, 0].tolist(), ends[:, 1].tolist(), costs.tolist(), strict=True))
         )
 
-    def _add_link(self, link: Link) -> None:
-        foot, head = self.nearest(link.lower, link.foot_m), self.nearest(link.upper, link.head_m)
+    def _add_climb(self, climb: Climb) -> None:
+        foot = self.nearest(climb.lower, climb.foot_m)
+        head = self.nearest(climb.lower + 1, climb.head_m)
         if foot is None or head is None:
             return
-        self._join(np.array([[foot, head]]), np.array([link.length_m]))
+        self._join(np.array([[foot, head]]), np.array([climb.length_m]))
         joined, kept = self._piece[head], self._piece[foot]
         self._piece[self._piece == joined] = kept
 
