@@ -87,6 +87,6 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
         for part in around:
             write_glb(part, folder / models[part.id])
         place = with_surroundings(place, surroundings, models)
-    x3d = house_x3d(result.house, options, place.start, others=around)
+    x3d = house_x3d(result.house, options, place.start, tours=tours, others=around)
     (folder / "house.x3d").write_bytes(x3d)
     write_place(place, folder / "place.json")

@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 from x3d_classes import X3DTypeError, typed_scene
 
 from veduta.formats.x3d import look_from, place_of
+from veduta.place.manifest import Tour
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of as house_place
 from veduta.plan.lights.lighting import light_house
@@ -51,6 +52,25 @@ def test_typed_classes_refuse_what_is_wrong(content: bytes) -> None:
         typed_scene(broken)
     with pytest.raises(AttributeError):
         typed_scene(content.replace(b"<Background", b"<Foreground"))
+
+
+def test_a_tour_is_a_viewpoint_that_walks(house: House) -> None:
+    times = [0.0, 0.1, 0.2, 5.0, 10.0]
+    eyes = [(0.0, -5.0 + time, 1.7) for time in times]
+    ways = [(0.0, 1.0, 0.0)] * 3 + [(1.0, 0.0, 0.0)] * 2
+    tour = Tour(id="tour", name="All rooms", times_s=times, eyes=eyes, directions=ways)
+    start = house_place(house, "house.glb", None, OPTIONS).start
+    content = house_x3d(house, OPTIONS, start, tours=[tour])
+    typed_scene(content)
+    root = ElementTree.fromstring(content)
+    nodes = {node.get("DEF"): node for node in root.iter()}
+    key = [float(value) for value in nodes["tour-tour-position"].get("key", "").split()]
+    assert key == [0.0, 0.5, 1.0]
+    values = np.array(nodes["tour-tour-position"].get("keyValue", "").split(), dtype=float)
+    assert values.reshape(-1, 3)[1] == pytest.approx(place_of(eyes[3]))
+    last = np.array(nodes["tour-tour-orientation"].get("keyValue", "").split(), dtype=float)[-4:]
+    seen = Rotation.from_rotvec(last[3] * last[:3]).apply([0.0, 0.0, -1.0])
+    assert seen == pytest.approx([1.0, 0.0, 0.0], abs=1e-3)
 
 
 def test_routes_lead_from_nodes_to_nodes(content: bytes) -> None:

@@ -55,8 +55,8 @@ def test_a_slope_falls_before_the_house_and_rises_behind_it() -> None:
     terrain = terrain_of(space(), 8.0)
     fall = math.tan(math.radians(8.0))
     # The front door looks south: y = -0.15 is the front, 5.15 the back.
-    heights = terrain.height(np.array([[3.0, 0.0], [3.0, -2.0], [3.0, -5.65], [3.0, 9.65]]))
-    front, back = -5.65 + 0.15 + LEVEL_M, 9.65 - 5.15 - LEVEL_M
+    heights = terrain.height(np.array([[3.0, 0.0], [3.0, -2.0], [3.0, -9.65], [3.0, 14.65]]))
+    front, back = -9.65 + 0.15 + LEVEL_M, 14.65 - 5.15 - LEVEL_M
     assert heights == pytest.approx([0.0, 0.0, fall * front, fall * back])
     assert heights[2] < 0.0 < heights[3]
 
@@ -83,8 +83,8 @@ def test_what_stands_on_a_slope_stands_by_its_lowest_part() -> None:
         ground = around.terrain.height(np.array([plant.at_m[:2]]))[0]
         assert plant.at_m[2] <= ground + 1e-9
         assert plant.at_m[2] >= ground - plant.foot_m * around.terrain.slope - 1e-9
-    wide = resting_height(around.terrain, (3.0, -7.0), 1.0)
-    middle = around.terrain.height(np.array([[3.0, -7.0]]))[0]
+    wide = resting_height(around.terrain, (3.0, -9.0), 1.0)
+    middle = around.terrain.height(np.array([[3.0, -9.0]]))[0]
     assert wide == pytest.approx(middle - around.terrain.slope, rel=1e-6)
 
 

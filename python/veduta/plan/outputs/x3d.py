@@ -19,7 +19,7 @@ from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import X3dScene, look_from, place_of
 from veduta.place.flatten import flattened
-from veduta.place.manifest import Start, Vector
+from veduta.place.manifest import Start, Tour, Vector
 from veduta.place.part import Part
 from veduta.plan.document import Room
 from veduta.plan.house.build import House
@@ -27,6 +27,7 @@ from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.x3d_doors import add_doors
 from veduta.plan.outputs.x3d_lamps import RoomLamps
+from veduta.plan.outputs.x3d_tour import add_tour
 
 STEP_M = 0.05
 """From a surface to the place in whose room it is."""
@@ -34,6 +35,7 @@ EYE_M = 1.6
 AVATAR_M = (0.2, 1.6, 0.45)
 """How near one comes to a wall, from the eyes to the floor, and the highest step."""
 SPEED = 1.4
+FIELD_OF_VIEW = 1.05
 _FROM_WALL_M = 0.45
 _SKY = ((0.30, 0.52, 0.80), (0.55, 0.72, 0.90), (0.87, 0.92, 0.96))
 _SKY_ANGLE = (1.15, 1.55)
@@ -75,12 +77,13 @@ def house_x3d(
     options: HouseOptions,
     start: Start,
     views: Sequence[View] = (),
+    tours: Sequence[Tour] = (),
     others: Sequence[Part] = (),
 ) -> bytes:
     """The file's content.
 
-    start: where the visitor begins. views: further places to look from. others: what stands around
-    the house, in the frame of the place.
+    start: where the visitor begins. views: further places to look from. tours: each a viewpoint
+    that walks. others: what stands around the house. All in the frame of the place.
     """
     part = flattened(house.part)
     up_m = options.plinth - house.spaces[0].storey.elevation_m
@@ -88,6 +91,8 @@ def house_x3d(
     scene = X3dScene("House from a floor plan")
     _add_surroundings(scene)
     _add_views(scene, house, up_m, start, views)
+    for tour in tours:
+        add_tour(scene, tour, FIELD_OF_VIEW)
     whole = scene.node(scene.scene, "Transform", "house", translation=place_of((0.0, 0.0, up_m)))
     seen_from = room_of_polygons(part, house.spaces, ceilings)
     still = np.ones(len(part.polygon_feature), dtype=np.bool_)
@@ -169,7 +174,7 @@ def _add_views(
         scene.node(
             scene.scene, "Viewpoint", f"view {view.name}", description=view.name,
             position=place_of(view.eye), orientation=look_from(view.eye, view.target),
-            fieldOfView=1.05,
+            fieldOfView=FIELD_OF_VIEW,
         )  # fmt: skip
 
 

@@ -20,10 +20,10 @@ from shapely.ops import unary_union
 from veduta.plan.house.space import Hole, Space, pieces_of, solid_region
 
 Ground = Literal["lawn", "path", "drive", "gravel"]
-MARGIN_M = 9.5
+MARGIN_M = 11.5
 """From the house to the end of its plot."""
-LEVEL_M = 2.5
-"""So far around the house the ground is level."""
+LEVEL_M = 6.2
+"""So far around the house the ground is level: the tour goes around it there."""
 GRAVEL_M = 0.5
 """A strip of gravel along the walls, where it drips from the eaves."""
 PATH_M, DRIVE_M = 1.4, 3.0
