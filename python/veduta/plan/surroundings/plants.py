@@ -20,7 +20,7 @@ from veduta.plan.surroundings.terrain import Terrain
 
 Kind = Literal["tree", "conifer", "shrub"]
 SEED = 11
-_TREES_EVERY_M, _SHRUBS_EVERY_M = 6.5, 1.9
+_TREES_EVERY_M, _SHRUBS_EVERY_M = 8.5, 1.9
 _TREE_AWAY_M = 7.6
 """From the house to the middle of a tree: a way around the house stays free."""
 _SHRUB_AWAY_M = 1.5
