@@ -18,6 +18,7 @@ from veduta.plan.house.build import build_house
 from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.x3d import View, house_x3d
+from veduta.plan.surroundings.build import build_surroundings
 
 ROOT = Path(__file__).resolve().parents[2]
 PLAYER = Path(__file__).with_name("x3d_player.mjs")
@@ -35,12 +36,13 @@ def test_doors_open_and_lamps_go_on_in_x_ite(tmp_path: Path) -> None:
     door = View("Door", (1.1, -1.2, 1.6), (1.1, 3.0, 1.6))
     away = View("Away", (4.0, -14.0, 1.6), (4.0, 0.0, 1.6))
     file, picture = tmp_path / "house.x3d", tmp_path / "inside.png"
-    file.write_bytes(
-        house_x3d(house, options, Start(eye=away.eye, target=away.target), [door, away])
-    )
+    # Who walks falls where there is no ground.
+    ground = build_surroundings(house.spaces[0], options).ground
+    start = Start(eye=away.eye, target=away.target)
+    file.write_bytes(house_x3d(house, options, start, [door, away], others=[ground]))
     done = subprocess.run(
         [node, str(PLAYER), str(modules), str(file), chromium, str(picture)],
-        capture_output=True, text=True, check=False, timeout=300,
+        capture_output=True, text=True, check=False, timeout=400,
     )  # fmt: skip
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
