@@ -47,6 +47,9 @@ def test_doors_open_and_lamps_go_on_in_x_ite(tmp_path: Path) -> None:
     assert done.returncode == 0, done.stderr
     told = json.loads(done.stdout)
     assert told == {"before": {"angle": 0, "lamp": False}, "complaints": []}
-    seen = np.asarray(Image.open(picture).convert("L"), dtype=np.float64)
+    colours = np.asarray(Image.open(picture).convert("RGB"), dtype=np.float64).reshape(-1, 3)
+    red, _, blue = colours.mean(axis=0)
+    assert red > 1.1 * blue  # warm light on walls and boards, and no sky
+    seen = colours.mean(axis=1)
     assert seen.std() > 15.0
     assert 60.0 < seen.mean() < 235.0

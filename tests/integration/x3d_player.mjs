@@ -54,7 +54,13 @@ try {
   await until(leaf, "rotation", 1.4, 1.7);
   await set("view-Living--ground-floor-", "set_bind");
   await until(lamp, "on", 1, 1);
-  await page.waitForTimeout(500);
+  // The way there is shown, too: the picture is of its end.
+  await page.evaluate(() => new Promise((resolve) => {
+    let frames = 12;
+    const next = () => (frames-- > 0 ? requestAnimationFrame(next) : resolve());
+    next();
+  }));
+  await page.waitForTimeout(2000);
   await page.screenshot({ path: picture, timeout: 90_000 });
   await set("ground-floor-living-switch", "set_boolean");
   await until(lamp, "on", 0, 0);
