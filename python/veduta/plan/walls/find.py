@@ -15,6 +15,7 @@ from veduta.plan.drawn import Cleaned
 from veduta.plan.walls.cells import fill_cells, stroke_length
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
+from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece, straight_pieces
 from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
 from veduta.plan.walls.tracks import find_tracks
@@ -58,6 +59,7 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     # What was filled in is as solid as ink.
     soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness(whole))
