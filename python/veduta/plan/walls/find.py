@@ -12,12 +12,20 @@ from numpy.typing import NDArray
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
-from veduta.plan.walls.cells import fill_cells, stroke_length
+from veduta.plan.walls.cells import find_cells
+from veduta.plan.walls.hatching import hatch_strokes
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
+from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece, straight_pieces
-from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
+from veduta.plan.walls.solid import (
+    Thickness,
+    stroke_length,
+    thick_strokes,
+    wall_thickness,
+    without_marks,
+)
 from veduta.plan.walls.tracks import find_tracks
 from veduta.run.errors import NotFoundError
 
@@ -29,6 +37,9 @@ MORE_WALL = 1.9
 """Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
 
 SMALL_MARK = 0.05
+
+LEAST_HATCHED = 0.03
+"""Walls are hatched if their insides are covered by strokes for at least this part."""
 
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
@@ -51,8 +62,10 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     solid = thick_strokes(mask, thickness)
     if drawing == "filled":
         # Shaded panes are thick strokes, too, but paler than the walls.
+        solid = without_marks(solid, mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
-        solid = thick_strokes(mask & (cleaned.ink > PALE * level), thickness)
+        dark = mask & (cleaned.ink > PALE * level)
+        solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
     pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
@@ -68,22 +81,33 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
 def choose_drawing(
     ink: NDArray[np.bool_], line_px: float
 ) -> tuple[NDArray[np.bool_], Thickness, WallDrawing]:
-    """The mask in which walls are solid: the ink itself, or with narrow cells filled.
+    """The mask in which walls are solid: the ink itself, or the insides of outlined walls.
 
-    Cells are filled where that makes much more wall than there is solid ink. Raises NotFoundError
-    where neither has walls.
+    The latter where they are much more wall than there is solid ink. Raises NotFoundError where
+    neither has walls.
     """
     plain = wall_thickness(ink, line_px)
-    filled = fill_cells(connected(ink), line_px)
-    full = wall_thickness(filled, line_px)
+    outlined, drawing = outlined_walls(connected(ink), line_px)
+    full = wall_thickness(outlined, line_px)
     least = 0.9 * full.least_px if full else 0.0
     solid_length = stroke_length(ink, least) if plain else 0.0
-    if full is not None and stroke_length(filled, least) > MORE_WALL * solid_length:
-        share = float((filled & ~ink).sum() / max(1, filled.sum()))
-        return filled, full, "hollow" if share > 0.45 else "hatched"
+    if full is not None and stroke_length(outlined, least) > MORE_WALL * solid_length:
+        return outlined, full, drawing
     if plain is None:
         raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
     return ink, plain, "filled"
+
+
+def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.bool_], WallDrawing]:
+    """The mask of hollow and hatched walls with their outlines, and which of both they are."""
+    strokes = hatch_strokes(ink, line_px)
+    cells = find_cells(ink & ~strokes, line_px)
+    inside = wall_cells(cells)[cells.labels]
+    hatched = float(strokes[inside].mean()) if inside.any() else 0.0
+    reach = 2 * round(1.5 * line_px) + 1
+    around = cv2.dilate(inside.astype(np.uint8), np.ones((reach, reach), np.uint8))
+    drawing: WallDrawing = "hatched" if hatched > LEAST_HATCHED else "hollow"
+    return inside | (ink & around.astype(np.bool_)), drawing
 
 
 def connected(ink: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -64,9 +64,7 @@ def _inset(piece: Piece, seen: _Insets, usual: float) -> Piece:
         return piece
     normal = np.array([-piece.direction[1], piece.direction[0]])
     moved = (low - high) / 2 * normal
-    return replace(
-        piece, start=piece.start + moved, end=piece.end + moved, thickness_px=thickness
-    )
+    return replace(piece, start=piece.start + moved, end=piece.end + moved, thickness_px=thickness)
 
 
 def _insets(piece: Piece, ink: NDArray[np.float32], line_px: float) -> _Insets:

@@ -54,7 +54,7 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
 
 
 def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bool_]:
-    """The mask of what is at least as thick as the thinnest wall, and no letter."""
+    """The mask of what is at least as thick as the thinnest wall, letters and marks with it."""
     reach = max(2, round(0.85 * thickness.least_px))
     square = np.ones((reach, reach), np.uint8)
     grey = ink.astype(np.uint8)
@@ -63,7 +63,22 @@ def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bo
     opened = np.maximum(
         cv2.morphologyEx(grey, cv2.MORPH_OPEN, square), cv2.morphologyEx(grey, cv2.MORPH_OPEN, disc)
     )
-    return opened.astype(np.bool_) & _large(ink, LEAST_MARK * thickness.most_px)
+    return opened.astype(np.bool_)
+
+
+def without_marks(
+    strokes: NDArray[np.bool_], ink: NDArray[np.bool_], thickness: Thickness
+) -> NDArray[np.bool_]:
+    """Thick strokes of connected ink that is large enough for a house."""
+    return strokes & _large(ink, LEAST_MARK * thickness.most_px)
+
+
+def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:
+    """How long the strokes that are at least so thick are together."""
+    across, down = run_lengths(mask), run_lengths_down(mask)
+    thin, long = np.minimum(across, down), np.maximum(across, down)
+    stroke = mask & (long >= 2 * thin) & (thin >= least_px)
+    return float((1.0 / np.maximum(thin[stroke], 1)).sum())
 
 
 def _large(ink: NDArray[np.bool_], least_px: float) -> NDArray[np.bool_]:
