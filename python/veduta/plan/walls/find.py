@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
-from veduta.plan.walls.cells import find_cells
+from veduta.plan.walls.cells import Cells, find_cells
 from veduta.plan.walls.hatching import hatch_strokes
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
@@ -37,6 +37,12 @@ MORE_WALL = 1.9
 """Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
 
 SMALL_MARK = 0.05
+
+AS_HATCHED = 0.5
+"""What has this part of the strokes that walls have, or more, is wall."""
+
+LEAST_STROKES = 0.15
+"""What has less than this part of them is none, but a window or a bed."""
 
 LEAST_HATCHED = 0.03
 """Walls are hatched if their insides are covered by strokes for at least this part."""
@@ -102,12 +108,34 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     """The mask of hollow and hatched walls with their outlines, and which of both they are."""
     strokes = hatch_strokes(ink, line_px)
     cells = find_cells(ink & ~strokes, line_px)
-    inside = wall_cells(cells)[cells.labels]
-    hatched = float(strokes[inside].mean()) if inside.any() else 0.0
-    reach = 2 * round(1.5 * line_px) + 1
-    around = cv2.dilate(inside.astype(np.uint8), np.ones((reach, reach), np.uint8))
-    drawing: WallDrawing = "hatched" if hatched > LEAST_HATCHED else "hollow"
-    return inside | (ink & around.astype(np.bool_)), drawing
+    walls = wall_cells(cells)
+    inside = walls[cells.labels]
+    drawing: WallDrawing = "hollow"
+    if inside.any() and float(strokes[inside].mean()) > LEAST_HATCHED:
+        drawing = "hatched"
+        inside = _as_hatched(cells, walls, strokes)[cells.labels]
+    return inside | (ink & _grown(inside, 3 * line_px)), drawing
+
+
+def _as_hatched(
+    cells: Cells, walls: NDArray[np.bool_], strokes: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(n,) which narrow cells have strokes in them as walls do, and which walls have some.
+
+    Nothing else is hatched so; but strokes may be lost where they are drawn too finely.
+    """
+    count = len(cells.area)
+    share = np.bincount(cells.labels[strokes], minlength=count) / np.maximum(cells.area, 1.0)
+    usual = float(np.median(np.repeat(share[walls], cells.length[walls].astype(int) + 1)))
+    more = cells.narrow & (share > AS_HATCHED * usual)
+    return np.asarray((walls & (share > LEAST_STROKES * usual)) | more, dtype=np.bool_)
+
+
+def _grown(mask: NDArray[np.bool_], by_px: float) -> NDArray[np.bool_]:
+    """A mask and what is around it, by half of `by_px`."""
+    reach = 2 * round(by_px / 2) + 1
+    square = np.ones((reach, reach), np.uint8)
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), square), dtype=np.bool_)
 
 
 def connected(ink: NDArray[np.bool_]) -> NDArray[np.bool_]:
