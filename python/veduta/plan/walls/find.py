@@ -13,7 +13,7 @@ from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
 from veduta.plan.walls.cells import Cells, find_cells
-from veduta.plan.walls.hatching import hatch_strokes
+from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
 from veduta.plan.walls.outlined import wall_cells
@@ -26,6 +26,7 @@ from veduta.plan.walls.solid import (
     wall_thickness,
     without_marks,
 )
+from veduta.plan.walls.tone import toned_areas
 from veduta.plan.walls.tracks import find_tracks
 from veduta.run.errors import NotFoundError
 
@@ -44,8 +45,8 @@ AS_HATCHED = 0.5
 LEAST_STROKES = 0.15
 """What has less than this part of them is none, but a window or a bed."""
 
-LEAST_HATCHED = 0.03
-"""Walls are hatched if their insides are covered by strokes for at least this part."""
+MOSTLY = 0.3
+"""Walls are hatched if there is so much that is hatched, as a part of the insides of walls."""
 
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
@@ -63,7 +64,8 @@ class Found:
 
 def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     """Find the pieces; NotFoundError where no strokes are walls."""
-    ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
+    marks = inks.marks(cleaned.ink, cleaned.line_px) | toned_areas(cleaned.ink, cleaned.line_px)
+    ink = without_texts(marks, texts)
     mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     solid = thick_strokes(mask, thickness)
     if drawing == "filled":
@@ -96,7 +98,7 @@ def choose_drawing(
     outlined, drawing = outlined_walls(connected(ink), line_px)
     full = wall_thickness(outlined, line_px)
     least = 0.9 * full.least_px if full else 0.0
-    solid_length = stroke_length(ink, least) if plain else 0.0
+    solid_length = stroke_length(ink & ~outlined, least) if plain else 0.0
     if full is not None and stroke_length(outlined, least) > MORE_WALL * solid_length:
         return outlined, full, drawing
     if plain is None:
@@ -110,10 +112,11 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     cells = find_cells(ink & ~strokes, line_px)
     walls = wall_cells(cells)
     inside = walls[cells.labels]
+    hatched = hatched_areas(strokes)
     drawing: WallDrawing = "hollow"
-    if inside.any() and float(strokes[inside].mean()) > LEAST_HATCHED:
+    if hatched.any() and float(hatched.sum()) > MOSTLY * float(inside.sum()):
         drawing = "hatched"
-        inside = _as_hatched(cells, walls, strokes)[cells.labels]
+        inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
     return inside | (ink & _grown(inside, 3 * line_px)), drawing
 
 
@@ -126,6 +129,8 @@ def _as_hatched(
     """
     count = len(cells.area)
     share = np.bincount(cells.labels[strokes], minlength=count) / np.maximum(cells.area, 1.0)
+    if not walls.any():
+        return walls
     usual = float(np.median(np.repeat(share[walls], cells.length[walls].astype(int) + 1)))
     more = cells.narrow & (share > AS_HATCHED * usual)
     return np.asarray((walls & (share > LEAST_STROKES * usual)) | more, dtype=np.bool_)

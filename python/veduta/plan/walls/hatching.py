@@ -22,6 +22,9 @@ LONGEST = 0.07
 LEAST_STROKES = 60
 """Fewer strokes are furniture."""
 
+SIDE_BY_SIDE = 4
+"""So many strokes side by side are hatching."""
+
 COHERENT = 0.3
 
 UPRIGHT_LINES = 4.0
@@ -36,6 +39,33 @@ def hatch_strokes(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     for direction in (np.pi / 4, -np.pi / 4):
         found |= _strokes(ink, slanted, angle, direction, line_px)
     return found
+
+
+def hatched_areas(strokes: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """What strokes cover that lie side by side, the paper between them with it.
+
+    It needs no outline; but where strokes are lost it has holes.
+    """
+    grey = strokes.astype(np.uint8)
+    gap = _usual_gap(strokes)
+    count, labels = cv2.connectedComponents(grey, connectivity=8)
+    square = np.ones((gap + 3, gap + 3), np.uint8)
+    closed = cv2.morphologyEx(grey, cv2.MORPH_CLOSE, square)
+    areas, area_of = cv2.connectedComponents(closed, connectivity=4)
+    # Each stroke lies in one area.
+    home = np.zeros(count, np.int64)
+    home[labels[strokes]] = area_of[strokes]
+    many = np.bincount(home[1:], minlength=areas) >= SIDE_BY_SIDE
+    many[0] = False
+    return np.asarray(many[area_of], dtype=np.bool_)
+
+
+def _usual_gap(strokes: NDArray[np.bool_]) -> int:
+    """Pixels of paper between neighbouring strokes along rows, three quarters of them at most."""
+    row, column = np.nonzero(strokes)
+    step = np.diff(column)[(np.diff(row) == 0) & (np.diff(column) > 1)] - 1
+    near = step[step <= max(2, 4 * int(np.median(step)))] if len(step) else step
+    return int(np.percentile(near, 75)) if len(near) else 1
 
 
 def _upright(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
