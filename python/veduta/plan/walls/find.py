@@ -12,7 +12,8 @@ from numpy.typing import NDArray
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
-from veduta.plan.walls.cells import Cells, find_cells
+from veduta.plan.walls.cells import Cells, find_cells, longer_side
+from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
@@ -20,6 +21,7 @@ from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece, straight_pieces
 from veduta.plan.walls.solid import (
+    SINGLE_LINE,
     Thickness,
     stroke_length,
     thick_strokes,
@@ -41,6 +43,9 @@ SMALL_MARK = 0.05
 
 AS_HATCHED = 0.5
 """What has this part of the strokes that walls have, or more, is wall."""
+
+SINGLE_LEAST = 0.9
+"""Leaves of doors are drawn as lines that are thinner than walls by this factor, or more."""
 
 LEAST_STROKES = 0.15
 """What has less than this part of them is none, but a window or a bed."""
@@ -68,11 +73,14 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     ink = without_texts(marks, texts)
     mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     solid = thick_strokes(mask, thickness)
-    if drawing == "filled":
+    if drawing in ("filled", "single-line"):
         # Shaded panes are thick strokes, too, but paler than the walls.
         solid = without_marks(solid, mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
         dark = mask & (cleaned.ink > PALE * level)
+        if drawing == "single-line":
+            # The edges of lines are as pale as panes: without them all lines are thinner.
+            thickness = wall_thickness(dark, cleaned.line_px) or thickness
         solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
     pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
@@ -81,6 +89,8 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
     whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
+    if drawing == "single-line":
+        whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness(whole))
@@ -91,19 +101,25 @@ def choose_drawing(
 ) -> tuple[NDArray[np.bool_], Thickness, WallDrawing]:
     """The mask in which walls are solid: the ink itself, or the insides of outlined walls.
 
-    The latter where they are much more wall than there is solid ink. Raises NotFoundError where
-    neither has walls.
+    The latter where they are much more wall than the solid ink beside them. Raises NotFoundError
+    where neither has walls.
     """
+    lines = connected(ink)
     plain = wall_thickness(ink, line_px)
-    outlined, drawing = outlined_walls(connected(ink), line_px)
-    full = wall_thickness(outlined, line_px)
+    filled, drawing = outlined_walls(lines, line_px)
+    full = wall_thickness(filled, line_px)
+    solid = ink & ~filled
+    if full is None or stroke_length(filled, 0.9 * full.least_px) < longer_side(lines):
+        filled, solid = fill_cells(lines, line_px), ink
+        full = wall_thickness(filled, line_px)
+        drawing = "hollow" if (filled & ~ink).sum() > 0.45 * filled.sum() else "hatched"
     least = 0.9 * full.least_px if full else 0.0
-    solid_length = stroke_length(ink & ~outlined, least) if plain else 0.0
-    if full is not None and stroke_length(outlined, least) > MORE_WALL * solid_length:
-        return outlined, full, drawing
+    length = stroke_length(solid, least) if plain else 0.0
+    if full is not None and stroke_length(filled, least) > MORE_WALL * length:
+        return filled, full, drawing
     if plain is None:
         raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
-    return ink, plain, "filled"
+    return ink, plain, "single-line" if plain.most_px < SINGLE_LINE * line_px else "filled"
 
 
 def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.bool_], WallDrawing]:

@@ -50,7 +50,7 @@ MOST_ROUNDS = 20
 
 
 def wall_cells(cells: Cells) -> NDArray[np.bool_]:
-    """(n,) whether each cell is the inside of a wall; none where no cell says how broad they are."""
+    """(n,) whether each cell is the inside of a wall; none where no cell says how broad."""
     return _Sorting(cells).walls()
 
 
