@@ -94,7 +94,8 @@ def common_values(values: NDArray[np.float64], most: int) -> tuple[list[float], 
         near = np.searchsorted(rest, rest + tolerance(rest), "right") - np.searchsorted(
             rest, rest - tolerance(rest), "left"
         )
-        best = float(rest[int(np.argmax(near))])
+        first = rest[int(np.argmax(near))]
+        best = float(np.median(rest[np.abs(rest - first) <= tolerance(first)]))
         found.append(best)
         rest = rest[np.abs(rest - best) > tolerance(np.array(best))]
     return found, 1.0 - len(rest) / max(1, len(values))

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned
-from veduta.plan.walls.cells import Cells, find_cells, longer_side
+from veduta.plan.walls.cells import Cells, find_cells
 from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
@@ -38,6 +38,9 @@ MOST_PIECES = 1500
 
 MORE_WALL = 1.9
 """Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
+
+MOSTLY_PAPER = 0.45
+"""Layered walls with so much paper in them are hollow; with less, hatched."""
 
 SMALL_MARK = 0.05
 
@@ -106,20 +109,30 @@ def choose_drawing(
     """
     lines = connected(ink)
     plain = wall_thickness(ink, line_px)
-    filled, drawing = outlined_walls(lines, line_px)
-    full = wall_thickness(filled, line_px)
-    solid = ink & ~filled
-    if full is None or stroke_length(filled, 0.9 * full.least_px) < longer_side(lines):
-        filled, solid = fill_cells(lines, line_px), ink
-        full = wall_thickness(filled, line_px)
-        drawing = "hollow" if (filled & ~ink).sum() > 0.45 * filled.sum() else "hatched"
-    least = 0.9 * full.least_px if full else 0.0
-    length = stroke_length(solid, least) if plain else 0.0
-    if full is not None and stroke_length(filled, least) > MORE_WALL * length:
-        return filled, full, drawing
+    outlined, drawing = outlined_walls(lines, line_px)
+    full = _more_wall(outlined, ink & ~outlined, line_px)
+    if full is not None:
+        return outlined, full, drawing
+    layered = fill_cells(lines, line_px)
+    full = _more_wall(layered, ink, line_px)
+    if full is not None:
+        paper = float((layered & ~ink).sum() / max(1, layered.sum()))
+        return layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched"
     if plain is None:
         raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
     return ink, plain, "single-line" if plain.most_px < SINGLE_LINE * line_px else "filled"
+
+
+def _more_wall(
+    filled: NDArray[np.bool_], solid: NDArray[np.bool_], line_px: float
+) -> Thickness | None:
+    """How thick the walls of a filled mask are, if they are much more than those of solid ink."""
+    full = wall_thickness(filled, line_px)
+    if full is None:
+        return None
+    least = 0.9 * full.least_px
+    more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
+    return full if more else None
 
 
 def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.bool_], WallDrawing]:

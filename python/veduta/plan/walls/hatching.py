@@ -73,7 +73,7 @@ def _upright(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
     grey, long = ink.astype(np.uint8), round(UPRIGHT_LINES * line_px) + 3
     across = cv2.morphologyEx(grey, cv2.MORPH_OPEN, np.ones((1, long), np.uint8))
     down = cv2.morphologyEx(grey, cv2.MORPH_OPEN, np.ones((long, 1), np.uint8))
-    return np.asarray((across | down) > 0, dtype=np.bool_)
+    return np.asarray((across > 0) | (down > 0), dtype=np.bool_)
 
 
 def _strokes(
@@ -131,4 +131,4 @@ def _directions(
 def _off(angle: NDArray[np.float32], period: float) -> NDArray[np.float32]:
     """How far an angle is from the nearest multiple of the period."""
     half = np.float32(period / 2)
-    return np.abs((angle + half) % np.float32(period) - half)
+    return np.asarray(np.abs((angle + half) % np.float32(period) - half), np.float32)

@@ -98,7 +98,8 @@ class _Sorting:
         """Whether it has two rooms beside it, or one and what is outdoors."""
         least = A_SIDE * self.cells.length[cell]
         beside = self.cells.beside.get(cell, [])
-        return sum(self.cells.room[other] and length >= least for other, length in beside) > 1
+        rooms = [other for other, length in beside if self.cells.room[other] and length >= least]
+        return len(rooms) > 1
 
     def _turns(self, cell: int) -> bool:
         """Whether a cell that is as broad as a wall goes around a corner."""
@@ -107,7 +108,7 @@ class _Sorting:
 
     def _is_straight(self, cell: int) -> bool:
         _, _, _, short = self.cells.middle(cell)
-        return short <= STRAIGHT * self.cells.breadth[cell] + 1
+        return bool(short <= STRAIGHT * self.cells.breadth[cell] + 1)
 
     def _is_between_rooms(self, cell: int) -> bool:
         narrow = rooms = most = 0
@@ -118,7 +119,7 @@ class _Sorting:
             else:
                 rooms += length
         pane = most > BESIDE_ANOTHER * self.cells.length[cell] and not self._blocky(cell)
-        return not pane and rooms >= BESIDE_ROOMS * (narrow + rooms)
+        return bool(not pane and rooms >= BESIDE_ROOMS * (narrow + rooms))
 
     def _blocky(self, cell: int) -> bool:
         return bool(self.cells.length[cell] < 2.5 * self.cells.breadth[cell])
