@@ -1,13 +1,14 @@
 """The recipe of reading: the picture of a storey in, its walls, openings and rooms out.
 
 The order: straighten, tell ink from paper, find solid strokes, follow them into pieces, look for
-openings between the pieces, join them into axes, close where those are broken, let them meet, and
-find rooms.
+openings between the pieces, join them into axes, close where those are broken, judge the openings
+once more by what lies behind them, let the axes meet, and find rooms.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,9 +19,12 @@ from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.classify import Judged, judge
-from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
+from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.openings.settle import settled
+from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
 from veduta.plan.walls.axes import axes_of
 from veduta.plan.walls.find import Found, find_walls
@@ -50,9 +54,15 @@ def read_cleaned(
     found = find_walls(cleaned, texts)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
+    leaves = leaf_pieces(found.pieces, judged)
+    if leaves:
+        walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
+        found = replace(found, pieces=walls)
+        judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
-    return drawn_from(cleaned, found, whole.axes, texts, whole.notes)
+    axes = settled(whole.axes, found.thin_px, texts)
+    return drawn_from(cleaned, found, axes, texts, whole.notes)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
