@@ -18,12 +18,14 @@ from veduta.plan.clean.sheet import TextReader, clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
+from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import settled
+from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
 from veduta.plan.walls.axes import axes_of
@@ -61,7 +63,9 @@ def read_cleaned(
         judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
-    axes = settled(whole.axes, found.thin_px, texts)
+    sky = open_sky(whole.axes, found.thin_px, texts)
+    axes = with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    axes = settled(axes, found.thin_px, sky)
     return drawn_from(cleaned, found, axes, texts, whole.notes)
 
 

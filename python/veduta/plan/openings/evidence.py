@@ -28,8 +28,8 @@ class Evidence:
     """Of one gap. `lines`: their places across the wall (-1 and 1 are its faces); `tone`: median
     ink between the faces above that beside the wall; `shade`: the same of the palest row;
     `empty`: the share without ink; `step`: panels side by side (see `panel_step`); `pocket`: the
-    way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf of the
-    best arc is drawn, 0 without one.
+    way through beside a pocket; arcs, chords and folds best first; `leaf_px`: how thick the leaf
+    of the best arc is drawn, 0 without one.
     """
 
     lines: tuple[float, ...]

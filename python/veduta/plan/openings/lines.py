@@ -40,7 +40,7 @@ def full_lines(strip: Strip) -> tuple[float, ...]:
     """Places of lines across the wall, in half thicknesses."""
     dark = strip.faint.mean(axis=1) >= LINE_COVERAGE
     dark &= np.abs(strip.steps) <= strip.half_px + 2
-    starts, ends = _runs(dark)
+    starts, ends = runs(dark)
     return tuple(
         float(strip.steps[low:high].mean() / strip.half_px)
         for low, high in zip(starts, ends, strict=True)
@@ -98,19 +98,19 @@ def pocket_share(strip: Strip) -> tuple[float, float] | None:
     )
     level = float(np.quantile(line, 0.9))
     count = len(line)
-    starts, ends = _runs(np.minimum(left, right) > 0.5 * level)
+    starts, ends = runs(np.minimum(left, right) > 0.5 * level)
     low = int(ends[0]) if len(starts) and starts[0] <= 2 else 0
     high = int(starts[-1]) if len(ends) and ends[-1] >= count - 2 else count
     if level < LEAST_DASH or high - low < LEAST_WAY * count or (low == 0) == (high == count):
         return None
     on = line[low:high] > 0.5 * level
     beside = float((np.maximum(left, right)[low:high] > 0.5 * level).mean())
-    breaks = np.flatnonzero(_runs(~on)[0] > 0)
+    breaks = np.flatnonzero(runs(~on)[0] > 0)
     dashed = DASHED[0] <= on.mean() <= DASHED[1] and len(breaks) >= LEAST_BREAKS
     return (low / count, high / count) if dashed and beside < 0.15 else None
 
 
-def _runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
-    """First and last-but-one indices of runs of True."""
+def runs(mask: NDArray[np.bool_]) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where runs of True begin, and the index after each of their ends."""
     edges = np.diff(np.pad(mask.astype(np.int8), 1))
     return np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)

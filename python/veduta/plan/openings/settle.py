@@ -12,17 +12,13 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from shapely import unary_union
-from shapely.geometry import Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 
-from veduta.plan.document import OpeningType, Text
-from veduta.plan.names.vocabulary import meanings
+from veduta.plan.document import OpeningType
 from veduta.plan.openings.classify import LEAST_TONE, Judged, judge, slides
 from veduta.plan.openings.evidence import Evidence
-from veduta.plan.rooms.close import closed_spaces, wall_bodies
+from veduta.plan.openings.sky import leads_out
 from veduta.plan.walls.axes import Axis, OnAxis
-from veduta.plan.walls.graph import wall_graph
 
 GARAGE = 2.3
 """Garage doors are at least so many times as wide as the usual door."""
@@ -35,11 +31,6 @@ DOOR_WIDTHS = (0.6, 1.7)
 
 GLAZED = 1.2
 """Glazed leaves are drawn at least so many times as thick as the others."""
-
-WIDEST_LEAK = 12.0
-"""Rooms leak through breaks of so many (thin) wall thicknesses at most."""
-
-OPEN_AIR = ("balcony", "terrace")
 
 
 @dataclass(frozen=True)
@@ -62,9 +53,9 @@ class _Place:
     one: OnAxis
 
 
-def settled(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text] = ()) -> list[Axis]:
-    """The axes with their openings judged by what lies on both sides of them."""
-    places = list(_places(axes, thin_px, texts))
+def settled(axes: Sequence[Axis], thin_px: float, sky: BaseGeometry) -> list[Axis]:
+    """The axes with their openings judged by what lies on both sides; `sky` is what is outdoors."""
+    places = list(_places(axes, sky))
     again = [_again(place, thin_px) for place in places]
     door_px = _usual_door(again) or USUAL_DOOR * thin_px
     leaf_px = _usual_leaf(again)
@@ -92,44 +83,11 @@ def manner(seen: Evidence) -> Manner:
     return Manner(seen.faces, min(len(seen.inner), 2), seen.shade > LEAST_TONE, slides(seen))
 
 
-def _places(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> Iterator[_Place]:
-    outdoors = _outdoors(axes, thin_px, texts)
+def _places(axes: Sequence[Axis], sky: BaseGeometry) -> Iterator[_Place]:
     for number, axis in enumerate(axes):
         for index, one in enumerate(axis.openings):
-            yield _Place(number, index, _leads_out(axis, one, outdoors), one)
-
-
-def _outdoors(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> BaseGeometry:
-    """What a disc as broad as WIDEST_LEAK reaches from around the sheet, and terraces.
-
-    A room whose wall was not found everywhere is indoors all the same.
-    """
-    graph = wall_graph(axes)
-    bodies = wall_bodies(graph, axes)
-    walls = unary_union(bodies)
-    reach = WIDEST_LEAK / 2 * thin_px
-    around = box(*walls.bounds).buffer(3 * reach, join_style="mitre")
-    free = around.difference(walls.buffer(reach))
-    parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
-    border = around.exterior
-    open_sky = unary_union([one for one in parts if one.distance(border) < 1]).buffer(reach + 0.5)
-    named = [
-        Point(*np.mean(text.box_px, axis=0))
-        for text in texts
-        if any(one.use in OPEN_AIR for one in meanings(text.text)[:1])
-    ]
-    spaces = [one.polygon() for one in closed_spaces(bodies, thin_px)]
-    terraces = [one for one in spaces if any(one.contains(point) for point in named)]
-    return unary_union([open_sky, *terraces])
-
-
-def _leads_out(axis: Axis, one: OnAxis, outdoors: BaseGeometry) -> bool:
-    """Whether one of its sides is outdoors."""
-    line = axis.line
-    middle = line.start + (one.first + one.last) / 2 * line.direction
-    normal = np.array([-line.direction[1], line.direction[0]])
-    away = line.thickness_px / 2 + 5
-    return any(outdoors.contains(Point(*(middle + side * away * normal))) for side in (1, -1))
+            outer = leads_out(axis.line, (one.first, one.last), sky)
+            yield _Place(number, index, outer, one)
 
 
 def _again(place: _Place, thin_px: float) -> Judged:
