@@ -29,6 +29,9 @@ USUAL_DOOR = 8.0
 DOOR_WIDTHS = (0.6, 1.7)
 """Front doors without a leaf are so many usual doors wide."""
 
+LEAST_TIMES = 3
+"""What is drawn so often between rooms is this sheet's manner of drawing doors."""
+
 GLAZED = 1.2
 """Glazed leaves are drawn at least so many times as thick as the others."""
 
@@ -126,12 +129,13 @@ def _window_manner(places: Sequence[_Place], judged: Sequence[Judged]) -> Manner
 
 
 def _door_manners(places: Sequence[_Place], judged: Sequence[Judged]) -> set[Manner]:
-    """How doors without a leaf are drawn between rooms."""
-    return {
+    """How doors without a leaf are drawn between rooms, more than once."""
+    count = Counter(
         manner(one.seen)
         for place, one in zip(places, judged, strict=True)
         if not place.outer and one.seen is not None and one.hinge == "none" and one.kind == "door"
-    }
+    )
+    return {one for one, times in count.items() if times >= LEAST_TIMES}
 
 
 def _by_manner(judged: Judged, windows: Manner, doors: set[Manner], door_px: float) -> Judged:
