@@ -7,8 +7,8 @@ once more by what lies behind them, let the axes meet, and find rooms.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -28,8 +28,20 @@ from veduta.plan.openings.settle import settled
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
-from veduta.plan.walls.axes import axes_of
+from veduta.plan.stairs.find import find_flights
+from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.find import Found, find_walls
+
+
+@dataclass(frozen=True)
+class KnownWalls:
+    """Of a sheet that was drawn from vectors: `solid` (h, w) is the mask of all wall, or None.
+
+    `settle` lays the axes that were found onto the lines that they were drawn by.
+    """
+
+    solid: NDArray[np.bool_] | None
+    settle: Callable[[Sequence[Axis]], Sequence[Axis]]
 
 
 def read_storey(
@@ -50,10 +62,20 @@ def read_storey(
 
 
 def read_cleaned(
-    cleaned: Cleaned, texts: Sequence[Text] = (), metres_per_px_hint: float | None = None
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    metres_per_px_hint: float | None = None,
+    known: KnownWalls | None = None,
 ) -> Drawn:
-    """As `read_storey`, of a cleaned sheet; texts are in its pixels."""
-    found = find_walls(cleaned, texts)
+    """As `read_storey`, of a cleaned sheet; texts are in its pixels.
+
+    `stairs` of the result are all that look like flights: `stairs.find.true_flights` tells which of
+    them are, by the scale.
+
+    `known` walls are not looked for in the ink.
+    """
+    flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
+    found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
     leaves = leaf_pieces(found.pieces, judged)
@@ -64,9 +86,11 @@ def read_cleaned(
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
     sky = open_sky(whole.axes, found.thin_px, texts)
-    axes = with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    # What a vector file says of its openings goes before what its picture looks like.
+    axes = whole.axes if known else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
-    return drawn_from(cleaned, found, axes, texts, whole.notes)
+    laid = known.settle(axes) if known else axes
+    return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -19,6 +19,9 @@ from veduta.plan.walls.pieces import Piece
 WIDEST_LEAK = 12.0
 """Rooms leak through breaks of so many (thin) wall thicknesses at most."""
 
+LEAST_HOUSE = 0.1
+"""Groups of walls that enclose less than this part of the largest are no houses."""
+
 OPEN_AIR = ("balcony", "terrace")
 
 
@@ -29,7 +32,7 @@ def open_sky(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> Bas
     """
     graph = wall_graph(axes)
     bodies = wall_bodies(graph, axes)
-    walls = unary_union(bodies)
+    walls = _houses(bodies)
     reach = WIDEST_LEAK / 2 * thin_px
     around = box(*walls.bounds).buffer(3 * reach, join_style="mitre")
     free = around.difference(walls.buffer(reach))
@@ -44,6 +47,14 @@ def open_sky(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> Bas
     spaces = [one.polygon() for one in closed_spaces(bodies, thin_px)]
     terraces = [one for one in spaces if any(one.contains(point) for point in named)]
     return unary_union([open_sky, *terraces])
+
+
+def _houses(bodies: Sequence[Polygon]) -> BaseGeometry:
+    """Walls that hang together and enclose much: no scale bar, beside which it is outdoors."""
+    whole = unary_union([body.buffer(0.6) for body in bodies])
+    parts = list(getattr(whole, "geoms", [whole]))
+    largest = max((one.convex_hull.area for one in parts), default=0.0)
+    return unary_union([one for one in parts if one.convex_hull.area >= LEAST_HOUSE * largest])
 
 
 def leads_out(line: Piece, span: tuple[float, float], sky: BaseGeometry) -> bool:
