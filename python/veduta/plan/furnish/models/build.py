@@ -1,0 +1,196 @@
+"""The builders by name, and what they make: an asset of exactly the asked size."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+
+from veduta.grammar.assets.asset import Asset, Slot
+from veduta.plan.furnish.models import bath, beds, decoration, kitchen, seating, storage, tables, works
+from veduta.plan.furnish.models.body import Body
+
+Builder = Callable[[Body], None]
+BUILDERS: dict[str, Builder] = {
+    "sofa-rolled": partial(seating.sofa, arms="rolled", legs_m=0.08, tufted=True),
+    "sofa-slim": partial(seating.sofa, arms="slim", legs_m=0.14, tufted=True),
+    "sofa-boxy": partial(seating.sofa, arms="boxy", legs_m=0.05, tufted=True),
+    "sofa-armless": partial(seating.sofa, arms="none", legs_m=0.1, tufted=True),
+    "armchair-rolled": partial(seating.sofa, arms="rolled", legs_m=0.08),
+    "armchair-slim": partial(seating.sofa, arms="slim", legs_m=0.14),
+    "corner-sofa": seating.corner_sofa,
+    "wing-chair": seating.wing_chair,
+    "lounge-chair": seating.lounge_chair,
+    "pouf": seating.pouf,
+    "ottoman": seating.ottoman,
+    "chair-slats": partial(seating.chair, back="slats"),
+    "chair-padded": partial(seating.chair, back="padded"),
+    "chair-shell": partial(seating.chair, back="shell"),
+    "chair-cross": partial(seating.chair, back="cross"),
+    "office-chair": seating.office_chair,
+    "stool": partial(seating.stool, padded=False),
+    "stool-padded": partial(seating.stool, padded=True),
+    "bench-padded": partial(seating.bench, padded=True),
+    "bench-back": partial(seating.bench, back=True),
+    "lounger": seating.lounger,
+    "table-square": partial(tables.table, legs="square"),
+    "table-splayed": partial(tables.table, legs="splayed"),
+    "table-trestle": partial(tables.table, legs="trestle", top_m=0.04),
+    "table-sled": partial(tables.table, legs="sled", apron=False),
+    "table-low": partial(tables.table, legs="splayed", top_m=0.025, apron=False),
+    "table-garden": partial(tables.table, legs="square", top_m=0.025),
+    "table-round-legs": partial(tables.table, legs="round", top_m=0.022),
+    "round-table-pedestal": partial(tables.round_table, foot="pedestal"),
+    "round-table-tripod": partial(tables.round_table, foot="tripod"),
+    "round-table-legs": partial(tables.round_table, foot="legs"),
+    "round-table-drum": partial(tables.round_table, foot="drum"),
+    "box-table": tables.box_table,
+    "side-table-drawer": partial(tables.side_table, style="drawer"),
+    "side-table-open": partial(tables.side_table, style="open"),
+    "side-table-cube": partial(tables.side_table, style="cube"),
+    "desk-plain": partial(tables.desk, drawers="none"),
+    "desk-drawers": partial(tables.desk, drawers="one side"),
+    "desk-double": partial(tables.desk, drawers="both"),
+    "dressing-table": tables.dressing_table,
+    "workbench": tables.workbench,
+    "bed-panel": partial(beds.bed, head="panel"),
+    "bed-upholstered": partial(beds.bed, head="upholstered"),
+    "bed-platform": partial(beds.bed, head="platform"),
+    "bed-metal": partial(beds.bed, head="metal"),
+    "bed-slats": partial(beds.bed, head="slats"),
+    "bunk": beds.bunk,
+    "cot": beds.cot,
+    "wardrobe-hinged": partial(storage.wardrobe, doors="hinged"),
+    "wardrobe-framed": partial(storage.wardrobe, doors="framed"),
+    "wardrobe-sliding": partial(storage.wardrobe, doors="sliding"),
+    "wardrobe-mirror": partial(storage.wardrobe, doors="mirror"),
+    "chest-3": partial(storage.chest, rows=3, legs=False),
+    "chest-3-legs": partial(storage.chest, rows=3, legs=True),
+    "chest-4": partial(storage.chest, rows=4, legs=False),
+    "chest-5": partial(storage.chest, rows=5, legs=False),
+    "chest-framed": partial(storage.chest, rows=4, legs=True, framed=True),
+    "sideboard": partial(storage.sideboard, legs=False),
+    "sideboard-legs": partial(storage.sideboard, legs=True),
+    "tv-bench": partial(storage.tv_bench, legs=False),
+    "tv-bench-legs": partial(storage.tv_bench, legs=True),
+    "bookcase": storage.bookcase,
+    "bookcase-open": partial(storage.bookcase, back=False),
+    "rack": partial(storage.bookcase, books=False, metal=True),
+    "glass-cabinet": storage.glass_cabinet,
+    "wall-shelf": storage.wall_shelf,
+    "coat-rack": storage.coat_rack,
+    "boxes": storage.boxes,
+    "basket": storage.basket,
+    "unit-cupboard": partial(kitchen.base_unit, fitted="cupboard"),
+    "unit-drawers": partial(kitchen.base_unit, fitted="drawers"),
+    "unit-sink": partial(kitchen.base_unit, fitted="sink"),
+    "unit-hob": partial(kitchen.base_unit, fitted="hob"),
+    "unit-dishwasher": partial(kitchen.base_unit, fitted="dishwasher"),
+    "unit-island": partial(kitchen.base_unit, fitted="island"),
+    "wall-unit": kitchen.wall_unit,
+    "hood": kitchen.hood,
+    "fridge": partial(kitchen.fridge, doors="freezer below"),
+    "fridge-single": partial(kitchen.fridge, doors="single"),
+    "fridge-double": partial(kitchen.fridge, doors="double"),
+    "tall-oven": kitchen.tall_oven,
+    "washer": kitchen.washer,
+    "dryer": partial(kitchen.washer, dryer=True),
+    "microwave": partial(kitchen.small_appliance, kind="microwave"),
+    "toaster": partial(kitchen.small_appliance, kind="toaster"),
+    "kettle": partial(kitchen.small_appliance, kind="kettle"),
+    "coffee-machine": partial(kitchen.small_appliance, kind="coffee"),
+    "canisters": partial(kitchen.small_appliance, kind="blocks"),
+    "toilet": partial(bath.toilet, hung=False),
+    "toilet-hung": partial(bath.toilet, hung=True),
+    "bidet": bath.bidet,
+    "basin-pedestal": partial(bath.basin, stand="pedestal"),
+    "basin-cabinet": partial(bath.basin, stand="cabinet"),
+    "basin-console": partial(bath.basin, stand="console"),
+    "basin-wall": partial(bath.basin, stand="wall"),
+    "bathtub": partial(bath.bathtub, free=False),
+    "bathtub-free": partial(bath.bathtub, free=True),
+    "shower": bath.shower,
+    "shower-quadrant": partial(bath.shower, quadrant=True),
+    "towel-rail": bath.towel_rail,
+    "mirror": partial(bath.mirror, shape="plain"),
+    "mirror-framed": partial(bath.mirror, shape="framed"),
+    "mirror-round": partial(bath.mirror, shape="round"),
+    "mirror-cabinet": partial(bath.mirror, shape="plain", cabinet=True),
+    "mirror-standing": bath.standing_mirror,
+    "sauna-bench": bath.sauna_bench,
+    "sauna-stove": bath.sauna_stove,
+    "bath-mat": decoration.rounded_board,
+    "floor-lamp-stem": partial(decoration.floor_lamp, style="stem"),
+    "floor-lamp-tripod": partial(decoration.floor_lamp, style="tripod"),
+    "floor-lamp-arc": partial(decoration.floor_lamp, style="arc"),
+    "table-lamp-vase": partial(decoration.table_lamp, style="vase"),
+    "table-lamp-stick": partial(decoration.table_lamp, style="stick"),
+    "table-lamp-globe": partial(decoration.table_lamp, style="globe"),
+    "table-lamp-desk": partial(decoration.table_lamp, style="desk"),
+    "plant-tree": partial(decoration.plant, habit="tree", pot=0.2),
+    "plant-palm": partial(decoration.plant, habit="palm", pot=0.24),
+    "plant-swords": partial(decoration.plant, habit="swords", pot=0.3),
+    "plant-bush": partial(decoration.plant, habit="bush", pot=0.45),
+    "plant-hanging": partial(decoration.plant, habit="hanging", pot=0.55),
+    "rug-plain": partial(decoration.rug, shape="plain"),
+    "rug-bordered": partial(decoration.rug, shape="bordered"),
+    "rug-striped": partial(decoration.rug, shape="striped"),
+    "rug-round": partial(decoration.rug, shape="round"),
+    "picture-bands": partial(decoration.picture, subject="bands", mount=False),
+    "picture-circles": partial(decoration.picture, subject="circles", mount=False),
+    "picture-blocks": partial(decoration.picture, subject="blocks", mount=False),
+    "picture-bands-mount": partial(decoration.picture, subject="bands", mount=True),
+    "picture-circles-mount": partial(decoration.picture, subject="circles", mount=True),
+    "picture-blocks-mount": partial(decoration.picture, subject="blocks", mount=True),
+    "clock": decoration.clock,
+    "television": partial(decoration.television, on_wall=False),
+    "television-wall": partial(decoration.television, on_wall=True),
+    "computer": partial(decoration.computer, laptop=False),
+    "laptop": partial(decoration.computer, laptop=True),
+    "vase-bottle": partial(decoration.vase, style="bottle"),
+    "vase-bowl": partial(decoration.vase, style="bowl"),
+    "vase-fruit": partial(decoration.vase, style="fruit"),
+    "vase-flowers": partial(decoration.vase, style="flowers"),
+    "vase-candles": partial(decoration.vase, style="candles"),
+    "books": decoration.books,
+    "speaker": decoration.speaker,
+    "curtain": decoration.curtain,
+    "umbrella-stand": decoration.umbrella_stand,
+    "car": partial(works.car, estate=False),
+    "car-estate": partial(works.car, estate=True),
+    "bicycle": works.bicycle,
+    "boiler": partial(works.boiler, tank=False),
+    "water-tank": partial(works.boiler, tank=True),
+    "utility-sink": works.utility_sink,
+    "fireplace": partial(works.fireplace, stove=False),
+    "wood-stove": partial(works.fireplace, stove=True),
+    "piano": works.piano,
+    "parasol": works.parasol,
+    "planter": works.planter,
+    "grill": works.grill,
+    "treadmill": partial(works.balance, kind="treadmill"),
+    "exercise-ball": partial(works.balance, kind="ball"),
+}
+
+
+def build(
+    name: str, slots: Sequence[Slot], size_m: tuple[float, float, float], *, coarse: bool = False
+) -> Asset:
+    """The object of a builder (a key of BUILDERS): its box is `size_m`, width, depth, height."""
+    body = Body(slots, size_m, coarse=coarse)
+    BUILDERS[name](body)
+    return fitted(body.asset(name), size_m)
+
+
+def fitted(asset: Asset, size_m: tuple[float, float, float]) -> Asset:
+    """An asset stretched and moved so that its box is of this size, the middle of its base at 0.
+
+    What stands in a room claims its box: no handle may reach beyond it.
+    """
+    low, high = asset.points_m.min(axis=0), asset.points_m.max(axis=0)
+    wanted = np.array([size_m[0], size_m[2], size_m[1]])
+    middle = np.array([(low[0] + high[0]) / 2, low[1], (low[2] + high[2]) / 2])
+    points = (asset.points_m - middle) * wanted / np.maximum(high - low, 1e-9)
+    return replace(asset, points_m=points, given_box_m=None)
