@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +21,8 @@ OVERHEAD_M = 1.95
 """One walks below things that begin higher."""
 DOOR_M = 2.1
 _TOUCH_M = 1e-3
-_SILL_M = 0.03
+_SILL_M, _HEAD_M = 0.03, 0.3
+"""So much higher than a sill things before a window may be, and the heads of beds."""
 _CEILING_M = 0.03
 
 
@@ -39,13 +41,13 @@ class Stood:
     on: Stood | None = None
     group: int = 0
 
-    @property
+    @cached_property
     def shape(self) -> Polygon:
         """What it covers."""
         width, depth, _ = self.size_m
         return rectangle(self.at, self.turn, (-width / 2, width / 2), (-depth / 2, depth / 2))
 
-    @property
+    @cached_property
     def front(self) -> Polygon | None:
         """What must stay free before it."""
         width, depth, _ = self.size_m
@@ -108,8 +110,9 @@ class Layout:
             inner = shape.buffer(-_TOUCH_M)
             if thing.above_m < DOOR_M and space.blocked.intersects(inner):
                 return False
+            over = _HEAD_M if thing.entry.kind == "bed" else _SILL_M
             if thing.entry.type != "curtain" and any(
-                thing.top_m > window.low_m + _SILL_M and window.zone.intersects(inner)
+                thing.top_m > window.low_m + over and window.zone.intersects(inner)
                 for window in space.windows
             ):
                 return False

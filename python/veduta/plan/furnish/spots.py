@@ -15,7 +15,8 @@ from veduta.plan.furnish.walk import CELL_M
 
 STEP_M = 0.2
 FREE_STEP_M = 0.25
-MOST_SPOTS = 40
+MOST_SPOTS = 90
+MOST_FREE_SPOTS = 60
 _CORNER_M = 0.02
 
 
@@ -96,7 +97,7 @@ def _free_spots(layout: Layout, rng: np.random.Generator) -> list[Spot]:
     rows, columns = np.nonzero(away[::step, ::step] > 0.4)
     points = np.column_stack([grid.x[columns * step], grid.y[rows * step]])
     room = away[rows * step, columns * step] + 0.05 * rng.random(len(points))
-    best = points[np.argsort(-room, kind="stable")[: MOST_SPOTS // 2]]
+    best = points[np.argsort(-room, kind="stable")[:MOST_FREE_SPOTS]]
     turns = _turns(layout)
     return [Spot(layout.space, point, turn, None) for point in best for turn in turns]
 
