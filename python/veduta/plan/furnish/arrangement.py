@@ -102,9 +102,7 @@ def alone(
 ) -> Piece:
     """A thing with its back at the wall, where the catalogue says that it hangs or stands."""
     off = OFF_WALL_M if entry.stands == "floor" else 0.005
-    return Piece(
-        entry, size_m, x, y - off - size_m[1] / 2.0, above_m=entry.above_m, needed=needed
-    )
+    return Piece(entry, size_m, x, y - off - size_m[1] / 2.0, above_m=entry.above_m, needed=needed)
 
 
 def fixed(pieces: Iterable[Piece], zones: Iterable = ()) -> Callable[[Spot], list[Arrangement]]:

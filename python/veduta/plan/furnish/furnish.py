@@ -221,5 +221,3 @@ def records(rooms: Sequence[FurnishedRoom]) -> list[Furniture]:
                 )
             )
     return found
-
-

@@ -146,9 +146,7 @@ def _room_space(
         for ring in (floor.exterior, *floor.interiors)
         for one in _stretches(np.array(ring.coords)[:-1], walls, middles)
     ]
-    return RoomSpace(
-        room, floor, tuple(stretches), points, blocked, windows, height_m
-    )
+    return RoomSpace(room, floor, tuple(stretches), points, blocked, windows, height_m)
 
 
 def _sides(hole: Hole, room: Room) -> list[float]:

@@ -83,5 +83,3 @@ def _fill(
         if layout.allows(thing):
             layout.add([thing])
             count[entry.type] = count.get(entry.type, 0) + 1
-
-

@@ -6,8 +6,8 @@ Where it stands is invented, and so is what it looks like.
 from __future__ import annotations
 
 import difflib
-from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,7 +18,7 @@ from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Material, Texture
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.document import Furniture, PlanDocument
+from veduta.plan.document import Furniture, PlanDocument, Storey
 from veduta.plan.furnish.catalogue.entry import Finish, Size
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.shapes import asset_of, finishes_of
@@ -41,20 +41,20 @@ class Furnishing:
         self._rows: dict[tuple[str, Size], list[int]] = {}
         self._places: dict[tuple[str, Size], list[NDArray[np.float64]]] = {}
 
-    def add(self, things: Sequence[Furniture], storey: str, elevation_m: float) -> None:
+    def add(self, storey: Storey) -> None:
         """The things of a storey, on its finished floor."""
-        for thing in things:
+        for thing in storey.furniture or ():
             key = (thing.object, thing.size_m)
             if key not in self._kinds:
                 self._kinds[key] = self._kind(*key)
             row = self.builder.feature(
                 SemanticClass.FURNITURE,
-                Provenance.INVENTED,
-                f"{storey} {thing.object} {thing.id}",
+                Provenance.INVENTED if thing.origin == "invented" else Provenance.INFERRED,
+                f"{storey.name} {thing.object} {thing.id}",
                 size_m=(thing.size_m[0], thing.size_m[2]),
             )
             self._rows.setdefault(key, []).append(row)
-            self._places.setdefault(key, []).append(_place(thing, elevation_m + FINISH_M))
+            self._places.setdefault(key, []).append(_place(thing, storey.elevation_m + FINISH_M))
 
     def instances(self) -> Instances | None:
         """All of them; None without any."""
@@ -91,7 +91,7 @@ class Furnishing:
         return self._materials[look]
 
 
-def check_objects(document: PlanDocument, catalogue: Catalogue, file: str) -> None:
+def check_objects(document: PlanDocument, catalogue: Catalogue, file: Path) -> None:
     """InputError where a document names an object that the catalogue has not."""
     for number, storey in enumerate(document.storeys):
         for index, thing in enumerate(storey.furniture or ()):

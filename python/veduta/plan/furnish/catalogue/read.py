@@ -130,7 +130,7 @@ def _new_wishes(base: sqlite3.Connection) -> tuple[Wanted, ...]:
 
 
 def _all(base: sqlite3.Connection, table: str) -> list[sqlite3.Row]:
-    return base.execute(f"SELECT * FROM {table} ORDER BY rowid").fetchall()  # noqa: S608
+    return base.execute(f"SELECT * FROM {table} ORDER BY rowid").fetchall()
 
 
 def _entry(

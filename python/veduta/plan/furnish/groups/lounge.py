@@ -58,9 +58,7 @@ def lounge(choice: Choice, space: RoomSpace) -> list[Variant]:
     return found
 
 
-def _before_screen(
-    choice: Choice, bench: tuple[Entry, Size], seat: tuple[Entry, Size]
-) -> Variant:
+def _before_screen(choice: Choice, bench: tuple[Entry, Size], seat: tuple[Entry, Size]) -> Variant:
     def make(spot: Spot) -> Iterator[Arrangement]:
         for back in _backs(spot):
             yield Arrangement(tuple(_pieces(choice, bench, seat, back)))
@@ -123,9 +121,7 @@ def _table_on_rug(
     if fits:
         # The rug is the fourth piece of the arrangement, after bench, sofa and screen.
         found.append(Piece(rug, rug_size, 0.0, y, needed=False))
-        found.append(
-            Piece(entry, size, 0.0, y, above_m=rug_size[2], needed=False, on=3)
-        )
+        found.append(Piece(entry, size, 0.0, y, above_m=rug_size[2], needed=False, on=3))
     else:
         found.append(Piece(entry, size, 0.0, y, needed=False))
     beside = (rug_size[0] if fits else size[0]) / 2.0 + 0.08

@@ -50,9 +50,15 @@ def single(kind: str, choice: Choice, space: RoomSpace) -> list[Variant]:
                 found.append(Variant(width, fixed([piece]), free=True))
             else:
                 found.append(
-                    Variant(width, fixed([alone(entry, size)]), order, prefer,
-                            entry.walls, max(entry.side_m, 0.04),
-                            corner=current in CORNERS)  # fmt: skip
+                    Variant(
+                        width,
+                        fixed([alone(entry, size)]),
+                        order,
+                        prefer,
+                        entry.walls,
+                        max(entry.side_m, 0.04),
+                        corner=current in CORNERS,
+                    )  # fmt: skip
                 )
         current = choice.smaller(current)
     return found

@@ -43,9 +43,7 @@ def sleeping(choice: Choice, space: RoomSpace) -> list[Variant]:
     return found
 
 
-def _bed(
-    choice: Choice, kind: str, width: float, sides: tuple[int, ...], needed: bool
-) -> Variant:
+def _bed(choice: Choice, kind: str, width: float, sides: tuple[int, ...], needed: bool) -> Variant:
     """A bed with nightstands at its free sides, if there is space for them or they are needed."""
     entry, stand = choice.entry(kind), choice.entry("nightstand")
     size, beside = entry.sized(width), stand.sized()

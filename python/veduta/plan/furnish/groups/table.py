@@ -35,8 +35,7 @@ def dining(choice: Choice, space: RoomSpace) -> list[Variant]:
     sizes += [(1.6, 0.9, False)] if area >= MIDDLE_M2 else []
     sizes += [(1.25, 0.8, False), (0.8, 0.75, False)]
     found += [
-        _around(table, table.sized(width, depth), chair, ends=ends)
-        for width, depth, ends in sizes
+        _around(table, table.sized(width, depth), chair, ends=ends) for width, depth, ends in sizes
     ]
     found.append(_round(choice.entry("round-table"), chair, least=True))
     found += [_at_wall(table, table.sized(width, 0.7), chair) for width in (1.2, 0.8)]
@@ -83,9 +82,7 @@ def _around(table: Entry, size: Size, chair: Entry, *, ends: bool) -> Variant:
     if ends:
         out = size[0] / 2.0 + GAP_M + seat[1] / 2.0
         for side in (1.0, -1.0):
-            pieces.append(
-                Piece(chair, seat, side * out, 0.0, -side * math.pi / 2.0, needed=False)
-            )
+            pieces.append(Piece(chair, seat, side * out, 0.0, -side * math.pi / 2.0, needed=False))
     made = Arrangement(tuple(pieces))
     return Variant(size[0], lambda _: [made], free=True)
 
@@ -98,8 +95,14 @@ def _round(table: Entry, chair: Entry, *, least: bool = False) -> Variant:
     for k in range(4):
         angle = k * math.pi / 2.0
         pieces.append(
-            Piece(chair, seat, -math.sin(angle) * out, math.cos(angle) * out, angle,
-                  needed=k % 2 == 0 or not least)  # fmt: skip
+            Piece(
+                chair,
+                seat,
+                -math.sin(angle) * out,
+                math.cos(angle) * out,
+                angle,
+                needed=k % 2 == 0 or not least,
+            )  # fmt: skip
         )
     made = Arrangement(tuple(pieces))
     return Variant(side, lambda _: [made], free=True)
@@ -129,8 +132,6 @@ def _pair(table: Entry, size: Size, chair: Entry) -> Variant:
     out = size[0] / 2.0 + GAP_M + seat[0] / 2.0
     pieces = [alone(table, size)]
     for side in (1.0, -1.0):
-        pieces.append(
-            Piece(chair, seat, side * out, -OFF_WALL_M - seat[1] / 2.0, needed=side > 0)
-        )
+        pieces.append(Piece(chair, seat, side * out, -OFF_WALL_M - seat[1] / 2.0, needed=side > 0))
     made = Arrangement(tuple(pieces))
     return Variant(size[0], lambda _: [made], "far", "middle")

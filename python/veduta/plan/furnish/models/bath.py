@@ -224,7 +224,9 @@ def towel_rail(body: Body) -> None:
                  radius=0.03)  # fmt: skip
 
 
-def mirror(body: Body, *, shape: Literal["plain", "framed", "round"], cabinet: bool = False) -> None:
+def mirror(
+    body: Body, *, shape: Literal["plain", "framed", "round"], cabinet: bool = False
+) -> None:
     """A mirror on the wall."""
     y = (body.back - body.depth, body.back)
     if shape == "round":

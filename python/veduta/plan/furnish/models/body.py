@@ -88,9 +88,7 @@ class Body:
         """An upright box; `without` names sides that nobody sees (`back bottom`)."""
         points = [[x[k & 1], y[k >> 1 & 1], z[k >> 2]] for k in range(8)]
         hidden = set(without.split())
-        faces = [
-            face for face, side in zip(_BOX, _BOX_SIDES, strict=True) if side not in hidden
-        ]
+        faces = [face for face, side in zip(_BOX, _BOX_SIDES, strict=True) if side not in hidden]
         own = np.asarray(points) @ self._turn.T + self._move
         self._model.add(own @ ASSET_FROM_OBJECT.T, faces, slot)
 

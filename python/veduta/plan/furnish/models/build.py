@@ -9,7 +9,16 @@ from functools import partial
 import numpy as np
 
 from veduta.grammar.assets.asset import Asset, Slot
-from veduta.plan.furnish.models import bath, beds, decoration, kitchen, seating, storage, tables, works
+from veduta.plan.furnish.models import (
+    bath,
+    beds,
+    decoration,
+    kitchen,
+    seating,
+    storage,
+    tables,
+    works,
+)
 from veduta.plan.furnish.models.body import Body
 
 Builder = Callable[[Body], None]

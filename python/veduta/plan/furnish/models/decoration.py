@@ -30,9 +30,7 @@ def floor_lamp(body: Body, *, style: Literal["stem", "tripod", "arc"]) -> None:
     end = body.front + 0.18
     angle = np.linspace(0.0, 0.8 * np.pi, 5 if body.coarse else 12)
     span, rise = (at[1] - end) / 1.81, 0.3
-    bow = [
-        (0.0, at[1] - span * (1.0 - np.cos(a)), top - rise + rise * np.sin(a)) for a in angle
-    ]
+    bow = [(0.0, at[1] - span * (1.0 - np.cos(a)), top - rise + rise * np.sin(a)) for a in angle]
     body.bent([(*at, 0.02), (*at, 0.5 * top), *bow], 0.011, "legs")
     z = bow[-1][2]
     body.turned([(0.16, z - 0.16), (0.15, z - 0.09), (0.08, z - 0.02), (0.02, z + 0.01)], "shade",

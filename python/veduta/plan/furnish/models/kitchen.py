@@ -72,7 +72,12 @@ def _hob(body: Body) -> None:
     body.box(x, y, (z, z + 0.006), "dark", without="bottom")
     if body.coarse:
         return
-    for a, b, r in ((-0.14, -0.1, 0.09), (0.14, -0.1, 0.07), (-0.14, 0.13, 0.07), (0.14, 0.13, 0.09)):
+    for a, b, r in (
+        (-0.14, -0.1, 0.09),
+        (0.14, -0.1, 0.07),
+        (-0.14, 0.13, 0.07),
+        (0.14, 0.13, 0.09),
+    ):
         centre = (a, b + (y[0] + y[1]) / 2)
         body.turned([(r, z + 0.006), (r, z + 0.0075)], "ring", centre)
         body.turned([(r - 0.008, z + 0.0075), (r - 0.008, z + 0.0085)], "dark", centre)
@@ -151,8 +156,12 @@ def fridge(body: Body, *, doors: Literal["freezer below", "single", "double"]) -
         for z in zip(zs, zs[1:], strict=False):
             body.cushion((x[0] + 0.003, x[1] - 0.003), (body.front + 0.012, body.front + 0.06),
                          (z[0] + 0.004, z[1] - 0.004), "front", radius=0.01, along="y")  # fmt: skip
-            near_hinge = x[1] - 0.05 if x[1] < body.right - 0.01 or doors != "double" else x[0] + 0.05
-            low = max(z[0] + 0.08, z[1] - 0.55) if z[0] < 0.1 and doors != "single" else split + 0.08
+            near_hinge = (
+                x[1] - 0.05 if x[1] < body.right - 0.01 or doors != "double" else x[0] + 0.05
+            )
+            low = (
+                max(z[0] + 0.08, z[1] - 0.55) if z[0] < 0.1 and doors != "single" else split + 0.08
+            )
             low = low if doors != "single" else 0.45 * top
             bar(body, (near_hinge - 0.007, near_hinge + 0.007), body.front + 0.012,
                 (low, min(low + 0.4, z[1] - 0.05)))  # fmt: skip

@@ -42,9 +42,7 @@ def sofa(body: Body, *, arms: Arms, legs_m: float, tufted: bool = False) -> None
         with body.placed(((x[0] + x[1]) / 2, seat_back - 0.02, seat - 0.01), tilt=0.16):
             half = width / 2 - 0.006
             top = body.height - seat + 0.01
-            body.cushion(
-                (-half, half), (-0.16, 0.0), (0.0, top), "fabric", radius=0.07, along="y"
-            )
+            body.cushion((-half, half), (-0.16, 0.0), (0.0, top), "fabric", radius=0.07, along="y")
     if tufted and not body.coarse:
         _throw_cushion(body, inner[0] + 0.22, seat_back - 0.16, seat)
         _throw_cushion(body, inner[1] - 0.22, seat_back - 0.16, seat)
@@ -128,9 +126,7 @@ def corner_sofa(body: Body) -> None:
         with body.placed(((low + high) / 2, seat_back - 0.02, seat - 0.01), tilt=0.16):
             half = (high - low) / 2 - 0.006
             top = body.height - seat + 0.01
-            body.cushion(
-                (-half, half), (-0.15, 0.0), (0.0, top), "fabric", radius=0.07, along="y"
-            )
+            body.cushion((-half, half), (-0.15, 0.0), (0.0, top), "fabric", radius=0.07, along="y")
     if not body.coarse:
         _throw_cushion(body, inner[1] - 0.24, seat_back - 0.16, seat)
 

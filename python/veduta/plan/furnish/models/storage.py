@@ -207,7 +207,11 @@ def _rim(body: Body, x: Span, low: float, high: float) -> None:
     y = (body.front - 0.006, body.front)
     for a in ((x[0] + 0.003, x[0] + 0.045), (x[1] - 0.045, x[1] - 0.003)):
         body.box(a, y, (low, high), "front")
-    for b in ((low, low + 0.045), (high - 0.045, high), ((low + high) / 2, (low + high) / 2 + 0.02)):
+    for b in (
+        (low, low + 0.045),
+        (high - 0.045, high),
+        ((low + high) / 2, (low + high) / 2 + 0.02),
+    ):
         body.box((x[0] + 0.045, x[1] - 0.045), y, b, "front")
 
 

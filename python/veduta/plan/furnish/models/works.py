@@ -74,7 +74,7 @@ def bicycle(body: Body) -> None:
     for y in (y0, y1):
         body.bent([(0.0, y + 0.97 * r * np.cos(a), r + 0.97 * r * np.sin(a)) for a in angle],
                   0.018, "tyre")  # fmt: skip
-        for a in angle[: -1 : 3]:
+        for a in angle[:-1:3]:
             body.rod((0.0, y, r), (0.0, y + 0.95 * r * np.cos(a), r + 0.95 * r * np.sin(a)),
                      0.002, "steel")  # fmt: skip
     crank, saddle, head = (0.0, y1 - 0.44 * (y1 - y0), 0.8 * r), (0.0, y1 - 0.3 * (y1 - y0), 0.84 *
