@@ -105,7 +105,9 @@ def alone(
     return Piece(entry, size_m, x, y - off - size_m[1] / 2.0, above_m=entry.above_m, needed=needed)
 
 
-def fixed(pieces: Iterable[Piece], zones: Iterable = ()) -> Callable[[Spot], list[Arrangement]]:
+def fixed(
+    pieces: Iterable[Piece], zones: Iterable[tuple[tuple[float, float], tuple[float, float]]] = ()
+) -> Callable[[Spot], list[Arrangement]]:
     """The same arrangement at every spot."""
     made = [Arrangement(tuple(pieces), tuple(zones))]
     return lambda _: made

@@ -118,14 +118,20 @@ def room_spaces(
             continue
         # Narrow necks beside chimneys and in window niches are no floor to stand on.
         floor = max(pieces_of(region), key=lambda piece: piece.area)
-        floor = orient(floor.simplify(_STRAIGHT_M))
+        floor = _simple(floor)
         if floor.is_valid and floor.area > 0.2:
             found.append(_room_space(room, floor, space, height_m, stairs))
     return found
 
 
+def _simple(floor: Polygon) -> Polygon:
+    """Counter-clockwise, without corners on straight walls."""
+    plain = floor.simplify(_STRAIGHT_M)
+    return orient(plain if isinstance(plain, Polygon) else floor)
+
+
 def _room_space(
-    room: Room, floor: Polygon, space: Space, height_m: float, stairs: list[Polygon]
+    room: Room, floor: Polygon, space: Space, height_m: float, stairs: list[BaseGeometry]
 ) -> RoomSpace:
     ways = [(hole, sign) for hole in space.holes for sign in _sides(hole, room)]
     doors = [way for way in ways if way[0].opening.kind != "window"]
@@ -210,7 +216,7 @@ def _sector(hinge: Vector, closed: Vector, opened: Vector, radius: float) -> Pol
     return Polygon([hinge, *arc])
 
 
-def _flight(stairs: Stairs, *, comes_up: bool) -> Polygon:
+def _flight(stairs: Stairs, *, comes_up: bool) -> BaseGeometry:
     """A flight with the step before its foot, or, on the storey above, behind its head."""
     shape = Polygon(stairs.outline_m).buffer(0.02, join_style="mitre")
     way = np.array(stairs.up) * (1.0 if comes_up else -1.0)

@@ -65,7 +65,7 @@ def _cost(
     spot: Spot, stretch: Stretch, centring: tuple[float, float], variant: Variant, layout: Layout,
     rng: np.random.Generator, liking: float,
 ) -> float:  # fmt: skip
-    """What is to be small, in metres, more or less. liking: of walls whose order does not matter."""
+    """What is to be small, in metres, more or less. liking: of a wall whose order is free."""
     cost = 0.3 * float(rng.random())
     if variant.order == "near":
         cost += 0.7 * spot.door_m + 0.3 * stretch.door_m

@@ -30,7 +30,7 @@ class WalkGrid:
         self.y = np.arange(bottom - CELL_M, top + 2 * CELL_M, CELL_M)
         self._gx, self._gy = np.meshgrid(self.x, self.y)
         shapely.prepare(floor)
-        self.floor: Mask = shapely.contains_xy(floor, self._gx, self._gy)
+        self.floor: Mask = np.asarray(shapely.contains_xy(floor, self._gx, self._gy))
         self.floor[[0, -1], :] = False
         self.floor[:, [0, -1]] = False
 

@@ -171,7 +171,7 @@ def _one_of(value: Any, allowed: tuple[Any, ...], what: str) -> Any:
 
 
 def _pairs(text: str) -> dict[str, str]:
-    return dict(pair.split("=", 1) for pair in text.split())  # type: ignore[misc]
+    return dict(pair.split("=", 1) for pair in text.split())
 
 
 def _range(least: float | None, most: float | None, usual: float) -> tuple[float, float]:
@@ -182,7 +182,8 @@ def _surfaces(base: sqlite3.Connection) -> dict[str, list[SupportSurface]]:
     found: dict[str, list[SupportSurface]] = {}
     for row in _all(base, "surface"):
         sides = [float(row[name]) for name in ("left", "right", "front", "back", "height")]
-        own = SupportSurface(*sides, float(row["free_m"]), int(row["fragility"]))
+        free, fragility = float(row["free_m"]), int(row["fragility"])
+        own = SupportSurface(sides[0], sides[1], sides[2], sides[3], sides[4], free, fragility)
         found.setdefault(row["object"], []).append(own)
     return found
 

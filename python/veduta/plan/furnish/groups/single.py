@@ -58,7 +58,7 @@ def single(kind: str, choice: Choice, space: RoomSpace) -> list[Variant]:
                         entry.walls,
                         max(entry.side_m, 0.04),
                         corner=current in CORNERS,
-                    )  # fmt: skip
+                    )
                 )
         current = choice.smaller(current)
     return found

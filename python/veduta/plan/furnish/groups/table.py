@@ -102,7 +102,7 @@ def _round(table: Entry, chair: Entry, *, least: bool = False) -> Variant:
                 math.cos(angle) * out,
                 angle,
                 needed=k % 2 == 0 or not least,
-            )  # fmt: skip
+            )
         )
     made = Arrangement(tuple(pieces))
     return Variant(side, lambda _: [made], free=True)

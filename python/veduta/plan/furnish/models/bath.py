@@ -32,7 +32,7 @@ def _bowl(
 
 
 def _level(wide: float, deep: float, y: float, z: float, n: int) -> np.ndarray:
-    return np.column_stack([oval(wide, deep, n) + (0.0, y), np.full(n, z)])
+    return np.column_stack([oval(wide, deep, n) + np.array([0.0, y]), np.full(n, z)])
 
 
 def toilet(body: Body, *, hung: bool) -> None:
@@ -149,7 +149,7 @@ def bathtub(body: Body, *, free: bool) -> None:
     def ring(inset: float, radius: float, z: float, shift: float = 0.0) -> np.ndarray:
         half = np.array([body.width / 2 - inset - abs(shift), body.depth / 2 - inset])
         points = rounded(half, min(radius, 0.95 * half.min()), steps)
-        return np.column_stack([points + (shift, 0.0), np.full(len(points), z)])
+        return np.column_stack([points + np.array([shift, 0.0]), np.full(len(points), z)])
 
     body.box(x, (y[0] + 0.012, y[1]), (0.0, rim - 0.04), "panel", without="top")
     body.rings(
@@ -174,7 +174,8 @@ def _free_tub(body: Body) -> None:
     n = 16 if body.coarse else 40
     rim = body.height
     levels = ((0.74, 0.0), (0.84, 0.06), (0.94, 0.5 * rim), (0.99, 0.95 * rim), (1.0, rim - 0.01),
-              (0.98, rim), (0.92, rim), (0.9, rim - 0.03), (0.8, 0.45 * rim), (0.68, 0.24 * rim))  # fmt: skip
+              (0.98, rim), (0.92, rim), (0.9, rim - 0.03), (0.8, 0.45 * rim),
+              (0.68, 0.24 * rim))  # fmt: skip
     body.rings([_level(body.width * s, body.depth * s, 0.0, z, n) for s, z in levels], "ceramic")
 
 
@@ -219,8 +220,8 @@ def towel_rail(body: Body) -> None:
     for k, z in enumerate(np.linspace(0.03, body.height - 0.03, count).tolist()):
         if k % 5 != 4:
             body.rod((body.left + 0.02, y, z), (body.right - 0.02, y, z), 0.009, "steel")
-    x = (body.left + 0.08, body.right - 0.08)
-    body.cushion(x, (y - 0.04, y + 0.025), (0.5 * body.height, 0.93 * body.height), "towel",
+    towel = (body.left + 0.08, body.right - 0.08)
+    body.cushion(towel, (y - 0.04, y + 0.025), (0.5 * body.height, 0.93 * body.height), "towel",
                  radius=0.03)  # fmt: skip
 
 

@@ -156,11 +156,9 @@ class Body:
             slot,
         )
 
-    def rod(
-        self, start: Sequence[float], end: Sequence[float], radius: float | Span, slot: str
-    ) -> None:
+    def rod(self, start: ArrayLike, end: ArrayLike, radius: float | Span, slot: str) -> None:
         """A round bar between two points; two radii make it taper."""
-        self.bent([start, end], radius, slot)
+        self.bent(np.array([start, end]), radius, slot)
 
     def bent(self, path: ArrayLike, radius: float | Span, slot: str) -> None:
         """A round bar along a line of points (n, 3)."""

@@ -15,9 +15,9 @@ def floor_lamp(body: Body, *, style: Literal["stem", "tripod", "arc"]) -> None:
     low = top - 0.28
     if style == "tripod":
         for k in range(3):
-            angle = 2.0 * np.pi * k / 3 + 0.5
-            foot = (0.95 * r * np.cos(angle), 0.95 * r * np.sin(angle), 0.0)
-            body.rod(foot, (0.02 * np.cos(angle), 0.02 * np.sin(angle), low), 0.012, "legs")
+            turn = 2.0 * np.pi * k / 3 + 0.5
+            foot = (0.95 * r * np.cos(turn), 0.95 * r * np.sin(turn), 0.0)
+            body.rod(foot, (0.02 * np.cos(turn), 0.02 * np.sin(turn), low), 0.012, "legs")
         _shade(body, (0.0, 0.0), 0.95 * r, low - 0.02, top)
         return
     at = (0.0, 0.0) if style == "stem" else (0.0, body.back - 0.16)
@@ -89,7 +89,7 @@ def plant(
     if habit == "swords":
         for k in range(7 if body.coarse else 15):
             angle, out = 2.4 * k, rng.uniform(0.1, 0.75) * radius
-            foot = start + (out * np.cos(angle), out * np.sin(angle), 0.0)
+            foot = start + np.array([out * np.cos(angle), out * np.sin(angle), 0.0])
             tip_out = 1.5 * out / radius * 0.5 * r
             tip = (tip_out * np.cos(angle), tip_out * np.sin(angle),
                    body.height * rng.uniform(0.72, 1.0))  # fmt: skip
@@ -97,7 +97,8 @@ def plant(
         return
     if habit == "tree":
         crown = np.array([0.02 * r, 0.0, 0.62 * body.height])
-        body.bent([start, (0.04, 0.02, 0.45 * body.height), crown], (0.018, 0.01), "trunk")
+        middle = np.array([0.04, 0.02, 0.45 * body.height])
+        body.bent(np.array([start, middle, crown]), (0.018, 0.01), "trunk")
         count, centre = (24, crown) if body.coarse else (85, crown)
         for k in range(count):
             way = _direction(k, count, -0.45)
@@ -113,14 +114,13 @@ def plant(
         way = _direction(k, count, 0.25 if habit != "hanging" else -0.5)
         reach = np.array([r, r, body.height - high])
         if habit == "palm":
-            way = way * (1.0, 1.0, 1.0)
             tip = start + way * reach * (1.0, 1.0, rng.uniform(0.6, 1.0))
             _frond(body, start, tip, 0.09 * r + 0.02)
             continue
         tip = start + way * reach * rng.uniform(0.75, 1.0)
         tip[2] = np.clip(tip[2], 0.25 * high, body.height)
-        _leaf(body, start + (0.3 * radius * way[0], 0.3 * radius * way[1], 0.0), tip, 0.22 * r,
-              bend=0.1 * r)  # fmt: skip
+        foot = start + 0.3 * radius * way * (1.0, 1.0, 0.0)
+        _leaf(body, foot, tip, 0.22 * r, bend=0.1 * r)
 
 
 def _direction(k: int, count: int, least_up: float) -> np.ndarray:
@@ -172,10 +172,10 @@ def rug(body: Body, *, shape: Literal["plain", "bordered", "round", "striped"]) 
     """A rug on the floor."""
     top = body.height
     if shape == "round":
-        body.turned([(0.5 * body.width, 0.0), (0.498 * body.width, top)], "fabric",
-                    stretch=(1.0, body.depth / body.width), sides=24 if body.coarse else 48)  # fmt: skip
-        body.turned([(0.42 * body.width, top), (0.42 * body.width, top + 0.0008)], "accent",
-                    stretch=(1.0, body.depth / body.width), sides=24 if body.coarse else 48)  # fmt: skip
+        stretch, sides = (1.0, body.depth / body.width), 24 if body.coarse else 48
+        outer, inner = 0.5 * body.width, 0.42 * body.width
+        body.turned([(outer, 0.0), (0.996 * outer, top)], "fabric", stretch=stretch, sides=sides)
+        body.turned([(inner, top), (inner, top + 0.0008)], "accent", stretch=stretch, sides=sides)
         return
     x, y = (body.left, body.right), (body.front, body.back)
     body.box(x, y, (0.0, top), "fabric")
@@ -351,7 +351,8 @@ def curtain(body: Body) -> None:
         u = np.linspace(0.0, 1.0, n)
         wave = 0.32 * body.depth * np.sin(u * np.pi * 2 * max(2, round((x1 - x0) / 0.09)))
         line = np.column_stack([x0 + u * (x1 - x0), wave])
-        skin = np.vstack([line + (0.0, -0.006), line[::-1] + (0.0, 0.006)])
+        thick = np.array([0.0, 0.006])
+        skin = np.vstack([line - thick, line[::-1] + thick])
         body.drawn(skin, (0.015, body.height - 0.045), "fabric")
 
 

@@ -104,11 +104,11 @@ def corner_sofa(body: Body) -> None:
         (body.left, body.right), (seat_back, body.back), (base - 0.02, body.height - 0.06),
         "fabric", radius=0.05,
     )  # fmt: skip
-    for x, y in (
+    for across, deep in (
         ((body.right - arm, body.right), (main_front, body.back - 0.02)),
         ((body.left, body.left + arm), (body.back - 1.05, body.back - 0.02)),
     ):
-        body.cushion(x, y, (legs, 0.6), "fabric", radius=0.04)
+        body.cushion(across, deep, (legs, 0.6), "fabric", radius=0.04)
     inner = (body.left + arm, body.right - arm)
     body.cushion(
         (body.left + 0.01, chaise[1] - 0.004), (body.front, seat_back), (base, seat), "fabric",

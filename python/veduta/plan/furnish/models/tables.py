@@ -110,9 +110,9 @@ def side_table(body: Body, *, style: Literal["drawer", "open", "cube"]) -> None:
         body.box((x[0] + 0.02, x[1] - 0.02), y, (0.5 * top, 0.5 * top + 0.018), "top")
         body.board(x, y, (top - 0.02, top), "top")
         return
-    for a in (x[0] + 0.025, x[1] - 0.025):
+    for foot in (x[0] + 0.025, x[1] - 0.025):
         for b in (y[0] + 0.025, y[1] - 0.025):
-            body.rod((a, b, 0.0), (a, b, top - 0.02), (0.011, 0.017), "legs")
+            body.rod((foot, b, 0.0), (foot, b, top - 0.02), (0.011, 0.017), "legs")
     body.board(x, y, (top - 0.022, top), "top")
     if style == "open":
         body.board((x[0] + 0.01, x[1] - 0.01), (y[0] + 0.01, y[1] - 0.01),
@@ -184,10 +184,10 @@ def dressing_table(body: Body) -> None:
     body.box((body.left + 0.02, body.right - 0.02), (body.front + 0.03, body.back - 0.02),
              (top - 0.13, top - 0.022), "top")  # fmt: skip
     for side in (-1, 1):
-        x = tuple(sorted((side * 0.01, side * (body.width / 2 - 0.03))))
-        body.board((x[0], x[1]), (body.front + 0.014, body.front + 0.03),
+        span = sorted((side * 0.01, side * (body.width / 2 - 0.03)))
+        body.board((span[0], span[1]), (body.front + 0.014, body.front + 0.03),
                    (top - 0.125, top - 0.03), "front")  # fmt: skip
-        knob(body, (x[0] + x[1]) / 2, body.front + 0.014, top - 0.078)
+        knob(body, (span[0] + span[1]) / 2, body.front + 0.014, top - 0.078)
     high = body.height - top - 0.05
     n = 12 if body.coarse else 28
     with body.placed((0.0, body.back - 0.05, top + 0.05 + high / 2)):

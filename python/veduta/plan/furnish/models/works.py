@@ -77,8 +77,9 @@ def bicycle(body: Body) -> None:
         for a in angle[:-1:3]:
             body.rod((0.0, y, r), (0.0, y + 0.95 * r * np.cos(a), r + 0.95 * r * np.sin(a)),
                      0.002, "steel")  # fmt: skip
-    crank, saddle, head = (0.0, y1 - 0.44 * (y1 - y0), 0.8 * r), (0.0, y1 - 0.3 * (y1 - y0), 0.84 *
-                           body.height), (0.0, y0 + 0.16 * (y1 - y0), 0.8 * body.height)  # fmt: skip
+    crank = (0.0, y1 - 0.44 * (y1 - y0), 0.8 * r)
+    saddle = (0.0, y1 - 0.3 * (y1 - y0), 0.84 * body.height)
+    head = (0.0, y0 + 0.16 * (y1 - y0), 0.8 * body.height)
     for a, b in ((crank, saddle), (crank, head), (saddle, head), (crank, (0.0, y1, r)),
                  ((saddle[0], saddle[1], 0.78 * saddle[2]), (0.0, y1, r)),
                  (head, (0.0, y0, r))):  # fmt: skip
@@ -106,22 +107,22 @@ def boiler(body: Body, *, tank: bool) -> None:
                  radius=0.02)  # fmt: skip
     body.box((body.left + 0.08, body.right - 0.08), (body.front - 0.004, body.front + 0.001),
              (0.3, 0.42), "dark")  # fmt: skip
-    for x in np.linspace(body.left + 0.08, body.right - 0.08, 4).tolist():
-        body.rod((x, 0.02, 0.0), (x, 0.02, 0.13), 0.011, "pipe")
+    for at in np.linspace(body.left + 0.08, body.right - 0.08, 4).tolist():
+        body.rod((at, 0.02, 0.0), (at, 0.02, 0.13), 0.011, "pipe")
 
 
 def utility_sink(body: Body) -> None:
     """A deep sink on a frame."""
     rim = body.height - 0.16
-    for x in (body.left + 0.02, body.right - 0.02):
-        for y in (body.front + 0.02, body.back - 0.02):
-            body.box((x - 0.015, x + 0.015), (y - 0.015, y + 0.015), (0.0, rim - 0.2), "steel")
+    for a in (body.left + 0.02, body.right - 0.02):
+        for b in (body.front + 0.02, body.back - 0.02):
+            body.box((a - 0.015, a + 0.015), (b - 0.015, b + 0.015), (0.0, rim - 0.2), "steel")
     x, y, t = (body.left, body.right), (body.front, body.back), 0.02
     low = rim - 0.3
     body.box(x, y, (low, low + t), "ceramic")
-    for a, b in (((x[0], x[0] + t), y), ((x[1] - t, x[1]), y), (x, (y[0], y[0] + t)),
-                 (x, (y[1] - t, y[1]))):  # fmt: skip
-        body.box(a, b, (low + t, rim), "ceramic")
+    for across, deep in (((x[0], x[0] + t), y), ((x[1] - t, x[1]), y), (x, (y[0], y[0] + t)),
+                         (x, (y[1] - t, y[1]))):  # fmt: skip
+        body.box(across, deep, (low + t, rim), "ceramic")
     body.rod((0.0, y[1] - 0.01, rim + 0.1), (0.0, y[1] - 0.17, rim + 0.12), 0.012, "steel")
     body.rod((-0.07, y[1] - 0.012, rim + 0.1), (0.07, y[1] - 0.012, rim + 0.1), 0.018, "steel")
     body.rod((0.0, y[1] - 0.015, rim + 0.1), (0.0, y[1] - 0.015, body.height), 0.01, "steel")
@@ -195,7 +196,8 @@ def planter(body: Body) -> None:
         high = min(body.height - z, 2.0 * r)
         slot = ("leaf", "flower-1", "leaf", "flower-2")[k % 4]
         body.turned([(0.4 * r, z), (r, z + 0.4 * high), (0.75 * r, z + 0.75 * high),
-                     (0.25 * r, z + high)], slot, (float(at[0]), float(at[1])), sides=9)  # fmt: skip
+                     (0.25 * r, z + high)], slot, (float(at[0]), float(at[1])),
+                    sides=9)  # fmt: skip
 
 
 def grill(body: Body) -> None:
@@ -204,7 +206,8 @@ def grill(body: Body) -> None:
     for k in range(3):
         a = 2 * np.pi * k / 3 + 0.5
         body.rod((0.95 * r * np.cos(a), 0.95 * r * np.sin(a), 0.0),
-                 (0.5 * r * np.cos(a), 0.5 * r * np.sin(a), 0.62 * top), 0.014, "steel")  # fmt: skip
+                 (0.5 * r * np.cos(a), 0.5 * r * np.sin(a), 0.62 * top), 0.014,
+                 "steel")  # fmt: skip
     z = 0.55 * top
     angle = np.linspace(-1.35, 1.35, 6 if body.coarse else 12)
     rise = (top - z - 0.05) / 2
