@@ -23,13 +23,12 @@ from veduta.plan.house.space import Hole, Space, pieces_of
 
 APPROACH_M = 0.65
 """What stays free before a door."""
-GARAGE_APPROACH_M = 0.15
-"""Cars stand close to the door of their garage."""
 WINDOW_M = 0.35
 """How near things that are higher than its sill come to a window."""
 STEP_M = 0.8
 """What stays free at the foot and the head of stairs."""
 LEAST_WALL_M = 0.25
+LEAST_FLOOR_M2 = 0.2
 _STRAIGHT_M = 0.015
 _BEHIND_M = 0.03
 _SECTOR_STEPS = 10
@@ -81,10 +80,11 @@ class Window:
 class RoomSpace:
     """A room with all that limits what stands in it.
 
-    doors: (n, 2) points before its doors. blocked: what doors, their leaves and stairs need.
+    region: the floor as it is, `floor` with straight walls made plain. doors: (n, 2) points before its doors. blocked: what doors, their leaves and stairs need.
     """
 
     room: Room
+    region: Polygon
     floor: Polygon
     stretches: tuple[Stretch, ...]
     doors: NDArray[np.float64]
@@ -96,7 +96,7 @@ class RoomSpace:
     @cached_property
     def inside(self) -> Polygon:
         """The floor with a tolerance, prepared."""
-        grown = self.floor.buffer(1e-3, join_style="mitre")
+        grown = self.region.buffer(1e-3, join_style="mitre")
         shapely.prepare(grown)
         return grown
 
@@ -117,10 +117,10 @@ def room_spaces(
         if room is None:
             continue
         # Narrow necks beside chimneys and in window niches are no floor to stand on.
-        floor = max(pieces_of(region), key=lambda piece: piece.area)
-        floor = _simple(floor)
-        if floor.is_valid and floor.area > 0.2:
-            found.append(_room_space(room, floor, space, height_m, stairs))
+        whole = max(pieces_of(region), key=lambda piece: piece.area)
+        floor = _simple(whole)
+        if floor.is_valid and floor.area > LEAST_FLOOR_M2:
+            found.append(_room_space(room, (whole, floor), space, height_m, stairs))
     return found
 
 
@@ -131,8 +131,13 @@ def _simple(floor: Polygon) -> Polygon:
 
 
 def _room_space(
-    room: Room, floor: Polygon, space: Space, height_m: float, stairs: list[BaseGeometry]
+    room: Room,
+    floors: tuple[Polygon, Polygon],
+    space: Space,
+    height_m: float,
+    stairs: list[BaseGeometry],
 ) -> RoomSpace:
+    floor = floors[1]
     ways = [(hole, sign) for hole in space.holes for sign in _sides(hole, room)]
     doors = [way for way in ways if way[0].opening.kind != "window"]
     points = np.array([_before(hole, sign) for hole, sign in doors]).reshape(-1, 2)
@@ -152,7 +157,7 @@ def _room_space(
         for ring in (floor.exterior, *floor.interiors)
         for one in _stretches(np.array(ring.coords)[:-1], walls, middles)
     ]
-    return RoomSpace(room, floor, tuple(stretches), points, blocked, windows, height_m)
+    return RoomSpace(room, *floors, tuple(stretches), points, blocked, windows, height_m)
 
 
 def _sides(hole: Hole, room: Room) -> list[float]:
@@ -190,7 +195,7 @@ def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
     """What a door needs on one side: an approach, the sweep of its leaves."""
     opening = hole.opening
     garage = opening.type == "garage"
-    zones = [_front_of(hole, sign, GARAGE_APPROACH_M if garage else APPROACH_M, 0.03)]
+    zones = [_front_of(hole, sign, APPROACH_M, 0.03)]
     if opening.kind == "gap" or opening.type == "plain" or garage:
         return zones
     if opening.type in {"sliding", "pocket"}:

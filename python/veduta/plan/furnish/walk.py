@@ -14,8 +14,9 @@ from scipy import ndimage
 from shapely.geometry.base import BaseGeometry
 
 CELL_M = 0.05
-RADIUS_M = 0.25
-NEAR_M = 0.45
+RADIUS_M, WIDE_M = 0.25, 0.30
+"""Of a person; and with a margin for what the cells do not show, where the empty room has it."""
+NEAR_M = 0.25
 """A point's cell is the nearest passable one, if it is no further than this."""
 LEAST_FREE_M2 = 0.3
 Mask = NDArray[np.bool_]
@@ -43,12 +44,12 @@ class WalkGrid:
         mask[i, j] = shapely.contains_xy(shape, self._gx[i, j], self._gy[i, j])
         return mask
 
-    def regions(self, things: Mask | None = None) -> NDArray[np.int32]:
+    def regions(self, things: Mask | None = None, radius_m: float = RADIUS_M) -> NDArray[np.int32]:
         """The number of the connected region of each passable cell, 0 elsewhere."""
         free = self.floor if things is None else self.floor & ~things
         # From the middle of a cell to the edge of what stands in the way.
         away = ndimage.distance_transform_edt(free) * CELL_M - CELL_M / 2.0
-        labels, _ = ndimage.label(away >= RADIUS_M)
+        labels, _ = ndimage.label(away >= radius_m)
         return np.asarray(labels, dtype=np.int32)
 
     def number_at(self, regions: NDArray[np.int32], point: NDArray[np.float64]) -> int:
@@ -78,6 +79,9 @@ class Ways:
         self._doors = doors
         empty = self.grid.regions()
         self._before = self.grid.numbers_at(empty, doors)
+        wide = self.grid.regions(radius_m=WIDE_M)
+        same = _same_parts(self._before, self.grid.numbers_at(wide, doors)) and wide.any()
+        self._radius_m = WIDE_M if same else RADIUS_M
         sizes = np.bincount(empty.ravel())
         sizes[0] = 0
         self._is_open = bool(sizes.any())
@@ -88,7 +92,7 @@ class Ways:
 
         Doors between which there was no way in the empty room need none.
         """
-        regions = self.grid.regions(things)
+        regions = self.grid.regions(things, self._radius_m)
         if not self._is_open:
             return self.grid.floor & ~things
         after = self.grid.numbers_at(regions, self._doors)
@@ -103,3 +107,11 @@ class Ways:
         if sizes[main] < self._least or not main:
             return None
         return np.asarray(regions == main)
+
+
+def _same_parts(first: list[int], second: list[int]) -> bool:
+    """Whether two numberings of the same doors join the same ones; 0 is no region."""
+    pairs = set(zip(first, second, strict=True))
+    return len({a for a, _ in pairs}) == len(pairs) == len({b for _, b in pairs}) and all(
+        bool(a) == bool(b) for a, b in pairs
+    )
