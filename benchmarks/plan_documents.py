@@ -1,6 +1,8 @@
-"""Synthetic houses as plan documents: what a perfect reading of their drawings would give."""
+"""The truth of a synthetic house as a plan document, as if it had been read without a fault."""
 
 from __future__ import annotations
+
+import numpy as np
 
 from veduta.plan.document import (
     Junction,
@@ -13,70 +15,77 @@ from veduta.plan.document import (
     Storey,
     Wall,
 )
-from veduta.synthetic.plans.house import House
-from veduta.synthetic.plans.house import Storey as TrueStorey
+from veduta.synthetic.plans import house as true
 
-HEIGHT_M = 2.8
-SILL_M, WINDOW_M, DOOR_M = 0.9, 1.25, 2.05
-_PX_M = 0.01
-
-
-def document_of(house: House) -> PlanDocument:
-    """The house with usual heights; scores are 1."""
-    return PlanDocument(storeys=[_storey(storey) for storey in house.storeys])
+STOREY_M = 2.8
+PIXEL_M = 0.01
+_DOOR_M, _GARAGE_M, _SILL_M, _WINDOW_M = 2.05, 2.2, 0.9, 1.25
+_GRID_M = 1e-3
 
 
-def _storey(storey: TrueStorey) -> Storey:
-    number: dict[tuple[float, float], str] = {}
-    for wall in storey.walls:
-        for end in (wall.start_m, wall.end_m):
-            number.setdefault(end, f"j{len(number) + 1}")
+def document_of(house: true.House) -> PlanDocument:
+    """All storeys of a house."""
+    return PlanDocument(storeys=[storey_of(storey) for storey in house.storeys])
+
+
+def storey_of(storey: true.Storey) -> Storey:
+    """One storey; walls that end in the same place meet in a junction."""
+    ids: dict[tuple[int, int], str] = {}
+    at: dict[str, true.Point] = {}
+
+    def junction(point: true.Point) -> str:
+        key = (round(point[0] / _GRID_M), round(point[1] / _GRID_M))
+        name = ids.setdefault(key, f"j{len(ids)}")
+        at.setdefault(name, point)
+        return name
+
     walls = [
         Wall(
-            id=wall.id, start=number[wall.start_m], end=number[wall.end_m], bulge=wall.bulge,
+            id=wall.id, start=junction(wall.start_m), end=junction(wall.end_m), bulge=wall.bulge,
             thickness_m=wall.thickness_m, drawing="filled", outer=wall.outer, score=1.0,
         )
         for wall in storey.walls
     ]  # fmt: skip
-    openings = [
-        Opening(
-            id=one.id, wall=one.wall, kind=one.kind, type=one.type, along_m=one.along_m,
-            width_m=one.width_m, hinge=one.hinge, swing=one.swing, score=1.0,
-            sill_m=SILL_M if one.kind == "window" else 0.0,
-            height_m=WINDOW_M if one.kind == "window" else DOOR_M,
-        )
-        for one in storey.openings
-    ]  # fmt: skip
-    rooms = [
-        Room(
-            id=room.id, outline_m=list(room.outline_m), area_m2=room.area_m2, use=room.use,
-            use_score=1.0, score=1.0,
-        )
-        for room in storey.rooms
-    ]  # fmt: skip
+    points = np.array(list(at.values()))
+    low, high = points.min(axis=0), points.max(axis=0)
+    width, height = ((high - low) / PIXEL_M + 200.0).round().astype(int).tolist()
+    sides = {wall.id: (wall.left, wall.right) for wall in storey.walls}
     return Storey(
-        name=f"storey {storey.number + 1}",
-        elevation_m=HEIGHT_M * storey.number,
-        height_m=HEIGHT_M,
-        sheet=_sheet(),
-        scale=Scale(metres_per_px=_PX_M, sigma=0.001, basis="evidence"),
-        junctions=[Junction(id=name, at_m=at, type="X") for at, name in number.items()],
+        name=("Ground floor", "First floor", "Second floor")[storey.number],
+        elevation_m=storey.number * STOREY_M,
+        height_m=STOREY_M,
+        sheet=Sheet(
+            file="plan.png", sha256="0" * 64, width_px=width, height_px=height,
+            clean_from_scan=np.eye(3).tolist(), metres_per_px=PIXEL_M,
+            origin_px=(100.0 - low[0] / PIXEL_M, 100.0 + high[1] / PIXEL_M),
+        ),
+        scale=Scale(metres_per_px=PIXEL_M, sigma=0.0, basis="given"),
+        junctions=[Junction(id=name, at_m=point, type="L") for name, point in at.items()],
         walls=walls,
-        openings=openings,
-        rooms=rooms,
+        openings=[_opening(one) for one in storey.openings],
+        rooms=[
+            Room(
+                id=room.id, outline_m=list(room.outline_m), area_m2=room.area_m2, use=room.use,
+                use_score=1.0, score=1.0,
+                openings=[one.id for one in storey.openings if room.id in sides[one.wall]],
+            )
+            for room in storey.rooms
+        ],
         stairs=[
             Stairs(
-                id=f"s{k + 1}", outline_m=list(one.outline_m), treads=one.treads, up=one.up,
-                score=1.0,
+                id=f"s{number}", outline_m=list(flight.outline_m), treads=flight.treads,
+                up=flight.up, score=1.0,
             )
-            for k, one in enumerate(storey.stairs)
+            for number, flight in enumerate(storey.stairs)
         ],
     )  # fmt: skip
 
 
-def _sheet() -> Sheet:
-    return Sheet(
-        file="synthetic.png", sha256="0" * 64, width_px=3000, height_px=3000,
-        clean_from_scan=[[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]],
-        origin_px=(100.0, 2900.0), metres_per_px=_PX_M,
+def _opening(one: true.Opening) -> Opening:
+    is_window = one.kind == "window"
+    height = _WINDOW_M if is_window else _GARAGE_M if one.type == "garage" else _DOOR_M
+    return Opening(
+        id=one.id, wall=one.wall, kind=one.kind, type=one.type, along_m=one.along_m,
+        width_m=one.width_m, sill_m=_SILL_M if is_window else 0.0, height_m=height,
+        hinge=one.hinge, swing=one.swing, score=1.0,
     )  # fmt: skip

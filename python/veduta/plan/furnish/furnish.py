@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from shapely.geometry import Polygon
 
 from veduta.plan.document import Furniture, PlanDocument, Room, RoomUse, Stairs, Storey
 from veduta.plan.furnish.arrangement import Spot, Variant, alone
@@ -23,7 +24,8 @@ from veduta.plan.furnish.place import place_first
 from veduta.plan.furnish.room import RoomSpace, room_spaces
 from veduta.plan.furnish.upon import place_upon
 from veduta.plan.furnish.walk import Ways
-from veduta.plan.house.space import space_of
+from veduta.plan.house.flights import stairwells
+from veduta.plan.house.space import Space, space_of
 
 GROUPS: dict[str, Callable[[Choice, RoomSpace], list[Variant]]] = {
     "sleeping": sleeping,
@@ -66,27 +68,30 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
     seed give the same furniture.
     """
     choice = Choice(catalogue, seed, varied)
-    storeys, rooms = [], []
-    for index, storey in enumerate(document.storeys):
-        if storey.furniture is not None:
-            storeys.append(storey)
-            continue
-        below = document.storeys[index - 1].stairs if index else []
-        done = furnish_storey(storey, choice, slab_m, below)
-        rooms += done
-        storeys.append(storey.model_copy(update={"furniture": records(done)}))
+    order = sorted(
+        range(len(document.storeys)), key=lambda index: document.storeys[index].elevation_m
+    )
+    spaces = storey_spaces([document.storeys[index] for index in order], slab_m)
+    storeys, rooms = list(document.storeys), []
+    below: list[Stairs] = []
+    for index, space in zip(order, spaces, strict=True):
+        storey = document.storeys[index]
+        if storey.furniture is None:
+            height = storey.height_m - slab_m
+            done = [
+                furnish_room(one, choice, storey.name) for one in room_spaces(space, height, below)
+            ]
+            rooms += done
+            storeys[index] = storey.model_copy(update={"furniture": records(done)})
+        below = storey.stairs
     return document.model_copy(update={"storeys": storeys}), rooms
 
 
-def furnish_storey(
-    storey: Storey, choice: Choice, slab_m: float, stairs_below: Sequence[Stairs] = ()
-) -> list[FurnishedRoom]:
-    """All rooms of a storey."""
-    height = storey.height_m - slab_m
-    space = space_of(storey, height)
-    return [
-        furnish_room(one, choice, storey.name) for one in room_spaces(space, height, stairs_below)
-    ]
+def storey_spaces(storeys: Sequence[Storey], slab_m: float) -> list[Space]:
+    """The storeys' regions from the lowest up, without the floors over their stairs."""
+    found = [space_of(storey, storey.height_m - slab_m) for storey in storeys]
+    openings = [Polygon(), *(well.opening for well in stairwells(found, slab_m))]
+    return [replace(space, well=opening) for space, opening in zip(found, openings, strict=False)]
 
 
 def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom:

@@ -80,7 +80,8 @@ class Window:
 class RoomSpace:
     """A room with all that limits what stands in it.
 
-    region: the floor as it is, `floor` with straight walls made plain. doors: (n, 2) points before its doors. blocked: what doors, their leaves and stairs need.
+    region: the floor as it is; `floor` has straight walls made plain. doors: (n, 2) points before
+    its doors. blocked: what doors, their leaves and stairs need.
     """
 
     room: Room
