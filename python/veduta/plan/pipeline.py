@@ -13,12 +13,17 @@ from typing import Any
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
-from veduta.plan.house.build import build_house
+from veduta.plan.furnish.catalogue.digest import catalogue_digests
+from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
+from veduta.plan.furnish.furnish import furnish
+from veduta.plan.house.build import House, build_house
+from veduta.plan.house.furniture import check_objects
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import PlanOptions
+from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.tour.find import Tour, find_tour
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError, NotFoundError
@@ -29,7 +34,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "2"
+VERSION = "3"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -68,15 +73,19 @@ def run_plan(
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
     checked = load_document(call.paths[0]) if call.kind == "document" else None
+    catalogue = catalogue_of(options.house.catalogue)
+    digests = catalogue_digests(options.house.catalogue, catalogue)
+    if checked is not None:
+        check_objects(checked, catalogue, call.paths[0])
     drawings = _drawings(call, options)
     used: Options = options if call.kind == "drawings" else options.house
-    key = result_key(COMMAND[call.kind], VERSION, used, call.identity)
+    key = result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *digests])
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked or drawings, options, opened, key, progress.step)
+                _make(call, checked or drawings, catalogue, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
@@ -113,6 +122,7 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
 def _make(
     call: Call,
     given: PlanDocument | list[Drawing],
+    catalogue: Catalogue,
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -124,6 +134,8 @@ def _make(
     work = opened.work_folder(CALL)
     try:
         document, sheets, notes = _document(call, given, options, steps, progress)
+        if not options.house.no_furniture:
+            document = _furnish(document, catalogue, options.house, steps, progress)
         result = _house(document, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
@@ -166,6 +178,28 @@ def _document(
     return given, sheets, notes
 
 
+def _furnish(
+    document: PlanDocument,
+    catalogue: Catalogue,
+    options: HouseOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> PlanDocument:
+    """The document with furniture in each storey that has none yet."""
+    progress("furnish", 0.0)
+    with timed_step(steps, "furnish") as step:
+        done, rooms = furnish(
+            document, catalogue, options.seed, options.slab, varied=options.varied_furniture
+        )
+        step.counts |= {"rooms": len(rooms), "things": sum(len(room.stood) for room in rooms)}
+        step.rejected.extend(
+            f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
+            for room in rooms
+            if room.missing
+        )
+    return done
+
+
 def _house(
     document: PlanDocument,
     sheets: list[Pixels],
@@ -183,9 +217,28 @@ def _house(
             "triangles": len(part.triangles.indices),
         }
         step.rejected.extend(part.notes)
+    tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
     progress("drawings", 0.0)
     with timed_step(steps, "drawings"):
-        return result_of(document, house, sheets)
+        return result_of(document, house, tour, sheets)
+
+
+def _tour(
+    house: House, options: HouseOptions, steps: list[StepRecord], progress: StepProgress
+) -> Tour | None:
+    progress("tour", 0.0)
+    with timed_step(steps, "tour") as step:
+        tour = find_tour(house, options.tour_speed)
+        if tour is None:
+            step.rejected.append("there is no tour: no room has a floor on which one can stand")
+            return None
+        step.counts |= {
+            "rooms": len({stretch.room for stretch in tour.stretches} - {None}),
+            "metres": round(tour.length_m),
+            "seconds": round(float(tour.path.times_s[-1])),
+        }
+        step.rejected.extend(tour.notes)
+    return tour
 
 
 def _tell(result: PlanResult, opened: OutFolder) -> None:

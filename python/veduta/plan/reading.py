@@ -1,13 +1,14 @@
 """The recipe of reading: the picture of a storey in, its walls, openings and rooms out.
 
 The order: straighten, tell ink from paper, find solid strokes, follow them into pieces, look for
-openings between the pieces, join them into axes, close where those are broken, let them meet, and
-find rooms.
+openings between the pieces, join them into axes, close where those are broken, judge the openings
+once more by what lies behind them, let the axes meet, and find rooms.
 """
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,13 +18,30 @@ from veduta.plan.clean.sheet import TextReader, clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
+from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import Judged, judge
-from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
+from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.openings.settle import settled
+from veduta.plan.openings.sky import open_sky
+from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
-from veduta.plan.walls.axes import axes_of
+from veduta.plan.stairs.find import find_flights
+from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.find import Found, find_walls
+
+
+@dataclass(frozen=True)
+class KnownWalls:
+    """Of a sheet that was drawn from vectors: `solid` (h, w) is the mask of all wall, or None.
+
+    `settle` lays the axes that were found onto the lines that they were drawn by.
+    """
+
+    solid: NDArray[np.bool_] | None
+    settle: Callable[[Sequence[Axis]], Sequence[Axis]]
 
 
 def read_storey(
@@ -44,15 +62,35 @@ def read_storey(
 
 
 def read_cleaned(
-    cleaned: Cleaned, texts: Sequence[Text] = (), metres_per_px_hint: float | None = None
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    metres_per_px_hint: float | None = None,
+    known: KnownWalls | None = None,
 ) -> Drawn:
-    """As `read_storey`, of a cleaned sheet; texts are in its pixels."""
-    found = find_walls(cleaned, texts)
+    """As `read_storey`, of a cleaned sheet; texts are in its pixels.
+
+    `stairs` of the result are all that look like flights: `stairs.find.true_flights` tells which of
+    them are, by the scale.
+
+    `known` walls are not looked for in the ink.
+    """
+    flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
+    found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
+    leaves = leaf_pieces(found.pieces, judged)
+    if leaves:
+        walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
+        found = replace(found, pieces=walls)
+        judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
-    return drawn_from(cleaned, found, whole.axes, texts, whole.notes)
+    sky = open_sky(whole.axes, found.thin_px, texts)
+    # What a vector file says of its openings goes before what its picture looks like.
+    axes = whole.axes if known else with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    axes = settled(axes, found.thin_px, sky)
+    laid = known.settle(axes) if known else axes
+    return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -14,7 +14,7 @@ from veduta.imaging.encode import jpeg_bytes
 from veduta.plan.document import PlanDocument, Storey
 from veduta.plan.pages import drawing_label
 from veduta.plan.sheets import sheet_name
-from veduta.plan.writing import Result
+from veduta.plan.writing import TOUR_PICTURE, Result
 from veduta.run.options import Options
 from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord, counted
@@ -23,10 +23,14 @@ FILES = (
     ("plan.json", "everything that was found, in metres; edit it and rebuild"),
     ("overlay.png", "what was found, over the cleaned drawing, with the ids of the openings"),
     ("plan.svg", "the plan as a drawing"),
-    ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms"),
-    ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
-    ("house.glb", "the house as glTF 2.0, each leaf of a door with an animation"),
-    ("place.json", "the house as a place, for `veduta view`"),
+    ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms, furniture"),
+    (
+        "house.ifc",
+        "the house for BIM software (IFC4): walls, openings, doors, windows, spaces, furniture",
+    ),
+    ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
+    ("place.json", "the house as a place with its tour, for `veduta view`"),
+    ("tour.png", "the plan with the way of the tour"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
 )
 THUMBNAIL_PX = 1200
@@ -54,6 +58,7 @@ def measures(document: PlanDocument) -> dict[str, Any]:
         "windows": sum(opening.kind == "window" for opening in openings),
         "gaps": sum(opening.kind == "gap" for opening in openings),
         "stairs": sum(len(storey.stairs) for storey in storeys),
+        "furniture": sum(len(storey.furniture or ()) for storey in storeys),
         "doubtful_openings": doubtful,
         "mended_rooms": sum(room.mended for room in rooms),
         "area_m2": round(sum(room.area_m2 for room in inner), 2),
@@ -82,7 +87,8 @@ def plan_report(
     """The report of a plan that became a house, and its page."""
     document, part = result.document, result.house.part
     storey_notes = [f"{s.name}: {note}" for s in document.storeys for note in s.notes]
-    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes])
+    tour_notes = () if result.tour is None else result.tour.notes
+    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes, *tour_notes])
     found = measures(document)
     report = Report(
         verb="plan",
@@ -101,6 +107,7 @@ def plan_report(
         tables=[
             *(_rooms(storey) for storey in document.storeys),
             *(_openings(storey) for storey in document.storeys),
+            *(table for storey in document.storeys for table in _furniture(storey)),
             *(table for storey in document.storeys for table in _evidence(storey)),
             _provenance(result),
         ],
@@ -140,6 +147,9 @@ def _facts(document: PlanDocument, found: dict[str, Any]) -> list[tuple[str, str
 def _pictures(result: Result) -> list[Picture]:
     found = "Walls, doors, windows and rooms over the drawing. A question mark: doubtful."
     pictures = [_picture("Found", found, result.overlay, "overlay.png")]
+    if result.tour_picture is not None:
+        way = "From blue to red. Thin lines: where one looks. Numbers: the order of the rooms."
+        pictures.append(_picture("Tour", way, result.tour_picture, TOUR_PICTURE))
     for index, (storey, pixels) in enumerate(
         zip(result.document.storeys, result.sheets, strict=True)
     ):
@@ -177,6 +187,24 @@ def _openings(storey: Storey) -> Table:
     ]  # fmt: skip
     columns = ("id", "kind", "type", "wall", "width m", "hinge", "swing", "score", "origin")
     return Table(f"Openings of {storey.name}", columns, rows)
+
+
+def _furniture(storey: Storey) -> list[Table]:
+    """What stands in each room; all of it is invented, unless it was edited."""
+    if not storey.furniture:
+        return []
+    things: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for thing in storey.furniture:
+        things[thing.room][thing.object] += 1
+    rows = [
+        (
+            room.id, room.name or room.use, sum(things[room.id].values()),
+            ", ".join(f"{n} {name}" if n > 1 else name for name, n in things[room.id].items()),
+        )
+        for room in storey.rooms
+        if room.id in things
+    ]  # fmt: skip
+    return [Table(f"Furniture of {storey.name}", ("room", "use", "things", "objects"), rows)]
 
 
 def _evidence(storey: Storey) -> list[Table]:

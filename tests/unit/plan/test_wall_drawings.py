@@ -5,6 +5,7 @@ from __future__ import annotations
 import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from veduta.plan.walls.cells import common_values, find_cells
 from veduta.plan.walls.find import choose_drawing, connected, outlined_walls
@@ -17,6 +18,10 @@ from veduta.plan.walls.tone import toned_areas
 
 Mask = np.ndarray
 LINE = 2
+
+
+def _blurred(ink: np.ndarray, sigma: float) -> NDArray[np.float32]:
+    return np.asarray(cv2.GaussianBlur(ink, (0, 0), sigma), np.float32)
 
 
 def _box(mask: Mask, left: int, top: int, right: int, bottom: int) -> None:
@@ -146,7 +151,7 @@ def test_grey_walls_are_toned_areas_and_floors_and_lines_are_not(tone: float) ->
     ink = np.where(lines, np.float32(1), np.float32(0))
     ink[inside & ~lines] = tone
     ink[76:300, 80:480] = np.maximum(ink[76:300, 80:480], 0.1)
-    found = toned_areas(cv2.GaussianBlur(ink, (0, 0), 0.7), LINE)
+    found = toned_areas(_blurred(ink, 0.7), LINE)
     paper = ~cv2.dilate(lines.astype(np.uint8), np.ones((5, 5), np.uint8)).astype(np.bool_)
     assert (found & inside & paper).sum() > 0.98 * (inside & paper).sum()
     assert (found & ~inside & paper).sum() == 0
@@ -186,6 +191,6 @@ def test_outlined_walls_end_in_the_middle_of_their_lines(outlined: bool) -> None
     if outlined:
         ink[80:84, 50:550] = ink[106:110, 50:550] = 1.0
     piece = Piece(np.array([50.0, 95.0]), np.array([550.0, 95.0]), 30.0)
-    found = without_half_outline([piece], cv2.GaussianBlur(ink, (0, 0), 0.6), 4.0)[0]
+    found = without_half_outline([piece], _blurred(ink, 0.6), 4.0)[0]
     assert found.thickness_px == pytest.approx(26 if outlined else 30, abs=0.4)
     assert found.start[1] == pytest.approx(95, abs=0.2)

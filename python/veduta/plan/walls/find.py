@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
-from veduta.plan.drawn import Cleaned
+from veduta.plan.drawn import Cleaned, DrawnStairs
+from veduta.plan.stairs.find import without_flights
 from veduta.plan.walls.cells import Cells, find_cells
 from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
@@ -42,6 +43,9 @@ MORE_WALL = 1.9
 MOSTLY_PAPER = 0.45
 """Layered walls with so much paper in them are hollow; with less, hatched."""
 
+KNOWN_THINNEST = 0.12
+"""Thinnest wall over the thickest common one, where walls need not be told from lines."""
+
 SMALL_MARK = 0.05
 
 AS_HATCHED = 0.5
@@ -70,13 +74,29 @@ class Found:
     thin_px: float
 
 
-def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
-    """Find the pieces; NotFoundError where no strokes are walls."""
-    marks = inks.marks(cleaned.ink, cleaned.line_px) | toned_areas(cleaned.ink, cleaned.line_px)
-    ink = without_texts(marks, texts)
-    mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+def find_walls(
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    known: NDArray[np.bool_] | None = None,
+    flights: Sequence[DrawnStairs] = (),
+) -> Found:
+    """Find the pieces; NotFoundError where no strokes are walls.
+
+    `known` is the (h, w) mask of all that is wall, where that is known and not looked for. Treads
+    of `flights` are no walls.
+    """
+    if known is None:
+        marks = inks.marks(cleaned.ink, cleaned.line_px)
+        ink = without_texts(marks | toned_areas(cleaned.ink, cleaned.line_px), texts)
+        ink = without_flights(ink, flights, cleaned.line_px)
+        mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+    else:
+        ink = mask = known
+        thickness, drawing = known_thickness(known), "filled"
     solid = thick_strokes(mask, thickness)
-    if drawing in ("filled", "single-line"):
+    if known is not None:
+        solid = without_marks(solid, mask, thickness)
+    elif drawing in ("filled", "single-line"):
         # Shaded panes are thick strokes, too, but paler than the walls.
         solid = without_marks(solid, mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
@@ -89,9 +109,11 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
     # What was filled in is as solid as ink.
-    soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
+    ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
+    soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
-    whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
+    if known is None:
+        whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
     if drawing == "single-line":
         whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
     if not whole:
@@ -170,6 +192,14 @@ def _grown(mask: NDArray[np.bool_], by_px: float) -> NDArray[np.bool_]:
     reach = 2 * round(by_px / 2) + 1
     square = np.ones((reach, reach), np.uint8)
     return np.asarray(cv2.dilate(mask.astype(np.uint8), square), dtype=np.bool_)
+
+
+def known_thickness(solid: NDArray[np.bool_]) -> Thickness:
+    """Of walls that are known: the thinnest ones count, however thick others are."""
+    found = wall_thickness(solid, 1.0)
+    if found is None:
+        raise NotFoundError("walls", "no solid strokes are long", "Give a floor plan.")
+    return Thickness(max(2.0, KNOWN_THINNEST * found.most_px), found.most_px)
 
 
 def connected(ink: NDArray[np.bool_]) -> NDArray[np.bool_]:

@@ -66,7 +66,10 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     # A pen that is twice as broad as another draws a wall as one line.
     straight = ink & (long >= 8 * thin) & (long >= SINGLE_LONG * extent)
     counts = np.bincount(thin[straight], minlength=4).astype(float)
-    return two_pens(counts / np.maximum(1, np.arange(len(counts))), LEAST_SHARE * extent)
+    pens = two_pens(counts / np.maximum(1, np.arange(len(counts))), LEAST_SHARE * extent)
+    if pens is None and most >= max(2 * line_px, least):
+        return Thickness(least, most)
+    return pens
 
 
 def two_pens(lengths: NDArray[np.float64], least_length: float) -> Thickness | None:
