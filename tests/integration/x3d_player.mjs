@@ -1,16 +1,16 @@
-// Plays house.x3d in X_ITE: node x3d_player.mjs MODULES FILE CHROMIUM PICTURE
+// Plays house.x3d in X_ITE: node x3d_player.mjs MODULES FILE CHROMIUM
 // Prints what happened as JSON: complaints of the page, and what sensors did to doors and lamps.
 import { createServer } from "node:http";
 import { existsSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join, normalize } from "node:path";
 
-const [modules, file, executablePath, picture] = process.argv.slice(2);
+const [modules, file, executablePath] = process.argv.slice(2);
 const { chromium } = createRequire(join(modules, "..", "package.json"))("playwright-core");
-const PAGE = `<!doctype html><script src="/x_ite/x_ite.min.js"></script>
+const PAGE = `<!doctype html><html><head><script defer src="/x_ite/x_ite.min.js"></script>
 <link rel="icon" href="data:,">
-<style>html, body { margin: 0; height: 100% } x3d-canvas { width: 100%; height: 100%; display: block }</style>
-<x3d-canvas src="/house.x3d" antialiased="false" textureQuality="LOW"></x3d-canvas>`;
+<style>html, body { margin: 0; height: 100% } x3d-canvas { width: 100%; height: 100%; display: block }</style></head>
+<body><x3d-canvas src="/house.x3d" contentScale="1" splashScreen="false"></x3d-canvas></body></html>`;
 const TYPES = { ".js": "text/javascript", ".html": "text/html", ".x3d": "model/x3d+xml" };
 
 const server = createServer((request, response) => {
@@ -43,25 +43,18 @@ try {
       const number = Number(value?.angle ?? value);
       return low <= number && number <= high;
     } catch { return false; }
-  }, [name, key, low, high], { timeout: 90_000, polling: 100 });
+  }, [name, key, low, high], { timeout: 180_000, polling: 500 });
   const set = (name, key) => page.evaluate(([name, key]) => {
     document.querySelector("x3d-canvas").browser.currentScene.getNamedNode(name)[key] = true;
   }, [name, key]);
   const [leaf, lamp] = ["ground-floor-door-front-front-leaf", "ground-floor-light-l1"];
   await until("house", "visible", 1, 1);
+  await page.waitForTimeout(3000);
   const before = { angle: await field(leaf, "rotation"), lamp: await field(lamp, "on") };
   await set("view-Door", "set_bind");
   await until(leaf, "rotation", 1.4, 1.7);
   await set("view-Living--ground-floor-", "set_bind");
   await until(lamp, "on", 1, 1);
-  // The way there is shown, too: the picture is of its end.
-  await page.evaluate(() => new Promise((resolve) => {
-    let frames = 12;
-    const next = () => (frames-- > 0 ? requestAnimationFrame(next) : resolve());
-    next();
-  }));
-  await page.waitForTimeout(2000);
-  await page.screenshot({ path: picture, timeout: 90_000 });
   await set("ground-floor-living-switch", "set_boolean");
   await until(lamp, "on", 0, 0);
   await set("view-Away", "set_bind");
