@@ -1,9 +1,9 @@
 """Storeys laid onto each other: each so that its outline covers most of that below it.
 
 A storey is moved by what brings sides or middles of both outlines onto each other: outer walls
-stand over outer walls. So do flights of stairs that run the same way and have the same size, as long
-as outlines then cover each other nearly as well. Its drawing moves along: the plan frame is the same
-for all storeys.
+stand over outer walls. So do flights of stairs that run the same way and have the same size, as
+long as outlines then cover each other nearly as well. Its drawing moves along: the plan frame is
+the same for all storeys.
 """
 
 from __future__ import annotations
@@ -19,7 +19,6 @@ from shapely.geometry.base import BaseGeometry
 from veduta.plan.document import Point, Storey
 from veduta.plan.house.lines import footprint, wall_lines
 from veduta.plan.house.space import filled
-
 
 SAME_FLIGHT_M = 0.25
 """Flights over each other differ in size by at most so much: a tread may be hidden on one."""
