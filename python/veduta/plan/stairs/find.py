@@ -72,7 +72,7 @@ def find_flights(
     found: list[tuple[float, Polygon, int, bool]] = []
     for lines, others, turned in ((level, upright, False), (upright, level, True)):
         for chain in _chains(lines, extent):
-            chain = _to_walls(chain, turned_ink if turned else ink)
+            chain = _to_walls(chain, turned_ink if turned else ink, line_px)
             area = _area(chain)
             if not _crossed(area, len(chain), others):
                 shape = _turned(area) if turned else area
@@ -228,8 +228,8 @@ def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
         chain.append(after)
 
 
-def _to_walls(chain: list[_Line], ink: NDArray[np.bool_]) -> list[_Line]:
-    """The chain with the face of a wall as its first or last tread, where one stands there."""
+def _to_walls(chain: list[_Line], ink: NDArray[np.bool_], line_px: float) -> list[_Line]:
+    """The chain with the face of a solid wall as its first or last tread, where one stands."""
     step = float(np.median(_steps(chain)))
     left = round(np.median([one.left for one in chain]))
     right = round(np.median([one.right for one in chain]))
@@ -239,8 +239,16 @@ def _to_walls(chain: list[_Line], ink: NDArray[np.bool_]) -> list[_Line]:
         near, far = (end.y + way * share * step for share in (1.0 - EVEN, 1.0 + EVEN))
         low, high = round(max(0.0, min(near, far))), round(max(near, far)) + 1
         dark = np.flatnonzero(rows[low:high]) + low
-        if len(dark):
-            face = float(dark[0] if way > 0 else dark[-1] + 1)
+        if not len(dark):
+            continue
+        face = float(dark[0] if way > 0 else dark[-1] + 1)
+        deep = round(2.0 * line_px) + 3
+        behind = (
+            rows[round(face) : round(face) + deep]
+            if way > 0
+            else rows[max(0, round(face) - deep) : round(face)]
+        )
+        if behind.all():
             one = _Line(face, left, right)
             found = [one, *found] if way < 0 else [*found, one]
     return found
