@@ -36,12 +36,14 @@ EVEN = 0.16
 """Treads of a flight differ by at most this share (and a pixel) from the usual one."""
 SAME_ENDS = 0.16
 """Ends of treads lie in line but for this share of their length."""
-ARROW = 0.02
+ARROW = 0.032
 """A tread may be broken over such a share by an arrow or a word."""
 INSIDE = 0.85
 """So much of a flight lies in the rooms."""
 MISSED = 1
 """So many treads in a row may be hidden, by the word beside an arrow."""
+LONGER = 1.3
+"""Lines that are so many times as long go on beyond the treads."""
 WALL = 0.8
 """A row of ink with this share of the treads' width is a wall's face."""
 ACROSS = 0.5
@@ -72,6 +74,8 @@ def find_flights(
     found: list[tuple[float, Polygon, int, bool]] = []
     for lines, others, turned in ((level, upright, False), (upright, level, True)):
         for chain in _chains(lines, extent):
+            if _goes_on(chain, lines):
+                continue
             chain = _to_walls(chain, turned_ink if turned else ink, line_px)
             area = _area(chain)
             if not _crossed(area, len(chain), others):
@@ -295,6 +299,21 @@ def _crossed(area: Polygon, count: int, others: Sequence[_Line]) -> bool:
     # An arrow is one line, or two where it turns.
     rows = len({round(one.y / 3.0) for one in inside})
     return rows >= max(3.0, ACROSS * count * (right - left) / max(high - low, 1.0))
+
+
+def _goes_on(chain: Sequence[_Line], lines: Sequence[_Line]) -> bool:
+    """Whether most of the treads are parts of longer lines: tiles, or half of a flight."""
+    longer = [
+        any(
+            abs(other.y - one.y) <= 2.0
+            and other.left <= one.left + 2.0
+            and other.right >= one.right - 2.0
+            and other.length > LONGER * one.length
+            for other in lines
+        )
+        for one in chain
+    ]
+    return float(np.mean(longer)) > 0.5
 
 
 def _score(chain: Sequence[_Line]) -> float:
