@@ -6,9 +6,11 @@ the middle parts each in two. What has lines as close in both directions is a ti
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from statistics import median
 
 import cv2
 import numpy as np
@@ -44,6 +46,8 @@ MISSED = 1
 """So many treads in a row may be hidden, by the word beside an arrow."""
 LONGER = 1.3
 """Lines that are so many times as long go on beyond the treads."""
+MOST_LINES = 4000
+"""A sheet with more short lines is a texture."""
 WALL = 0.8
 """A row of ink with this share of the treads' width is a wall's face."""
 ACROSS = 0.5
@@ -185,6 +189,9 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
     """Series of lines one above the other, evenly apart."""
     near, far = (one * extent for one in TREAD)
     wide = [one for one in lines if RATIO[0] * near <= one.length <= RATIO[1] * far]
+    if len(wide) > MOST_LINES:
+        return []
+    ys = [one.y for one in wide]
     used: set[int] = set()
     chains = []
     for first in range(len(wide)):
@@ -201,7 +208,7 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
                 and RATIO[0] <= ratio <= RATIO[1]
                 and _alike(wide[first], wide[second])
             ):
-                chain = _followed(wide, [first, second])
+                chain = _followed(wide, ys, [first, second])
                 best = chain if len(chain) > len(best) else best
         if LEAST_TREADS <= len(best) - 1 <= MOST_TREADS:
             used.update(best)
@@ -209,20 +216,22 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
     return [_with_hidden(chain) for chain in chains]
 
 
-def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
+def _followed(lines: Sequence[_Line], ys: Sequence[float], chain: list[int]) -> list[int]:
     """The chain, as long as there is a line where the next tread should be."""
     while True:
         last = lines[chain[-1]]
-        steps = _steps([lines[index] for index in chain])
-        step = float(np.median(steps))
+        step = median(_steps([lines[index] for index in chain]))
         slack = EVEN * step + 1.0
         after: int | None = None
         for jump in range(1, MISSED + 2):
             wanted = last.y + jump * step
             near = [
                 index
-                for index in range(chain[-1] + 1, len(lines))
-                if abs(lines[index].y - wanted) <= slack and _alike(lines[index], lines[chain[0]])
+                for index in range(
+                    max(chain[-1] + 1, bisect_left(ys, wanted - slack)),
+                    bisect_right(ys, wanted + slack),
+                )
+                if _alike(lines[index], lines[chain[0]])
             ]
             if near:
                 after = min(near, key=lambda index: abs(lines[index].y - wanted))
@@ -234,7 +243,7 @@ def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
 
 def _to_walls(chain: list[_Line], ink: NDArray[np.bool_], line_px: float) -> list[_Line]:
     """The chain with the face of a solid wall as its first or last tread, where one stands."""
-    step = float(np.median(_steps(chain)))
+    step = median(_steps(chain))
     left = round(np.median([one.left for one in chain]))
     right = round(np.median([one.right for one in chain]))
     rows = ink[:, left:right].mean(axis=1) > WALL
@@ -258,15 +267,16 @@ def _to_walls(chain: list[_Line], ink: NDArray[np.bool_], line_px: float) -> lis
     return found
 
 
-def _steps(chain: Sequence[_Line]) -> NDArray[np.float64]:
+def _steps(chain: Sequence[_Line]) -> list[float]:
     """Spacings, those over hidden treads in parts."""
-    gaps = np.diff([one.y for one in chain])
-    return np.asarray(gaps / np.maximum(1.0, np.round(gaps / gaps.min())))
+    gaps = [there.y - here.y for here, there in pairwise(chain)]
+    least = min(gaps)
+    return [gap / max(1, round(gap / least)) for gap in gaps]
 
 
 def _with_hidden(chain: list[_Line]) -> list[_Line]:
     """The chain with the treads put in that a word hides."""
-    step = float(np.median(_steps(chain)))
+    step = median(_steps(chain))
     whole = [chain[0]]
     for here, there in pairwise(chain):
         count = max(1, round((there.y - here.y) / step))
