@@ -90,6 +90,10 @@ class HouseOptions(Options):
     doors: Literal["open", "closed"] = Field(
         default="open", description="how doors stand in the model; each can be opened in any case"
     )
+    no_tour: bool = Field(default=False, description="make no guided tour")
+    tour_speed: Annotated[float, Field(ge=0.3, le=3.0)] = Field(
+        default=1.2, description="how fast the tour walks (m/s)"
+    )
 
 
 class PlanOptions(Options):

@@ -94,6 +94,18 @@ export const studioStyles = css`
     max-width: calc(100% - 2 * var(--edge) - 540px);
     min-width: 300px;
   }
+  veduta-tour-panel {
+    position: absolute;
+    bottom: calc(var(--edge) + 60px);
+    left: 50%;
+    transform: translateX(-50%);
+    width: 440px;
+    max-width: calc(100% - 2 * var(--edge));
+    box-sizing: border-box;
+  }
+  .hint.over-tour {
+    bottom: calc(var(--edge) + 120px);
+  }
   .hint {
     position: absolute;
     left: 50%;

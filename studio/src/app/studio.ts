@@ -6,6 +6,7 @@ import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
 import { type Colouring, INITIAL_STATE, type Layer, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
 import { Store } from "../core/store.ts";
+import { durationOf } from "../core/tour.ts";
 import "./feature-panel.ts";
 import type { HelpDialog } from "./help-dialog.ts";
 import "./help-dialog.ts";
@@ -23,6 +24,7 @@ import { shownFeature } from "./shown-feature.ts";
 import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
 import "./toolbar.ts";
+import "./tour-panel.ts";
 import { hintOf, titleOf } from "./words.ts";
 
 const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
@@ -173,6 +175,7 @@ export class Studio extends LitElement {
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
       ${this.#photoPanel(session)}
+      ${this.#tourPanel(session)}
       ${state.mode === "walk" && coarse
         ? html`<veduta-joystick
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
@@ -181,7 +184,7 @@ export class Studio extends LitElement {
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
       ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
-        html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
+        html`<p class="hint ${session.place.tours.length > 0 ? "over-tour" : ""}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
       )}
       <veduta-help></veduta-help>
     `;
@@ -218,6 +221,29 @@ export class Studio extends LitElement {
       @look-through=${() => this.#lookThrough(now)}
       @cover=${(event: CustomEvent<number>) => this.#store.update({ cover: event.detail })}
       @step-photo=${(event: CustomEvent<number>) => this.#stepPhoto(event.detail)}></veduta-photo-panel>`;
+  }
+
+  #tourPanel({ place }: Session): TemplateResult | typeof nothing {
+    const [tour] = place.tours;
+    if (tour === undefined) return nothing;
+    const { tour: at } = this.#store.value;
+    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tour=${tour} .at=${at}
+      @play-tour=${() => this.#toggleTour()}
+      @seek-tour=${(event: CustomEvent<number>) => this.#seekTour(event.detail)}></veduta-tour-panel>`;
+  }
+
+  /** Plays on from where it was left, from its beginning after its end. */
+  #toggleTour(): void {
+    const tour = this.session?.place.tours[0];
+    if (tour === undefined) return;
+    const at = this.#store.value.tour ?? { time_s: 0, playing: false };
+    const time_s = at.time_s >= durationOf(tour) ? 0 : at.time_s;
+    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { time_s, playing: !at.playing } });
+  }
+
+  #seekTour(time_s: number): void {
+    const playing = this.#store.value.tour?.playing ?? false;
+    this.#store.update({ mode: "walk", shot: null, tour: { time_s, playing } });
   }
 
   /** What of a streamed place is drawn now, as the panel counts it. */
@@ -292,6 +318,7 @@ export class Studio extends LitElement {
       "previous-photo": () => this.#stepPhoto(-1),
       project: () => this.#toggleProjection(session),
       fading: () => this.#toggleFading(session),
+      tour: () => this.#toggleTour(),
       close: () => this.#close(),
     };
     actions[command]();

@@ -14,6 +14,7 @@ export type Command =
   | "previous-photo"
   | "project"
   | "fading"
+  | "tour"
   | "help"
   | "close";
 
@@ -50,6 +51,7 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyB"], action: "previous-photo", shown: "B", text: "Look through the photo before" },
   { codes: ["KeyT"], action: "project", shown: "T", text: "Throw the photo onto the place, take it off" },
   { codes: ["KeyV"], action: "fading", shown: "V", text: "Photos fade in as one walks past, or do not" },
+  { codes: ["KeyG"], action: "tour", shown: "G", text: "Play or pause the guided tour" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

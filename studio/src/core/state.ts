@@ -1,5 +1,6 @@
 /** What the person has chosen to see. */
 import type { SemanticClass } from "./classes.ts";
+import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
@@ -28,6 +29,8 @@ export interface StudioState {
   /** Size of a point, CSS pixels. */
   readonly point_px: number;
   readonly mouseLook: boolean;
+  /** Null before the tour was begun. */
+  readonly tour: TourState | null;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -42,6 +45,7 @@ export const INITIAL_STATE: StudioState = {
   off: new Set(),
   point_px: 2.5,
   mouseLook: false,
+  tour: null,
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

@@ -18,6 +18,7 @@ import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
+import { TourGuide } from "./tour-guide.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
 
@@ -48,6 +49,7 @@ export class Viewer {
   readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
   readonly #orbit: OrbitRig;
   readonly #walk: WalkRig;
+  readonly #guide: TourGuide | null;
   readonly #pointer: CanvasPointer;
   /** What is under a point of the canvas. */
   readonly picker: Picker;
@@ -77,6 +79,8 @@ export class Viewer {
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
     this.#walk = new WalkRig(place.start, solid, solid.bounds);
+    const tour = place.tours[0];
+    this.#guide = tour === undefined ? null : new TourGuide(tour, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
@@ -177,6 +181,7 @@ export class Viewer {
       return;
     }
     if (this.#store.value.mode === "walk") {
+      this.#guide?.stop();
       this.#walk.restart();
       this.#fly(this.#walk.pose(this.#camera));
       return;
@@ -244,6 +249,14 @@ export class Viewer {
     const wish = wishOf(this.#held, this.#stick);
     if (this.#store.value.shot !== null) return false;
     if (this.#store.value.mode === "walk") {
+      const steered = turn.left !== 0 || turn.up !== 0 || wish.forward !== 0 || wish.right !== 0;
+      if (this.#guide?.isPlaying === true && !steered) {
+        const { eye, direction } = this.#guide.advance(seconds);
+        this.#walk.place(eye, direction);
+        setPose(this.#camera, this.#walk.pose(this.#camera));
+        return true;
+      }
+      this.#guide?.stop();
       const moves = this.#walk.advance(wish, turn, seconds);
       setPose(this.#camera, this.#walk.pose(this.#camera));
       return moves;
@@ -288,6 +301,7 @@ export class Viewer {
   }
 
   #follow(now: StudioState, before: StudioState): void {
+    if (now.tour !== before.tour) this.#goOnTour(now, before);
     if (now.mode !== before.mode) this.#changeMode(now.mode);
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
@@ -298,6 +312,16 @@ export class Viewer {
       this.#stage.appearance.tint(now);
     }
     this.invalidate();
+  }
+
+  /** To where the person wants the tour to go on; whoever leaves it stays where he is. */
+  #goOnTour(now: StudioState, before: StudioState): void {
+    const view = this.#guide?.wished(now.tour) ?? null;
+    if (view === null) return;
+    this.#walk.place(view.eye, view.direction);
+    if (now.mode !== "walk" || before.mode !== "walk") return; // the change of mode flies there
+    if (now.tour?.playing === true) this.#fly(this.#walk.pose(this.#camera));
+    else setPose(this.#camera, this.#walk.pose(this.#camera));
   }
 
   #outline(selected: FeatureRef | null): void {
@@ -319,12 +343,14 @@ export class Viewer {
       this.#fly(this.#walk.pose(this.#camera));
       return;
     }
+    this.#guide?.stop();
     this.releaseMouse();
     this.#returnToOrbit();
   }
 
   /** Flies to where a photo was taken, and back to where the person was before. */
   #lookThrough(shot: number | null, before: number | null): void {
+    if (shot !== null) this.#guide?.stop();
     void this.#frusta?.show(shot);
     this.#orbit.enabled = shot === null && this.#store.value.mode === "orbit";
     if (before === null && this.#store.value.mode === "orbit") {
@@ -362,6 +388,7 @@ export class Viewer {
 
   #look(dx: number, dy: number, captured: boolean): void {
     if (this.#store.value.mode !== "walk" || this.#flight !== null) return;
+    this.#guide?.stop();
     const scale = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX;
     this.#walk.turn(dx * scale, dy * scale);
     this.invalidate();
