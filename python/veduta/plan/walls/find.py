@@ -65,7 +65,8 @@ def find_walls(
     else:
         ink = mask = known
         thickness, drawing = known_thickness(known), "filled"
-    solid = thick_strokes(mask, thickness)
+    # Of what is known, short piers between openings count, too.
+    solid = thick_strokes(mask, thickness) if known is None else known
     if drawing == "filled" and known is None:
         # Shaded panes are thick strokes, too, but paler than the walls.
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
