@@ -21,7 +21,7 @@ from veduta.run.progress import Progress
 
 FILES = {
     ".veduta", "house.glb", "house.ifc", "overlay.png", "place.json", "plan.dxf", "plan.json",
-    "plan.svg", "report.html", "report.json", "sheet-1.png",
+    "plan.svg", "report.html", "report.json", "sheet-1.png", "tour.png",
 }  # fmt: skip
 
 
