@@ -22,7 +22,9 @@ from veduta.plan.house.space import Hole, Space
 from veduta.plan.tour.leaves import OpenLeaf
 
 BODY_M = 0.2
-"""Radius of the visitor: a person who passes a narrow door with the shoulders turned."""
+"""Radius of the visitor."""
+SLIM_M = 0.14
+"""Of one who turns sideways, where that leads to more rooms: between two leaves that stand open."""
 HEAD_M = 1.8
 """What lies higher above the floor is walked under."""
 FOOT_M = 0.05
@@ -35,17 +37,18 @@ _THROUGH_M = 1e-3
 class Ground:
     """A storey as a visitor meets it.
 
-    solid: what stands in the way. floor: what there is to walk on.
+    solid: what stands in the way. floor: what there is to walk on. body_m: the visitor's radius.
     """
 
     space: Space
     solid: BaseGeometry
     floor: BaseGeometry
+    body_m: float = BODY_M
 
     @cached_property
     def free(self) -> BaseGeometry:
         """Where the middle of the visitor may be."""
-        region = self.floor.difference(self.solid.buffer(BODY_M, quad_segs=4))
+        region = self.floor.difference(self.solid.buffer(self.body_m, quad_segs=4))
         shapely.prepare(region)
         return region
 
@@ -56,7 +59,11 @@ class Ground:
 
 
 def ground_of(
-    space: Space, leaves: Sequence[OpenLeaf], outdoors: BaseGeometry, climbed: Sequence[Stairs]
+    space: Space,
+    leaves: Sequence[OpenLeaf],
+    outdoors: BaseGeometry,
+    climbed: Sequence[Stairs],
+    body_m: float = BODY_M,
 ) -> Ground:
     """The ground of a storey; outdoors is what of the surroundings one may walk on.
 
@@ -76,8 +83,8 @@ def ground_of(
     floor = unary_union([space.slab, outdoors])
     if outdoors.is_empty:
         # No one steps over the edge of a floor.
-        floor = floor.buffer(-BODY_M)
-    return Ground(space, solid, floor)
+        floor = floor.buffer(-body_m)
+    return Ground(space, solid, floor, body_m)
 
 
 def obstacles(furniture: Iterable[Furniture]) -> list[Polygon]:
