@@ -53,8 +53,8 @@ class ScaleOptions(Options):
     scale: Annotated[float, Field(gt=0.0, le=10_000.0)] | None = Field(
         default=None,
         description=(
-            "millimetres of the house that a pixel of the drawing stands for; by what the drawing"
-            " says if not given"
+            "millimetres of the house that a pixel of the drawing (a unit of a DXF) stands for; by"
+            " what the drawing says if not given"
         ),
     )
 
