@@ -17,6 +17,7 @@ from veduta.place.camera_path import CameraPath
 from veduta.plan.document import RoomUse
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
+from veduta.plan.house.flights import stairwells
 from veduta.plan.tour import gaze, pace
 from veduta.plan.tour.climbs import climbs_of
 from veduta.plan.tour.free import BODY_M, SLIM_M, Ground, ground_of
@@ -99,14 +100,16 @@ def _plan(house: House, outside: Outside | None) -> _Plan | None:
 
 def _plan_for(house: House, outside: Outside | None, body_m: float) -> _Plan | None:
     leaves = open_leaves(house.part)
-    climbs = climbs_of(house.spaces)
+    # How thick the slab is matters for wells alone, and those the house has.
+    wells = stairwells(house.spaces, 0.0)
+    climbs = climbs_of(house.spaces, wells)
     around = Polygon() if outside is None else outside.region
     grounds = tuple(
         ground_of(
             space,
             leaves,
             around if number == 0 else Polygon(),
-            [climb.flight for climb in climbs if climb.lower + 1 == number],
+            wells[number].flights,
             body_m,
         )
         for number, space in enumerate(house.spaces)

@@ -16,8 +16,9 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from veduta.plan.document import Furniture, Stairs
+from veduta.plan.document import Furniture
 from veduta.plan.house.doors import FRAME_M
+from veduta.plan.house.flights import Flight
 from veduta.plan.house.space import Hole, Space
 from veduta.plan.tour.leaves import OpenLeaf
 
@@ -62,12 +63,12 @@ def ground_of(
     space: Space,
     leaves: Sequence[OpenLeaf],
     outdoors: BaseGeometry,
-    climbed: Sequence[Stairs],
+    flights: Sequence[Flight],
     body_m: float = BODY_M,
 ) -> Ground:
     """The ground of a storey; outdoors is what of the surroundings one may walk on.
 
-    climbed: flights that lead up to this storey, whose well is open in its floor.
+    flights: those that lead up from this storey. What comes up to it leaves a well in its floor.
     """
     storey = space.storey
     low, high = storey.elevation_m + FOOT_M, storey.elevation_m + HEAD_M
@@ -76,7 +77,8 @@ def ground_of(
         [
             space.walls.difference(unary_union(passages)),
             *(leaf.footprint for leaf in leaves if leaf.low_m < high and leaf.high_m > low),
-            *(Polygon(flight.outline_m) for flight in (*storey.stairs, *climbed)),
+            *(flight.outline for flight in flights),
+            space.well,
             *obstacles(storey.furniture or ()),
         ]
     )
