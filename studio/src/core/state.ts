@@ -4,6 +4,8 @@ import type { SemanticClass } from "./classes.ts";
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
 export type Layer = "points" | "cameras" | "walls" | "model";
+/** Doors open for whoever comes and close behind him, or all stand open. */
+export type DoorHabit = "approach" | "open";
 export type Colouring = "photo" | "class" | "provenance";
 
 /** A feature of the place: which part, and which row of the part's table. */
@@ -28,6 +30,7 @@ export interface StudioState {
   /** Size of a point, CSS pixels. */
   readonly point_px: number;
   readonly mouseLook: boolean;
+  readonly doors: DoorHabit;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -42,6 +45,7 @@ export const INITIAL_STATE: StudioState = {
   off: new Set(),
   point_px: 2.5,
   mouseLook: false,
+  doors: "approach",
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

@@ -9,6 +9,7 @@ import { fetchBytes } from "./fetch.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
 import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
+import { type Mover, moversOf } from "./movers.ts";
 
 export interface LoadedPart {
   readonly part: Part;
@@ -17,6 +18,8 @@ export interface LoadedPart {
   readonly meshes: readonly FeatureMesh[];
   readonly instanced: readonly InstancedFeatures[];
   readonly masks: Masks;
+  /** What of the meshes moves. */
+  readonly movers: readonly Mover[];
 }
 
 /** `share` in 0..1 of all parts; `file` is the one in hand. */
@@ -67,7 +70,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const mesh of drawn) sharpenTextures(mesh);
   const masks = await named(part.model, () => loadMasks(gltf, drawn));
-  return { part, table, group, meshes, instanced, masks };
+  return { part, table, group, meshes, instanced, masks, movers: moversOf(gltf, meshes) };
 }
 
 /** The loader trusts the lengths in the file; a truncated one must not reach it. */

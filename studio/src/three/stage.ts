@@ -6,8 +6,10 @@ import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
 import type { StudioState } from "../core/state.ts";
+import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
+import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
 import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
@@ -39,7 +41,7 @@ export interface ViewerContent {
 export class Stage {
   readonly scene = new Scene();
   /** What one meets with: surfaces, or nothing but a space where there are photos alone. */
-  readonly solid: Solid | Town | OpenSpace;
+  readonly solid: Solid | SolidWithDoors | Town | OpenSpace;
   readonly appearance: Appearance;
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
@@ -90,6 +92,11 @@ export class Stage {
     return shown.length > 0 ? "walls" : "nothing";
   }
 
+  /** Who walks here. */
+  get body(): Body {
+    return this.solid instanceof SolidWithDoors ? INDOOR_BODY : DEFAULT_WALK.body;
+  }
+
   /** Shows what the person wants to see, and hides the rest. */
   showLayers(state: StudioState): void {
     const { parts, clouds, frusta } = this.#content;
@@ -101,6 +108,18 @@ export class Stage {
     sizePoints(clouds, state.point_px);
     this.photos?.lookAgain();
     this.#scenery.sun.shadow.needsUpdate = true;
+  }
+
+  /** Moves what moves by itself; true while something does. */
+  advance(state: StudioState, walker: Walker, seconds: number): boolean {
+    if (!(this.solid instanceof SolidWithDoors)) return false;
+    const visitor = state.mode === "walk" ? walker : null;
+    const moves = this.solid.doors.advance(visitor, state.doors === "open", seconds);
+    if (moves) {
+      this.#scenery.sun.shadow.needsUpdate = true;
+      this.appearance.outlineSelected(state.selected);
+    }
+    return moves;
   }
 
   /** Whether something is still on its way, when it is seen from here. */
@@ -135,7 +154,16 @@ export class Stage {
   }
 }
 
-function solidOf(place: Place, parts: readonly LoadedPart[], ground: readonly LoadedPart[]): Solid | OpenSpace {
+function solidOf(
+  place: Place,
+  parts: readonly LoadedPart[],
+  ground: readonly LoadedPart[],
+): Solid | SolidWithDoors | OpenSpace {
   if (parts.length === 0) return new OpenSpace(boundsOfShots(place.clouds, place.shots));
-  return new Solid(soupOf(parts), ground.length > 0 ? new Solid(soupOf(ground)) : null);
+  const still = parts.map(({ meshes, instanced, movers }) => {
+    const moving = new Set(movers.flatMap((mover) => mover.meshes));
+    return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
+  });
+  const solid = new Solid(soupOf(still), ground.length > 0 ? new Solid(soupOf(ground)) : null);
+  return parts.some(({ movers }) => movers.length > 0) ? new SolidWithDoors(solid, new Doors(parts)) : solid;
 }

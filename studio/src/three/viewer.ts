@@ -76,7 +76,7 @@ export class Viewer {
     const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
-    this.#walk = new WalkRig(place.start, solid, solid.bounds);
+    this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
@@ -227,8 +227,12 @@ export class Viewer {
       this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
       this.#pace = paced(this.#pace, seconds);
     }
-    const moves = this.#advance(seconds);
-    const goesOn = this.#fade(Math.min(seconds, 0.1)) || moves;
+    const moves = [
+      this.#advance(seconds),
+      this.#stage.advance(this.#store.value, this.walker, Math.min(seconds, 0.1)),
+      this.#fade(Math.min(seconds, 0.1)),
+    ];
+    const goesOn = moves.includes(true);
     this.#sharpen(goesOn ? sharpnessOf(this.#pace) : 1);
     this.#draw();
     this.#lastFrame_ms = goesOn ? now_ms : null;
