@@ -85,6 +85,12 @@ export const studioStyles = css`
     width: 328px;
     max-height: calc(100% - 2 * var(--edge));
   }
+  veduta-minimap {
+    position: absolute;
+    right: var(--edge);
+    bottom: var(--edge);
+    width: 232px;
+  }
   veduta-photo-panel {
     position: absolute;
     top: var(--edge);
@@ -146,6 +152,14 @@ export const studioStyles = css`
       top: calc(var(--edge) + 62px);
       width: min(264px, calc(100% - 2 * var(--edge)));
       max-height: calc(100% - 2 * var(--edge) - 62px - 100px);
+    }
+    veduta-minimap {
+      bottom: calc(var(--edge) + 84px);
+      width: 150px;
+      --map-height: 110px;
+    }
+    veduta-feature-panel:not([hidden]) ~ veduta-minimap {
+      display: none;
     }
     veduta-feature-panel {
       top: auto;

@@ -6,15 +6,22 @@ import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
 import { type Colouring, INITIAL_STATE, type Layer, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
 import { Store } from "../core/store.ts";
+import { changeBy, type HouseCommand } from "../core/house-keys.ts";
+import { daylightAt } from "../core/daylight.ts";
+import type { Vec3 } from "../core/vector.ts";
 import "./feature-panel.ts";
 import type { HelpDialog } from "./help-dialog.ts";
 import "./help-dialog.ts";
 import { inspect } from "./inspect.ts";
+import "./house-panel.ts";
 import "./joystick.ts";
 import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
+import "./minimap.ts";
+import type { Minimap } from "./minimap.ts";
+import { savePicture, toggleFullscreen } from "./page-actions.ts";
 import "./photo-list.ts";
 import "./photo-panel.ts";
 import "./records-panel.ts";
@@ -103,6 +110,7 @@ export class Studio extends LitElement {
         (fault) => this.#say(fault.message),
       );
       this.session = session;
+      if (session.houses.length > 0) session.viewer.onDrawn = () => this.#drawMap(session);
       document.title = `${titleOf(session)} · Veduta`;
       window.veduta = inspect(session, this.#store);
       await this.updateComplete;
@@ -166,6 +174,7 @@ export class Studio extends LitElement {
         <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
       </header>
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
+        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
       <div class="left" ?hidden=${!this.layersOpen}>${this.#layers(session)}</div>
@@ -173,6 +182,10 @@ export class Studio extends LitElement {
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
       ${this.#photoPanel(session)}
+      ${session.houses.length === 0
+        ? nothing
+        : html`<veduta-minimap class="sheet" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
+            .houses=${session.houses} @go=${(event: CustomEvent<Vec3[]>) => session.viewer.goTo(event.detail)}></veduta-minimap>`}
       ${state.mode === "walk" && coarse
         ? html`<veduta-joystick
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
@@ -194,6 +207,9 @@ export class Studio extends LitElement {
     const { records } = session;
     return html`
       <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
+        <veduta-house ?hidden=${session.houses.length === 0} .state=${this.#store.value}
+          .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${hasLamps(session)}
+          @change-state=${(event: CustomEvent<Partial<StudioState>>) => this.#store.update(event.detail)}></veduta-house>
         <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
           @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
           @point-size=${(event: CustomEvent<number>) => this.#store.update({ point_px: event.detail })}
@@ -284,14 +300,18 @@ export class Studio extends LitElement {
       },
       layers: () => (this.layersOpen = !this.layersOpen),
       colouring: () => this.#nextColouring(),
-      screenshot: () => void this.#savePicture(session),
-      fullscreen: () => void this.#toggleFullscreen(),
+      screenshot: () => void savePicture(session).then((words) => this.#say(words)),
+      fullscreen: () => void toggleFullscreen().then((words) => this.#say(words)),
       "mouse-look": () => void this.#toggleMouseLook(session),
       help: () => this.#help?.toggle(),
       "next-photo": () => this.#stepPhoto(1),
       "previous-photo": () => this.#stepPhoto(-1),
       project: () => this.#toggleProjection(session),
       fading: () => this.#toggleFading(session),
+      daylight: () => this.#changeHouse("daylight"),
+      lights: () => this.#changeHouse("lights"),
+      doors: () => this.#changeHouse("doors"),
+      map: () => this.#changeHouse("map"),
       close: () => this.#close(),
     };
     actions[command]();
@@ -327,34 +347,25 @@ export class Studio extends LitElement {
     this.#lookThrough(next);
   }
 
+  #changeHouse(command: HouseCommand): void {
+    if (this.session === null || this.session.houses.length === 0) return;
+    const { change, words } = changeBy(command, this.#store.value);
+    this.#store.update(change);
+    this.#say(words);
+  }
+
+  /** The map shows the same moment as the picture. */
+  #drawMap({ viewer }: Session): void {
+    const { feet, heading } = viewer.walker;
+    const where = viewer.household.whereabouts(feet);
+    const levels = where === null ? [] : viewer.household.levelsOf(where.house);
+    this.renderRoot.querySelector<Minimap>("veduta-minimap")?.show({ feet, yaw: heading.yaw, where, levels });
+  }
+
   #nextColouring(): void {
     const colouring = NEXT_COLOURING[this.#store.value.colouring];
     this.#store.update({ colouring });
     this.#say(`Colours: ${colouring}`);
-  }
-
-  async #savePicture(session: Session): Promise<void> {
-    try {
-      const address = URL.createObjectURL(await session.viewer.screenshot());
-      const link = document.createElement("a");
-      link.href = address;
-      link.download = `${session.place.parts[0]?.id ?? "veduta"}.png`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(address), 10_000);
-      this.#say("Picture saved");
-    } catch (error) {
-      this.#say(faultOf(error).message);
-    }
-  }
-
-  async #toggleFullscreen(): Promise<void> {
-    try {
-      if (document.fullscreenElement === null) await document.documentElement.requestFullscreen();
-      else await document.exitFullscreen();
-    } catch (error) {
-      if (!(error instanceof TypeError || error instanceof DOMException)) throw error;
-      this.#say("This browser does not allow full screen here");
-    }
   }
 
   async #toggleMouseLook(session: Session): Promise<void> {
@@ -370,6 +381,10 @@ export class Studio extends LitElement {
     clearTimeout(this.#noticeTimer);
     this.#noticeTimer = window.setTimeout(() => (this.notice = ""), 2500);
   }
+}
+
+function hasLamps({ houses }: Session): boolean {
+  return houses.some(({ storeys }) => storeys.some(({ lamps }) => lamps.length > 0));
 }
 
 function isNarrow(): boolean {

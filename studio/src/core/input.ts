@@ -14,6 +14,10 @@ export type Command =
   | "previous-photo"
   | "project"
   | "fading"
+  | "daylight"
+  | "lights"
+  | "doors"
+  | "map"
   | "help"
   | "close";
 
@@ -50,6 +54,10 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyB"], action: "previous-photo", shown: "B", text: "Look through the photo before" },
   { codes: ["KeyT"], action: "project", shown: "T", text: "Throw the photo onto the place, take it off" },
   { codes: ["KeyV"], action: "fading", shown: "V", text: "Photos fade in as one walks past, or do not" },
+  { codes: ["KeyX"], action: "daylight", shown: "X", text: "In a house: day or night" },
+  { codes: ["KeyI"], action: "lights", shown: "I", text: "In a house: lamps go on where you come in, all on, all off" },
+  { codes: ["KeyO"], action: "doors", shown: "O", text: "In a house: doors open as you come, or all stand open" },
+  { codes: ["KeyG"], action: "map", shown: "G", text: "In a house: the map, while walking" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

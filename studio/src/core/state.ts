@@ -1,11 +1,14 @@
 /** What the person has chosen to see. */
 import type { SemanticClass } from "./classes.ts";
+import { DAY_HOUR } from "./daylight.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
 export type Layer = "points" | "cameras" | "walls" | "model";
 /** Doors open for whoever comes and close behind him, or all stand open. */
 export type DoorHabit = "approach" | "open";
+/** Lamps go on in the room that one comes into, or all are on, or off. */
+export type LightHabit = "auto" | "on" | "off";
 export type Colouring = "photo" | "class" | "provenance";
 
 /** A feature of the place: which part, and which row of the part's table. */
@@ -31,6 +34,10 @@ export interface StudioState {
   readonly point_px: number;
   readonly mouseLook: boolean;
   readonly doors: DoorHabit;
+  readonly lights: LightHabit;
+  /** Time of the day by the sun, 0 to 24. */
+  readonly hour: number;
+  readonly map: boolean;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -46,6 +53,9 @@ export const INITIAL_STATE: StudioState = {
   point_px: 2.5,
   mouseLook: false,
   doors: "approach",
+  lights: "auto",
+  hour: DAY_HOUR,
+  map: true,
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

@@ -1,5 +1,6 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
+import { daylightAt } from "../core/daylight.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
@@ -11,6 +12,7 @@ import { Appearance } from "./appearance.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
 import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
+import { Household, type LoadedHouse } from "./household.ts";
 import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
 import { OpenSpace } from "./open-space.ts";
@@ -36,6 +38,7 @@ export interface ViewerContent {
   readonly clouds: Group;
   readonly frusta: Frusta | null;
   readonly textures: PhotoTextures | null;
+  readonly houses: readonly LoadedHouse[];
 }
 
 export class Stage {
@@ -46,6 +49,7 @@ export class Stage {
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
   readonly seen: Box;
+  readonly household: Household;
   /** The photos that lie on the place; null where it has none. */
   readonly photos: PhotoShow | null;
   readonly #content: ViewerContent;
@@ -58,7 +62,7 @@ export class Stage {
 
   /** `onChange` is called when something has arrived that is to be drawn. */
   constructor(place: Place, content: ViewerContent, onChange: () => void) {
-    const { parts, town, clouds, frusta, textures } = content;
+    const { parts, town, clouds, frusta, textures, houses } = content;
     this.#content = content;
     this.#town = town;
     const ground = parts.filter(({ part }) => part.isGround);
@@ -73,8 +77,10 @@ export class Stage {
     const hasGround = place.parts.some(({ isGround }) => isGround);
     this.#scenery = makeScenery(this.seen, footprints, { hasGround, scaleKnown: place.scaleKnown });
     this.appearance = new Appearance(parts);
+    // After the tints: rooms light the colours that are shown.
+    this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);
     for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
-    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces);
+    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces, this.household.group);
     for (const { group } of parts) this.#surfaces.add(group);
     if (town !== null) this.#surfaces.add(town.group);
     if (frusta !== null) this.scene.add(frusta.group);
@@ -111,15 +117,21 @@ export class Stage {
   }
 
   /** Moves what moves by itself; true while something does. */
-  advance(state: StudioState, walker: Walker, seconds: number): boolean {
-    if (!(this.solid instanceof SolidWithDoors)) return false;
-    const visitor = state.mode === "walk" ? walker : null;
-    const moves = this.solid.doors.advance(visitor, state.doors === "open", seconds);
-    if (moves) {
+  advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): boolean {
+    if (this.#town !== null) return false;
+    const { doors, lamps } = this.household.advance(state, walker, eye, seconds);
+    if (doors) {
       this.#scenery.sun.shadow.needsUpdate = true;
       this.appearance.outlineSelected(state.selected);
     }
-    return moves;
+    return doors || lamps;
+  }
+
+  /** Sets the time of the day; 0 to 24. */
+  light(hour: number): void {
+    const daylight = daylightAt(hour);
+    this.#scenery.light(daylight);
+    this.household.daylight = daylight;
   }
 
   /** Whether something is still on its way, when it is seen from here. */

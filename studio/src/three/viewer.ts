@@ -63,6 +63,8 @@ export class Viewer {
   #pace = FULL_PACE;
   #sharpness = 1;
   #streak = { frames: 0, seconds: 0 };
+  /** Called after each picture. */
+  onDrawn: () => void = () => undefined;
 
   constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
     const { town, frusta } = content;
@@ -89,6 +91,7 @@ export class Viewer {
     this.#resize();
     this.#stage.appearance.tint(store.value);
     this.#stage.showLayers(store.value);
+    this.#stage.light(store.value.hour);
     town?.show(store.value);
     this.goHome();
   }
@@ -107,6 +110,18 @@ export class Viewer {
 
   get walker(): Walker {
     return this.#walk.walker;
+  }
+
+  /** What goes on in the houses of the place. */
+  get household(): Stage["household"] {
+    return this.#stage.household;
+  }
+
+  /** Puts the walker at the first of these places (feet) where nothing is in the way. */
+  goTo(places: readonly Vec3[]): void {
+    if (!this.#walk.goTo(places)) return;
+    setPose(this.#camera, this.#walk.pose(this.#camera));
+    this.invalidate();
   }
 
   get isFlying(): boolean {
@@ -229,7 +244,7 @@ export class Viewer {
     }
     const moves = [
       this.#advance(seconds),
-      this.#stage.advance(this.#store.value, this.walker, Math.min(seconds, 0.1)),
+      this.#stage.advance(this.#store.value, this.walker, this.pose.eye, Math.min(seconds, 0.1)),
       this.#fade(Math.min(seconds, 0.1)),
     ];
     const goesOn = moves.includes(true);
@@ -280,6 +295,7 @@ export class Viewer {
     this.#renderer.render(this.#stage.scene, this.#camera);
     this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     this.#frames += 1;
+    this.onDrawn();
   }
 
   /** Depth is told apart best where nothing is drawn near: the ground lies close over the plane. */
@@ -296,6 +312,7 @@ export class Viewer {
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
     if (shows || now.shot !== before.shot) this.#stage.showLayers(now);
+    if (now.hour !== before.hour) this.#stage.light(now.hour);
     if (this.#town !== null) this.#town.show(now);
     if (now.selected !== before.selected) this.#outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {

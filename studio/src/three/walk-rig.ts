@@ -25,6 +25,8 @@ const STEP_S = 0.1;
 /** On a stair the eye rises evenly: the time constant with which it follows the body. */
 const EYE_S = 0.09;
 const EYE_REST_M = 0.002;
+/** Whoever is put somewhere comes down onto the floor, which may lie a little higher than is said. */
+const OFF_FLOOR_M = 0.08;
 /** Further than from step to step the eye moves at once: a fall, a new start. */
 const EYE_LAG_M = 0.4;
 /** Vertical angle of view of a wide and of an upright picture. */
@@ -54,6 +56,15 @@ export class WalkRig {
 
   get walker(): Walker {
     return this.#walker;
+  }
+
+  /** Stands at the first of these places where nothing is in the way; false where none is free. */
+  goTo(places: readonly Vec3[]): boolean {
+    const free = places.find((feet) => this.#obstacles.pushOut(add(feet, [0, 0, OFF_FLOOR_M]), this.options.body) === null);
+    if (free === undefined) return false;
+    this.#walker = { ...this.#walker, feet: add(free, [0, 0, OFF_FLOOR_M]), velocity: [0, 0, 0], grounded: false };
+    this.#lag_m = 0;
+    return true;
   }
 
   restart(): void {
