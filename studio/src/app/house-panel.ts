@@ -6,7 +6,7 @@ import { rowStyles } from "./row-styles.ts";
 import { theme } from "./theme.ts";
 
 const HABITS: readonly { readonly value: LightHabit; readonly label: string; readonly title: string }[] = [
-  { value: "auto", label: "Where I am", title: "Lamps go on in the room that you come into; from outside, by night, in all" },
+  { value: "auto", label: "Auto", title: "Lamps go on in the room that you come into; from outside, by night, in all" },
   { value: "on", label: "On", title: "All lamps are on" },
   { value: "off", label: "Off", title: "All lamps are off" },
 ];
@@ -42,8 +42,12 @@ export class HousePanel extends LitElement {
         font-variant-numeric: tabular-nums;
         color: var(--ink);
       }
+      .lamps {
+        color: var(--ink-soft);
+      }
       .segments {
-        margin: 2px 4px 6px;
+        flex: 1;
+        margin: 0 -4px 0 0;
       }
     `,
   ];
@@ -63,11 +67,11 @@ export class HousePanel extends LitElement {
         .value=${String(hour)} @input=${(event: Event) => this.#change({ hour: Number((event.target as HTMLInputElement).value) })} />
         <output>${hourText(hour)}</output></label>
       ${this.hasLamps
-        ? html`<div class="segments" role="radiogroup" aria-label="Lamps">
-            ${HABITS.map(
+        ? html`<div class="row"><span class="lamps">Lamps</span>
+            <div class="segments" role="radiogroup" aria-label="Lamps">${HABITS.map(
               ({ value, label, title }) => html`<button role="radio" aria-checked=${lights === value} title="${title} (I)"
                 @click=${() => this.#change({ lights: value })}>${label}</button>`,
-            )}
+            )}</div>
           </div>`
         : ""}
       ${this.hasDoors

@@ -136,6 +136,12 @@ export const studioStyles = css`
     left: calc(var(--edge) + 8px);
     bottom: calc(var(--edge) + 84px);
   }
+  @media (max-width: 1080px) {
+    /* Beside the tools there is no room for it. */
+    veduta-minimap {
+      bottom: calc(var(--edge) + 66px);
+    }
+  }
   @media (max-width: 720px) {
     :host {
       --edge: max(10px, env(safe-area-inset-bottom));

@@ -9,7 +9,7 @@ export interface MapBox {
 }
 
 /** Around the storey there is room for a visitor outside. */
-const MARGIN_M = 1.6;
+const MARGIN_M = 1.2;
 
 export function boxOfStorey(storey: Storey): MapBox {
   const points = [...storey.walls.flatMap(({ line }) => line), ...storey.rooms.flatMap(({ outline }) => outline)];

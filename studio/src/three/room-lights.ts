@@ -21,6 +21,8 @@ const NIGHT_LUX = 42;
 const DAY_LUX = 160;
 /** What the windows let in on a bright day, in the same unit. */
 const DAY_FILL = 1.5;
+/** Without lamps a room is not black by night: the eye gets used to it. */
+const NIGHT_FILL = 0.3;
 const CANDELA_PER_LUMEN = 1 / (4 * Math.PI);
 const GLOW_M = 0.42;
 
@@ -58,7 +60,7 @@ export class RoomLights {
   /** `day` from 0 (night) to 1. */
   set day(day: number) {
     this.#day = day;
-    this.#uniforms.roomDay.value = DAY_FILL * day;
+    this.#uniforms.roomDay.value = NIGHT_FILL + (DAY_FILL - NIGHT_FILL) * day;
   }
 
   /** True while lamps go on or off. */

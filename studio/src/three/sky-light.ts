@@ -33,8 +33,8 @@ const DUSK: Look = {
 };
 /** A clear night with a moon: one still finds one's way. */
 const NIGHT: Look = {
-  sun: "#a9bfe6", sunStrength: 0.3, above: "#54678c", below: "#2b313c", strength: 0.34,
-  zenith: "#0a111f", horizon: "#223049", glow: "#3f547c", ground: "#5a6880", shade: 0.6,
+  sun: "#b4c6e8", sunStrength: 0.55, above: "#8b99b6", below: "#6a7484", strength: 1.35,
+  zenith: "#101a2e", horizon: "#2c3a52", glow: "#3f547c", ground: "#566279", shade: 0.7,
 };
 
 export function skyLightAt({ day, dusk }: Daylight): SkyLight {
