@@ -87,12 +87,14 @@ export class Minimap extends LitElement {
       }
       .words {
         display: flex;
+        flex-wrap: wrap;
         align-items: baseline;
-        gap: 8px;
+        gap: 0 8px;
         min-height: 21px;
       }
       .words strong {
-        flex: 1;
+        flex: 1 1 auto;
+        max-width: 100%;
         font-weight: 600;
         white-space: nowrap;
         overflow: hidden;

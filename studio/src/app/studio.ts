@@ -10,6 +10,7 @@ import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
 import "./feature-panel.ts";
+import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
 import "./help-dialog.ts";
 import { inspect } from "./inspect.ts";
@@ -132,19 +133,7 @@ export class Studio extends LitElement {
 
   /** Tells the viewer which part of the picture the panels cover. */
   #leaveFree(session: Session): void {
-    const { width, height } = this.#canvas.getBoundingClientRect();
-    const boxOf = (name: string): DOMRect | null =>
-      this.renderRoot.querySelector(name)?.getBoundingClientRect() ?? null;
-    const [brand, layers, tools] = [boxOf(".brand"), boxOf(".left"), boxOf("veduta-toolbar")];
-    const panel = boxOf("veduta-feature-panel");
-    const below = panel !== null && panel.height > 0 && panel.width > 0.5 * width ? panel.top : null;
-    const beside = (box: DOMRect | null): boolean => box !== null && box.width > 0 && box.width < 0.4 * width;
-    session.viewer.setInsets({
-      left: beside(layers) ? (layers?.right ?? 0) / width : 0,
-      right: beside(panel) ? 1 - (panel?.left ?? width) / width : 0,
-      top: beside(layers) ? 0 : (brand?.bottom ?? 0) / height,
-      bottom: 1 - (below ?? tools?.top ?? height) / height,
-    });
+    session.viewer.setInsets(insetsOf(this.renderRoot, this.#canvas));
   }
 
   #fail(error: unknown): void {
@@ -385,10 +374,6 @@ export class Studio extends LitElement {
 
 function hasLamps({ houses }: Session): boolean {
   return houses.some(({ storeys }) => storeys.some(({ lamps }) => lamps.length > 0));
-}
-
-function isNarrow(): boolean {
-  return matchMedia("(max-width: 720px)").matches;
 }
 
 /** Keys pressed in a field or on a switch belong to it, except those that no control uses. */

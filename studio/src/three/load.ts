@@ -1,5 +1,5 @@
 /** From the place to parts that can be drawn. */
-import { Group, InstancedMesh, Mesh, Texture } from "three";
+import { Group, InstancedMesh, Light, Mesh, Texture } from "three";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
@@ -52,6 +52,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   checkContainer(bytes, part.model);
   const gltf = await parse(bytes, part.model);
   const { scene } = gltf;
+  removeLights(scene);
   const extras = scene.userData as { veduta?: { features?: unknown } };
   const table = readFeatureTable(extras.veduta?.features, part.model);
   const group = new Group();
@@ -101,6 +102,18 @@ async function named<T>(file: string, read: () => Promise<T>): Promise<T> {
     const words = error instanceof Error ? error.message : String(error);
     throw new Fault(file, `the model is broken (${words})`, REMEDY);
   }
+}
+
+/**
+ * A model may bring the lamps of a whole house (KHR_lights_punctual). They would all shine at once and
+ * through its walls: what shines is what the house's document says (`RoomLights`).
+ */
+function removeLights(scene: Group): void {
+  const lights: Light[] = [];
+  scene.traverse((node) => {
+    if (node instanceof Light) lights.push(node);
+  });
+  for (const light of lights) light.removeFromParent();
 }
 
 function sharpenTextures(mesh: Mesh): void {

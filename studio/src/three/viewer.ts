@@ -1,15 +1,14 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
-import { Fault } from "../core/fault.ts";
 import { drawnFaces, worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
-import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
 import { type FeatureRef, type StudioState, throughPhoto } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
+import { FramePace } from "./frame-pace.ts";
 import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
 import { OrbitRig } from "./orbit-rig.ts";
@@ -17,6 +16,7 @@ import type { ShownPhoto } from "./photo-show.ts";
 import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
+import { Screen } from "./screen.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
@@ -24,14 +24,12 @@ import { WalkRig } from "./walk-rig.ts";
 /** Radians per CSS pixel: a drag takes the picture along, the captured mouse turns the head. */
 const DRAG_RAD_PX = 0.0032;
 const MOUSE_RAD_PX = 0.0022;
-const MOST_PIXELS_PER_CSS_PX = 2;
 /** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
 const NEAR_M = 0.08;
 const NEAR_SHARE = 0.2;
 
 export interface ViewerStats {
   readonly frames: number;
-  /** Mean over the frames that were drawn one after the other; 0 before there were two. */
   readonly framesPerSecond: number;
   readonly triangles: number;
   /** Tiles that are drawn; 0 where the place is loaded whole. */
@@ -39,7 +37,7 @@ export interface ViewerStats {
 }
 
 export class Viewer {
-  readonly #canvas: HTMLCanvasElement;
+  readonly #screen: Screen;
   readonly #store: Store<StudioState>;
   readonly #town: Town | null;
   readonly #frusta: Frusta | null;
@@ -57,20 +55,17 @@ export class Viewer {
   #flight: Flight | null = null;
   #orbitPose: { pose: Pose; target: Vector3 } | null = null;
   #request = 0;
-  #lastFrame_ms: number | null = null;
   #frames = 0;
   #insets: Insets = NO_INSETS;
-  #pace = FULL_PACE;
-  #sharpness = 1;
-  #streak = { frames: 0, seconds: 0 };
+  readonly #pace = new FramePace();
   /** Called after each picture. */
   onDrawn: () => void = () => undefined;
 
   constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
     const { town, frusta } = content;
-    this.#canvas = canvas;
     this.#store = store;
     this.#renderer = makeRenderer(canvas);
+    this.#screen = new Screen(canvas, this.#renderer);
     this.#town = town;
     this.#frusta = frusta;
     this.#stage = new Stage(place, content, () => this.invalidate());
@@ -129,10 +124,9 @@ export class Viewer {
   }
 
   get stats(): ViewerStats {
-    const { frames, seconds } = this.#streak;
     return {
       frames: this.#frames,
-      framesPerSecond: seconds > 0 ? frames / seconds : 0,
+      framesPerSecond: this.#pace.perSecond,
       triangles: this.solid.faceCount,
       tiles: this.#town?.tileCount ?? 0,
     };
@@ -211,12 +205,7 @@ export class Viewer {
 
   async screenshot(): Promise<Blob> {
     this.#draw();
-    return await new Promise((resolve, reject) => {
-      this.#canvas.toBlob((blob) => {
-        if (blob !== null) resolve(blob);
-        else reject(new Fault("Picture", "the browser made no image", "Try a smaller window."));
-      }, "image/png");
-    });
+    return await this.#screen.picture();
   }
 
   dispose(): void {
@@ -237,20 +226,16 @@ export class Viewer {
 
   #frame(now_ms: number): void {
     this.#request = 0;
-    const seconds = this.#lastFrame_ms === null ? 1 / 60 : (now_ms - this.#lastFrame_ms) / 1000;
-    if (this.#lastFrame_ms !== null) {
-      this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
-      this.#pace = paced(this.#pace, seconds);
-    }
+    const seconds = this.#pace.begin(now_ms);
     const moves = [
       this.#advance(seconds),
       this.#stage.advance(this.#store.value, this.walker, this.pose.eye, Math.min(seconds, 0.1)),
       this.#fade(Math.min(seconds, 0.1)),
     ];
     const goesOn = moves.includes(true);
-    this.#sharpen(goesOn ? sharpnessOf(this.#pace) : 1);
+    this.#screen.sharpen(goesOn ? this.#pace.sharpness : 1);
     this.#draw();
-    this.#lastFrame_ms = goesOn ? now_ms : null;
+    this.#pace.end(now_ms, goesOn);
     if (goesOn) this.invalidate();
   }
 
@@ -281,12 +266,6 @@ export class Viewer {
     const walks = state.mode === "walk" && state.shot === null && state.fading;
     const appears = this.#frusta?.advance(seconds, state.projected !== null) ?? false;
     return (this.#stage.photos?.advance(state, walks ? { eye, direction } : null, seconds) ?? false) || appears;
-  }
-
-  #sharpen(share: number): void {
-    if (share === this.#sharpness) return;
-    this.#sharpness = share;
-    this.#renderer.setPixelRatio(share * Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX));
   }
 
   #draw(): void {
@@ -395,13 +374,10 @@ export class Viewer {
   }
 
   #resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.#canvas;
-    if (width === 0 || height === 0) return;
-    const ratio = Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX);
-    this.#renderer.setPixelRatio(this.#sharpness * ratio);
-    this.#renderer.setSize(width, height, false);
-    this.#stage.appearance.outline.resize(width, height);
-    this.#camera.aspect = width / height;
+    const size = this.#screen.resize();
+    if (size === null) return;
+    this.#stage.appearance.outline.resize(size.width, size.height);
+    this.#camera.aspect = size.width / size.height;
     setPose(this.#camera, poseOf(this.#camera));
     this.invalidate();
   }
