@@ -19,7 +19,6 @@ from plan_scores import iou, opening_hits, room_hits
 from plan_truth import Affine, Gap, Layout, Space, found_layout
 from record import Row
 from shapely import maximum_inscribed_circle, unary_union
-from shapely.affinity import translate
 from shapely.geometry import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import polygonize
@@ -34,6 +33,8 @@ FACES = ("A-WALL", "A-HEADER", "A-FOOTPRINT")
 DRAWN = ("A-WALL", "A-HEADER", "A-OPENING", "A-CASE-1", "A-FIXTURE", "A-GARAGE-DOOR")
 FINE = 3
 Line = NDArray[np.float64]
+UNITS_FROM_M = np.diag([1.0 / INCH_M, 1.0 / INCH_M, 1.0])
+"""The frame of the file itself: drawing units in place of pixels."""
 
 
 def lines() -> list[tuple[str, Line]]:
@@ -137,32 +138,12 @@ def rows(jobs: int, pictures: Path | None) -> list[Row]:
         for name, reading in (("vectors", vector), ("raster", pixels)):
             found = None
             if reading.storey is not None:
-                found = found_layout(reading.storey, px_from_m, single_line=False)
-                found = _over(found, true) if name == "vectors" else found
+                frame = UNITS_FROM_M if name == "vectors" else px_from_m
+                found = found_layout(reading.storey, frame, single_line=False)
             table.append(_row(name, reading, found, true))
             if pictures is not None and name == "raster":
                 picture(raster, f"{table[-1]}"[:110], found, true, px_from_m, pictures)
     return table
-
-
-def _over(found: Layout, true: Layout) -> Layout:
-    """A reading of vectors laid over the truth by the corners of its walls: it has no pixels."""
-    grown = found.metres_per_px / true.metres_per_px
-    if found.whole.is_empty or not np.isfinite(grown):
-        return found
-    x0, y0, _, _ = found.whole.bounds
-    x1, y1, _, _ = true.whole.bounds
-    dx, dy = x1 - x0, y1 - y0
-    return Layout(
-        translate(found.solid, dx, dy),
-        translate(found.whole, dx, dy),
-        tuple(
-            Gap(gap.kind, gap.type, gap.ends_m + np.array([dx, dy]), gap.wall_thickness_m)
-            for gap in found.gaps
-        ),
-        tuple(Space(space.use, translate(space.area, dx, dy)) for space in found.spaces),
-        found.metres_per_px,
-    )
 
 
 def _row(name: str, reading: Reading, found: Layout | None, true: Layout) -> Row:
@@ -177,5 +158,6 @@ def _row(name: str, reading: Reading, found: Layout | None, true: Layout) -> Row
         row["wall recall"] = found.solid.intersection(true.solid).area / true.solid.area
         row["of any kind"] = opening_hits(found.gaps, true.gaps, kind=False).f1
         row["rooms F1"] = room_hits(found.spaces, true.spaces, use=False).f1
-        row["scale error"] = found.metres_per_px / true.metres_per_px - 1
+        size = INCH_M if name == "vectors" else true.metres_per_px
+        row["scale error"] = found.metres_per_px / size - 1
     return row

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 from record import Row, keep_or_print
 from registration_found import found_street
+from registration_scores import MOST_DEG, MOST_M, Tried, row_of
 from registration_streets import SimulatedStreet, simulated_street
 
 from veduta.photos.world.georeference import Georeference
@@ -28,7 +29,6 @@ KINDS: dict[str, Callable[[int], SimulatedStreet]] = {
     "one side": lambda seed: simulated_street(seed, sides=1),
     "a bent street, walls found": found_street,
 }
-MOST_M, MOST_DEG = 0.3, 0.5
 NOTES = (
     "Towns of 96 boxes in four streets; 40 photos of one street, of about eight houses. Points are"
     " noisy, walls have rough edges, some are missing and some are none, and the model is drawn"
@@ -41,20 +41,11 @@ NOTES = (
 )
 
 
-@dataclass(frozen=True)
-class Outcome:
-    """error_m: mean distance of the photos; error_deg: of the rotation. NaN without a fit."""
+@dataclass(frozen=True, kw_only=True)
+class Outcome(Tried):
+    """margin: nats by which the fit is likelier than the second best; NaN without one."""
 
-    accepted: bool
-    error_m: float
-    error_deg: float
     margin: float
-    seconds: float
-
-    @property
-    def is_right(self) -> bool:
-        """Within the bounds."""
-        return self.error_m <= MOST_M and self.error_deg <= MOST_DEG
 
 
 def outcome(street: SimulatedStreet, *, in_model: bool, gps: bool) -> Outcome:
@@ -67,7 +58,13 @@ def outcome(street: SimulatedStreet, *, in_model: bool, gps: bool) -> Outcome:
     margin = float("nan")
     if found.best is not None and found.second is not None:
         margin = found.best.score - found.second.score
-    return Outcome(found.accepted, error_m, error_deg, margin, seconds)
+    return Outcome(
+        accepted=found.accepted,
+        error_m=error_m,
+        error_deg=error_deg,
+        margin=margin,
+        seconds=seconds,
+    )
 
 
 def errors(street: SimulatedStreet, found: Georeference) -> tuple[float, float]:
@@ -109,24 +106,8 @@ def rows(seeds: int, only: str | None = None) -> list[Row]:
 
 
 def _row(kind: str, in_model: bool, gps: bool, found: list[Outcome]) -> Row:
-    accepted = [one for one in found if one.accepted]
-    right = [one for one in accepted if one.is_right]
-    wanted = len(right) >= 0.95 * len(found) if in_model else not accepted
-    return {
-        "photographed": kind,
-        "in the model": "yes" if in_model else "no",
-        "GPS": "5 m wrong" if gps else "none",
-        "streets": len(found),
-        "right": len(right),
-        "wrong": len(accepted) - len(right),
-        "refused": len(found) - len(accepted),
-        "met": "yes" if wanted and len(right) == len(accepted) else "**missed**",
-        "median m": float(np.median([one.error_m for one in accepted])) if accepted else None,
-        "largest m": max((one.error_m for one in accepted), default=None),
-        "largest degrees": max((one.error_deg for one in accepted), default=None),
-        "least margin nats": _least([one.margin for one in accepted]),
-        "s": float(np.mean([one.seconds for one in found])),
-    }
+    least = _least([one.margin for one in found if one.accepted])
+    return {"photographed": kind, **row_of(in_model, gps, found), "least margin nats": least}
 
 
 def _least(margins: list[float]) -> float | None:

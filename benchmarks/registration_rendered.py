@@ -16,20 +16,20 @@ import json
 import subprocess
 import sys
 import time
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 from PIL import Image
 from record import Row, keep_or_print
+from registration_scores import MOST_DEG, MOST_M, Tried, row_of
 from scipy.spatial.transform import Rotation
 from street_sets import IMAGES, StreetSet, write_model, write_set
 
 from veduta.formats.place_json import read_place
 from veduta.synthetic.streets.plan import plan_street
 
-MOST_M, MOST_DEG = 0.3, 0.5
-WANTED = 0.95
 OTHER = 1000
 MODEL = "model.city.json"
 LAID = ("--georef", "model", "--no-texture")
@@ -42,13 +42,28 @@ NOTES = (
 )
 
 
-def street(seed: int, work: Path) -> list[dict[str, Any]]:
+@dataclass(frozen=True, kw_only=True)
+class Outcome(Tried):
+    """In the street's own model or not, with GPS or without; why: what was said of it."""
+
+    in_model: bool
+    gps: bool
+    why: str
+    placed: int = 0
+
+
+def street(seed: int, work: Path) -> list[Outcome]:
     """The outcomes of one street; from its file where it was run before."""
     folder = work / f"street-{seed}"
     done = folder / "outcomes.json"
     if done.exists():
-        kept: list[dict[str, Any]] = json.loads(done.read_text())
-        return [one | measured(folder, one["in_model"], one["gps"]) for one in kept]
+        return [
+            Outcome(
+                **{name: one[name] for name in ("in_model", "gps", "seconds")},
+                **measured(folder, one["in_model"], one["gps"]),
+            )
+            for one in json.loads(done.read_text())
+        ]
     if not (folder / MODEL).exists():
         write_set(StreetSet(seed), folder)
     write_model(plan_street(seed + OTHER), _made(folder / "other"))
@@ -57,21 +72,20 @@ def street(seed: int, work: Path) -> list[dict[str, Any]]:
     if not (found / "report.json").exists():
         veduta(folder / IMAGES, found, "--georef", "off", "--no-walls")
     outcomes = [
-        register(folder, in_model, gps) | measured(folder, in_model, gps)
-        for in_model in (True, False)
-        for gps in (True, False)
+        register(folder, in_model, gps) for in_model in (True, False) for gps in (True, False)
     ]
-    done.write_text(json.dumps(outcomes, indent=1))
+    done.write_text(json.dumps([asdict(one) for one in outcomes], indent=1))
     return outcomes
 
 
-def register(folder: Path, in_model: bool, gps: bool) -> dict[str, Any]:
+def register(folder: Path, in_model: bool, gps: bool) -> Outcome:
     """Lay the structure that was found into a model."""
     model = (folder if in_model else folder / "other") / MODEL
     given = ("--from-colmap", str(folder / "structure" / "sparse" / "0"), "--model", str(model))
     started = time.perf_counter()
     veduta(folder / _photos(gps), _out(folder, in_model, gps), *given, *LAID)
-    return {"in_model": in_model, "gps": gps, "seconds": time.perf_counter() - started}
+    seconds = time.perf_counter() - started
+    return Outcome(in_model=in_model, gps=gps, seconds=seconds, **measured(folder, in_model, gps))
 
 
 def measured(folder: Path, in_model: bool, gps: bool) -> dict[str, Any]:
@@ -135,37 +149,22 @@ def _made(folder: Path) -> Path:
     return folder
 
 
-def rows(found: list[dict[str, Any]]) -> list[Row]:
+def rows(found: list[Outcome]) -> list[Row]:
     """A row for each kind of model, with and without GPS."""
     return [
         _row(
             in_model,
             gps,
-            [one for one in found if (one["in_model"], one["gps"]) == (in_model, gps)],
+            [one for one in found if (one.in_model, one.gps) == (in_model, gps)],
         )
         for in_model in (True, False)
         for gps in (True, False)
     ]
 
 
-def _row(in_model: bool, gps: bool, found: list[dict[str, Any]]) -> Row:
-    accepted = [one for one in found if one["accepted"]]
-    right = [one for one in accepted if one["error_m"] <= MOST_M and one["error_deg"] <= MOST_DEG]
-    wanted = len(right) >= WANTED * len(found) if in_model else not accepted
-    return {
-        "in the model": "yes" if in_model else "no",
-        "GPS": "5 m wrong" if gps else "none",
-        "streets": len(found),
-        "right": len(right),
-        "wrong": len(accepted) - len(right),
-        "refused": len(found) - len(accepted),
-        "met": "yes" if wanted and len(right) == len(accepted) else "**missed**",
-        "median m": float(np.median([one["error_m"] for one in accepted])) if accepted else None,
-        "largest m": max((one["error_m"] for one in accepted), default=None),
-        "largest degrees": max((one["error_deg"] for one in accepted), default=None),
-        "fewest photos placed": min((one["placed"] for one in accepted), default=None),
-        "s": float(np.mean([one["seconds"] for one in found])),
-    }
+def _row(in_model: bool, gps: bool, found: list[Outcome]) -> Row:
+    fewest = min((one.placed for one in found if one.accepted), default=None)
+    return {**row_of(in_model, gps, found), "fewest photos placed": fewest}
 
 
 def main() -> None:
@@ -179,7 +178,8 @@ def main() -> None:
     found = []
     for seed in range(given.first, given.first + given.seeds):
         found += street(seed, given.work)
-        print(seed, json.dumps(found[-4:]), flush=True)
+        for one in found[-4:]:
+            print(seed, one, flush=True)
     keep_or_print("registration-rendered", rows(found), NOTES, given.keep)
 
 

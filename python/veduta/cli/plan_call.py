@@ -17,8 +17,8 @@ Drawings = Annotated[
         metavar="IMAGE...",
         help_behavior_hint="",
         help=(
-            "drawings of the storeys, the lowest first: pictures, or PDFs with a storey on each"
-            " page; or a plan.json to rebuild from"
+            "drawings of the storeys, the lowest first: pictures, DXF files, or PDFs with a storey"
+            " on each page; or a plan.json to rebuild from"
         ),
     ),
 ]

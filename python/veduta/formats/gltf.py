@@ -5,7 +5,7 @@ material; faces have flat normals; no vertex is shared between features. The fea
 `scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
 of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
 Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
-(`gltf_movers`).
+(`gltf_movers`). Tours are cameras that move (`gltf_camera`).
 """
 
 from __future__ import annotations
@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import math
 import struct
+from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
 from typing import Any
@@ -21,10 +22,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.gltf_bin import GltfBin, y_up
+from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import add_instances
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
 from veduta.imaging.encode import jpeg_bytes, mask_bytes
+from veduta.place.camera_path import CameraPath
 from veduta.place.material import Texture
 from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
@@ -38,13 +41,13 @@ _BESIDE_UV = 1e-3
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 
 
-def write_glb(part: Part, path: Path) -> None:
-    """Write the part; the file appears whole or not at all."""
-    write_bytes(path, glb_bytes(part))
+def write_glb(part: Part, path: Path, tours: Sequence[CameraPath] = ()) -> None:
+    """Write the part and the tours through it; the file appears whole or not at all."""
+    write_bytes(path, glb_bytes(part, tours))
 
 
-def glb_bytes(part: Part) -> bytes:
-    """The part as a GLB file's content."""
+def glb_bytes(part: Part, tours: Sequence[CameraPath] = ()) -> bytes:
+    """The part, and the tours through it, as a GLB file's content."""
     binary = GltfBin()
     root: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "veduta"},
@@ -77,6 +80,8 @@ def glb_bytes(part: Part) -> bytes:
     add_movers(root, part, primitives_of, binary)
     if part.instances is not None:
         add_instances(root, part.instances, materials.number, binary)
+    for tour in tours:
+        add_camera(root, tour, binary)
     root["bufferViews"] = binary.views
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))

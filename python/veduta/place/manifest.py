@@ -94,6 +94,44 @@ class PlaceCamera(_Record):
     transform: Matrix = Field(description="world_from_camera, 4x4, column-major")
 
 
+class TourStretch(_Record):
+    """A time of a tour in one room, or in none (`room` is null)."""
+
+    room: str | None = Field(default=None, max_length=256, description="id in the document")
+    name: str = Field(max_length=256, description="what the room is called")
+    start_s: Finite
+    end_s: Finite
+
+
+class Tour(_Record):
+    """A guided tour: where the eye is and looks, key by key.
+
+    Between two keys the eye moves on a straight line, and the direction turns the shorter way at an
+    even pace.
+    """
+
+    id: str = Field(min_length=1, max_length=256)
+    name: str
+    times_s: list[Finite] = Field(min_length=2, max_length=100_000, description="ascending, from 0")
+    eyes: list[Vector] = Field(description="one for each time (m, world frame)")
+    directions: list[Vector] = Field(description="unit vectors, one for each time")
+    stretches: list[TourStretch] = Field(
+        default=[], max_length=10_000, description="the rooms passed, in the order of the tour"
+    )
+
+    @model_validator(mode="after")
+    def _columns_belong_together(self) -> Self:
+        count = len(self.times_s)
+        if len(self.eyes) != count or len(self.directions) != count:
+            raise ValueError(f"tour {self.id!r} has not one eye and one direction for each time")
+        times = np.array(self.times_s)
+        if times[0] != 0.0 or (np.diff(times) <= 0.0).any():
+            raise ValueError(f"the times of tour {self.id!r} do not ascend from 0")
+        if np.abs(np.linalg.norm(self.directions, axis=1) - 1.0).max() > 1e-3:
+            raise ValueError(f"the directions of tour {self.id!r} are no unit vectors")
+        return self
+
+
 class Start(_Record):
     """Where a visitor begins (m, world frame)."""
 
@@ -115,6 +153,7 @@ class Place(_Record):
     )
     points: list[PlacePoints] = Field(default=[], max_length=1000)
     cameras: list[PlaceCamera] = Field(default=[], max_length=100_000)
+    tours: list[Tour] = Field(default=[], max_length=100)
     scale: Literal["metres", "unknown"] = Field(
         default="metres", description="unknown: the unit of length is not the metre, but any"
     )
@@ -122,7 +161,9 @@ class Place(_Record):
 
     @model_validator(mode="after")
     def _ids_are_unique(self) -> Self:
-        for kind, items in (("parts", self.parts), ("cameras", self.cameras)):
+        for kind, items in (
+            ("parts", self.parts), ("cameras", self.cameras), ("tours", self.tours)
+        ):  # fmt: skip
             seen: set[str] = set()
             for item in items:
                 if item.id in seen:
@@ -131,18 +172,18 @@ class Place(_Record):
         return self
 
 
-Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera)
+Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour)
 _FILES = {"model", "city_model", "document", "photo", "file", "picture"}
 
 
 def merge(first: Place, second: Place, second_folder: str = "") -> Place:
     """Join two places into one in the frame of the first.
 
-    The rule: both are in the same CRS (or both in none), and both have a scale. Parts, points and
-    cameras of the second move by the difference of the origins, and their files are looked for
-    below `second_folder`. One that both have under one id is kept once if it is the same in all
-    that it says, and refused otherwise: an id names one thing. They keep their order, the first
-    place's before the second's; the start is the first's.
+    The rule: both are in the same CRS (or both in none), and both have a scale. Parts, points,
+    cameras and tours of the second move by the difference of the origins, and their files are
+    looked for below `second_folder`. One that both have under one id is kept once if it is the same
+    in all that it says, and refused otherwise: an id names one thing. They keep their order, the
+    first place's before the second's; the start is the first's.
     """
     if first.crs != second.crs:
         raise InputError(
@@ -161,6 +202,7 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
         "parts": _joined("part", first.parts, second.parts, shift, second_folder),
         "points": _joined("cloud", first.points, second.points, shift, second_folder),
         "cameras": _joined("camera", first.cameras, second.cameras, shift, second_folder),
+        "tours": _joined("tour", first.tours, second.tours, shift, second_folder),
         "tileset": None,  # the tiles of one do not show the other
     }
     return first.model_copy(update=update)
@@ -183,10 +225,14 @@ def _joined(
 
 
 def _moved(item: Item, shift_m: list[float], folder: str) -> Item:
+    update: dict[str, object]
+    if isinstance(item, Tour):
+        update = {"eyes": (np.array(item.eyes) + shift_m).tolist()}
+        return type(item).model_validate(item.model_dump() | update)
     transform = list(item.transform)
     for axis in range(3):
         transform[12 + axis] += shift_m[axis]
-    update: dict[str, object] = {"transform": tuple(transform)}
+    update = {"transform": tuple(transform)}
     for field in _FILES & set(type(item).model_fields):
         path = getattr(item, field)
         if path is not None and folder:

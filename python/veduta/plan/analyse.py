@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,7 +24,10 @@ from veduta.plan.registering import registered
 from veduta.plan.remarks import remarks
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
 from veduta.plan.sheets import Pixels
+from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
+from veduta.plan.vector.open_dxf import is_dxf
+from veduta.plan.vector.read import VectorPlan, read_vectors
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -52,7 +55,8 @@ def read_drawings(
     for index, drawing in enumerate(drawings):
         name = _NAMES[index] if index < len(_NAMES) else f"floor {index}"
         elevation = index * options.house.storey_height
-        storey, pixels = _read_one(drawing, name, elevation, options, steps, progress)
+        read = _read_vectors if is_dxf(drawing.path) else _read_one
+        storey, pixels = read(drawing, name, elevation, options, steps, progress)
         storeys.append(storey)
         sheets.append(pixels)
     return ReadPlan(PlanDocument(storeys=registered(storeys)), sheets)
@@ -87,6 +91,7 @@ def _read_one(
     progress("scale and names", 0.0)
     with timed_step(steps, "scale and names") as step:
         scale = _scale(drawn, options, scan)
+        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
         named = _names(drawn, scale.metres_per_px)
         step.counts["evidence"] = len(scale.evidence)
     storey = compose_storey(
@@ -109,6 +114,64 @@ def _read_one(
     )
     of_file = sheet_of_file(storey.sheet, sheet)
     return storey.model_copy(update={"sheet": of_file}), drawn.cleaned.pixels
+
+
+def _read_vectors(
+    drawing: Drawing,
+    name: str,
+    elevation_m: float,
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> tuple[Storey, Pixels]:
+    """As `_read_one`, of a DXF file: the frame of its sheet's file is that of drawing units."""
+    given = options.scale.scale
+    progress(f"read {drawing.label}", 0.0)
+    with timed_step(steps, f"read {drawing.label}") as step:
+        plan = read_vectors(drawing.path, None if given is None else given / 1000.0)
+        drawn = plan.drawn
+        step.counts |= plan.counts | {
+            "walls": len(drawn.walls),
+            "openings": len(drawn.openings),
+            "rooms": len(drawn.rooms),
+        }
+    progress("scale and names", 0.0)
+    with timed_step(steps, "scale and names") as step:
+        scale = _vector_scale(plan)
+        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
+        named = _names(drawn, scale.metres_per_px)
+        step.counts["evidence"] = len(scale.evidence)
+    storey = compose_storey(
+        drawn,
+        scale,
+        file=drawing.path.name,
+        sha256=plan.sha256,
+        name=name,
+        elevation_m=elevation_m,
+        height_m=options.house.storey_height,
+        named=named,
+        notes=[*plan.notes, *remarks(drawn, None, scale.metres_per_px), *_strays(drawn)],
+    )
+    return storey, drawn.cleaned.pixels
+
+
+def _vector_scale(plan: VectorPlan) -> Scale:
+    """Of a pixel: the unit's, with what the texts say beside it; they are rounded."""
+    drawn, unit = plan.drawn, plan.unit
+    metres_per_px = unit.metres_per_px / plan.px_per_unit
+    sizes = DrawnSizes(
+        rooms=[room.outline_px for room in drawn.rooms],
+        doors=[],
+        walls=[wall.thickness_px for wall in drawn.walls],
+        ink=drawn.cleaned.ink,
+        texts=drawn.texts,
+    )
+    own = [
+        one.model_copy(update={"metres_per_px": one.metres_per_px / plan.px_per_unit})
+        for one in unit.evidence
+    ]
+    told = [one for one in estimate_scale(sizes, metres_per_px).evidence if one.kind != "given"]
+    return unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
 
 
 def _remedy(drawing: Drawing) -> str:

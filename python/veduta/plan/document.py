@@ -50,7 +50,10 @@ class Sheet(_Record):
         ),
     )
     clean_from_scan: list[list[float]] = Field(
-        description="3x3 affine matrix, row major; takes pixels of the file to cleaned pixels"
+        description=(
+            "3x3 affine matrix, row major; takes pixels of the file (units of a DXF, y up) to"
+            " cleaned pixels"
+        )
     )
     origin_px: Point = Field(description="cleaned pixel at (0, 0) of the plan frame")
     metres_per_px: Annotated[float, Field(gt=0.0, le=10.0)]
@@ -59,10 +62,12 @@ class Sheet(_Record):
 class ScaleEvidence(_Record):
     """One thing on the sheet that says how large a pixel is."""
 
-    kind: Literal["dimension", "area", "line", "bar", "ratio", "door", "given", "assumed"] = Field(
+    kind: Literal[
+        "dimension", "area", "line", "bar", "ratio", "door", "units", "given", "assumed"
+    ] = Field(
         description=(
             "sides of a room; its area; a dimension line; a scale bar; 1:N with a resolution;"
-            " widths of doors; --scale; a guess"
+            " widths of doors; units of a DXF; --scale; a guess"
         )
     )
     text: str = Field(default="", description="as it was read")

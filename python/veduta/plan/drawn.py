@@ -109,13 +109,17 @@ class DrawnRoom:
 
 @dataclass(frozen=True)
 class DrawnStairs:
-    """A flight of stairs; `up_px` has length 1, or is (0, 0) where no arrow is drawn."""
+    """A flight of stairs; `up_px` has length 1, or is (0, 0) where no arrow is drawn.
+
+    `across`: its treads are upright lines, so that it runs along x.
+    """
 
     id: str
     outline_px: NDArray[np.float64]
     treads: int
     up_px: tuple[float, float]
     score: float
+    across: bool = False
 
 
 @dataclass(frozen=True)

@@ -53,8 +53,8 @@ class ScaleOptions(Options):
     scale: Annotated[float, Field(gt=0.0, le=10_000.0)] | None = Field(
         default=None,
         description=(
-            "millimetres of the house that a pixel of the drawing stands for; by what the drawing"
-            " says if not given"
+            "millimetres of the house that a pixel of the drawing (a unit of a DXF) stands for; by"
+            " what the drawing says if not given"
         ),
     )
 
@@ -89,6 +89,10 @@ class HouseOptions(Options):
     )
     doors: Literal["open", "closed"] = Field(
         default="open", description="how doors stand in the model; each can be opened in any case"
+    )
+    no_tour: bool = Field(default=False, description="make no guided tour")
+    tour_speed: Annotated[float, Field(ge=0.3, le=3.0)] = Field(
+        default=1.2, description="how fast the tour walks (m/s)"
     )
 
 

@@ -1,4 +1,4 @@
-"""The drawings that files hold: a picture is one, a PDF has one on each page that was asked for."""
+"""The drawings that files hold: a picture or a DXF is one, a PDF has one on each page asked for."""
 
 from __future__ import annotations
 
@@ -69,8 +69,8 @@ def drawing_label(file: str, page: int) -> str:
 def find_drawings(paths: Sequence[Path], pages: Sequence[int] | None = None) -> list[Drawing]:
     """The drawings of all files in their order; of PDFs these pages (from 1), or all of them.
 
-    Raises InputError where a PDF cannot be opened or lacks a page, and where there are more than
-    `MOST_DRAWINGS` in all. Nothing is rendered.
+    A DXF file is one drawing. Raises InputError where a PDF cannot be opened or lacks a page, and
+    where there are more than `MOST_DRAWINGS` in all. Nothing is rendered.
     """
     found: list[Drawing] = []
     for path in paths:

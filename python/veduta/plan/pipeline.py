@@ -13,12 +13,13 @@ from typing import Any
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
-from veduta.plan.house.build import build_house
+from veduta.plan.house.build import House, build_house
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import PlanOptions
+from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.tour.find import Tour, find_tour
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError, NotFoundError
@@ -29,7 +30,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "2"
+VERSION = "3"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -183,9 +184,28 @@ def _house(
             "triangles": len(part.triangles.indices),
         }
         step.rejected.extend(part.notes)
+    tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
     progress("drawings", 0.0)
     with timed_step(steps, "drawings"):
-        return result_of(document, house, sheets)
+        return result_of(document, house, tour, sheets)
+
+
+def _tour(
+    house: House, options: HouseOptions, steps: list[StepRecord], progress: StepProgress
+) -> Tour | None:
+    progress("tour", 0.0)
+    with timed_step(steps, "tour") as step:
+        tour = find_tour(house, options.tour_speed)
+        if tour is None:
+            step.rejected.append("there is no tour: no room has a floor on which one can stand")
+            return None
+        step.counts |= {
+            "rooms": len({stretch.room for stretch in tour.stretches} - {None}),
+            "metres": round(tour.length_m),
+            "seconds": round(float(tour.path.times_s[-1])),
+        }
+        step.rejected.extend(tour.notes)
+    return tour
 
 
 def _tell(result: PlanResult, opened: OutFolder) -> None:

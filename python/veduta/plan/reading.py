@@ -7,7 +7,8 @@ find rooms.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,8 +23,20 @@ from veduta.plan.openings.evidence import Sheet, look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.rooms.mend import mended
-from veduta.plan.walls.axes import axes_of
+from veduta.plan.stairs.find import find_flights
+from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.find import Found, find_walls
+
+
+@dataclass(frozen=True)
+class KnownWalls:
+    """Of a sheet that was drawn from vectors: `solid` (h, w) is the mask of all wall, or None.
+
+    `settle` lays the axes that were found onto the lines that they were drawn by.
+    """
+
+    solid: NDArray[np.bool_] | None
+    settle: Callable[[Sequence[Axis]], Sequence[Axis]]
 
 
 def read_storey(
@@ -44,15 +57,26 @@ def read_storey(
 
 
 def read_cleaned(
-    cleaned: Cleaned, texts: Sequence[Text] = (), metres_per_px_hint: float | None = None
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    metres_per_px_hint: float | None = None,
+    known: KnownWalls | None = None,
 ) -> Drawn:
-    """As `read_storey`, of a cleaned sheet; texts are in its pixels."""
-    found = find_walls(cleaned, texts)
+    """As `read_storey`, of a cleaned sheet; texts are in its pixels.
+
+    `stairs` of the result are all that look like flights: `stairs.find.true_flights` tells which of
+    them are, by the scale.
+
+    `known` walls are not looked for in the ink.
+    """
+    flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
+    found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
-    return drawn_from(cleaned, found, whole.axes, texts, whole.notes)
+    settled = known.settle(whole.axes) if known else whole.axes
+    return replace(drawn_from(cleaned, found, settled, texts, whole.notes), stairs=flights)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -29,10 +29,13 @@ _SHOWN = 8
 _EDGES = {"left": (-1, 0), "right": (1, 0), "upper": (0, -1), "lower": (0, 1)}
 
 
-def remarks(drawn: Drawn, scan_size_px: Sequence[int], metres_per_px: float) -> list[str]:
-    """The notes of a storey. `scan_size_px` is (height, width) before it was laid straight."""
+def remarks(drawn: Drawn, scan_size_px: Sequence[int] | None, metres_per_px: float) -> list[str]:
+    """The notes of a storey. `scan_size_px` is (height, width) before it was laid straight.
+
+    Vectors have no sheet that could cut them off, and no size of it.
+    """
     return [
-        *_cut(drawn, scan_size_px),
+        *(_cut(drawn, scan_size_px) if scan_size_px is not None else ()),
         *_apart(drawn, metres_per_px),
         *_closed_in(drawn, metres_per_px),
     ]

@@ -14,7 +14,7 @@ from veduta.imaging.encode import jpeg_bytes
 from veduta.plan.document import PlanDocument, Storey
 from veduta.plan.pages import drawing_label
 from veduta.plan.sheets import sheet_name
-from veduta.plan.writing import Result
+from veduta.plan.writing import TOUR_PICTURE, Result
 from veduta.run.options import Options
 from veduta.run.page import Bars, Page, Picture, Table, render
 from veduta.run.report import Failure, Report, StepRecord, counted
@@ -25,8 +25,9 @@ FILES = (
     ("plan.svg", "the plan as a drawing"),
     ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms"),
     ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
-    ("house.glb", "the house as glTF 2.0, each leaf of a door with an animation"),
-    ("place.json", "the house as a place, for `veduta view`"),
+    ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
+    ("place.json", "the house as a place with its tour, for `veduta view`"),
+    ("tour.png", "the plan with the way of the tour"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
 )
 THUMBNAIL_PX = 1200
@@ -82,7 +83,8 @@ def plan_report(
     """The report of a plan that became a house, and its page."""
     document, part = result.document, result.house.part
     storey_notes = [f"{s.name}: {note}" for s in document.storeys for note in s.notes]
-    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes])
+    tour_notes = () if result.tour is None else result.tour.notes
+    said = dict.fromkeys([*notes, *document.notes, *storey_notes, *part.notes, *tour_notes])
     found = measures(document)
     report = Report(
         verb="plan",
@@ -140,6 +142,9 @@ def _facts(document: PlanDocument, found: dict[str, Any]) -> list[tuple[str, str
 def _pictures(result: Result) -> list[Picture]:
     found = "Walls, doors, windows and rooms over the drawing. A question mark: doubtful."
     pictures = [_picture("Found", found, result.overlay, "overlay.png")]
+    if result.tour_picture is not None:
+        way = "From blue to red. Thin lines: where one looks. Numbers: the order of the rooms."
+        pictures.append(_picture("Tour", way, result.tour_picture, TOUR_PICTURE))
     for index, (storey, pixels) in enumerate(
         zip(result.document.storeys, result.sheets, strict=True)
     ):

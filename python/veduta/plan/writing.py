@@ -15,33 +15,48 @@ from veduta.imaging.encode import png_bytes
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import draw
 from veduta.plan.house.build import House
-from veduta.plan.house.placing import place_of
+from veduta.plan.house.placing import place_of, raised_m
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.sheets import sheet_name
+from veduta.plan.tour.find import Tour
+from veduta.plan.tour.placing import placed_tour
 
 MODEL = "house.glb"
+TOUR_PICTURE = "tour.png"
 
 
 @dataclass(frozen=True)
 class Result:
-    """What was made: sheets are the cleaned drawings, overlay the picture that shows all."""
+    """What was made: sheets are the cleaned drawings, overlay the picture that shows all.
+
+    tour_picture: the plan with the tour; None without one.
+    """
 
     document: PlanDocument
     house: House
+    tour: Tour | None
     sheets: Sequence[NDArray[np.uint8]]
     overlay: NDArray[np.uint8]
+    tour_picture: NDArray[np.uint8] | None
 
 
-def result_of(document: PlanDocument, house: House, sheets: Sequence[NDArray[np.uint8]]) -> Result:
-    """With the overlay drawn; sheets in the order of the document's storeys."""
+def result_of(
+    document: PlanDocument,
+    house: House,
+    tour: Tour | None,
+    sheets: Sequence[NDArray[np.uint8]],
+) -> Result:
+    """With the pictures drawn; sheets in the order of the document's storeys."""
     drawings = {space.storey.name: draw(space) for space in house.spaces}
     ordered = [drawings[storey.name] for storey in document.storeys]
-    return Result(document, house, sheets, overlay(ordered, sheets))
+    shown = None if tour is None else tour_picture(ordered, tour)
+    return Result(document, house, tour, sheets, overlay(ordered, sheets), shown)
 
 
 def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
@@ -51,9 +66,13 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     for index, pixels in enumerate(result.sheets):
         (folder / sheet_name(index)).write_bytes(png_bytes(pixels, compress_level=3))
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
+    if result.tour_picture is not None:
+        (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))
     drawings = [draw(space) for space in result.house.spaces]
     (folder / "plan.svg").write_bytes(plan_svg(drawings))
     (folder / "plan.dxf").write_bytes(plan_dxf(drawings))
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
-    write_glb(result.house.part, folder / MODEL)
-    write_place(place_of(result.house, MODEL, DOCUMENT, options), folder / "place.json")
+    tour = result.tour
+    write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path])
+    tours = [] if tour is None else [placed_tour(tour, raised_m(result.house, options))]
+    write_place(place_of(result.house, MODEL, DOCUMENT, options, tours), folder / "place.json")

@@ -27,6 +27,10 @@ class InputError(VedutaError):
         return (type(self), (self.subject, self.fault, self.remedy))
 
 
+class UnwritableError(InputError):
+    """The system refuses to write the results: a full disk, a quota, permissions."""
+
+
 class NotFoundError(VedutaError):
     """The record is readable, but what the step looks for is not in it.
 

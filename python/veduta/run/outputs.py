@@ -32,7 +32,7 @@ from pydantic import JsonValue
 
 from veduta.run.atomic import sync_folder, sync_tree
 from veduta.run.digests import file_digest
-from veduta.run.errors import InputError
+from veduta.run.errors import InputError, UnwritableError
 from veduta.run.record import CALL, JOURNAL, PRIVATE, RECORD, Change, Item, RunRecord, load_record
 from veduta.run.report import Failure
 
@@ -100,7 +100,7 @@ class OutFolder:
     ) -> None:
         """Make the content of `work` the item's result; what the user edited stays.
 
-        InputError where the system refuses to write: the next run makes the item again.
+        UnwritableError where the system refuses to write: the next run makes the item again.
         """
         state: Literal["failed", "done"] = "failed" if failure else "done"
         result = Item(key=key, state=state, failure=failure, summary=summary or {})
@@ -213,7 +213,7 @@ def open_out(
             yield out
         except InputError as error:
             shutil.rmtree(work, ignore_errors=True)
-            if not isinstance(error.__cause__, OSError):  # a full disk: the call goes on from there
+            if not isinstance(error, UnwritableError):  # the same call goes on from there
                 _remove_bare(out, made=made)
             raise
         finally:
@@ -225,7 +225,7 @@ def open_out(
 
 @contextmanager
 def writing_to(out: Path) -> Iterator[None]:
-    """Turn what the system refuses (a full disk, a quota, permissions) into an InputError.
+    """Turn what the system refuses (a full disk, a quota, permissions) into an UnwritableError.
 
     It stands wherever something is written into OUT; `out` is what the message names.
     """
@@ -233,7 +233,7 @@ def writing_to(out: Path) -> Iterator[None]:
         yield
     except OSError as error:
         cure = "Make room there" if error.errno in _NO_ROOM else "Mend that"
-        raise InputError(
+        raise UnwritableError(
             out,
             f"cannot be written ({error.strerror or error})",
             f"{cure}: what is finished is on disk, and the same command goes on from there.",

@@ -79,7 +79,7 @@ export class HousePanel extends LitElement {
             doors: doors === "open" ? "approach" : "open",
           })
         : ""}
-      ${this.#switch("Map while walking", "A map of the storey on which you walk (G)", map, { map: !map })}
+      ${this.#switch("Map while walking", "A map of the storey on which you walk (K)", map, { map: !map })}
     `;
   }
 

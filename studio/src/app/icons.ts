@@ -21,5 +21,7 @@ export const icons = {
   eye: icon(svg`<path d="M3 12s3.3-5.6 9-5.6 9 5.6 9 5.6-3.3 5.6-9 5.6S3 12 3 12z"/><circle cx="12" cy="12" r="2.5"/>`),
   eyeOff: icon(svg`<path d="M4 4l16 16"/><path d="M9.6 6.7A9.4 9.4 0 0 1 12 6.4c5.7 0 9 5.6 9 5.6a16 16 0 0 1-2.6 3.2M6.3 8A15.5 15.5 0 0 0 3 12s3.3 5.6 9 5.6c1.2 0 2.3-.25 3.3-.65"/>`),
   projector: icon(svg`<path d="M3.5 9.5h9v7h-9z"/><circle cx="8" cy="13" r="1.6"/><path d="M12.5 11.5 20.5 7v12l-8-4.5"/>`),
+  play: icon(svg`<path d="M8 5.5v13l10.5-6.5z"/>`),
+  pause: icon(svg`<path d="M8.5 6v12M15.5 6v12"/>`),
   chevron: icon(svg`<path d="M9.5 6l6 6-6 6"/>`),
 };

@@ -6,6 +6,7 @@
 import type { Feature } from "../core/features.ts";
 import { roomsOf } from "../core/room-map.ts";
 import type { StudioState } from "../core/state.ts";
+import { stretchAt } from "../core/tour.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import { roomTitle } from "../core/whereabouts.ts";
@@ -35,6 +36,8 @@ export interface Inspection {
   photosShown(): { id: string; level: number }[];
   /** The photo whose pyramid a click there would choose; CSS pixels of the canvas. */
   photoUnder(x: number, y: number): string | null;
+  /** Where the guided tour is; null before it was begun. */
+  tour(): { time_s: number; playing: boolean; room: string } | null;
   bounds(): { min: Vec3; max: Vec3 };
   stats(): ViewerStats & { load_s: number };
 }
@@ -103,6 +106,13 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     photosShown: () =>
       viewer.shownPhotos.map(({ index, level }) => ({ id: place.shots[index]?.id ?? "", level })),
     photoUnder: (x, y) => place.shots[viewer.picker.shotAt(x, y) ?? -1]?.id ?? null,
+    tour: () => {
+      const { tour: at } = store.value;
+      const [tour] = place.tours;
+      return at === null || tour === undefined
+        ? null
+        : { ...at, room: stretchAt(tour, at.time_s)?.name ?? "" };
+    },
     bounds: () => viewer.solid.bounds,
     stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
   };

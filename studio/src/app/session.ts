@@ -13,6 +13,8 @@ export interface Session {
   readonly tables: readonly FeatureTable[];
   /** Those that one can walk in; empty where the place has none. */
   readonly houses: readonly House[];
+  /** Whether there are lamps in them. */
+  readonly hasLamps: boolean;
   readonly viewer: Viewer;
   readonly loadSeconds: number;
   /** A place that is streamed; its tables grow as tiles arrive. */
@@ -76,6 +78,7 @@ export async function openPlace(
     tables: town?.tables ?? parts.map(({ table }) => table),
     town,
     houses: houses.map(({ house }) => house),
+    hasLamps: houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0)),
     records: recordsOf(place, town !== null),
     nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,

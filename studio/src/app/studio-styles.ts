@@ -100,6 +100,18 @@ export const studioStyles = css`
     max-width: calc(100% - 2 * var(--edge) - 540px);
     min-width: 300px;
   }
+  veduta-tour-panel {
+    position: absolute;
+    bottom: calc(var(--edge) + 60px);
+    left: 50%;
+    transform: translateX(-50%);
+    width: 440px;
+    max-width: calc(100% - 2 * var(--edge));
+    box-sizing: border-box;
+  }
+  .hint.over-tour {
+    bottom: calc(var(--edge) + 120px);
+  }
   .hint {
     position: absolute;
     left: 50%;
@@ -141,6 +153,9 @@ export const studioStyles = css`
     veduta-minimap {
       bottom: calc(var(--edge) + 66px);
     }
+    veduta-minimap.over-tour {
+      bottom: calc(var(--edge) + 124px);
+    }
   }
   @media (max-width: 720px) {
     :host {
@@ -163,6 +178,10 @@ export const studioStyles = css`
       bottom: calc(var(--edge) + 84px);
       width: 150px;
       --map-height: 110px;
+    }
+    veduta-minimap.over-tour,
+    veduta-joystick.over-tour {
+      bottom: calc(var(--edge) + 144px);
     }
     veduta-feature-panel:not([hidden]) ~ veduta-minimap {
       display: none;

@@ -4,11 +4,12 @@ import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
 import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
-import { type Colouring, INITIAL_STATE, type Layer, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
+import { type Colouring, INITIAL_STATE, type Layer, NEXT_COLOURING, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
 import { Store } from "../core/store.ts";
 import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
+import { durationOf } from "../core/tour.ts";
 import "./feature-panel.ts";
 import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
@@ -31,13 +32,9 @@ import { shownFeature } from "./shown-feature.ts";
 import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
 import "./toolbar.ts";
+import "./tour-panel.ts";
+import { isTyping } from "./typing.ts";
 import { hintOf, titleOf } from "./words.ts";
-
-const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
-  photo: "class",
-  class: "provenance",
-  provenance: "photo",
-};
 
 export class Studio extends LitElement {
   static override properties = {
@@ -157,6 +154,7 @@ export class Studio extends LitElement {
     const state = this.#store.value;
     const shown = shownFeature(session, state.selected);
     const coarse = matchMedia("(pointer: coarse)").matches;
+    const overTour = session.place.tours.length > 0 ? "over-tour" : "";
     return html`
       <header class="brand sheet">
         <img src="./icon.svg" alt="" width="26" height="26" />
@@ -173,17 +171,18 @@ export class Studio extends LitElement {
       ${this.#photoPanel(session)}
       ${session.houses.length === 0
         ? nothing
-        : html`<veduta-minimap class="sheet" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
+        : html`<veduta-minimap class="sheet ${overTour}" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
             .houses=${session.houses} @go=${(event: CustomEvent<Vec3[]>) => session.viewer.goTo(event.detail)}></veduta-minimap>`}
+      ${this.#tourPanel(session)}
       ${state.mode === "walk" && coarse
-        ? html`<veduta-joystick
+        ? html`<veduta-joystick class=${overTour}
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
       ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
-        html`<p class="hint" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
+        html`<p class="hint ${overTour}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
       )}
       <veduta-help></veduta-help>
     `;
@@ -197,7 +196,7 @@ export class Studio extends LitElement {
     return html`
       <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
         <veduta-house ?hidden=${session.houses.length === 0} .state=${this.#store.value}
-          .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${hasLamps(session)}
+          .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${session.hasLamps}
           @change-state=${(event: CustomEvent<Partial<StudioState>>) => this.#store.update(event.detail)}></veduta-house>
         <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
           @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
@@ -223,6 +222,29 @@ export class Studio extends LitElement {
       @look-through=${() => this.#lookThrough(now)}
       @cover=${(event: CustomEvent<number>) => this.#store.update({ cover: event.detail })}
       @step-photo=${(event: CustomEvent<number>) => this.#stepPhoto(event.detail)}></veduta-photo-panel>`;
+  }
+
+  #tourPanel({ place }: Session): TemplateResult | typeof nothing {
+    const [tour] = place.tours;
+    if (tour === undefined) return nothing;
+    const { tour: at } = this.#store.value;
+    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tour=${tour} .at=${at}
+      @play-tour=${() => this.#toggleTour()}
+      @seek-tour=${(event: CustomEvent<number>) => this.#seekTour(event.detail)}></veduta-tour-panel>`;
+  }
+
+  /** Plays on from where it was left, from its beginning after its end. */
+  #toggleTour(): void {
+    const tour = this.session?.place.tours[0];
+    if (tour === undefined) return;
+    const at = this.#store.value.tour ?? { time_s: 0, playing: false };
+    const time_s = at.time_s >= durationOf(tour) ? 0 : at.time_s;
+    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { time_s, playing: !at.playing } });
+  }
+
+  #seekTour(time_s: number): void {
+    const playing = this.#store.value.tour?.playing ?? false;
+    this.#store.update({ mode: "walk", shot: null, tour: { time_s, playing } });
   }
 
   /** What of a streamed place is drawn now, as the panel counts it. */
@@ -301,6 +323,7 @@ export class Studio extends LitElement {
       lights: () => this.#changeHouse("lights"),
       doors: () => this.#changeHouse("doors"),
       map: () => this.#changeHouse("map"),
+      tour: () => this.#toggleTour(),
       close: () => this.#close(),
     };
     actions[command]();
@@ -370,16 +393,6 @@ export class Studio extends LitElement {
     clearTimeout(this.#noticeTimer);
     this.#noticeTimer = window.setTimeout(() => (this.notice = ""), 2500);
   }
-}
-
-function hasLamps({ houses }: Session): boolean {
-  return houses.some(({ storeys }) => storeys.some(({ lamps }) => lamps.length > 0));
-}
-
-/** Keys pressed in a field or on a switch belong to it, except those that no control uses. */
-function isTyping(event: KeyboardEvent): boolean {
-  const target = event.composedPath()[0];
-  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
 }
 
 customElements.define("veduta-studio", Studio);

@@ -13,7 +13,8 @@ export interface Doorway {
 
 export interface Visitor {
   readonly feet: Vec3;
-  readonly heading: Heading;
+  /** Null for whoever goes on wherever he looks, as on a tour. */
+  readonly heading: Heading | null;
 }
 
 /** Two metres are walked in a second, and a leaf takes no longer: nobody has to stop. */
@@ -40,6 +41,7 @@ export function isWanted(doorway: Doorway, { feet, heading }: Visitor, isOpen: b
   if (isOpen) return before < LEAVE_M && beside < 2 * BESIDE_M;
   if (beside < BESIDE_M / 2 && before < TOUCH_M) return true;
   if (beside > BESIDE_M || before > APPROACH_M) return false;
+  if (heading === null) return true;
   const ahead = directionOf({ yaw: heading.yaw, pitch: 0 });
   return x * ahead[0] + y * ahead[1] > LOOKS_TO * Math.hypot(x, y);
 }

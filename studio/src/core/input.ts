@@ -18,6 +18,7 @@ export type Command =
   | "lights"
   | "doors"
   | "map"
+  | "tour"
   | "help"
   | "close";
 
@@ -57,7 +58,8 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyX"], action: "daylight", shown: "X", text: "In a house: day or night" },
   { codes: ["KeyI"], action: "lights", shown: "I", text: "In a house: lamps go on where you come in, all on, all off" },
   { codes: ["KeyO"], action: "doors", shown: "O", text: "In a house: doors open as you come, or all stand open" },
-  { codes: ["KeyG"], action: "map", shown: "G", text: "In a house: the map, while walking" },
+  { codes: ["KeyK"], action: "map", shown: "K", text: "In a house: the map, while walking" },
+  { codes: ["KeyG"], action: "tour", shown: "G", text: "Play or pause the guided tour" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

@@ -4,6 +4,7 @@ import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
 import type { Layer } from "./state.ts";
+import { readTour, type Tour } from "./tour.ts";
 import type { Vec3 } from "./vector.ts";
 
 export interface Part {
@@ -50,6 +51,7 @@ export interface Place {
   readonly parts: readonly Part[];
   readonly clouds: readonly Cloud[];
   readonly shots: readonly Shot[];
+  readonly tours: readonly Tour[];
   /** Whether lengths are metres. */
   readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
@@ -61,6 +63,7 @@ export interface Place {
 const MOST_PARTS = 10_000;
 const MOST_CLOUDS = 1000;
 const MOST_SHOTS = 100_000;
+const MOST_TOURS = 100;
 /** The part that holds the walls which `veduta photos` found in the points. */
 const WALLS = "walls";
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -80,6 +83,7 @@ export function readPlace(text: string, file: string): Place {
   const parts = list(manifest.parts, MOST_PARTS, "parts", broken);
   const clouds = list(manifest.points ?? [], MOST_CLOUDS, "clouds of points", broken);
   const shots = list(manifest.cameras ?? [], MOST_SHOTS, "cameras", broken);
+  const tours = list(manifest.tours ?? [], MOST_TOURS, "tours", broken);
   if (parts.length + clouds.length === 0) throw broken("the place has no parts");
   const start = record(manifest.start, () => broken("it does not say where to start"));
   return {
@@ -87,6 +91,7 @@ export function readPlace(text: string, file: string): Place {
     parts: parts.map((part, index) => readPart(part, `part ${index + 1}`, broken)),
     clouds: clouds.map((cloud, index) => readCloud(cloud, `cloud ${index + 1}`, broken)),
     shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
+    tours: tours.map((tour, index) => readTour(tour, `tour ${index + 1}`, broken)),
     scaleKnown: manifest.scale !== "unknown",
     start: {
       eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),

@@ -1,6 +1,7 @@
 /** What the person has chosen to see. */
 import type { SemanticClass } from "./classes.ts";
 import { DAY_HOUR } from "./daylight.ts";
+import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
@@ -10,6 +11,13 @@ export type DoorHabit = "approach" | "open";
 /** Lamps go on in the room that one comes into, or all are on, or off. */
 export type LightHabit = "auto" | "on" | "off";
 export type Colouring = "photo" | "class" | "provenance";
+
+/** In the order in which a key goes through them. */
+export const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
+  photo: "class",
+  class: "provenance",
+  provenance: "photo",
+};
 
 /** A feature of the place: which part, and which row of the part's table. */
 export interface FeatureRef {
@@ -38,6 +46,8 @@ export interface StudioState {
   /** Time of the day by the sun, 0 to 24. */
   readonly hour: number;
   readonly map: boolean;
+  /** Null before the tour was begun. */
+  readonly tour: TourState | null;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -56,6 +66,7 @@ export const INITIAL_STATE: StudioState = {
   lights: "auto",
   hour: DAY_HOUR,
   map: true,
+  tour: null,
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

@@ -61,6 +61,10 @@ export interface Place {
    */
   cameras?: PlaceCamera[];
   /**
+   * @maxItems 100
+   */
+  tours?: Tour[];
+  /**
    * unknown: the unit of length is not the metre, but any
    */
   scale?: "metres" | "unknown";
@@ -244,6 +248,50 @@ export interface PlaceCamera {
     number,
     number
   ];
+}
+/**
+ * A guided tour: where the eye is and looks, key by key. Between two keys the eye moves on a
+ * straight line, and the direction turns the shorter way at an even pace.
+ */
+export interface Tour {
+  id: string;
+  name: string;
+  /**
+   * ascending, from 0
+   *
+   * @minItems 2
+   * @maxItems 100000
+   */
+  times_s: [number, number, ...number[]];
+  /**
+   * one for each time (m, world frame)
+   */
+  eyes: [number, number, number][];
+  /**
+   * unit vectors, one for each time
+   */
+  directions: [number, number, number][];
+  /**
+   * the rooms passed, in the order of the tour
+   *
+   * @maxItems 10000
+   */
+  stretches?: TourStretch[];
+}
+/**
+ * A time of a tour in one room, or in none (`room` is null).
+ */
+export interface TourStretch {
+  /**
+   * id in the document
+   */
+  room?: string | null;
+  /**
+   * what the room is called
+   */
+  name: string;
+  start_s: number;
+  end_s: number;
 }
 /**
  * Where a visitor begins (m, world frame).

@@ -54,7 +54,8 @@ export class Household {
   /** True for each of doors and lamps while it changes. */
   advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): { doors: boolean; lamps: boolean } {
     const walks = state.mode === "walk";
-    const doors = this.#doors?.advance(walks ? walker : null, state.doors === "open", seconds) ?? false;
+    const heading = state.tour?.playing === true ? null : walker.heading;
+    const doors = this.#doors?.advance(walks ? { feet: walker.feet, heading } : null, state.doors === "open", seconds) ?? false;
     const here = walks ? this.whereabouts(walker.feet) : null;
     let lamps = false;
     for (const [house, lights] of this.#lights.entries()) {

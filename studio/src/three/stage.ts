@@ -1,12 +1,13 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
 import { daylightAt } from "../core/daylight.ts";
+import { drawnFaces } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
-import type { StudioState } from "../core/state.ts";
+import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
@@ -125,6 +126,24 @@ export class Stage {
       this.appearance.outlineSelected(state.selected);
     }
     return doors || lamps;
+  }
+
+  /** True while a photo comes or goes. */
+  fade(state: StudioState, pose: { readonly eye: Vec3; readonly direction: Vec3 }, seconds: number): boolean {
+    const walks = state.mode === "walk" && state.shot === null && state.fading;
+    const appears = this.#content.frusta?.advance(seconds, state.projected !== null) ?? false;
+    return (this.photos?.advance(state, walks ? pose : null, seconds) ?? false) || appears;
+  }
+
+  outline(selected: FeatureRef | null): void {
+    const { outline } = this.appearance;
+    if (this.#town === null) {
+      this.appearance.outlineSelected(selected);
+      return;
+    }
+    const faces = selected === null ? null : this.#town.facesOf(selected);
+    if (faces === null) outline.clear();
+    else outline.showFaces(drawnFaces(faces));
   }
 
   /** Sets the time of the day; 0 to 24. */

@@ -1,10 +1,10 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
-import { drawnFaces, worldFromDrawn } from "../core/frames.ts";
+import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import type { Place } from "../core/place.ts";
-import { type FeatureRef, type StudioState, throughPhoto } from "../core/state.ts";
+import { type StudioState, throughPhoto } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
@@ -18,6 +18,7 @@ import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
 import { Screen } from "./screen.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
+import { TourGuide } from "./tour-guide.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
 
@@ -46,6 +47,7 @@ export class Viewer {
   readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
   readonly #orbit: OrbitRig;
   readonly #walk: WalkRig;
+  readonly #guide: TourGuide | null;
   readonly #pointer: CanvasPointer;
   /** What is under a point of the canvas. */
   readonly picker: Picker;
@@ -74,6 +76,8 @@ export class Viewer {
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
     this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
+    const tour = place.tours[0];
+    this.#guide = tour === undefined ? null : new TourGuide(tour, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
@@ -115,6 +119,7 @@ export class Viewer {
   /** Puts the walker at the first of these places (feet) where nothing is in the way. */
   goTo(places: readonly Vec3[]): void {
     if (!this.#walk.goTo(places)) return;
+    this.#guide?.stop();
     setPose(this.#camera, this.#walk.pose(this.#camera));
     this.invalidate();
   }
@@ -186,6 +191,7 @@ export class Viewer {
       return;
     }
     if (this.#store.value.mode === "walk") {
+      this.#guide?.stop();
       this.#walk.restart();
       this.#fly(this.#walk.pose(this.#camera));
       return;
@@ -230,7 +236,7 @@ export class Viewer {
     const moves = [
       this.#advance(seconds),
       this.#stage.advance(this.#store.value, this.walker, this.pose.eye, Math.min(seconds, 0.1)),
-      this.#fade(Math.min(seconds, 0.1)),
+      this.#stage.fade(this.#store.value, this.pose, Math.min(seconds, 0.1)),
     ];
     const goesOn = moves.includes(true);
     this.#screen.sharpen(goesOn ? this.#pace.sharpness : 1);
@@ -248,6 +254,14 @@ export class Viewer {
     const wish = wishOf(this.#held, this.#stick);
     if (this.#store.value.shot !== null) return false;
     if (this.#store.value.mode === "walk") {
+      const steered = turn.left !== 0 || turn.up !== 0 || wish.forward !== 0 || wish.right !== 0;
+      if (this.#guide?.isPlaying === true && !steered) {
+        const { eye, direction } = this.#guide.advance(seconds);
+        this.#walk.place(eye, direction);
+        setPose(this.#camera, this.#walk.pose(this.#camera));
+        return true;
+      }
+      this.#guide?.stop();
       const moves = this.#walk.advance(wish, turn, seconds);
       setPose(this.#camera, this.#walk.pose(this.#camera));
       return moves;
@@ -257,15 +271,6 @@ export class Viewer {
       this.#orbit.steer(turn.left - wish.right, turn.up, wish.forward, Math.min(seconds, 0.1));
     }
     return this.#orbit.advance() || steering;
-  }
-
-  /** True while a photo comes or goes. */
-  #fade(seconds: number): boolean {
-    const state = this.#store.value;
-    const { eye, direction } = this.pose;
-    const walks = state.mode === "walk" && state.shot === null && state.fading;
-    const appears = this.#frusta?.advance(seconds, state.projected !== null) ?? false;
-    return (this.#stage.photos?.advance(state, walks ? { eye, direction } : null, seconds) ?? false) || appears;
   }
 
   #draw(): void {
@@ -287,28 +292,28 @@ export class Viewer {
   }
 
   #follow(now: StudioState, before: StudioState): void {
+    if (now.tour !== before.tour) this.#goOnTour(now, before);
     if (now.mode !== before.mode) this.#changeMode(now.mode);
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
     if (shows || now.shot !== before.shot) this.#stage.showLayers(now);
     if (now.hour !== before.hour) this.#stage.light(now.hour);
     if (this.#town !== null) this.#town.show(now);
-    if (now.selected !== before.selected) this.#outline(now.selected);
+    if (now.selected !== before.selected) this.#stage.outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {
       this.#stage.appearance.tint(now);
     }
     this.invalidate();
   }
 
-  #outline(selected: FeatureRef | null): void {
-    const { outline } = this.#stage.appearance;
-    if (this.#town === null) {
-      this.#stage.appearance.outlineSelected(selected);
-      return;
-    }
-    const faces = selected === null ? null : this.#town.facesOf(selected);
-    if (faces === null) outline.clear();
-    else outline.showFaces(drawnFaces(faces));
+  /** To where the person wants the tour to go on; whoever leaves it stays where he is. */
+  #goOnTour(now: StudioState, before: StudioState): void {
+    const view = this.#guide?.wished(now.tour) ?? null;
+    if (view === null) return;
+    this.#walk.place(view.eye, view.direction);
+    if (now.mode !== "walk" || before.mode !== "walk") return; // the change of mode flies there
+    if (now.tour?.playing === true) this.#fly(this.#walk.pose(this.#camera));
+    else setPose(this.#camera, this.#walk.pose(this.#camera));
   }
 
   #changeMode(mode: StudioState["mode"]): void {
@@ -319,12 +324,14 @@ export class Viewer {
       this.#fly(this.#walk.pose(this.#camera));
       return;
     }
+    this.#guide?.stop();
     this.releaseMouse();
     this.#returnToOrbit();
   }
 
   /** Flies to where a photo was taken, and back to where the person was before. */
   #lookThrough(shot: number | null, before: number | null): void {
+    if (shot !== null) this.#guide?.stop();
     void this.#frusta?.show(shot);
     this.#orbit.enabled = shot === null && this.#store.value.mode === "orbit";
     if (before === null && this.#store.value.mode === "orbit") {
@@ -362,6 +369,7 @@ export class Viewer {
 
   #look(dx: number, dy: number, captured: boolean): void {
     if (this.#store.value.mode !== "walk" || this.#flight !== null) return;
+    this.#guide?.stop();
     const scale = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX;
     this.#walk.turn(dx * scale, dy * scale);
     this.invalidate();

@@ -77,6 +77,12 @@ export class WalkRig {
     return standing(this.#start.eye, heading, this.options);
   }
 
+  /** Stands where somebody with this eye looks. */
+  place(eye: Vec3, direction: Vec3): void {
+    this.#walker = standing(eye, headingOf(direction), this.options);
+    this.#lag_m = 0;
+  }
+
   turn(left_rad: number, up_rad: number): void {
     this.#walker = { ...this.#walker, heading: turned(this.#walker.heading, left_rad, up_rad) };
   }

@@ -100,8 +100,8 @@ def test_the_pair_with_most_matches_that_meets_the_conditions(
     (start,) = map_photos(arc_matches, tmp_path / "map", IDS, 0).starts
     weighed = [weighed_pair(arc_matches, pair, 0) for pair in combinations(IDS, 2)]
     meeting = [pair for pair in weighed if pair.fault is None]
-    assert start.pair == max(meeting, key=lambda pair: pair.matches)
-    better = [pair for pair in weighed if pair.matches > start.pair.matches]
+    assert start.pair == max(meeting, key=lambda pair: pair.telling)
+    better = [pair for pair in weighed if pair.telling > start.pair.telling]
     assert start.passed_over == len(better)
 
 

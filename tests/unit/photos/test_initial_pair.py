@@ -109,24 +109,27 @@ def test_two_places_near_each_other_begin_none(seed: int) -> None:
 def test_the_order_of_pairs(tmp_path: Path) -> None:
     """Known focal lengths first where matches suffice, then by matches; too few are none.
 
-    Photos 1 to 3 have a known focal length, 4 and 5 none.
+    Photos 1 to 3 have a known focal length, 4 and 5 none; 6 and 7 do, and see a plane.
     """
-    counts = {(1, 2): 150, (1, 3): 60, (2, 3): FEWEST - 1, (1, 4): 300, (4, 5): 200, (2, 5): 90}
-    points = scene(0)
-    seen, _ = views(points, 2.0, -0.2, 0)
+    counts = {(1, 2): 150, (1, 3): 30, (2, 3): FEWEST - 1, (1, 4): 300, (4, 5): 200, (2, 5): 90}
+    counts |= {(6, 7): 400}
+    seen, _ = views(scene(0), 2.0, -0.2, 0)
+    flat, _ = views(scene(0, plane=True), 2.0, -0.2, 0)
     with pycolmap.Database.open(tmp_path / "own.db") as opened:
-        for image in range(1, 6):
-            opened.write_camera(camera(image, known=image <= 3), use_camera_id=True)
+        for image in range(1, 8):
+            opened.write_camera(camera(image, known=image not in (4, 5)), use_camera_id=True)
             made = pycolmap.Image(name=f"{image}", camera_id=image, image_id=image)
             opened.write_image(made, use_image_id=True)
-            opened.write_keypoints(image, seen[image % 2].astype(np.float32))
+            places = (seen if image <= 5 else flat)[image % 2]
+            opened.write_keypoints(image, places.astype(np.float32))
         for pair, count in counts.items():
             rows = np.repeat(np.arange(count, dtype=np.uint32)[:, None], 2, axis=1)
             geometry = pycolmap.TwoViewGeometry(inlier_matches=rows)
             opened.write_two_view_geometry(*pair, geometry)
-    found = list(weighed_pairs(tmp_path / "own.db", range(1, 6), 0))
+    found = weighed_pairs(tmp_path / "own.db", range(1, 8), 0)
     order = [(pair.first, pair.second) for pair in found]
-    assert order == [(1, 2), (1, 4), (4, 5), (1, 3), (2, 5)]
-    assert [pair.known for pair in found] == [True, False, False, True, False]
+    assert order[:4] == [(1, 2), (1, 4), (4, 5), (2, 5)]
+    assert {*order[4:]} == {(1, 3), (6, 7)}
+    assert [pair.known for pair in found[:4]] == [True, False, False, False]
     some = weighed_pairs(tmp_path / "own.db", (1, 4, 5), 0)
     assert [(pair.first, pair.second) for pair in some] == [(1, 4), (4, 5)]

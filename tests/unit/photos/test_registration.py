@@ -18,6 +18,7 @@ from veduta.photos.world.believed import Standing, believed
 from veduta.photos.world.columns import plane_fit
 from veduta.photos.world.evidence import Matches
 from veduta.photos.world.free_space import sight_lines, violations
+from veduta.photos.world.gauss_newton import Pose
 from veduta.photos.world.georeference import Georeference, Similarity
 from veduta.photos.world.refine import PLANE, Refined
 from veduta.photos.world.register import register, residuals_of
@@ -83,12 +84,11 @@ def test_a_wall_that_has_lost_its_facade_is_named_alone() -> None:
         facade=np.array([[[-1, -1, -1], [-1, -1, 1]]]),
         off_m=none,
         edges_m=none[..., :2],
-        tops_m=none[..., 0],
         lift_m=np.zeros(1),
         evidence=np.zeros((1, count)),
     )
     refined = Refined(
-        world_from_model=Similarity(1.0, np.eye(3), np.zeros(3)),
+        pose=Pose(Similarity(1.0, np.eye(3), np.zeros(3))),
         covariance=np.eye(7),
         wall=np.array([0, 0, 1, 1]),
         kind=np.array([PLANE, PLANE, PLANE, PLANE + 1]),

@@ -1,14 +1,17 @@
 """The two photos that a map begins with, by the conditions of the thesis.
 
 Algorithm 6, 2 (a), and section 2.5.2 of the thesis: the two views have known intrinsic parameters,
-and the most matches of all that a homography does not model well (those of a plane, or of a camera
-that only turned, tell no depth); they are far enough apart for points to be well placed. Where the
-thesis gives no number the one that is taken stands here.
+and the most matches of all that a homography does not model well; they are far enough apart for points
+to be well placed. Where the thesis gives no number the one that is taken stands here.
+
+Matches of a plane tell two poses, of which one is false (Faugeras and Lustman, Motion and structure
+from motion in a piecewise planar environment, 1988), and a map that begins falsely may stay whole
+and false. So what counts are the matches that a homography does not explain.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -20,8 +23,8 @@ from numpy.typing import NDArray
 
 FEWEST = 20
 """Matches of a pair (n_min of algorithm 6)."""
-SURE = 100
-"""From so many matches on a pair with known focal lengths goes before one with more matches."""
+SURE = 30
+"""From so many matches off the plane on a pair with known focal lengths goes before one with more."""
 MOST_PLANAR = 0.8
 """Share of the matches that a homography may explain. That by which the engine calls a pair
 planar, too; true scenes with relief have 0.2 to 0.7."""
@@ -32,8 +35,8 @@ LEAST_ANGLE_DEG = 8.0
 HOMOGRAPHY_DRAWS = 500
 MOST_DRAWN = 1000
 """Matches of a pair that are looked at, drawn at random: thousands tell no more."""
-MOST_WEIGHED = 400
-"""Pairs that are weighed at most, those with most matches first."""
+MOST_WEIGHED = 150
+"""Pairs that are weighed at most: those with most matches."""
 
 
 @dataclass(frozen=True)
@@ -51,6 +54,11 @@ class WeighedPair:
     known: bool
     planar: float
     angle_deg: float | None
+
+    @property
+    def telling(self) -> int:
+        """Matches that no homography explains."""
+        return round(self.matches * (1.0 - self.planar))
 
     @property
     def fault(self) -> str | None:
@@ -79,17 +87,20 @@ class Start:
     refused: int
 
 
-def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> Iterator[WeighedPair]:
-    """The verified pairs of some photos, best first, each weighed when it is asked for.
+def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> list[WeighedPair]:
+    """The verified pairs of some photos, best first.
 
-    Known focal lengths first where there are enough matches, then by the number of matches.
+    Known focal lengths first where there are enough matches off a plane, then by their number.
     """
     with pycolmap.Database.open(database) as opened:
         cameras = {image: _camera_of(opened, image) for image in image_ids}
         counted = _counted(opened, set(image_ids))
         counted.sort(key=lambda pair: _place(pair, cameras))
-        for first, second, _ in counted[:MOST_WEIGHED]:
-            yield _read_and_weigh(opened, (first, second), cameras, seed)
+        weighed = [
+            _read_and_weigh(opened, (first, second), cameras, seed)
+            for first, second, _ in counted[:MOST_WEIGHED]
+        ]
+    return sorted(weighed, key=_rank)
 
 
 def weighed_pair(database: Path, pair: tuple[int, int], seed: int) -> WeighedPair:
@@ -149,10 +160,15 @@ def _counted(opened: pycolmap.Database, images: set[int]) -> list[tuple[int, int
 def _place(
     pair: tuple[int, int, int], cameras: Mapping[int, pycolmap.Camera]
 ) -> tuple[bool, bool, int, int, int]:
-    """Where a pair stands in the order."""
+    """Where a pair stands in the order in which pairs are weighed."""
     first, second, count = pair
     known = all(cameras[image].has_prior_focal_length for image in (first, second))
     return (count < SURE, not known, -count, first, second)
+
+
+def _rank(pair: WeighedPair) -> tuple[bool, bool, int, int, int]:
+    """Where a pair stands in the order in which they are tried."""
+    return (pair.telling < SURE, not pair.known, -pair.telling, pair.first, pair.second)
 
 
 def _planar_share(

@@ -40,14 +40,12 @@ class Matches:
 
     facade: (h, w, 3) at each of `PLACES`, -1 where there is none. off_m: (h, w, 3) in front of its
     plane, NaN where there is none. edges_m: (h, w, 2) of start and end beyond the facade's.
-    tops_m: (h, w) the facade's top less the wall's, scaled and not lifted. lift_m: (h,) the height
-    of the model's zero. evidence: (h, w) nats.
+    lift_m: (h,) the height of the model's zero. evidence: (h, w) nats.
     """
 
     facade: NDArray[np.int64]
     off_m: NDArray[np.float64]
     edges_m: NDArray[np.float64]
-    tops_m: NDArray[np.float64]
     lift_m: NDArray[np.float64]
     evidence: NDArray[np.float64]
 
@@ -110,7 +108,7 @@ def match_walls(walls: WallColumns, index: FacadeIndex, placements: Placements) 
     return Matches(
         *(
             np.concatenate([getattr(piece, name) for piece in pieces])
-            for name in ("facade", "off_m", "edges_m", "tops_m", "lift_m", "evidence")
+            for name in ("facade", "off_m", "edges_m", "lift_m", "evidence")
         )
     )
 
@@ -140,7 +138,7 @@ def _matched(walls: WallColumns, index: FacadeIndex, placements: Placements) -> 
     tops = np.where(known.any(axis=-1), tops - scale * walls.top, np.nan)
     lift = _mode(tops)
     evidence = _evidence(off, edges, tops - lift[:, None])
-    return Matches(facade, off, edges, tops, lift, evidence)
+    return Matches(facade, off, edges, lift, evidence)
 
 
 def _supports(

@@ -2,8 +2,7 @@
 
 Absolute orientation by the corners of facades (equation 2.33), but each corner counts along what
 is known of it: a wall's plane is known to centimetres, its edges to decimetres, its foot hardly at
-all. Seven unknowns: scale, rotation, shift; up is known beforehand, not quite. Gauss-Newton with
-weights that fall off for what does not fit; the noise of each kind is taken from the residuals.
+all. The noise of each kind is taken from the residuals.
 """
 
 from __future__ import annotations
@@ -15,33 +14,43 @@ from numpy.typing import NDArray
 
 from veduta.photos.world.columns import Placements, WallColumns
 from veduta.photos.world.evidence import FacadeIndex, Matches, match_walls
+from veduta.photos.world.gauss_newton import (
+    GATE,
+    Pose,
+    Rows,
+    median_sd,
+    stepped,
+)
 from veduta.photos.world.georeference import Similarity
 
 ITERATIONS = 8
-UP_SD_RAD = np.deg2rad(1.5)
-"""How well up is known before: from how people hold cameras."""
 LEAST_SD_M = (0.05, 0.15, 0.2, 0.5)
 """Plane, edge, top, foot: models are drawn no finer than this."""
 FIRST_SD_M = (0.3, 0.5, 0.7, 1.0)
-GATE = 3.5
-"""A residual beyond so many deviations counts nothing."""
+CORNERS_SHARE = 0.5
+"""Four corners of a plane say two things of its place, not four."""
 PLANE, EDGE, TOP, FOOT = range(4)
 
 
 @dataclass(frozen=True)
 class Refined:
     """A placement in space. covariance: (7, 7) of the logarithm of scale, the rotation (radians
-    about east, north, up) and the shift of the middle (m). rows: the residuals that count.
+    about east, north, up) and the shift of the middle (m).
 
     wall, kind, left_m: (r,) of each residual its wall, kind and size. weight: (r,) 0 to 1.
     """
 
-    world_from_model: Similarity
+    pose: Pose
     covariance: NDArray[np.float64]
     wall: NDArray[np.int64]
     kind: NDArray[np.int64]
     left_m: NDArray[np.float64]
     weight: NDArray[np.float64]
+
+    @property
+    def world_from_model(self) -> Similarity:
+        """How the structure lies in the world."""
+        return self.pose.similarity
 
     @property
     def level(self) -> Placements:
@@ -54,12 +63,10 @@ class Refined:
 
 
 @dataclass(frozen=True)
-class _Rows:
-    """Residual = direction . place - offset, of places of the model."""
+class WallRows:
+    """What walls say of a placement; wall, kind: (r,) of each of the rows."""
 
-    place: NDArray[np.float64]
-    direction: NDArray[np.float64]
-    offset: NDArray[np.float64]
+    rows: Rows
     wall: NDArray[np.int64]
     kind: NDArray[np.int64]
 
@@ -76,22 +83,25 @@ def refine(
     """
     matches = match_walls(walls, index, placement)
     turn, shift = placement.turn[0], placement.shift[0]
-    similarity = Similarity(
-        float(np.abs(turn)),
-        _about_up(float(np.angle(turn))),
-        np.array([shift.real, shift.imag, matches.lift_m[0]]),
+    now = Pose(
+        Similarity(
+            float(np.abs(turn)),
+            _about_up(float(np.angle(turn))),
+            np.array([shift.real, shift.imag, matches.lift_m[0]]),
+        )
     )
     sds = np.array(FIRST_SD_M)
-    refined = None
-    for step in range(ITERATIONS):
-        rows = _rows(corners, index, matches)
-        refined = _stepped(similarity, rows, sds, middle)
-        similarity = refined.world_from_model
+    for step in range(ITERATIONS + 1):
+        seen = wall_rows(corners, index, matches)
+        after = stepped(now, seen.rows, sds[seen.kind], middle)
+        now = after.pose
+        refined = Refined(now, after.covariance, seen.wall, seen.kind, after.left_m, after.weight)
+        if step == ITERATIONS:
+            break
         if step >= 2:
-            sds = _deviations(refined, sds)
+            sds = deviations(seen.kind, after.left_m, sds)
         matches = match_walls(walls, index, refined.level)
-    rows = _rows(corners, index, matches)
-    return _stepped(similarity, rows, sds, middle)
+    return refined
 
 
 def _about_up(angle: float) -> NDArray[np.float64]:
@@ -99,7 +109,8 @@ def _about_up(angle: float) -> NDArray[np.float64]:
     return np.array([[c, -s, 0.0], [s, c, 0.0], [0.0, 0.0, 1.0]])
 
 
-def _rows(corners: NDArray[np.float64], index: FacadeIndex, matches: Matches) -> _Rows:
+def wall_rows(corners: NDArray[np.float64], index: FacadeIndex, matches: Matches) -> WallRows:
+    """Planes, edges, tops and feet of walls against those of the facades they are matched with."""
     facades = index.facades
     facade, off = matches.facade[0], matches.off_m[0]
     place, direction, offset, wall, kind = [], [], [], [], []
@@ -131,102 +142,31 @@ def _rows(corners: NDArray[np.float64], index: FacadeIndex, matches: Matches) ->
         add(rows, corners[rows][:, list(ends)].mean(axis=1), along, to, EDGE)
     tops = np.where(facade >= 0, facades.top[facade], -np.inf).max(axis=1)
     feet = np.where(facade >= 0, facades.bottom[facade], np.inf).min(axis=1)
-    rows = np.flatnonzero((facade >= 0).any(axis=1))
-    add(rows, corners[rows, 2:].mean(axis=1), up, tops[rows], TOP)
-    add(rows, corners[rows, :2].mean(axis=1), up, feet[rows], FOOT)
-    return _Rows(
+    on = np.flatnonzero((facade >= 0).any(axis=1))
+    add(on, corners[on, 2:].mean(axis=1), up, tops[on], TOP)
+    add(on, corners[on, :2].mean(axis=1), up, feet[on], FOOT)
+    what = np.concatenate(kind).astype(np.int64)
+    whose = np.concatenate(wall).astype(np.int64)
+    is_plane = what == PLANE
+    found = Rows(
         np.concatenate(place),
         np.concatenate(direction),
         np.concatenate(offset),
-        np.concatenate(wall).astype(np.int64),
-        np.concatenate(kind).astype(np.int64),
+        is_plane,
+        np.where(is_plane, CORNERS_SHARE, 1.0),
+        whose,
     )
+    return WallRows(found, whose, what)
 
 
-def _stepped(
-    now: Similarity, rows: _Rows, sds: NDArray[np.float64], middle: NDArray[np.float64]
-) -> Refined:
-    """One step of Gauss-Newton, and what is left before it."""
-    arm = now.scale * (rows.place - middle) @ now.rotation.T
-    centre = now.moved(middle[None])[0]
-    left = (rows.direction * (arm + centre)).sum(axis=1) - rows.offset
-    sd = sds[rows.kind]
-    # Four corners of a plane say two things of its place, not four.
-    share = np.where(rows.kind == PLANE, 0.5, 1.0)
-    weight = np.maximum(0.0, 1.0 - (left / (GATE * sd)) ** 2) ** 2
-    jacobian = np.column_stack(
+def deviations(
+    kind: NDArray[np.int64], left_m: NDArray[np.float64], before: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(4,) the noise of each kind: by the median of what is left, no finer than models are."""
+    inside = np.abs(left_m) < GATE * before[kind]
+    return np.array(
         [
-            (rows.direction * arm).sum(axis=1),
-            np.cross(arm, rows.direction),
-            rows.direction,
+            median_sd(left_m[inside & (kind == one)], LEAST_SD_M[one], FIRST_SD_M[one])
+            for one in range(4)
         ]
     )
-    strength = weight * share / sd**2
-    normal = jacobian.T @ (strength[:, None] * jacobian)
-    right = -jacobian.T @ (strength * left)
-    up = now.rotation[:, 2]
-    prior = np.zeros((2, 7))
-    prior[0, 1:4] = (0.0, up[2], -up[1])
-    prior[1, 1:4] = (-up[2], 0.0, up[0])
-    normal += prior.T @ prior / UP_SD_RAD**2
-    right -= prior.T @ up[:2] / UP_SD_RAD**2
-    normal += np.diag([1e-2, 0, 0, 1e-2, 1e-6, 1e-6, 1e-6])
-    inverse = np.linalg.inv(normal)
-    step = inverse @ right
-    step[0] = np.clip(step[0], -0.1, 0.1)
-    step[1:4] = np.clip(step[1:4], -0.1, 0.1)
-    scale = now.scale * float(np.exp(step[0]))
-    turn = _rotation(step[1:4]) @ now.rotation
-    shift = centre + step[4:] - scale * turn @ middle
-    return Refined(
-        Similarity(scale, turn, shift),
-        _covariance(inverse, jacobian * (strength * left)[:, None], rows.wall),
-        rows.wall,
-        rows.kind,
-        left,
-        weight,
-    )
-
-
-def _covariance(
-    inverse: NDArray[np.float64], pull: NDArray[np.float64], wall: NDArray[np.int64]
-) -> NDArray[np.float64]:
-    """(7, 7) from what each wall pulls at the unknowns, and no less than from the noise alone.
-
-    What is left at the corners of one wall is not independent: its facade is drawn wrong, or its
-    points lie off together. So walls are what counts (the estimator of clusters).
-    """
-    pulls = np.zeros((int(wall.max()) + 1, 7))
-    np.add.at(pulls, wall, pull)
-    count = len(np.unique(wall))
-    spare = max(1.0, count - 4.0)
-    spread = inverse @ (pulls.T @ pulls) @ inverse * count / spare
-    factor = np.sqrt(np.maximum(1.0, np.diag(spread) / np.diag(inverse)))
-    found: NDArray[np.float64] = inverse * np.outer(factor, factor)
-    return found
-
-
-def _rotation(about: NDArray[np.float64]) -> NDArray[np.float64]:
-    """(3, 3) of a vector of rotation (Rodrigues)."""
-    angle = float(np.linalg.norm(about))
-    if angle < 1e-15:
-        return np.eye(3)
-    x, y, z = about / angle
-    cross = np.array([[0, -z, y], [z, 0, -x], [-y, x, 0]])
-    found: NDArray[np.float64] = (
-        np.eye(3) + np.sin(angle) * cross + (1.0 - np.cos(angle)) * cross @ cross
-    )
-    return found
-
-
-def _deviations(refined: Refined, before: NDArray[np.float64]) -> NDArray[np.float64]:
-    """The noise of each kind: the median of what is left, no smaller than models are drawn."""
-    found = np.array(LEAST_SD_M)
-    for kind in range(4):
-        own = (refined.kind == kind) & (np.abs(refined.left_m) < GATE * before[kind])
-        if own.sum() >= 4:
-            spread = 1.4826 * float(np.median(np.abs(refined.left_m[own])))
-            found[kind] = np.clip(spread, LEAST_SD_M[kind], FIRST_SD_M[kind])
-        else:
-            found[kind] = FIRST_SD_M[kind]
-    return found

@@ -24,6 +24,7 @@ from veduta.photos.world.free_space import SightLines, Violations, sight_lines, 
 from veduta.photos.world.georeference import Fit, Georeference, Residual
 from veduta.photos.world.prior import PlacementPrior, log_cells
 from veduta.photos.world.refine import PLANE, Refined, refine
+from veduta.photos.world.refine_points import refine_by_points
 from veduta.photos.world.search import hypotheses
 
 REFINED = 30
@@ -90,7 +91,10 @@ def register(
     if not found:
         return _refused(model, "no placement stays near where GPS says")
     found.sort(key=lambda one: -one.score)
-    first = found[0]
+    closer = refine_by_points(found[0].refined, columns, corners, index, structure.points, middle)
+    first = _weighed(closer, columns, index, lines, wall_of)
+    if _differ(first, found[0], middle):  # it has run away
+        first = found[0]
     second = next((one for one in found[1:] if _differ(first, one, middle)), None)
     standing = Standing(
         evidence=first.score,

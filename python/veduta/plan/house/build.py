@@ -2,21 +2,22 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from shapely.geometry import Polygon
-from shapely.geometry.base import BaseGeometry
 
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.house.doors import add_door
+from veduta.plan.house.flights import Stairwell, stairwells
 from veduta.plan.house.floors import add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space, solid_region, space_of
+from veduta.plan.house.stairs import add_stairs
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
 from veduta.plan.options import HouseOptions
@@ -38,11 +39,16 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     builder = PartBuilder(PART)
     sculptor = Sculptor(builder, Looks(builder))
     storeys = sorted(document.storeys, key=lambda storey: storey.elevation_m)
-    spaces = tuple(space_of(storey, storey.height_m - options.slab) for storey in storeys)
-    for index, space in enumerate(spaces):
-        above = spaces[index + 1].slab if index + 1 < len(spaces) else Polygon()
-        _add_storey(space, above, sculptor, options)
-        builder.notes.extend(space.notes)
+    found = [space_of(storey, storey.height_m - options.slab) for storey in storeys]
+    wells = stairwells(found, options.slab)
+    openings = [Polygon(), *(well.opening for well in wells)]
+    spaces = tuple(
+        replace(space, well=opening) for space, opening in zip(found, openings, strict=False)
+    )
+    for index, (space, well) in enumerate(zip(spaces, wells, strict=True)):
+        above = spaces[index + 1] if index + 1 < len(spaces) else None
+        _add_storey(space, above, well, sculptor, options)
+        builder.notes.extend([*space.notes, *well.notes])
     first, last = spaces[0], spaces[-1]
     base = first.storey.elevation_m
     add_slab(first.slab, base - GROUND_SLAB_M, base, "ground slab", sculptor)
@@ -53,9 +59,13 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
 
 
 def _add_storey(
-    space: Space, above: BaseGeometry, sculptor: Sculptor, options: HouseOptions
+    space: Space,
+    above: Space | None,
+    well: Stairwell,
+    sculptor: Sculptor,
+    options: HouseOptions,
 ) -> None:
-    """Walls, what fills their openings, floors and ceilings, and the slab over them."""
+    """Walls, what fills their openings, floors, ceilings, stairs, and the slab over them."""
     storey = space.storey
     height = storey.height_m - options.slab
     add_walls(space, height, sculptor)
@@ -65,8 +75,11 @@ def _add_storey(
         else:
             add_door(hole, space, sculptor, options)
     add_floors(space, sculptor)
-    add_ceilings(space, height, sculptor)
+    add_ceilings(space, height, well.opening, sculptor)
     add_skirting(space, sculptor)
-    over = solid_region(space.covered.union(above))
+    over = space.covered if above is None else space.covered.union(above.slab)
+    over = solid_region(over.difference(well.opening))
+    if above is not None:
+        add_stairs(well, space, above, sculptor)
     top = storey.elevation_m + storey.height_m
     add_slab(over, top - options.slab, top, f"{storey.name} slab", sculptor)

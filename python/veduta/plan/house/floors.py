@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
+from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
@@ -48,11 +51,14 @@ def add_floors(space: Space, sculptor: Sculptor) -> None:
         sculptor.prism(region, 0.0, FINISH_M, frame, Surface(feature, floor_look(inner)))
 
 
-def add_ceilings(space: Space, height_m: float, sculptor: Sculptor) -> None:
-    """A coat below the slab above, in each room that is not outdoors."""
+def add_ceilings(space: Space, height_m: float, opening: BaseGeometry, sculptor: Sculptor) -> None:
+    """A coat below the slab above, in each room that is not outdoors, but for an opening in it."""
     frame = level(space.storey.elevation_m)
-    for (room, region), name in zip(space.floors, _names(space), strict=True):
-        if room is not None and room.outdoors:
+    # A ceiling goes on over the well in the floor.
+    whole = replace(space, well=Polygon())
+    for (room, floor), name in zip(whole.floors, _names(whole), strict=True):
+        region = solid_region(floor.difference(opening))
+        if (room is not None and room.outdoors) or region.is_empty:
             continue
         feature = _surface(sculptor, SemanticClass.CEILING, room, f"{name} ceiling")
         sculptor.prism(region, height_m - FINISH_M, height_m, frame, Surface(feature, "ceiling"))
@@ -63,6 +69,7 @@ def add_skirting(space: Space, sculptor: Sculptor) -> None:
     depth, height = SKIRTING_M
     frame = level(space.storey.elevation_m)
     openings = [hole.outline.buffer(0.06) for hole in space.holes if hole.low_m < height]
+    openings.append(space.well.buffer(1e-3))
     walls = space.walls.buffer(depth, join_style="mitre")
     for room, region in space.floors:
         if room is None or wall_look(room) not in _DRY:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -78,6 +78,8 @@ class Space:
     walls: BaseGeometry
     holes: tuple[Hole, ...]
     notes: tuple[str, ...]
+    well: BaseGeometry = field(default_factory=Polygon)
+    """The opening in its floor through which stairs come up."""
 
     @cached_property
     def rooms(self) -> tuple[tuple[Room, Polygon], ...]:
@@ -124,7 +126,7 @@ class Space:
     @cached_property
     def floors(self) -> tuple[tuple[Room | None, BaseGeometry], ...]:
         """What one can walk on, by rooms; what lies in none has no room."""
-        free = self.slab.difference(self.walls)
+        free = self.slab.difference(self.walls).difference(self.well)
         found: list[tuple[Room | None, BaseGeometry]] = []
         for room, shape in self.rooms:
             own = solid_region(free.intersection(shape))

@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
-from veduta.plan.drawn import Cleaned
+from veduta.plan.drawn import Cleaned, DrawnStairs
+from veduta.plan.stairs.find import without_flights
 from veduta.plan.walls.cells import fill_cells, stroke_length
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
@@ -26,6 +27,9 @@ MOST_PIECES = 1500
 
 MORE_WALL = 1.9
 """Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
+
+KNOWN_THINNEST = 0.12
+"""Thinnest wall over the thickest common one, where walls need not be told from lines."""
 
 SMALL_MARK = 0.05
 
@@ -43,12 +47,26 @@ class Found:
     thin_px: float
 
 
-def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
-    """Find the pieces; NotFoundError where no strokes are walls."""
-    ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
-    mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+def find_walls(
+    cleaned: Cleaned,
+    texts: Sequence[Text] = (),
+    known: NDArray[np.bool_] | None = None,
+    flights: Sequence[DrawnStairs] = (),
+) -> Found:
+    """Find the pieces; NotFoundError where no strokes are walls.
+
+    `known` is the (h, w) mask of all that is wall, where that is known and not looked for. Treads
+    of `flights` are no walls.
+    """
+    if known is None:
+        ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
+        ink = without_flights(ink, flights, cleaned.line_px)
+        mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+    else:
+        ink = mask = known
+        thickness, drawing = known_thickness(known), "filled"
     solid = thick_strokes(mask, thickness)
-    if drawing == "filled":
+    if drawing == "filled" and known is None:
         # Shaded panes are thick strokes, too, but paler than the walls.
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
         solid = thick_strokes(mask & (cleaned.ink > PALE * level), thickness)
@@ -56,7 +74,8 @@ def find_walls(cleaned: Cleaned, texts: Sequence[Text] = ()) -> Found:
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
     # What was filled in is as solid as ink.
-    soft = np.where(mask & ~ink, np.float32(1), cleaned.ink)
+    ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
+    soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
@@ -82,6 +101,14 @@ def choose_drawing(
     if plain is None:
         raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
     return ink, plain, "filled"
+
+
+def known_thickness(solid: NDArray[np.bool_]) -> Thickness:
+    """Of walls that are known: the thinnest ones count, however thick others are."""
+    found = wall_thickness(solid, 1.0)
+    if found is None:
+        raise NotFoundError("walls", "no solid strokes are long", "Give a floor plan.")
+    return Thickness(max(2.0, KNOWN_THINNEST * found.most_px), found.most_px)
 
 
 def connected(ink: NDArray[np.bool_]) -> NDArray[np.bool_]:

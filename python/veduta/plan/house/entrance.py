@@ -1,0 +1,67 @@
+"""The ways into a house, and the one by which a visitor comes."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import LineString, Point
+
+from veduta.plan.house.space import Hole, Space
+
+AWAY_M = (5.0, 4.0, 3.0, 2.0)
+"""From the front door to the visitor: the first from which nothing is in the way."""
+_BEYOND_M = 0.1
+
+
+@dataclass(frozen=True)
+class Entrance:
+    """A way in. middle, out: (2,) the opening's middle, and the unit vector that leads outside."""
+
+    hole: Hole
+    middle: NDArray[np.float64]
+    out: NDArray[np.float64]
+
+    def before(self, away_m: float) -> NDArray[np.float64]:
+        """(2,) the place before it, outside, at a distance from the wall's centre line."""
+        place: NDArray[np.float64] = self.middle + away_m * self.out
+        return place
+
+
+def entrances(space: Space) -> list[Entrance]:
+    """Doors and gaps between inside and outdoors, the most inviting first."""
+    ways = [hole for hole in space.holes if hole.opening.kind != "window" and _side(hole, space)]
+    return [_entrance(hole, space) for hole in sorted(ways, key=_inviting, reverse=True)]
+
+
+def free_before(entrance: Entrance, space: Space) -> NDArray[np.float64]:
+    """(2,) where a visitor stands: outside, with nothing of the house between."""
+    near = entrance.before(entrance.hole.line.half_m + _BEYOND_M)
+    free = [
+        entrance.before(away)
+        for away in AWAY_M
+        if not space.covered.intersects(LineString([near, entrance.before(away)]))
+    ]
+    return free[0] if free else entrance.before(AWAY_M[-1])
+
+
+def _entrance(hole: Hole, space: Space) -> Entrance:
+    left = np.array([-hole.along[1], hole.along[0]])
+    return Entrance(hole, hole.start + hole.along * hole.width_m / 2.0, _side(hole, space) * left)
+
+
+def _inviting(hole: Hole) -> tuple[bool, bool, float]:
+    """Doors before gaps, garages last of doors, the surest first."""
+    opening = hole.opening
+    return opening.kind == "door", opening.type != "garage", opening.score
+
+
+def _side(hole: Hole, space: Space) -> int:
+    """+1 where the left of an opening is outdoors and its right is not, -1 the other way, or 0."""
+    middle = hole.start + hole.along * hole.width_m / 2.0
+    left = np.array([-hole.along[1], hole.along[0]]) * (hole.line.half_m + _BEYOND_M)
+    on_left, on_right = (
+        not space.covered.covers(Point(middle + side * left)) for side in (1.0, -1.0)
+    )
+    return int(on_left) - int(on_right)

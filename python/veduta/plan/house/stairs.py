@@ -1,0 +1,182 @@
+"""Flights as solids: steps with a sloping underside, handrails, and a rail around the well.
+
+No plan shows a height: the place of a flight is drawn, its steps follow from the storey's height,
+and rails are invented.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import LineString, Polygon, box
+from shapely.geometry.base import BaseGeometry
+
+from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.flights import Flight, Stairwell
+from veduta.plan.house.frame import Frame, Sculptor, Surface, upright
+from veduta.plan.house.space import Space, pieces_of
+
+RAIL_M = 0.9
+_RAIL_SIDE_M = 0.045
+_POST_M = 0.035
+_BAR_M = 0.014
+_BARS_M = 0.12
+"""No ball of that size passes between two bars."""
+_FREE = 0.35
+"""A side gets a rail if so much of it has no wall beside it."""
+_BESIDE_M = 0.15
+_WAIST = 1.2
+"""The underside lies so many treads behind the steps."""
+
+
+def add_stairs(well: Stairwell, lower: Space, upper: Space, sculptor: Sculptor) -> None:
+    """All flights from one storey up, and the rail around their well."""
+    for flight in well.flights:
+        _add_flight(flight, lower, sculptor)
+        _add_handrails(flight, lower, sculptor)
+    _add_guard(well, upper, sculptor)
+
+
+def _add_flight(flight: Flight, lower: Space, sculptor: Sculptor) -> None:
+    builder = sculptor.builder
+    shell = builder.new_shell()
+    known = Provenance.INFERRED if flight.way_known else Provenance.INVENTED
+    name = f"{lower.storey.name} stairs {flight.id}"
+    steps = builder.feature(SemanticClass.FLOOR, known, name, shell=shell)
+    body = builder.feature(SemanticClass.OTHER, known, f"{name} body", shell=shell)
+    frame = upright(flight.foot, flight.along, lower.storey.elevation_m)
+    tread, white = Surface(steps, "wood floor"), Surface(body, "skirting")
+    ring = _profile(flight)
+    for height, turned in ((flight.width_m, ring), (0.0, ring[::-1])):
+        sculptor.face([_lifted(turned, height)], frame, white)
+    for here, there in zip(ring, np.roll(ring, -1, axis=0), strict=True):
+        # Counter-clockwise, what one treads on runs against the first axis, level.
+        level = abs(here[1] - there[1]) < 1e-9 and there[0] < here[0]
+        ends = np.stack([here, there])
+        face = np.concatenate([_lifted(ends, 0.0), _lifted(ends[::-1], flight.width_m)])
+        sculptor.face([face], frame, tread if level else white)
+
+
+def _profile(flight: Flight) -> NDArray[np.float64]:
+    """(n, 2): along the flight and up, counter-clockwise."""
+    going, riser, count = flight.going_m, flight.riser_m, flight.treads
+    back = _WAIST * going
+    under = [(0.0, 0.0)]
+    if count > _WAIST:
+        under += [(back, 0.0), (flight.run_m, (count - _WAIST) * riser)]
+    else:
+        under += [(flight.run_m, 0.0)]
+    steps = [
+        point
+        for number in range(count, 0, -1)
+        for point in ((number * going, number * riser), ((number - 1) * going, number * riser))
+    ]
+    return np.array([*under, *steps])
+
+
+def _add_handrails(flight: Flight, lower: Space, sculptor: Sculptor) -> None:
+    """On the sides without a wall: a rail along the pitch, on a bar from each tread."""
+    frame = upright(flight.foot, flight.along, lower.storey.elevation_m)
+    side = flight.right * flight.width_m
+    sides = {"left": (flight.foot, 0.0), "right": (flight.foot + side, flight.width_m)}
+    for name, (start, offset) in sides.items():
+        edge = LineString([start, start + flight.run_m * flight.along])
+        if not _is_free(edge, lower.walls):
+            continue
+        surface = _rail_surface(sculptor, f"{lower.storey.name} stairs {flight.id} {name} rail")
+        near = offset + (0.03 if offset == 0.0 else -0.03 - _RAIL_SIDE_M)
+        third = (near, near + _RAIL_SIDE_M)
+        low = RAIL_M + flight.riser_m
+        high = low + flight.riser_m / flight.going_m * flight.run_m
+        rail = Polygon(
+            [(0, low), (flight.run_m, high), (flight.run_m, high + 0.05), (0, low + 0.05)]
+        )
+        sculptor.prism(rail, *third, frame, surface)
+        middle = near + _RAIL_SIDE_M / 2
+        for number in range(flight.treads):
+            at = (number + 0.5) * flight.going_m
+            foot, head = (number + 1) * flight.riser_m, low + (number + 0.5) * flight.riser_m
+            _bar(at, foot, head, middle, frame, surface, sculptor)
+
+
+def _bar(
+    at: float,
+    low: float,
+    high: float,
+    middle: float,
+    frame: Frame,
+    surface: Surface,
+    sculptor: Sculptor,
+) -> None:
+    half = _BAR_M / 2
+    shape = box(at - half, low, at + half, high + 0.01)
+    sculptor.prism(shape, middle - half, middle + half, frame, surface)
+
+
+def _add_guard(well: Stairwell, upper: Space, sculptor: Sculptor) -> None:
+    """A rail around the opening, but where walls stand and where one arrives."""
+    number = 0
+    arrivals = [
+        LineString([end := one.foot + one.run_m * one.along, end + one.right * one.width_m])
+        for one in well.flights
+    ]
+    for piece in pieces_of(well.opening):
+        ring = np.array(piece.exterior.coords)
+        for here, there in zip(ring[:-1], ring[1:], strict=True):
+            edge = LineString([here, there])
+            arrival = any(_lies_on(edge, one) for one in arrivals)
+            if edge.length < 0.3 or arrival or not _is_free(edge, upper.walls):
+                continue
+            number += 1
+            name = f"{upper.storey.name} stairwell rail {number}"
+            _guard(here, there, upper, _rail_surface(sculptor, name), sculptor)
+
+
+def _guard(
+    here: NDArray[np.float64],
+    there: NDArray[np.float64],
+    upper: Space,
+    surface: Surface,
+    sculptor: Sculptor,
+) -> None:
+    """From one corner of the well to the next, a hand's breadth away from its edge."""
+    length = float(np.hypot(*(there - here)))
+    along = (there - here) / length
+    frame = upright(here, along, upper.storey.elevation_m)
+    # The well lies to the right of its exterior, which runs clockwise, or else to the left.
+    middle = (here + there) / 2 + 0.05 * np.array([along[1], -along[0]])
+    offset = 0.05 if upper.slab.contains(_point(middle)) else -0.05
+    half = _RAIL_SIDE_M / 2
+    sculptor.slab(
+        (0.0, length), (RAIL_M, RAIL_M + 0.05), (offset - half, offset + half), frame, surface
+    )
+    count = max(2, math.ceil(length / _BARS_M))
+    for at in np.linspace(_POST_M, length - _POST_M, count + 1):
+        _bar(float(at), 0.0, RAIL_M, offset, frame, surface, sculptor)
+
+
+def _rail_surface(sculptor: Sculptor, name: str) -> Surface:
+    feature = sculptor.builder.feature(
+        SemanticClass.OTHER, Provenance.INVENTED, name, shell=sculptor.builder.new_shell()
+    )
+    return Surface(feature, "leaf")
+
+
+def _is_free(edge: LineString, walls: BaseGeometry) -> bool:
+    beside = edge.buffer(_BESIDE_M, cap_style="flat")
+    covered = edge.intersection(walls.buffer(_BESIDE_M)).length if beside.intersects(walls) else 0.0
+    return bool(edge.length - covered > _FREE * edge.length)
+
+
+def _lies_on(edge: LineString, other: LineString) -> bool:
+    return bool(edge.intersection(other.buffer(0.05)).length > 0.5 * edge.length)
+
+
+def _point(at: NDArray[np.float64]) -> BaseGeometry:
+    return LineString([at, at + 1e-4])
+
+
+def _lifted(ring: NDArray[np.float64], height_m: float) -> NDArray[np.float64]:
+    return np.concatenate([ring, np.full((len(ring), 1), height_m)], axis=1)

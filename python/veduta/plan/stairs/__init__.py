@@ -1,0 +1,1 @@
+"""Flights of stairs, where they are drawn."""

@@ -1,0 +1,207 @@
+"""The tour of a house: once around it, in by its door, through all rooms, and out again."""
+
+from __future__ import annotations
+
+import math
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+
+from veduta.place.camera_path import CameraPath
+from veduta.plan.document import RoomUse
+from veduta.plan.house.build import House
+from veduta.plan.house.entrance import entrances
+from veduta.plan.tour import gaze, pace
+from veduta.plan.tour.climbs import Climb, climbs_of
+from veduta.plan.tour.free import Ground, ground_of
+from veduta.plan.tour.grid import Grid, cells_of
+from veduta.plan.tour.leaves import open_leaves
+from veduta.plan.tour.outside import Outside, outside_of
+from veduta.plan.tour.smooth import STEP_M, resampled, smoothed
+from veduta.plan.tour.stops import Stop, short_order, squares_in, stops_of
+from veduta.plan.tour.stretches import Stretch, stretches_of
+
+EYE_M = 1.7
+FOV_RAD = math.radians(60.0)
+SHORT_M = 1.2
+"""One stops so far before the middle of a room at most, to see it in front ..."""
+SHORT_SHARE = 0.4
+"""... and by no more than this share of the way in it."""
+THROUGH: frozenset[RoomUse] = frozenset({"hall", "corridor", "stairs"})
+"""Where one passes, and stops only if the way does not lead through."""
+ON_FLOOR_M = 0.05
+INDOORS = "the tour is indoors only: no way in from outside that is wide enough leads to most rooms"
+
+
+@dataclass(frozen=True)
+class Tour:
+    """The camera's path in the frame of the house, the rooms passed, and what it leaves out."""
+
+    path: CameraPath
+    stretches: tuple[Stretch, ...]
+    length_m: float
+    notes: tuple[str, ...]
+    grounds: tuple[Ground, ...]
+
+
+@dataclass(frozen=True)
+class Leg:
+    """A way of the feet (n, 3), and the stop in whose room it ends."""
+
+    points_m: NDArray[np.float64]
+    stop: Stop | None
+
+
+def find_tour(house: House, speed_m_s: float) -> Tour | None:
+    """The tour; None where there is no room in which one can stand."""
+    first = house.spaces[0]
+    ways_in = entrances(first)
+    outside = outside_of(first, ways_in[0]) if ways_in else None
+    climbs = climbs_of(house.spaces)
+    grounds = _grounds(house, outside, climbs)
+    grid = Grid([cells_of(ground) for ground in grounds], climbs)
+    begin = _begin(grid, grounds, outside)
+    if begin is None:
+        return None
+    found = stops_of(grounds, grid, begin.node)
+    legs = _legs_through(begin.node, found.stops, grid, grounds)
+    around = outside if begin.is_outside else None
+    timed = pace.timed(_motions(legs, around, first.slab, speed_m_s))
+    eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
+    path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
+    length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
+    notes = (*found.missed, *((INDOORS,) if around is None else ()))
+    return Tour(path, stretches_of(timed, grounds), length, notes, tuple(grounds))
+
+
+def _grounds(house: House, outside: Outside | None, climbs: Sequence[Climb]) -> list[Ground]:
+    leaves = open_leaves(house.part)
+    around = Polygon() if outside is None else outside.region
+    return [
+        ground_of(
+            space,
+            leaves,
+            around if number == 0 else Polygon(),
+            [climb.flight for climb in climbs if climb.lower + 1 == number],
+        )
+        for number, space in enumerate(house.spaces)
+    ]
+
+
+@dataclass(frozen=True)
+class _Begin:
+    """The square at which the tour begins and ends."""
+
+    node: int
+    is_outside: bool
+
+
+def _begin(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> _Begin | None:
+    """Before the house, if most rooms are reached from there, else in the midst of the most."""
+    rooms = Counter[int]()
+    first: dict[int, int] = {}
+    for storey, ground in enumerate(grounds):
+        for _, shape in ground.space.rooms:
+            pieces = grid.pieces_of(squares_in(shape, grid, storey))
+            rooms.update(pieces.keys())
+            first = pieces | first
+    if not rooms:
+        return None
+    most, count = rooms.most_common(1)[0]
+    front = None if outside is None else grid.nearest(0, outside.ring_m[0])
+    if front is not None and 2 * rooms[next(iter(grid.pieces_of(np.array([front]))))] >= count:
+        return _Begin(front, is_outside=True)
+    stops = stops_of(grounds, grid, first[most]).stops
+    inviting = min(stops, key=lambda stop: (stop.storey, stop.room.use not in THROUGH))
+    return _Begin(inviting.node, is_outside=False)
+
+
+def _legs_through(
+    start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]
+) -> list[Leg]:
+    """From the start through all stops and back; halls that one passes anyway are no stops."""
+    chosen = [stop for stop in stops if stop.room.use not in THROUGH] or list(stops)
+    legs = _legs(start, chosen, grid, grounds)
+    late = [stop for stop in stops if stop not in chosen and not _passes(legs, stop, grounds)]
+    return _legs(start, chosen + late, grid, grounds) if late else legs
+
+
+def _passes(legs: Sequence[Leg], stop: Stop, grounds: Sequence[Ground]) -> bool:
+    points = np.concatenate([leg.points_m for leg in legs])
+    level = points[np.abs(points[:, 2] - grounds[stop.storey].elevation_m) < ON_FLOOR_M]
+    return bool(shapely.contains_xy(stop.shape, level[:, 0], level[:, 1]).any())
+
+
+def _legs(start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]) -> list[Leg]:
+    nodes = [start, *(stop.node for stop in stops)]
+    costs = grid.costs(nodes)
+    legs: list[Leg] = []
+    here = start
+    for row in short_order(costs):
+        stop = stops[row - 1]
+        squares = _cut_short(grid.way(here, stop.node), stop, grid)
+        legs.append(Leg(_way(squares, grid, grounds), stop))
+        here = squares[-1]
+    legs.append(Leg(_way(grid.way(here, start), grid, grounds), None))
+    return legs
+
+
+def _cut_short(squares: list[int], stop: Stop, grid: Grid) -> list[int]:
+    """The way without its last piece in the room."""
+    inside = shapely.contains_xy(stop.shape, *grid.places_m[squares].T)
+    outside = np.flatnonzero(~inside)
+    entered = int(outside[-1]) + 1 if len(outside) else 0
+    steps = np.linalg.norm(np.diff(grid.places_m[squares[entered:]], axis=0), axis=1)
+    to_end = np.cumsum(steps[::-1])
+    if len(to_end) == 0:
+        return squares
+    cut = min(SHORT_M, SHORT_SHARE * float(to_end[-1]))
+    return squares[: len(squares) - int(np.searchsorted(to_end, cut))]
+
+
+def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[np.float64]:
+    """(n, 3) the feet on a way over squares, smoothed in each storey."""
+    storeys = grid.storey[squares]
+    breaks = np.flatnonzero(np.diff(storeys)) + 1
+    pieces = []
+    for run in np.split(np.array(squares), breaks):
+        ground = grounds[grid.storey[run[0]]]
+        flat = smoothed(grid.places_m[run], ground.free)
+        level = np.column_stack([flat, np.full(len(flat), ground.elevation_m)])
+        if pieces:  # up or down a flight
+            pieces.append(resampled(np.stack([pieces[-1][-1], level[0]]), STEP_M)[1:-1])
+        pieces.append(level)
+    return np.concatenate(pieces)
+
+
+def _motions(
+    legs: Sequence[Leg], outside: Outside | None, slab: BaseGeometry, speed_m_s: float
+) -> list[pace.Motion]:
+    motions: list[pace.Motion] = []
+    if outside is not None:
+        height = np.full(len(outside.ring_m), legs[0].points_m[0, 2])
+        ring = np.column_stack([outside.ring_m, height])
+        centre = np.array(slab.centroid.coords[0])
+        motions.append(pace.walk(ring, *gaze.around(ring, centre), speed_m_s))
+    views = [gaze.walking(leg.points_m, _middle(leg.stop)) for leg in legs]
+    for number, (leg, view) in enumerate(zip(legs, views, strict=True)):
+        if len(leg.points_m) > 1:
+            motions.append(pace.walk(leg.points_m, *view, speed_m_s))
+        if leg.stop is not None and number + 1 < len(legs):
+            here = leg.points_m[-1]
+            # Who did not have to walk looks where he looked.
+            arrive = motions[-1].yaw if motions else view[0]
+            leave = views[number + 1][0]
+            yaws = gaze.turn(here[:2], leg.stop.shape, float(arrive[-1]), float(leave[0]))
+            motions.append(pace.look(here, yaws, gaze.LEVEL_RAD))
+    return motions
+
+
+def _middle(stop: Stop | None) -> NDArray[np.float64] | None:
+    return None if stop is None else np.array(stop.shape.centroid.coords[0])

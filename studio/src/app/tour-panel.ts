@@ -1,0 +1,91 @@
+/** The guided tour: play and pause, how far one is, and the room that one is in. */
+import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { durationOf, stretchAt, type Tour, type TourState } from "../core/tour.ts";
+import { icons } from "./icons.ts";
+import { theme } from "./theme.ts";
+
+/** Of the slider (s). */
+const STEP_S = 0.1;
+
+export class TourPanel extends LitElement {
+  static override properties = {
+    tour: { attribute: false },
+    at: { attribute: false },
+  };
+  declare tour: Tour | null;
+  /** Null before it was begun. */
+  declare at: TourState | null;
+
+  static override styles = [
+    theme,
+    css`
+      :host {
+        display: flex;
+        align-items: center;
+        gap: 8px;
+        padding: 5px 14px 5px 6px;
+      }
+      .icon-button[aria-pressed="true"] {
+        background: var(--deep);
+        color: #fff;
+      }
+      .where {
+        flex: 0 0 96px;
+        min-width: 0;
+        line-height: 1.25;
+      }
+      strong {
+        display: block;
+        font-weight: 600;
+        overflow: hidden;
+        text-overflow: ellipsis;
+        white-space: nowrap;
+      }
+      .where span {
+        color: var(--ink-soft);
+        font-size: 12.5px;
+        font-variant-numeric: tabular-nums;
+        white-space: nowrap;
+      }
+      input {
+        flex: 1;
+        min-width: 60px;
+        accent-color: var(--deep);
+      }
+    `,
+  ];
+
+  constructor() {
+    super();
+    this.tour = null;
+    this.at = null;
+  }
+
+  override render(): TemplateResult | typeof nothing {
+    const { tour, at } = this;
+    if (tour === null) return nothing;
+    const playing = at?.playing ?? false;
+    const time_s = at?.time_s ?? 0;
+    const label = playing ? "Pause the tour (G)" : "Play the tour (G)";
+    const name = at === null ? "Tour" : (stretchAt(tour, time_s)?.name ?? "Tour");
+    return html`<button class="icon-button" aria-label=${label} title=${label} aria-pressed=${playing} data-field="play"
+        @click=${() => this.#emit("play-tour", 0)}>${playing ? icons.pause : icons.play}</button>
+      <div class="where"><strong data-field="room" title=${name}>${name}</strong>
+        <span data-field="time">${clock(time_s)} of ${clock(durationOf(tour))}</span></div>
+      <input type="range" aria-label="How far the tour is" min="0" max=${durationOf(tour)} step=${STEP_S}
+        aria-valuetext="${clock(time_s)}, ${name}" .value=${String(time_s)}
+        @input=${(event: Event) => this.#emit("seek-tour", Number((event.target as HTMLInputElement).value))} />`;
+  }
+
+  #emit(name: "play-tour" | "seek-tour", detail: number): void {
+    this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
+  }
+}
+
+/** Minutes and seconds. */
+function clock(seconds: number): string {
+  const whole = Math.floor(seconds);
+  return `${Math.floor(whole / 60)}:${String(whole % 60).padStart(2, "0")}`;
+}
+
+customElements.define("veduta-tour-panel", TourPanel);

@@ -1,0 +1,157 @@
+"""Whole tours: all rooms, no wall, no quick turn; and what is said where it cannot be done."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from plan_documents import document_of
+from plan_tour import furnished, judge
+from sample_plan import opening, room, sample_plan, sample_storey
+
+from veduta.plan.document import PlanDocument, Stairs, Storey
+from veduta.plan.house.build import House, build_house
+from veduta.plan.options import HouseOptions
+from veduta.plan.tour.find import EYE_M, INDOORS, Tour, find_tour
+from veduta.plan.tour.pace import TURN_RAD_S, travelled
+from veduta.plan.tour.placing import placed_tour
+from veduta.synthetic.plans.layout import make_house
+
+SPEED_M_S = 1.2
+SEEDS = range(21_000, 21_010)
+
+
+def toured(document: PlanDocument, speed_m_s: float = SPEED_M_S) -> tuple[House, Tour]:
+    house = build_house(document, HouseOptions())
+    tour = find_tour(house, speed_m_s)
+    assert tour is not None
+    return house, tour
+
+
+@pytest.mark.parametrize("seed", SEEDS)
+def test_tours_of_houses_keep_what_they_promise(seed: int) -> None:
+    """Against the model as it is written, by rays: see benchmarks/plan_tour.py."""
+    drawn = make_house(seed, storeys=1)
+    document = document_of(drawn)
+    house, tour = toured(furnished(document, seed) if seed % 2 else document)
+    found = judge(house, tour)
+    assert found.visited == found.rooms
+    assert tour.notes == ()
+    assert found.clear_m > 0.15
+    assert 20.0 < found.turn_deg_s <= np.degrees(TURN_RAD_S)
+    assert 1.0 < found.speed_m_s <= SPEED_M_S + 1e-6
+
+
+def test_the_tour_goes_round_the_house_and_ends_where_it_begins() -> None:
+    _, tour = toured(sample_plan())
+    assert [stretch.title for stretch in tour.stretches][:2] == ["Outside", "Living"]
+    eyes = tour.path.eyes_m
+    assert np.linalg.norm(eyes[0] - eyes[-1]) < 0.1
+    assert (eyes[:, 2] == EYE_M).all()
+    # Once around: the angle about the middle of the house comes to a full turn.
+    outside = eyes[tour.path.times_s <= tour.stretches[0].end_s][:, :2] - [4.0, 2.5]
+    angle = np.unwrap(np.arctan2(outside[:, 1], outside[:, 0]))
+    assert angle.max() - angle[0] == pytest.approx(2 * np.pi, abs=0.1)
+
+
+def test_it_looks_at_the_house_from_outside_and_into_rooms() -> None:
+    house, tour = toured(sample_plan())
+    path = tour.path
+    outside = path.times_s < 0.8 * tour.stretches[0].end_s
+    to_house = np.array([4.0, 2.5]) - path.eyes_m[outside][:, :2]
+    to_house /= np.linalg.norm(to_house, axis=1)[:, None]
+    assert ((path.directions[outside][:, :2] * to_house).sum(axis=1) > 0.5).all()
+    # In each room one sees to both sides: directions span more than half a turn.
+    for name in ("Living", "Bath"):
+        times = [(one.start_s, one.end_s) for one in tour.stretches if one.title == name]
+        inside = np.any([(path.times_s >= a) & (path.times_s <= b) for a, b in times], axis=0)
+        yaw = np.unwrap(np.arctan2(*path.directions[inside][:, 1::-1].T))
+        assert yaw.max() - yaw.min() > np.pi / 2
+    assert len(house.spaces) == 1
+
+
+def test_rooms_without_a_door_are_named() -> None:
+    openings = [opening("front", "south-1", 0.6, 1.0, hinge="start", swing="left")]
+    _, tour = toured(sample_plan(sample_storey(openings=openings)))
+    assert tour.notes == (
+        "the tour leaves out Bath (bath) of ground floor: no door that is wide enough leads to it",
+    )
+    assert "bath" not in {stretch.room for stretch in tour.stretches}
+
+
+def test_a_house_without_a_way_in_is_toured_indoors() -> None:
+    openings = [opening("inner", "middle", 1.0, 0.9, hinge="end", swing="right")]
+    _, tour = toured(sample_plan(sample_storey(openings=openings)))
+    assert tour.notes == (INDOORS,)
+    assert {stretch.room for stretch in tour.stretches} == {"living", "bath"}
+
+
+def test_no_tour_where_nobody_can_stand() -> None:
+    tiny = [room("cell", [(0.2, 0.2), (0.3, 0.2), (0.3, 0.3), (0.2, 0.3)])]
+    house = build_house(sample_plan(sample_storey(rooms=tiny, openings=[])), HouseOptions())
+    assert find_tour(house, SPEED_M_S) is None
+
+
+def two_storeys() -> PlanDocument:
+    """A flight along the north wall of the living room leads to the storey above."""
+    outline = [(1.2, 3.8), (4.0, 3.8), (4.0, 4.8), (1.2, 4.8)]
+    flight = Stairs(id="s", outline_m=outline, treads=15, up=(1.0, 0.0), score=1.0)
+    changes: dict[str, Any] = {"name": "first floor", "elevation_m": 2.8}
+    inner = [opening("inner", "middle", 1.0, 0.9, hinge="end", swing="right")]
+    upper: Storey = sample_storey(openings=inner, **changes)
+    return sample_plan(sample_storey(stairs=[flight]), upper)
+
+
+def test_stairs_lead_to_the_storey_above_and_back() -> None:
+    _, tour = toured(two_storeys())
+    assert tour.notes == ()
+    heights = tour.path.eyes_m[:, 2] - EYE_M
+    assert heights.max() == pytest.approx(2.8)
+    assert heights[-1] == 0.0
+    # Between the storeys one is on the flight, at the height of its slope.
+    between = (heights > 0.01) & (heights < 2.79)
+    on = tour.path.eyes_m[between]
+    assert between.sum() >= 4
+    assert (np.abs(on[:, 1] - 4.3) < 0.1).all()
+    slope = np.polyfit(on[:, 0], heights[between], 1)
+    assert slope[0] == pytest.approx(2.8 / (2.8 + 2 * 0.3), rel=0.05)
+    upstairs = {
+        stretch.room
+        for stretch in tour.stretches
+        if np.interp(stretch.start_s, tour.path.times_s, heights) > 2.7
+    }
+    assert upstairs == {"living", "bath"}
+
+
+def test_a_storey_without_stairs_is_named() -> None:
+    document = two_storeys()
+    lower = document.storeys[0].model_copy(update={"stairs": []})
+    _, tour = toured(document.model_copy(update={"storeys": [lower, document.storeys[1]]}))
+    assert tour.notes == ("the tour leaves out first floor: no way leads to it",)
+
+
+def test_the_speed_is_that_of_the_option() -> None:
+    _, slow = toured(sample_plan(), 0.6)
+    _, usual = toured(sample_plan())
+    speeds = np.linalg.norm(np.diff(slow.path.eyes_m, axis=0), axis=1) / np.diff(slow.path.times_s)
+    assert 0.55 < speeds.max() <= 0.6 + 1e-6
+    assert slow.path.times_s[-1] > 1.3 * usual.path.times_s[-1]
+
+
+@pytest.mark.parametrize("length", [0.05, 0.5, 1.44, 7.3])
+def test_walking_starts_and_stops_softly(length: float) -> None:
+    at = travelled(length, SPEED_M_S)
+    assert (at[0], at[-1]) == (0.0, pytest.approx(length))
+    speed = np.gradient(at)
+    assert (np.diff(at) >= 0.0).all()
+    assert speed[0] < speed.max()
+    assert speed[-1] < speed.max()
+
+
+def test_the_place_has_the_tour_in_its_own_frame() -> None:
+    _, tour = toured(sample_plan())
+    placed = placed_tour(tour, 0.25)
+    assert placed.eyes[0][2] == pytest.approx(EYE_M + 0.25)
+    assert placed.stretches[0].room is None
+    assert placed.stretches[-1].end_s == pytest.approx(placed.times_s[-1], abs=1e-3)
