@@ -41,8 +41,8 @@ def add_instances(
         root["meshes"].append({"name": mesh.name, "primitives": primitives})
         root["scenes"][0]["nodes"].append(len(root["nodes"]))
         root["nodes"].append(_node(mesh.name, len(root["meshes"]) - 1, group, binary))
-    root["extensionsUsed"] = [INSTANCING, FEATURES]
-    root["extensionsRequired"] = [INSTANCING]
+    root.setdefault("extensionsUsed", []).extend([INSTANCING, FEATURES])
+    root.setdefault("extensionsRequired", []).append(INSTANCING)
 
 
 def _vertices(mesh: SharedMesh, binary: GltfBin) -> tuple[dict[str, int], list[int | None]]:

@@ -43,6 +43,7 @@ CLASS_COLOURS: Mapping[SemanticClass, str] = {
     SemanticClass.OTHER: "#b9b2c0",
     SemanticClass.FLOOR: "#b08d67",
     SemanticClass.CEILING: "#e6e3dc",
+    SemanticClass.FURNITURE: "#7f9a86",
 }
 """sRGB. Windows blue, balconies green, cornices yellow, doors red, as in the figure that
 `sampling` names."""

@@ -25,6 +25,7 @@ class SemanticClass(StrEnum):
     CORNICE = "cornice"
     FLOOR = "floor"
     CEILING = "ceiling"
+    FURNITURE = "furniture"
     # The last: to the engine it stands for all names that it does not know.
     OTHER = "other"
 
@@ -75,6 +76,7 @@ CITYJSON_SURFACE: dict[SemanticClass, str] = {
     SemanticClass.CORNICE: "OuterCeilingSurface",
     SemanticClass.FLOOR: "FloorSurface",
     SemanticClass.CEILING: "CeilingSurface",
+    SemanticClass.FURNITURE: "WallSurface",
     SemanticClass.OTHER: "WallSurface",
 }
 # Classes that CityJSON models as openings: they name the surface that they open as parent.

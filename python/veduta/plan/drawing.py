@@ -12,10 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Storey
+from veduta.plan.document import Furniture, Storey
 from veduta.plan.house.space import Hole, Space, pieces_of
 
-Layer = Literal["rooms", "walls", "windows", "doors", "stairs", "names"]
+Layer = Literal["rooms", "furniture", "walls", "windows", "doors", "stairs", "names"]
 LAYERS: tuple[Layer, ...] = get_args(Layer)
 _ARC_STEPS = 12
 
@@ -69,6 +69,8 @@ def draw(space: Space) -> Drawing:
         for room, region in space.rooms
         for shape in pieces_of(region)
     ]
+    things = sorted(space.storey.furniture or (), key=lambda thing: thing.above_m)
+    shapes += [_thing(thing) for thing in things]
     solid = space.walls
     for hole in space.holes:
         solid = solid.difference(hole.outline)
@@ -117,6 +119,18 @@ def _opening(hole: Hole) -> Shape:
         return Shape("windows", (), (*edges, *ends, middle), opening.id, opening.type)
     lines = [*ends, *_leaves(hole)]
     return Shape("doors", (), tuple(lines), opening.id, opening.type)
+
+
+def _thing(thing: Furniture) -> Shape:
+    """What a thing covers, and a line along its front."""
+    c, s = np.cos(thing.turn_rad), np.sin(thing.turn_rad)
+    turn = np.array([[c, s], [-s, c]])
+    width, depth, _ = thing.size_m
+    corners = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]) / 2.0 * (width, depth)
+    inset = min(0.06, 0.25 * depth)
+    front = np.array([(-width / 2.0, inset - depth / 2.0), (width / 2.0, inset - depth / 2.0)])
+    ring, line = corners @ turn + thing.at_m, front @ turn + thing.at_m
+    return Shape("furniture", (ring,), (line,), thing.id, thing.object)
 
 
 def _leaves(hole: Hole) -> list[NDArray[np.float64]]:

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Opening, PlanDocument, Room, Storey, Wall
+from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Storey, Wall
 from veduta.plan.house.lines import wall_lines
 from veduta.run.edited import numbers_of, read_edited, shown_faults
 from veduta.run.errors import InputError
@@ -66,8 +66,8 @@ def _faults(document: PlanDocument) -> list[str]:
 def _id_faults(storey: Storey, place: str) -> list[str]:
     """Ids that are there twice, and ids of nothing."""
     found = []
-    for kind in ("junctions", "walls", "openings", "rooms", "stairs"):
-        items = getattr(storey, kind)
+    for kind in ("junctions", "walls", "openings", "rooms", "stairs", "furniture"):
+        items = getattr(storey, kind) or ()
         if len(items) > MAX_PARTS:
             return [f"{place}.{kind}: {len(items)}, more than {MAX_PARTS}"]
         seen: set[str] = set()
@@ -87,7 +87,35 @@ def _id_faults(storey: Storey, place: str) -> list[str]:
         at = f"{place}.rooms[{index}]"
         found += _unknown([(f"{at}.walls", name) for name in room.walls], walls)
         found += _unknown([(f"{at}.openings", name) for name in room.openings], openings)
+    return found + _furniture_faults(storey, place)
+
+
+def _furniture_faults(storey: Storey, place: str) -> list[str]:
+    """Rooms that are not there, things that stand on nothing or around in a circle, no size."""
+    rooms = {room.id for room in storey.rooms}
+    things = {thing.id: thing for thing in storey.furniture or ()}
+    found = []
+    for index, thing in enumerate(things.values()):
+        at = f"{place}.furniture[{index}]"
+        found += _unknown([(f"{at}.room", thing.room)], rooms)
+        if min(thing.size_m) < _SHORTEST_M:
+            found.append(f"{at}.size_m: a side is less than {_SHORTEST_M:g} m")
+        if thing.on is not None and thing.on not in things:
+            found.append(f"{at}.on: there is no {thing.on!r}")
+        elif thing.on is not None and _stands_on_itself(thing, things):
+            found.append(f"{at}.on: things stand on each other in a circle")
     return found
+
+
+def _stands_on_itself(thing: Furniture, things: Mapping[str, Furniture]) -> bool:
+    seen: set[str] = set()
+    below: Furniture | None = thing
+    while below is not None and below.on is not None:
+        if below.id in seen:
+            return True
+        seen.add(below.id)
+        below = things.get(below.on)
+    return False
 
 
 def _unknown(named: Iterable[tuple[str, str]], known: set[str]) -> list[str]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
@@ -89,6 +90,21 @@ class HouseOptions(Options):
     )
     doors: Literal["open", "closed"] = Field(
         default="open", description="how doors stand in the model; each can be opened in any case"
+    )
+    no_furniture: bool = Field(default=False, description="leave the rooms empty")
+    seed: Annotated[int, Field(ge=0, le=2**31)] = Field(
+        default=0, description="of the furniture: another number furnishes the house otherwise"
+    )
+    catalogue: Path | None = Field(
+        default=None,
+        description="SQLite file with objects of your own, which are used, too (docs/plan.md)",
+    )
+    varied_furniture: bool = Field(
+        default=False,
+        description="choose among all objects each time; else one model of a type in the house",
+    )
+    furniture_detail: Literal["fine", "coarse"] = Field(
+        default="fine", description="how finely furniture is modelled; coarse: seen from afar"
     )
     no_tour: bool = Field(default=False, description="make no guided tour")
     tour_speed: Annotated[float, Field(ge=0.3, le=3.0)] = Field(

@@ -13,7 +13,11 @@ from typing import Any
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
+from veduta.plan.furnish.catalogue.digest import catalogue_digests
+from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
+from veduta.plan.furnish.furnish import furnish
 from veduta.plan.house.build import House, build_house
+from veduta.plan.house.furniture import check_objects
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
@@ -69,15 +73,19 @@ def run_plan(
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
     checked = load_document(call.paths[0]) if call.kind == "document" else None
+    catalogue = catalogue_of(options.house.catalogue)
+    digests = catalogue_digests(options.house.catalogue, catalogue)
+    if checked is not None:
+        check_objects(checked, catalogue, call.paths[0])
     drawings = _drawings(call, options)
     used: Options = options if call.kind == "drawings" else options.house
-    key = result_key(COMMAND[call.kind], VERSION, used, call.identity)
+    key = result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *digests])
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked or drawings, options, opened, key, progress.step)
+                _make(call, checked or drawings, catalogue, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
@@ -114,6 +122,7 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
 def _make(
     call: Call,
     given: PlanDocument | list[Drawing],
+    catalogue: Catalogue,
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -125,6 +134,8 @@ def _make(
     work = opened.work_folder(CALL)
     try:
         document, sheets, notes = _document(call, given, options, steps, progress)
+        if not options.house.no_furniture:
+            document = _furnish(document, catalogue, options.house, steps, progress)
         result = _house(document, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
@@ -165,6 +176,28 @@ def _document(
         sheets, notes = load_sheets(call.paths[0].parent, given)
         step.counts["storeys"] = len(given.storeys)
     return given, sheets, notes
+
+
+def _furnish(
+    document: PlanDocument,
+    catalogue: Catalogue,
+    options: HouseOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> PlanDocument:
+    """The document with furniture in each storey that has none yet."""
+    progress("furnish", 0.0)
+    with timed_step(steps, "furnish") as step:
+        done, rooms = furnish(
+            document, catalogue, options.seed, options.slab, varied=options.varied_furniture
+        )
+        step.counts |= {"rooms": len(rooms), "things": sum(len(room.stood) for room in rooms)}
+        step.rejected.extend(
+            f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
+            for room in rooms
+            if room.missing
+        )
+    return done
 
 
 def _house(

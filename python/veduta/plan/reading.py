@@ -1,8 +1,8 @@
 """The recipe of reading: the picture of a storey in, its walls, openings and rooms out.
 
 The order: straighten, tell ink from paper, find solid strokes, follow them into pieces, look for
-openings between the pieces, join them into axes, close where those are broken, let them meet, and
-find rooms.
+openings between the pieces, join them into axes, close where those are broken, judge the openings
+once more by what lies behind them, let the axes meet, and find rooms.
 """
 
 from __future__ import annotations
@@ -18,10 +18,15 @@ from veduta.plan.clean.sheet import TextReader, clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
+from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import Judged, judge
-from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
+from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
+from veduta.plan.openings.settle import settled
+from veduta.plan.openings.sky import open_sky
+from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.walls.axes import Axis, axes_of
@@ -73,10 +78,19 @@ def read_cleaned(
     found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     judged = judge_gaps(found, sheet)
+    leaves = leaf_pieces(found.pieces, judged)
+    if leaves:
+        walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
+        found = replace(found, pieces=walls)
+        judged = judge_gaps(found, sheet)
     axes = axes_of(found.pieces, judged)
     whole = mended(axes, found, sheet, texts)
-    settled = known.settle(whole.axes) if known else whole.axes
-    return replace(drawn_from(cleaned, found, settled, texts, whole.notes), stairs=flights)
+    sky = open_sky(whole.axes, found.thin_px, texts)
+    # What a vector file says of its openings goes before what its picture looks like.
+    axes = whole.axes if known else with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    axes = settled(axes, found.thin_px, sky)
+    laid = known.settle(axes) if known else axes
+    return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

@@ -23,8 +23,11 @@ FILES = (
     ("plan.json", "everything that was found, in metres; edit it and rebuild"),
     ("overlay.png", "what was found, over the cleaned drawing, with the ids of the openings"),
     ("plan.svg", "the plan as a drawing"),
-    ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms"),
-    ("house.ifc", "the house for BIM software (IFC4): walls, openings, doors, windows, spaces"),
+    ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms, furniture"),
+    (
+        "house.ifc",
+        "the house for BIM software (IFC4): walls, openings, doors, windows, spaces, furniture",
+    ),
     ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
     ("place.json", "the house as a place with its tour, for `veduta view`"),
     ("tour.png", "the plan with the way of the tour"),
@@ -55,6 +58,7 @@ def measures(document: PlanDocument) -> dict[str, Any]:
         "windows": sum(opening.kind == "window" for opening in openings),
         "gaps": sum(opening.kind == "gap" for opening in openings),
         "stairs": sum(len(storey.stairs) for storey in storeys),
+        "furniture": sum(len(storey.furniture or ()) for storey in storeys),
         "doubtful_openings": doubtful,
         "mended_rooms": sum(room.mended for room in rooms),
         "area_m2": round(sum(room.area_m2 for room in inner), 2),
@@ -103,6 +107,7 @@ def plan_report(
         tables=[
             *(_rooms(storey) for storey in document.storeys),
             *(_openings(storey) for storey in document.storeys),
+            *(table for storey in document.storeys for table in _furniture(storey)),
             *(table for storey in document.storeys for table in _evidence(storey)),
             _provenance(result),
         ],
@@ -182,6 +187,24 @@ def _openings(storey: Storey) -> Table:
     ]  # fmt: skip
     columns = ("id", "kind", "type", "wall", "width m", "hinge", "swing", "score", "origin")
     return Table(f"Openings of {storey.name}", columns, rows)
+
+
+def _furniture(storey: Storey) -> list[Table]:
+    """What stands in each room; all of it is invented, unless it was edited."""
+    if not storey.furniture:
+        return []
+    things: defaultdict[str, Counter[str]] = defaultdict(Counter)
+    for thing in storey.furniture:
+        things[thing.room][thing.object] += 1
+    rows = [
+        (
+            room.id, room.name or room.use, sum(things[room.id].values()),
+            ", ".join(f"{n} {name}" if n > 1 else name for name, n in things[room.id].items()),
+        )
+        for room in storey.rooms
+        if room.id in things
+    ]  # fmt: skip
+    return [Table(f"Furniture of {storey.name}", ("room", "use", "things", "objects"), rows)]
 
 
 def _evidence(storey: Storey) -> list[Table]:

@@ -24,6 +24,7 @@ export const CLASS_LOOKS: Readonly<Record<SemanticClass, ClassLook>> = {
   ground: { label: "Ground", plural: "Ground", colour: "#8f8f86" },
   floor: { label: "Floor", plural: "Floors", colour: "#b08d67" },
   ceiling: { label: "Ceiling", plural: "Ceilings", colour: "#d9d4c7" },
+  furniture: { label: "Furniture", plural: "Furniture", colour: "#7f9a86" },
   other: { label: "Other surface", plural: "Other surfaces", colour: "#a39aa8" },
 };
 

@@ -15,6 +15,7 @@ export type SemanticClass =
   | "cornice"
   | "floor"
   | "ceiling"
+  | "furniture"
   | "other";
 /**
  * Where a surface comes from.

@@ -74,7 +74,7 @@ def test_a_door_has_its_hinge_and_its_side(drawn: Drawn) -> None:
 def test_a_window_is_told_from_a_door(drawn: Drawn) -> None:
     (window,) = [one for one in drawn.openings if one.kind == "window"]
     assert window.width_px == pytest.approx(150, abs=3)
-    assert window.type == "single-line"  # one line between the faces
+    assert window.type == "triple-line"  # one line between those on the faces
 
 
 def test_rooms_are_the_free_floor(drawn: Drawn) -> None:

@@ -9,10 +9,12 @@ from shapely.geometry import Polygon
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
+from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.doors import add_door
 from veduta.plan.house.flights import Stairwell, stairwells
 from veduta.plan.house.floors import add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
+from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.sound import sound_part
@@ -38,6 +40,9 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     """The house; the notes of the part say what was left out or is otherwise than asked."""
     builder = PartBuilder(PART)
     sculptor = Sculptor(builder, Looks(builder))
+    furnishing = Furnishing(
+        builder, catalogue_of(options.catalogue), coarse=options.furniture_detail == "coarse"
+    )
     storeys = sorted(document.storeys, key=lambda storey: storey.elevation_m)
     found = [space_of(storey, storey.height_m - options.slab) for storey in storeys]
     wells = stairwells(found, options.slab)
@@ -48,6 +53,7 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     for index, (space, well) in enumerate(zip(spaces, wells, strict=True)):
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         _add_storey(space, above, well, sculptor, options)
+        furnishing.add(space.storey)
         builder.notes.extend([*space.notes, *well.notes])
     first, last = spaces[0], spaces[-1]
     base = first.storey.elevation_m
@@ -55,7 +61,7 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     top = last.storey.elevation_m + last.storey.height_m
     builder.notes.extend(add_roof(last.covered, top, sculptor, options))
     builder.attributes["storeysAboveGround"] = len(spaces)
-    return House(sound_part(builder.build()), spaces)
+    return House(furnishing.onto(sound_part(builder.build())), spaces)
 
 
 def _add_storey(

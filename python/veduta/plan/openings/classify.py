@@ -2,31 +2,42 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from veduta.plan.document import OpeningType
-from veduta.plan.openings.evidence import Arc, Evidence
+from veduta.plan.openings.evidence import LEAST_ARC, Evidence
 from veduta.plan.openings.gaps import Gap
+from veduta.plan.openings.leaves import Arc
 
-LEAST_ARC = 0.5
+LEAST_CHORD = 0.6
+LEAST_FOLD = 0.6
 LEAST_TONE = 0.05
+CENTRED = 0.3
+"""Panels that slide past each other meet in a line so near to the wall's middle (half
+thicknesses)."""
+
 PLAIN_WIDTH = 14.0
 """Passages without any drawing are at most so many (thin) wall thicknesses wide between ends."""
 
 PLAIN_TO_SIDE = 9.0
 """And so many from an end to the side of a wall."""
 
-
 WIDEST_DOOR = 22.0
 """Leaves are at most so many (thin) wall thicknesses wide, both of a double door together."""
+
+WIDEST_LEAFLESS = 16.0
+"""Doors between rooms that are drawn without a leaf."""
 
 
 @dataclass(frozen=True)
 class Judged:
-    """A gap with its kind; `hinge` and `swing` are those of who goes from its start to its end."""
+    """A gap with its kind; `hinge` and `swing` are those of who goes from its start to its end.
+
+    `seen` is what it was judged by, None where it was closed for another reason.
+    """
 
     gap: Gap
     kind: Literal["door", "window", "gap"]
@@ -34,66 +45,106 @@ class Judged:
     hinge: Literal["start", "end", "both", "none"]
     swing: Literal["left", "right", "both", "none"]
     score: float
+    seen: Evidence | None = None
 
 
 def judge(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judged | None:
     """The kind of a gap, or None where nothing says that the wall goes on behind it.
 
-    `thin_px` is the usual thickness of thin walls, `outer` whether it leads outdoors.
+    `thin_px` is the usual thickness of thin walls, `outer` whether it leads outdoors (None: not
+    known yet).
     """
+    judged = _drawn(gap, seen, thin_px, outer)
+    return None if judged is None else replace(judged, seen=seen)
+
+
+def _drawn(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judged | None:
     door = _door(gap, seen) if gap.width_px < WIDEST_DOOR * thin_px else None
     if door is not None:
         return door
-    inner_lines = [line for line in seen.lines if abs(line) < 0.72]
+    if slides(seen):
+        return Judged(gap, "door", "sliding", "none", "none", 0.7)
     if seen.lines or seen.tone > LEAST_TONE:
-        if outer is False and not inner_lines and gap.width_px < 16 * thin_px:
+        if outer is False and gap.width_px < WIDEST_LEAFLESS * thin_px:
             kind: OpeningType = "plain" if not seen.lines else "unknown"
             return Judged(gap, "door", kind, "none", "none", 0.6)
-        if outer is False and gap.width_px < 16 * thin_px:
-            return Judged(gap, "door", "sliding", "none", "none", 0.6)
-        return Judged(gap, "window", _window(seen), "none", "none", _window_score(seen))
+        return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
     limit = PLAIN_TO_SIDE if gap.to_side else PLAIN_WIDTH
     if gap.width_px > limit * thin_px:
         return None
     return Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)
 
 
+def slides(seen: Evidence) -> bool:
+    """Whether two panels are drawn that slide past each other."""
+    return seen.step != 0.0 and any(abs(line) < CENTRED for line in seen.lines)
+
+
+def window_type(seen: Evidence) -> OpeningType:
+    """The four drawings of AV3D (figure 7): by the lines that run along the window, and shade.
+
+    Double lines run along both faces, a third between them; a single line stands alone.
+    """
+    if seen.shade > LEAST_TONE:
+        return "filled"
+    if not seen.inner:
+        return "double-line"
+    return "single-line" if len(seen.inner) == 1 and not seen.faces else "triple-line"
+
+
 def _door(gap: Gap, seen: Evidence) -> Judged | None:
+    """By its leaves; None where there are none."""
+    if seen.folds and (fold := seen.folds[0]).score >= LEAST_FOLD:
+        hinge = _hinge(fold.hinge_at_start)
+        return Judged(gap, "door", "folding", hinge, _side(fold.side, False), fold.score)
     good = [arc for arc in seen.arcs if arc.score >= LEAST_ARC]
-    if not good:
-        return None
+    if good:
+        return _swing(gap, good)
+    if seen.pocket is not None:
+        return _pocket(gap, *seen.pocket)
+    if seen.chords and (chord := seen.chords[0]).score >= LEAST_CHORD:
+        hinge = _hinge(chord.hinge_at_start)
+        return Judged(gap, "door", "swing", hinge, _side(chord.side, False), chord.score)
+    return None
+
+
+def _swing(gap: Gap, good: list[Arc]) -> Judged | None:
     best = good[0]
-    pair = [arc for arc in good if arc.radius_share == 0.5]
     if best.radius_share == 0.5:
-        other = [arc for arc in pair if arc.hinge_at_start != best.hinge_at_start]
+        other = [
+            arc
+            for arc in good
+            if arc.radius_share == 0.5 and arc.hinge_at_start != best.hinge_at_start
+        ]
         if not other:
             return None
-        both = all(arc.side == best.side for arc in other[:1])
-        return Judged(gap, "door", "double", "both", _side(best, not both), best.score)
-    twice = [
-        arc
-        for arc in good
-        if arc.radius_share == 1.0
+        swing = _side(best.side, other[0].side != best.side)
+        return Judged(gap, "door", "double", "both", swing, best.score)
+    twice = any(
+        arc.radius_share == 1.0
         and arc.side != best.side
         and arc.hinge_at_start == best.hinge_at_start
-    ]
-    hinge: Literal["start", "end"] = "start" if best.hinge_at_start else "end"
-    return Judged(gap, "door", "swing", hinge, _side(best, bool(twice)), min(1.0, best.score))
+        for arc in good
+    )
+    hinge = _hinge(best.hinge_at_start)
+    return Judged(gap, "door", "swing", hinge, _side(best.side, twice), min(1.0, best.score))
 
 
-def _side(arc: Arc, both: bool) -> Literal["left", "right", "both"]:
+def _pocket(gap: Gap, low: float, high: float) -> Judged:
+    """The leaf slides into the wall on the side where it is drawn, and that part is wall."""
+    run = gap.end - gap.start
+    free = replace(gap, start=gap.start + low * run, end=gap.start + high * run)
+    return Judged(free, "door", "pocket", _hinge(low > 1 - high), "none", 0.8)
+
+
+def _hinge(at_start: bool) -> Literal["start", "end"]:
+    return "start" if at_start else "end"
+
+
+def _side(side: int, both: bool) -> Literal["left", "right", "both"]:
     if both:
         return "both"
-    return "right" if arc.side > 0 else "left"
-
-
-def _window(seen: Evidence) -> OpeningType:
-    """The paper's four drawings, by how many lines run along the window."""
-    inner = [line for line in seen.lines if abs(line) < 0.72]
-    if not seen.lines:
-        return "filled"
-    by_count: dict[int, OpeningType] = {0: "double-line", 1: "single-line", 2: "double-line"}
-    return by_count.get(len(inner), "triple-line")
+    return "right" if side > 0 else "left"
 
 
 def _window_score(seen: Evidence) -> float:

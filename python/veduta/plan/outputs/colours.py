@@ -9,6 +9,7 @@ Rgb = tuple[int, int, int]
 
 LAYER_COLOURS: dict[Layer, str] = {
     "rooms": "#8a8f98",
+    "furniture": "#7c6f64",
     "walls": "#1f2a37",
     "windows": "#1f7fd1",
     "doors": "#c2571a",

@@ -18,6 +18,7 @@ from veduta.plan.outputs.svg import GAP_M, text_size_m
 
 _NAMES: dict[Layer, str] = {
     "rooms": "A-AREA",
+    "furniture": "A-FURN",
     "walls": "A-WALL",
     "windows": "A-GLAZ",
     "doors": "A-DOOR",

@@ -21,10 +21,12 @@ from shapely.geometry.polygon import orient
 import veduta
 from veduta.place.semantics import SemanticClass
 from veduta.plan.document import Opening
+from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
 from veduta.plan.house.lines import WallLine
 from veduta.plan.house.space import Hole, Space, pieces_of, solid_region
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.ifc_furniture import FurnitureMaker
 
 Entity = Any
 _NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
@@ -38,10 +40,13 @@ DoorOperation = Literal[
 def house_ifc(house: House, options: HouseOptions) -> bytes:
     """The file's content."""
     model = _Model()
+    furniture = FurnitureMaker(model, catalogue_of(options.catalogue))
     storeys = []
     for index, space in enumerate(house.spaces):
         above = house.spaces[index + 1].slab if index + 1 < len(house.spaces) else Polygon()
         storeys.append(_storey(model, space, above, options, is_lowest=index == 0))
+        things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
+        model.contain(storeys[-1], things, "furniture")
     model.aggregate(model.building, storeys, "storeys")
     roof = _roof(model, house)
     if roof is not None:

@@ -80,7 +80,7 @@ def _draw(picture: NDArray[np.uint8], shape: Shape, sheet: Sheet, scale: float) 
     if opacity is not None:
         _fill(picture, rings, colour, opacity)
     if shape.layer != "rooms":
-        width = 3 if shape.layer in {"doors", "windows"} else 2
+        width = {"doors": 3, "windows": 3, "furniture": 1}.get(shape.layer, 2)
         cv2.polylines(picture, rings, True, colour, width, cv2.LINE_AA, _SHIFT)
         cv2.polylines(picture, lines, False, colour, width, cv2.LINE_AA, _SHIFT)
 

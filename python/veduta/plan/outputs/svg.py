@@ -16,7 +16,14 @@ GAP_M = 2.0
 MARGIN_M = 0.6
 TITLE_M = 1.0
 PX_PER_M = 60
-_LINE_M = {"walls": 0.0, "windows": 0.03, "doors": 0.03, "stairs": 0.02, "rooms": 0.0}
+_LINE_M = {
+    "walls": 0.0,
+    "windows": 0.03,
+    "doors": 0.03,
+    "stairs": 0.02,
+    "rooms": 0.0,
+    "furniture": 0.012,
+}
 _TEXT_M, _LEAST_TEXT_M = 0.28, 0.12
 
 

@@ -19,8 +19,9 @@ from shapely.geometry import Point, Polygon, box
 
 from veduta.plan.document import Origin, Text
 from veduta.plan.openings.classify import Judged, judge
-from veduta.plan.openings.evidence import Sheet, look_at
+from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
+from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
 from veduta.plan.rooms.labels import room_labels

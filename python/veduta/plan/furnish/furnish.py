@@ -1,0 +1,228 @@
+"""The recipe: what each room wants, placed in order; then things on things; then the records."""
+
+from __future__ import annotations
+
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from shapely.geometry import Polygon
+
+from veduta.plan.document import Furniture, PlanDocument, Room, RoomUse, Stairs, Storey
+from veduta.plan.furnish.arrangement import Spot, Variant, alone
+from veduta.plan.furnish.catalogue.entry import Wanted
+from veduta.plan.furnish.catalogue.read import Catalogue
+from veduta.plan.furnish.choice import Choice
+from veduta.plan.furnish.groups.lounge import lounge
+from veduta.plan.furnish.groups.rows import coats, kitchen_run, wash_row
+from veduta.plan.furnish.groups.single import single
+from veduta.plan.furnish.groups.sleeping import sleeping
+from veduta.plan.furnish.groups.table import desk, dining, garden_seats
+from veduta.plan.furnish.layout import Layout, Stood
+from veduta.plan.furnish.place import place_first
+from veduta.plan.furnish.room import RoomSpace, room_spaces
+from veduta.plan.furnish.upon import place_upon
+from veduta.plan.furnish.walk import Ways
+from veduta.plan.house.flights import stairwells
+from veduta.plan.house.space import Space, space_of
+
+GROUPS: dict[str, Callable[[Choice, RoomSpace], list[Variant]]] = {
+    "sleeping": sleeping,
+    "lounge": lounge,
+    "dining": dining,
+    "garden-seats": garden_seats,
+    "desk": desk,
+    "wash-row": wash_row,
+    "kitchen-run": kitchen_run,
+    "coats": coats,
+}
+"""Wishes of the catalogue that are more than one thing; others are types of objects."""
+APART: dict[str, tuple[str, ...]] = {
+    "wash-row": ("toilet", "basin"),
+    "kitchen-run": ("kitchen-sink", "kitchen-hob", "fridge", "kitchen-unit"),
+}
+"""What a row comes to where no wall is long enough for it: its things at walls of their own."""
+INSTEAD: dict[str, str] = {"shower": "bathtub", "fridge": "fridge-small"}
+"""Not wanted where the other stands already."""
+AS: dict[RoomUse, RoomUse] = {"other": "storage"}
+RESTARTS = 3
+MOST_THINGS = 60
+"""In a room."""
+
+
+@dataclass(frozen=True)
+class FurnishedRoom:
+    """A room with what stands in it, and what found no place."""
+
+    room: Room
+    stood: tuple[Stood, ...]
+    missing: tuple[str, ...]
+
+
+def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: float, *,
+            varied: bool = False) -> tuple[PlanDocument, list[FurnishedRoom]]:  # fmt: skip
+    """The document with furniture in the storeys that have none yet, and what was done.
+
+    A storey whose list is there, empty or not, stays as it is. The same document, catalogue and
+    seed give the same furniture.
+    """
+    choice = Choice(catalogue, seed, varied)
+    order = sorted(
+        range(len(document.storeys)), key=lambda index: document.storeys[index].elevation_m
+    )
+    spaces = storey_spaces([document.storeys[index] for index in order], slab_m)
+    storeys, rooms = list(document.storeys), []
+    below: list[Stairs] = []
+    for index, space in zip(order, spaces, strict=True):
+        storey = document.storeys[index]
+        if storey.furniture is None:
+            height = storey.height_m - slab_m
+            done = [
+                furnish_room(one, choice, storey.name) for one in room_spaces(space, height, below)
+            ]
+            rooms += done
+            storeys[index] = storey.model_copy(update={"furniture": records(done)})
+        below = storey.stairs
+    return document.model_copy(update={"storeys": storeys}), rooms
+
+
+def storey_spaces(storeys: Sequence[Storey], slab_m: float) -> list[Space]:
+    """The storeys' regions from the lowest up, without the floors over their stairs."""
+    found = [space_of(storey, storey.height_m - slab_m) for storey in storeys]
+    openings = [Polygon(), *(well.opening for well in stairwells(found, slab_m))]
+    return [replace(space, well=opening) for space, opening in zip(found, openings, strict=False)]
+
+
+def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom:
+    """A room by its use; where something critical finds no place, what came before it gives way."""
+    name = zlib.crc32(f"{storey} {space.room.id}".encode())
+    seeds = [choice.seed, name]
+    wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
+    ways = Ways(space.floor, space.doors)
+    best: tuple[Layout, list[str]] | None = None
+    for _ in range(RESTARTS):
+        layout = Layout(space, ways)
+        missing, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
+        if best is None or len(missing) < len(best[1]):
+            best = (layout, missing)
+        if failed is None or not failed:
+            break
+        # The first wishes are the largest: without the first, there is place for the critical one.
+        wishes = [wish for wish in wishes if wish != wishes[0]]
+    assert best is not None  # noqa: S101
+    place_upon(best[0], choice, np.random.default_rng([*seeds, 1]))
+    return FurnishedRoom(space.room, tuple(best[0].stood), tuple(best[1]))
+
+
+def _wishes(space: RoomSpace, choice: Choice, rng: np.random.Generator) -> Iterator[Wanted]:
+    """What the room's use asks for, each as often as it is wanted."""
+    area = space.floor.area
+    use = AS.get(space.room.use, space.room.use)
+    for wanted in choice.catalogue.wanted_in(use):
+        drawn = rng.random()
+        if area < wanted.from_m2 or drawn >= wanted.chance:
+            continue
+        count = min(wanted.most, wanted.least + int(area / wanted.each_m2))
+        for _ in range(max(wanted.least, count)):
+            yield wanted
+
+
+def _place_all(
+    wishes: Sequence[Wanted], layout: Layout, choice: Choice, rng: np.random.Generator
+) -> tuple[list[str], bool | None]:
+    """What found no place, and whether something critical did not that others could make room for.
+
+    None where nothing critical failed.
+    """
+    missing: list[str] = []
+    failed: bool | None = None
+    for group, wish in enumerate(wishes, 1):
+        if len(layout.stood) >= MOST_THINGS:
+            break
+        other = INSTEAD.get(wish.type)
+        if other and any(one.entry.type == other for one in layout.stood):
+            continue
+        if _place_one(wish.type, layout, choice, rng, group):
+            continue
+        missing.append(wish.type)
+        if wish.critical:
+            failed = group > 1
+    return missing, failed
+
+
+def _place_one(
+    kind: str, layout: Layout, choice: Choice, rng: np.random.Generator, group: int
+) -> bool:
+    if kind == "curtain":
+        return _hang_curtain(layout, choice, group)
+    if kind == "bath-mat":
+        return _lay_mat(layout, choice, group)
+    make = GROUPS.get(kind)
+    variants = make(choice, layout.space) if make else single(kind, choice, layout.space)
+    if place_first(variants, layout, rng, group):
+        return True
+    done = [
+        place_first(single(part, choice, layout.space), layout, rng, group)
+        for part in APART.get(kind, ())
+    ]
+    return bool(done) and all(done)
+
+
+def _hang_curtain(layout: Layout, choice: Choice, group: int) -> bool:
+    """At the next window that has none and where nothing stands in their way."""
+    entry = choice.entry("curtain")
+    hung = [one.shape.centroid for one in layout.stood if one.entry.type == "curtain"]
+    for window in layout.space.windows:
+        middle = window.hole.start + window.hole.along * window.hole.width_m / 2.0
+        face = middle + (window.hole.line.half_m + 0.02) * window.inward
+        if any(np.hypot(p.x - middle[0], p.y - middle[1]) < 0.6 for p in hung):
+            continue
+        turn = float(np.arctan2(window.inward[0], -window.inward[1]))
+        size = entry.sized(window.hole.width_m + 0.4)
+        spot = Spot(layout.space, face, turn, None)
+        thing = spot.place(alone(entry, size), group, None)
+        if layout.allows(thing):
+            layout.add([thing])
+            return True
+    return False
+
+
+def _lay_mat(layout: Layout, choice: Choice, group: int) -> bool:
+    """Before the bath, the shower or the basin."""
+    entry = choice.entry("bath-mat")
+    size = entry.sized()
+    for one in layout.stood:
+        if one.entry.type not in {"bathtub", "shower", "basin"}:
+            continue
+        at = one.point(0.0, -one.size_m[1] / 2.0 - size[1] / 2.0 - 0.03)
+        mat = Stood(
+            entry, size, (round(float(at[0]), 4), round(float(at[1]), 4)), one.turn, group=group
+        )
+        if layout.allows(mat):
+            layout.add([mat])
+            return True
+    return False
+
+
+def records(rooms: Sequence[FurnishedRoom]) -> list[Furniture]:
+    """The things as they are kept in the document."""
+    found: list[Furniture] = []
+    for room in rooms:
+        ids: dict[int, str] = {}
+        for one in room.stood:
+            name = f"f{len(found) + 1}"
+            ids[id(one)] = name
+            found.append(
+                Furniture(
+                    id=name,
+                    object=one.entry.name,
+                    room=room.room.id,
+                    at_m=one.at,
+                    turn_rad=one.turn,
+                    size_m=one.size_m,
+                    above_m=one.above_m,
+                    on=None if one.on is None else ids[id(one.on)],
+                )
+            )
+    return found

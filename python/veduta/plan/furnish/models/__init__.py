@@ -1,0 +1,1 @@
+"""The project's own objects: each is built by code for any size within its range."""

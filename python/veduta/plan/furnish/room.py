@@ -1,0 +1,265 @@
+"""A room as furnishing sees it: its floor, its walls, and what must stay free.
+
+Plan frame, metres; heights are from the room's floor.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from functools import cached_property
+
+import numpy as np
+import shapely
+from numpy.typing import NDArray
+from shapely import affinity
+from shapely.geometry import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import orient
+from shapely.ops import unary_union
+
+from veduta.plan.document import Room, Stairs
+from veduta.plan.house.space import Hole, Space, pieces_of
+
+APPROACH_M = 0.65
+"""What stays free before a door."""
+WINDOW_M = 0.35
+"""How near things that are higher than its sill come to a window."""
+STEP_M = 0.8
+"""What stays free at the foot and the head of stairs."""
+LEAST_WALL_M = 0.25
+LEAST_FLOOR_M2 = 0.2
+_STRAIGHT_M = 0.015
+_BEHIND_M = 0.03
+_SECTOR_STEPS = 10
+Vector = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A straight piece of wall, the room on the left of who goes along it.
+
+    start, along, inward: (2,), the latter two unit vectors. door_m: from its middle to the nearest
+    door's. inner_start, inner_end: whether it ends in a corner of the room.
+    """
+
+    start: Vector
+    along: Vector
+    length: float
+    door_m: float
+    inner_start: bool
+    inner_end: bool
+
+    @property
+    def inward(self) -> Vector:
+        """Into the room."""
+        return np.array([-self.along[1], self.along[0]])
+
+    def at(self, along_m: float, into_m: float = 0.0) -> Vector:
+        """A point along it and into the room."""
+        point: Vector = self.start + along_m * self.along + into_m * self.inward
+        return point
+
+    @property
+    def turn(self) -> float:
+        """Of things whose back stands against it (rad, as `Furniture.turn_rad`)."""
+        return float(np.arctan2(self.inward[0], -self.inward[1]))
+
+
+@dataclass(frozen=True)
+class Window:
+    """What lies before a window, and how high its sill is."""
+
+    hole: Hole
+    zone: Polygon
+    low_m: float
+    inward: Vector
+
+
+@dataclass(frozen=True)
+class RoomSpace:
+    """A room with all that limits what stands in it.
+
+    region: the floor as it is; `floor` has straight walls made plain. doors: (n, 2) points before
+    its doors. blocked: what doors, their leaves and stairs need.
+    """
+
+    room: Room
+    region: Polygon
+    floor: Polygon
+    stretches: tuple[Stretch, ...]
+    doors: NDArray[np.float64]
+    blocked: BaseGeometry
+    windows: tuple[Window, ...]
+    height_m: float
+    notes: list[str] = field(default_factory=list)
+
+    @cached_property
+    def inside(self) -> Polygon:
+        """The floor with a tolerance, prepared."""
+        grown = self.region.buffer(1e-3, join_style="mitre")
+        shapely.prepare(grown)
+        return grown
+
+    @cached_property
+    def door_way(self) -> Vector:
+        """The first door, or the room's middle."""
+        return self.doors[0] if len(self.doors) else np.array(self.floor.centroid.coords[0])
+
+
+def room_spaces(
+    space: Space, height_m: float, stairs_below: Sequence[Stairs] = ()
+) -> list[RoomSpace]:
+    """The rooms of a storey that have a floor; stairs_below come up through it."""
+    stairs = [_flight(one, comes_up=False) for one in space.storey.stairs]
+    stairs += [_flight(one, comes_up=True) for one in stairs_below]
+    found = []
+    for room, region in space.floors:
+        if room is None:
+            continue
+        # Narrow necks beside chimneys and in window niches are no floor to stand on.
+        whole = max(pieces_of(region), key=lambda piece: piece.area)
+        floor = _simple(whole)
+        if floor.is_valid and floor.area > LEAST_FLOOR_M2:
+            found.append(_room_space(room, (whole, floor), space, height_m, stairs))
+    return found
+
+
+def _simple(floor: Polygon) -> Polygon:
+    """Counter-clockwise, without corners on straight walls."""
+    plain = floor.simplify(_STRAIGHT_M)
+    return orient(plain if isinstance(plain, Polygon) else floor)
+
+
+def _room_space(
+    room: Room,
+    floors: tuple[Polygon, Polygon],
+    space: Space,
+    height_m: float,
+    stairs: list[BaseGeometry],
+) -> RoomSpace:
+    floor = floors[1]
+    ways = [(hole, sign) for hole in space.holes for sign in _sides(hole, room)]
+    doors = [way for way in ways if way[0].opening.kind != "window"]
+    points = np.array([_before(hole, sign) for hole, sign in doors]).reshape(-1, 2)
+    middles = np.array([_middle(hole) for hole, _ in doors]).reshape(-1, 2)
+    zones = [zone for hole, sign in doors for zone in _door_zones(hole, sign)]
+    windows = tuple(
+        Window(hole, _front_of(hole, sign, WINDOW_M, 0.0), hole.low_m, sign * _left(hole))
+        for hole, sign in ways
+        if hole.opening.kind == "window"
+    )
+    blocked = unary_union([*zones, *stairs]).intersection(floor.buffer(0.05))
+    shapely.prepare(blocked)
+    walls = space.walls.buffer(1e-3)
+    shapely.prepare(walls)
+    stretches = [
+        one
+        for ring in (floor.exterior, *floor.interiors)
+        for one in _stretches(np.array(ring.coords)[:-1], walls, middles)
+    ]
+    return RoomSpace(room, *floors, tuple(stretches), points, blocked, windows, height_m)
+
+
+def _sides(hole: Hole, room: Room) -> list[float]:
+    """+1 where the room is on the left of an opening, -1 on its right."""
+    return [
+        sign
+        for sign, beside in ((1.0, hole.left), (-1.0, hole.right))
+        if beside is not None and beside.id == room.id
+    ]
+
+
+def _left(hole: Hole) -> Vector:
+    return np.array([-hole.along[1], hole.along[0]])
+
+
+def _middle(hole: Hole) -> Vector:
+    return hole.start + hole.along * hole.width_m / 2.0
+
+
+def _before(hole: Hole, sign: float) -> Vector:
+    """Where one stands before a door."""
+    return _middle(hole) + sign * (hole.line.half_m + 0.32) * _left(hole)
+
+
+def _front_of(hole: Hole, sign: float, deep_m: float, beside_m: float) -> Polygon:
+    """The rectangle before an opening, from the middle of its wall on."""
+    inward = sign * _left(hole)
+    first = hole.start - beside_m * hole.along
+    last = hole.start + (hole.width_m + beside_m) * hole.along
+    out = (hole.line.half_m + deep_m) * inward
+    return Polygon([first, last, last + out, first + out])
+
+
+def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
+    """What a door needs on one side: an approach, the sweep of its leaves."""
+    opening = hole.opening
+    garage = opening.type == "garage"
+    zones = [_front_of(hole, sign, APPROACH_M, 0.03)]
+    if opening.kind == "gap" or opening.type == "plain" or garage:
+        return zones
+    if opening.type in {"sliding", "pocket"}:
+        # The leaf runs along the wall.
+        return [*zones, _front_of(hole, sign, 0.1, hole.width_m)]
+    swings = -1.0 if opening.swing == "right" else 1.0
+    if opening.swing != "both" and swings != sign:
+        return zones
+    face = hole.line.half_m * sign * _left(hole)
+    ends = (hole.start + face, hole.start + hole.width_m * hole.along + face)
+    both = opening.hinge == "both" or opening.type in {"double", "french", "folding"}
+    radius = (hole.width_m / 2.0 if both else hole.width_m) + 0.03
+    hinges = {"start": [0], "end": [1], "none": [0], "both": [0, 1]}[opening.hinge]
+    for end in [0, 1] if both else hinges:
+        way = hole.along if end == 0 else -hole.along
+        zones.append(_sector(ends[end], way, sign * _left(hole), radius))
+    return zones
+
+
+def _sector(hinge: Vector, closed: Vector, opened: Vector, radius: float) -> Polygon:
+    turn = np.linspace(0.0, np.pi / 2.0, _SECTOR_STEPS + 1)[:, None]
+    arc = hinge + radius * (np.cos(turn) * closed + np.sin(turn) * opened)
+    return Polygon([hinge, *arc])
+
+
+def _flight(stairs: Stairs, *, comes_up: bool) -> BaseGeometry:
+    """A flight with the step before its foot, or, on the storey above, behind its head."""
+    shape = Polygon(stairs.outline_m).buffer(0.02, join_style="mitre")
+    way = np.array(stairs.up) * (1.0 if comes_up else -1.0)
+    moved = affinity.translate(shape, *(STEP_M * way))
+    return unary_union([shape, moved]).convex_hull if np.any(way) else shape.buffer(0.4)
+
+
+def _stretches(
+    ring: NDArray[np.float64], walls: BaseGeometry, doors: NDArray[np.float64]
+) -> list[Stretch]:
+    """The straight edges of a ring along which there is a wall; the room is on their left."""
+    edges = np.roll(ring, -1, axis=0) - ring
+    lengths = np.linalg.norm(edges, axis=1)
+    found = []
+    for k, (start, edge, length) in enumerate(zip(ring, edges, lengths, strict=True)):
+        if length < LEAST_WALL_M:
+            continue
+        along = edge / length
+        behind = np.array([along[1], -along[0]]) * _BEHIND_M
+        line = LineString([start + behind, start + edge + behind]).intersection(walls)
+        after, before = edges[(k + 1) % len(ring)], edges[k - 1]
+        for piece in getattr(line, "geoms", [line]):
+            if piece.length < LEAST_WALL_M:
+                continue
+            first, last = sorted(float((np.array(p) - start) @ along) for p in piece.coords[::1])
+            first, last = max(first, 0.0), min(last, float(length))
+            middle = start + (first + last) / 2.0 * along
+            far = float(np.linalg.norm(doors - middle, axis=1).min()) if len(doors) else 0.0
+            found.append(
+                Stretch(
+                    start + first * along, along, last - first, far,
+                    first < 1e-3 and _turns_left(before, edge),
+                    last > length - 1e-3 and _turns_left(edge, after),
+                )
+            )  # fmt: skip
+    return found
+
+
+def _turns_left(first: Vector, second: Vector) -> bool:
+    return bool(first[0] * second[1] - first[1] * second[0] > 0.0)

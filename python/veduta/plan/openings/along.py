@@ -1,0 +1,144 @@
+"""Openings where the wall is not interrupted: stretches that are drawn in another way than walls.
+
+Windows in hollow walls, and windows in walls of a single thick line, leave no gap in what is solid.
+The ink across the wall, column by column, is compared with that of walls of the same sheet; where
+it differs over the width of an opening there is one. AV3D looks for lines across the wall instead
+(`av3d`), which fails where lines are blurred or as thick as the wall.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import median_filter
+from shapely.geometry.base import BaseGeometry
+
+from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.evidence import look_at
+from veduta.plan.openings.gaps import Gap
+from veduta.plan.openings.lines import runs
+from veduta.plan.openings.sky import leads_out
+from veduta.plan.openings.strip import Sheet, Strip, cut_strip
+from veduta.plan.walls.axes import Axis, OnAxis
+from veduta.plan.walls.join import SAME_THICKNESS
+
+ROWS = np.linspace(-1.2, 1.2, 13)
+"""Where across the wall ink is compared, in half thicknesses."""
+
+CHANGE = 0.1
+"""A column differs from a wall's if its ink does by this part of the wall's darkest row."""
+
+SMOOTH_PX = 5
+JOINED_PX = 3
+"""Parts of one opening are no farther apart."""
+
+LEAST_WIDTH = 4.0
+"""Windows are at least so many (thin) wall thicknesses wide."""
+
+BESIDE = 0.6
+"""What differs so near to an opening or the wall's end, in its thicknesses, is part of that."""
+
+DOUBT = 0.8
+"""Scores of openings in walls that are not interrupted are less by this factor."""
+
+STEADY = 0.16
+"""Across an opening its own drawing is the same, up to this part of the darkest row."""
+
+
+def with_unbroken(
+    axes: Sequence[Axis], sheet: Sheet, thin_px: float, sky: BaseGeometry
+) -> list[Axis]:
+    """The axes with windows and doors that lead outdoors where their walls are not interrupted."""
+    profiles = [_own(axis, sheet) for axis in axes]
+    walls = [_without(axis, own) for axis, own in zip(axes, profiles, strict=True)]
+    done = []
+    for axis, own in zip(axes, profiles, strict=True):
+        thick = axis.line.thickness_px
+        alike = [
+            wall
+            for wall, other in zip(walls, axes, strict=True)
+            if max(thick, other.line.thickness_px)
+            <= SAME_THICKNESS * min(thick, other.line.thickness_px)
+        ]
+        more = []
+        if not axis.closing and sum(wall.shape[1] for wall in alike) > 0:
+            usual = usual_profile(alike)
+            spans = changed_stretches(own, usual, LEAST_WIDTH * thin_px)
+            more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
+        done.append(replace(axis, openings=(*axis.openings, *more)))
+    return done
+
+
+def _own(axis: Axis, sheet: Sheet) -> NDArray[np.float64]:
+    return profile(cut_strip(axis.line.start, axis.line.end, axis.line.thickness_px, sheet))
+
+
+def _without(axis: Axis, own: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The columns that are no openings."""
+    at = np.arange(own.shape[1])
+    free = np.ones(own.shape[1], np.bool_)
+    for one in axis.openings:
+        free &= (at < one.first) | (at > one.last)
+    return own[:, free]
+
+
+def _opening(
+    axis: Axis, span: tuple[int, int], sheet: Sheet, thin_px: float, sky: BaseGeometry
+) -> OnAxis | None:
+    """What is drawn in a stretch of wall that leads outdoors, if it is an opening."""
+    line, near = axis.line, BESIDE * axis.line.thickness_px
+    low, high = max(float(span[0]), near), min(float(span[1]), line.length_px - near)
+    taken = any(one.first - near < high and low < one.last + near for one in axis.openings)
+    if taken or high - low < LEAST_WIDTH * thin_px or not leads_out(line, (low, high), sky):
+        return None
+    start, end = line.start + low * line.direction, line.start + high * line.direction
+    gap = Gap(-1, True, -1, False, start, end, line.thickness_px, end)
+    seen = judge(gap, look_at(gap, sheet), thin_px, True)
+    if seen is None or seen.kind == "gap":
+        return None
+    return OnAxis(_doubted(seen), low, high, along=True)
+
+
+def _doubted(judged: Judged) -> Judged:
+    """Less sure than one that interrupts its wall."""
+    return replace(judged, score=DOUBT * judged.score)
+
+
+def profile(strip: Strip) -> NDArray[np.float64]:
+    """Ink above the paper at ROWS for each column, (rows, columns)."""
+    at = ROWS * strip.half_px
+    order = np.clip(np.searchsorted(strip.steps, at), 1, len(strip.steps) - 1)
+    low = strip.steps[order - 1]
+    share = ((at - low) / (strip.steps[order] - low))[:, None]
+    ink = strip.ink - strip.paper
+    across = (1 - share) * ink[order - 1] + share * ink[order]
+    return np.asarray(median_filter(across, (1, SMOOTH_PX), mode="nearest"), np.float64)
+
+
+def usual_profile(profiles: Sequence[NDArray[np.float64]]) -> NDArray[np.float64]:
+    """That of walls, (rows,): most of the length of walls is wall."""
+    return np.asarray(np.median(np.concatenate(profiles, axis=1), axis=1))
+
+
+def changed_stretches(
+    own: NDArray[np.float64], usual: NDArray[np.float64], least_px: float
+) -> list[tuple[int, int]]:
+    """Columns from and to which a wall is drawn in another way, at least `least_px` long."""
+    level = max(float(usual.max()), 0.1)
+    changed = np.abs(own - usual[:, None]).mean(axis=0) > CHANGE * level
+    starts, ends = runs(~changed)
+    for low, high in zip(starts, ends, strict=True):
+        if high - low <= JOINED_PX and low > 0 and high < len(changed):
+            changed[low:high] = True
+    found = []
+    for low, high in zip(*runs(changed), strict=True):
+        inside = own[:, low + 2 : high - 2]
+        if high - low < max(least_px, 6):
+            continue
+        stray = np.abs(inside - np.median(inside, axis=1)[:, None]).mean()
+        if stray <= STEADY * level:
+            found.append((int(low), int(high)))
+    return found

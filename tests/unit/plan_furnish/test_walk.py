@@ -1,0 +1,63 @@
+"""Walking: gaps against the width of a person, and what doors need."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from sample_plan import opening, sample_storey, window
+from shapely.geometry import Point, box
+
+from veduta.plan.furnish.room import room_spaces
+from veduta.plan.furnish.walk import WalkGrid, Ways
+from veduta.plan.house.space import space_of
+
+HEIGHT_M = 2.55
+
+
+@pytest.mark.parametrize(("gap", "goes"), [(0.40, False), (0.48, False), (0.62, True), (0.8, True)])
+def test_one_goes_through_gaps_wider_than_a_person(gap: float, goes: bool) -> None:
+    """Two halves of a room, a wall between with a gap; a person is 0.5 m wide."""
+    grid = WalkGrid(box(0.0, 0.0, 6.0, 3.0))
+    wall = box(2.9, 0.0, 3.1, 3.0).difference(box(2.9, 1.0, 3.1, 1.0 + gap))
+    regions = grid.regions(grid.covered(wall))
+    numbers = grid.numbers_at(regions, np.array([[1.0, 1.5], [5.0, 1.5]]))
+    assert (numbers[0] == numbers[1]) is goes
+
+
+def test_ways_ask_for_nothing_that_the_empty_room_has_not() -> None:
+    narrow = box(0.0, 0.0, 2.0, 2.0).union(box(2.0, 0.8, 3.0, 1.1)).union(box(3.0, 0.0, 5.0, 2.0))
+    ways = Ways(narrow, np.array([[0.5, 1.0], [4.5, 1.0]]))
+    nothing = np.zeros(ways.grid.floor.shape, dtype=np.bool_)
+    assert ways.main_region(nothing) is not None
+    assert ways.main_region(ways.grid.covered(box(3.9, 0.0, 5.0, 2.0))) is None
+
+
+def test_doors_keep_their_sweep_and_windows_their_front_free() -> None:
+    """The front door of the sample hangs at x = 0.6 and opens to the north, into the living."""
+    storey = sample_storey(
+        openings=[
+            opening("front", "south-1", 0.6, 1.0, hinge="start", swing="left"),
+            window("w1", "south-1", 2.6, 1.8),
+        ]
+    )
+    spaces = room_spaces(space_of(storey, HEIGHT_M), HEIGHT_M)
+    living = next(one for one in spaces if one.room.id == "living")
+    hinge, face = 0.6, 0.15
+    for angle in np.radians([5, 30, 60, 85]):
+        tip = (hinge + 0.95 * np.cos(angle), face + 0.95 * np.sin(angle))
+        assert living.blocked.covers(Point(tip))
+    assert not living.blocked.covers(Point(hinge + 1.0, face + 1.0))
+    assert len(living.windows) == 1
+    assert living.windows[0].zone.covers(Point(3.5, face + 0.3))
+    assert living.windows[0].low_m == pytest.approx(0.9)
+    assert living.floor.area == pytest.approx(4.79 * 4.7, abs=0.01)
+
+
+def test_walls_of_a_room_have_the_room_on_their_left() -> None:
+    spaces = room_spaces(space_of(sample_storey(), HEIGHT_M), HEIGHT_M)
+    for space in spaces:
+        for stretch in space.stretches:
+            assert space.floor.covers(Point(stretch.at(stretch.length / 2, 0.05)))
+            # Things there look into the room: (0, -1) turned by `turn`.
+            ahead = (np.sin(stretch.turn), -np.cos(stretch.turn))
+            assert ahead == pytest.approx(tuple(stretch.inward), abs=1e-9)
