@@ -74,7 +74,7 @@ def test_a_television_is_opposite_of_the_sofa() -> None:
 
 def test_one_model_of_a_type_in_the_house_unless_asked() -> None:
     entries = builtin_catalogue().entries
-    house = document_of(make_house(4))
+    house = document_of(make_house(3))
 
     def models(document: PlanDocument, kind: str) -> set[str]:
         return {

@@ -1,111 +1,180 @@
-"""Hollow and hatched walls filled: narrow cells between lines are the insides of walls.
+"""Cells: connected pieces of paper between lines, how broad and long they are, what lies beside.
 
-A cell is a connected piece of paper. The inside of a hollow wall is narrow everywhere, and long; a
-hatched wall is a heap of small cells. Panes of windows are narrow, too, but lie side by side in
-the same wall: a long cell in a band that is much broader than itself is a pane, and stays open.
+The inside of a hollow wall is a cell: narrow, as broad at most places, long.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.walls.runs import run_lengths, run_lengths_down
-
-NARROW = 0.04
+NARROW = 0.045
 """Insides of walls are at most so wide, as a share of the drawing's longer side."""
 
-PANE_BREADTH = 1.45
-"""The band is so many times as broad as a pane with its two lines, or more."""
+ROOM = 0.06
+"""Rooms are at least so wide, as a share of that side; beds and bathtubs may be, too."""
 
-BROADER = 1.3
-"""Cells broader than the usual insides of the thickest walls, by this factor, are furniture."""
+MOST_CELLS = 4000
+"""Of more narrow cells the largest are looked at: no house has so many walls."""
 
-SMALL_SHARE = 0.5
-"""Walls are hatched if so much of the area of all narrow cells is in short ones."""
+TWO_WIDTHS = 2
+"""A cell of walls is as broad as one wall at most places, or as one of two: outer and inner."""
 
-PANE_LENGTH = 1.7
-"""A pane is so many times as long as its wall is thick; cells of hatching are shorter."""
+SAME_BREADTH = 0.1
+"""Breadths of one wall differ by this part, or by a pixel."""
+
+POCKET = 0.2
+"""The middle of a cell is at least so deep, as a part of its deepest place."""
+
+ACROSS_LINES = 1.6
+"""Cells are neighbours if so many line widths of ink part them at most."""
 
 
-def fill_cells(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
-    """The mask of ink with narrow cells filled, but for panes."""
-    extent = _longer_side(ink)
+@dataclass(frozen=True)
+class Cells:
+    """Cells by their number; 0 is the ink. Lengths in pixels.
+
+    `labels`, `depth` (h, w): each pixel's cell and how far it is from ink. `boxes` (n, 4): left,
+    top, width, height. `breadth` (n,): how broad a cell is at most places. `narrow` (n,): whether
+    it may be the inside of a wall. `ridges`: for each narrow cell how broad it is along its middle.
+    `contacts` (m, 3): two cells that lines part, and how long their common line is.
+    """
+
+    labels: NDArray[np.int32]
+    depth: NDArray[np.float32]
+    boxes: NDArray[np.int32]
+    area: NDArray[np.float64]
+    breadth: NDArray[np.float64]
+    narrow: NDArray[np.bool_]
+    room: NDArray[np.bool_]
+    ridges: dict[int, NDArray[np.float64]]
+    contacts: NDArray[np.int64]
+
+    @cached_property
+    def length(self) -> NDArray[np.float64]:
+        """(n,) how long each cell is along its middle."""
+        return self.area / np.maximum(self.breadth, 1.0)
+
+    @cached_property
+    def beside(self) -> dict[int, list[tuple[int, int]]]:
+        """For each cell its neighbours, each with the length of the common line."""
+        found: dict[int, list[tuple[int, int]]] = {}
+        for first, second, length in self.contacts.tolist():
+            found.setdefault(first, []).append((second, length))
+            found.setdefault(second, []).append((first, length))
+        return found
+
+    def middle(self, cell: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
+        """Centre and direction (2,) of the rectangle around a cell, its long and its short side."""
+        left, top, width, height = self.boxes[cell]
+        inside = self.labels[top : top + height, left : left + width] == cell
+        y, x = np.nonzero(inside)
+        points = np.column_stack([x + left, y + top]).astype(np.float32)
+        centre, size, degrees = cv2.minAreaRect(points)
+        turn = np.radians(degrees)
+        along = np.array([np.cos(turn), np.sin(turn)])
+        if size[0] < size[1]:
+            along = np.array([-along[1], along[0]])
+        # The centre of the upper left pixel is (0.5, 0.5).
+        return np.array(centre) + 0.5, along, max(size) + 1.0, min(size) + 1.0
+
+    def widths(self, cell: int) -> tuple[list[float], float]:
+        """The one or two breadths that a cell mostly has, and for which part of its middle."""
+        return common_values(self.ridges[cell], TWO_WIDTHS)
+
+
+def common_values(values: NDArray[np.float64], most: int) -> tuple[list[float], float]:
+    """Up to `most` values that are the commonest, and the part of all that are near them."""
+    rest, found = np.sort(values), list[float]()
+    while len(found) < most and len(rest) > 0.1 * len(values):
+        near = np.searchsorted(rest, rest + tolerance(rest), "right") - np.searchsorted(
+            rest, rest - tolerance(rest), "left"
+        )
+        first = rest[int(np.argmax(near))]
+        best = float(np.median(rest[np.abs(rest - first) <= tolerance(first)]))
+        found.append(best)
+        rest = rest[np.abs(rest - best) > tolerance(np.array(best))]
+    return found, 1.0 - len(rest) / max(1, len(values))
+
+
+def tolerance(breadth: NDArray[np.float64]) -> NDArray[np.float64]:
+    """By how much breadths differ that are one wall's."""
+    return np.maximum(1.0, SAME_BREADTH * breadth)
+
+
+def find_cells(ink: NDArray[np.bool_], line_px: float) -> Cells:
+    """The cells of an (h, w) mask of lines."""
     paper = (~ink).astype(np.uint8)
     count, found, places, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
     labels, stats = np.asarray(found, np.int32), np.asarray(places, np.int32)
-    inside = np.asarray(cv2.distanceTransform(paper, cv2.DIST_L2, 3), np.float32)
-    breadth = 2 * _most(inside, labels, count)
-    narrow = breadth <= NARROW * extent
-    narrow[0] = False
-    # The sheet's border cuts cells: what touches it is paper.
+    depth = np.asarray(cv2.distanceTransform(paper, cv2.DIST_L2, 5), np.float32)
     height, width = ink.shape
-    left, top = stats[:, cv2.CC_STAT_LEFT], stats[:, cv2.CC_STAT_TOP]
-    right, bottom = left + stats[:, cv2.CC_STAT_WIDTH], top + stats[:, cv2.CC_STAT_HEIGHT]
-    narrow &= (left > 0) & (top > 0) & (right < width) & (bottom < height)
-    narrow &= breadth <= BROADER * _common_breadth(breadth, stats[:, cv2.CC_STAT_AREA], narrow)
-    filled = ink | narrow[labels]
-    # A cell beside the middle of a band must see how broad the band is there.
-    depth = cv2.distanceTransform(filled.astype(np.uint8), cv2.DIST_L2, 3)
-    reach = 2 * round(0.25 * NARROW * extent) + 1
-    depth = cv2.dilate(depth, np.ones((reach, reach), np.uint8))
-    band = 2 * _usual(np.asarray(depth, np.float32), inside, breadth, labels)
-    long_side = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
-    area = stats[:, cv2.CC_STAT_AREA]
-    long = long_side > PANE_LENGTH * band
-    small = float(area[narrow & ~long].sum()) > SMALL_SHARE * float(area[narrow].sum())
-    # Among small cells any long one is a pane; among long ones only what lies side by side.
-    broader = small | (band > PANE_BREADTH * (breadth + 2 * line_px))
-    pane = narrow & long & broader & (area > 0.6 * (breadth * long_side - breadth**2))
-    return np.asarray(filled & ~pane[labels], dtype=np.bool_)
+    boxes, area = stats[:, :4], stats[:, cv2.CC_STAT_AREA].astype(np.float64)
+    ridge = (depth > 0) & (depth >= cv2.dilate(depth, np.ones((3, 3), np.uint8)) - 0.05)
+    # Pockets of a ragged border are no middle.
+    deepest = np.zeros(count, np.float32)
+    np.maximum.at(deepest, labels[ridge].astype(np.intp), depth[ridge])
+    ridge &= depth > POCKET * deepest[labels]
+    extent = longer_side(ink)
+    room = deepest > ROOM / 2 * extent
+    # The middle of a line is half a pixel from its nearest ink's edge.
+    cell, value = labels[ridge], 2.0 * depth[ridge].astype(np.float64) - 1.0
+    order = np.lexsort((value, cell))
+    cell, value = cell[order], value[order]
+    starts = np.searchsorted(cell, np.arange(count + 1))
+    size = np.diff(starts)
+    breadth = np.zeros(count)
+    some = size > 0
+    breadth[some] = value[starts[:-1][some] + size[some] // 2]
+    narrow = some & (breadth <= NARROW * extent) & (area > breadth**2 / 4)
+    narrow &= deepest < NARROW * extent
+    narrow[0] = room[0] = False
+    # The sheet's border cuts cells: what touches it is paper.
+    left, top = boxes[:, 0], boxes[:, 1]
+    cut = (left == 0) | (top == 0)
+    cut |= (left + boxes[:, 2] == width) | (top + boxes[:, 3] == height)
+    narrow &= ~cut
+    room |= cut & (np.arange(count) > 0)
+    if narrow.sum() > MOST_CELLS:
+        narrow &= area >= np.sort(area[narrow])[-MOST_CELLS]
+    ridges = {int(one): value[starts[one] : starts[one + 1]] for one in np.flatnonzero(narrow)}
+    contacts = _contacts(labels, paper, ACROSS_LINES * line_px / 2 + 1)
+    return Cells(labels, depth, boxes, area, breadth, narrow, room, ridges, contacts)
 
 
-def _common_breadth(
-    breadth: NDArray[np.float64], area: NDArray[np.int32], narrow: NDArray[np.bool_]
-) -> float:
-    """The largest breadth of long cells that is no exception; infinite where few cells are long."""
-    length = area / np.maximum(breadth, 1.0)
-    long = narrow & (length >= 5 * breadth)
-    if area[long].sum() < SMALL_SHARE * area[narrow].sum() or not long.any():
-        return float("inf")
-    order = np.argsort(-breadth[long])
-    total = np.cumsum(length[long][order])
-    return float(breadth[long][order][np.searchsorted(total, 0.2 * total[-1])])
-
-
-def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:
-    """How long the strokes that are at least so thick are together."""
-    across, down = run_lengths(mask), run_lengths_down(mask)
-    thin, long = np.minimum(across, down), np.maximum(across, down)
-    stroke = mask & (long >= 2 * thin) & (thin >= least_px)
-    return float((1.0 / np.maximum(thin[stroke], 1)).sum())
-
-
-def _most(
-    values: NDArray[np.float32], labels: NDArray[np.int32], count: int
-) -> NDArray[np.float64]:
-    """The largest value of each label."""
-    most = np.zeros(count, dtype=np.float32)
-    # Types that need no cast are several times as fast.
-    np.maximum.at(most, labels.ravel().astype(np.intp), values.ravel())
-    return most.astype(np.float64)
-
-
-def _usual(
-    values: NDArray[np.float32],
-    inside: NDArray[np.float32],
-    breadth: NDArray[np.float64],
-    labels: NDArray[np.int32],
-) -> NDArray[np.float64]:
-    """The mean of values along the middle of each cell, whatever stands beside a part of it."""
-    ridge = (inside > 0) & (inside >= 0.35 * breadth[labels])
-    total = np.bincount(labels[ridge], weights=values[ridge], minlength=len(breadth))
-    return total / np.maximum(1, np.bincount(labels[ridge], minlength=len(breadth)))
-
-
-def _longer_side(ink: NDArray[np.bool_]) -> float:
+def longer_side(ink: NDArray[np.bool_]) -> float:
+    """Of the rectangle around all ink."""
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     if len(rows) == 0:
         return 1.0
     return float(max(np.ptp(rows), np.ptp(columns)) + 1)
+
+
+def _contacts(
+    labels: NDArray[np.int32], paper: NDArray[np.uint8], reach_px: float
+) -> NDArray[np.int64]:
+    """Pairs of cells whose nearest ink is the same, with how much of it.
+
+    Each pixel of ink belongs to the nearest cell; where two cells meet within a line, they touch.
+    """
+    away, nearest = cv2.distanceTransformWithLabels(
+        1 - paper, cv2.DIST_L2, 5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    cell_of = np.zeros(int(nearest.max()) + 1, np.int64)
+    cell_of[nearest[paper > 0]] = labels[paper > 0]
+    owner = cell_of[nearest]
+    pairs = []
+    for first, second, far in (
+        (owner[:, :-1], owner[:, 1:], np.maximum(away[:, :-1], away[:, 1:])),
+        (owner[:-1], owner[1:], np.maximum(away[:-1], away[1:])),
+    ):
+        touch = (first != second) & (far <= reach_px)
+        pairs.append(np.column_stack([first[touch], second[touch]]))
+    both = np.sort(np.concatenate(pairs), axis=1)
+    base = len(cell_of) + int(labels.max()) + 1
+    keys, count = np.unique(both[:, 0] * base + both[:, 1], return_counts=True)
+    return np.column_stack([keys // base, keys % base, count]).astype(np.int64)

@@ -13,11 +13,23 @@ from veduta.plan.clean import ink as inks
 from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned, DrawnStairs
 from veduta.plan.stairs.find import without_flights
-from veduta.plan.walls.cells import fill_cells, stroke_length
+from veduta.plan.walls.cells import Cells, find_cells
+from veduta.plan.walls.fill import fill_cells
+from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
+from veduta.plan.walls.outlined import wall_cells
+from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece, straight_pieces
-from veduta.plan.walls.solid import Thickness, thick_strokes, wall_thickness
+from veduta.plan.walls.solid import (
+    SINGLE_LINE,
+    Thickness,
+    stroke_length,
+    thick_strokes,
+    wall_thickness,
+    without_marks,
+)
+from veduta.plan.walls.tone import toned_areas
 from veduta.plan.walls.tracks import find_tracks
 from veduta.run.errors import NotFoundError
 
@@ -28,10 +40,25 @@ MOST_PIECES = 1500
 MORE_WALL = 1.9
 """Hollow walls are believed if filling them makes so many times as much wall as solid ink."""
 
+MOSTLY_PAPER = 0.45
+"""Layered walls with so much paper in them are hollow; with less, hatched."""
+
 KNOWN_THINNEST = 0.12
 """Thinnest wall over the thickest common one, where walls need not be told from lines."""
 
 SMALL_MARK = 0.05
+
+AS_HATCHED = 0.5
+"""What has this part of the strokes that walls have, or more, is wall."""
+
+SINGLE_LEAST = 0.9
+"""Leaves of doors are drawn as lines that are thinner than walls by this factor, or more."""
+
+LEAST_STROKES = 0.15
+"""What has less than this part of them is none, but a window or a bed."""
+
+MOSTLY = 0.3
+"""Walls are hatched if there is so much that is hatched, as a part of the insides of walls."""
 
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
@@ -59,7 +86,8 @@ def find_walls(
     of `flights` are no walls.
     """
     if known is None:
-        ink = without_texts(inks.marks(cleaned.ink, cleaned.line_px), texts)
+        marks = inks.marks(cleaned.ink, cleaned.line_px)
+        ink = without_texts(marks | toned_areas(cleaned.ink, cleaned.line_px), texts)
         ink = without_flights(ink, flights, cleaned.line_px)
         mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     else:
@@ -67,10 +95,15 @@ def find_walls(
         thickness, drawing = known_thickness(known), "filled"
     # Of what is known, short piers between openings count, too.
     solid = thick_strokes(mask, thickness) if known is None else known
-    if drawing == "filled" and known is None:
+    if known is None and drawing in ("filled", "single-line"):
         # Shaded panes are thick strokes, too, but paler than the walls.
+        solid = without_marks(solid, mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
-        solid = thick_strokes(mask & (cleaned.ink > PALE * level), thickness)
+        dark = mask & (cleaned.ink > PALE * level)
+        if drawing == "single-line":
+            # The edges of lines are as pale as panes: without them all lines are thinner.
+            thickness = wall_thickness(dark, cleaned.line_px) or thickness
+        solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
     pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
@@ -78,6 +111,10 @@ def find_walls(
     ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
     soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    if known is None:
+        whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
+    if drawing == "single-line":
+        whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
     if not whole:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness(whole))
@@ -86,22 +123,74 @@ def find_walls(
 def choose_drawing(
     ink: NDArray[np.bool_], line_px: float
 ) -> tuple[NDArray[np.bool_], Thickness, WallDrawing]:
-    """The mask in which walls are solid: the ink itself, or with narrow cells filled.
+    """The mask in which walls are solid: the ink itself, or the insides of outlined walls.
 
-    Cells are filled where that makes much more wall than there is solid ink. Raises NotFoundError
+    The latter where they are much more wall than the solid ink beside them. Raises NotFoundError
     where neither has walls.
     """
+    lines = connected(ink)
     plain = wall_thickness(ink, line_px)
-    filled = fill_cells(connected(ink), line_px)
-    full = wall_thickness(filled, line_px)
-    least = 0.9 * full.least_px if full else 0.0
-    solid_length = stroke_length(ink, least) if plain else 0.0
-    if full is not None and stroke_length(filled, least) > MORE_WALL * solid_length:
-        share = float((filled & ~ink).sum() / max(1, filled.sum()))
-        return filled, full, "hollow" if share > 0.45 else "hatched"
+    outlined, drawing = outlined_walls(lines, line_px)
+    full = _more_wall(outlined, ink & ~outlined, line_px)
+    if full is not None:
+        return outlined, full, drawing
+    layered = fill_cells(lines, line_px)
+    full = _more_wall(layered, ink, line_px)
+    if full is not None:
+        paper = float((layered & ~ink).sum() / max(1, layered.sum()))
+        return layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched"
     if plain is None:
         raise NotFoundError("walls", "no strokes are thicker than lines", "Give a floor plan.")
-    return ink, plain, "filled"
+    return ink, plain, "single-line" if plain.most_px < SINGLE_LINE * line_px else "filled"
+
+
+def _more_wall(
+    filled: NDArray[np.bool_], solid: NDArray[np.bool_], line_px: float
+) -> Thickness | None:
+    """How thick the walls of a filled mask are, if they are much more than those of solid ink."""
+    full = wall_thickness(filled, line_px)
+    if full is None:
+        return None
+    least = 0.9 * full.least_px
+    more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
+    return full if more else None
+
+
+def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.bool_], WallDrawing]:
+    """The mask of hollow and hatched walls with their outlines, and which of both they are."""
+    strokes = hatch_strokes(ink, line_px)
+    cells = find_cells(ink & ~strokes, line_px)
+    walls = wall_cells(cells)
+    inside = walls[cells.labels]
+    hatched = hatched_areas(strokes)
+    drawing: WallDrawing = "hollow"
+    if hatched.any() and float(hatched.sum()) > MOSTLY * float(inside.sum()):
+        drawing = "hatched"
+        inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
+    return inside | (ink & _grown(inside, 3 * line_px)), drawing
+
+
+def _as_hatched(
+    cells: Cells, walls: NDArray[np.bool_], strokes: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """(n,) which narrow cells have strokes in them as walls do, and which walls have some.
+
+    Nothing else is hatched so; but strokes may be lost where they are drawn too finely.
+    """
+    count = len(cells.area)
+    share = np.bincount(cells.labels[strokes], minlength=count) / np.maximum(cells.area, 1.0)
+    if not walls.any():
+        return walls
+    usual = float(np.median(np.repeat(share[walls], cells.length[walls].astype(int) + 1)))
+    more = cells.narrow & (share > AS_HATCHED * usual)
+    return np.asarray((walls & (share > LEAST_STROKES * usual)) | more, dtype=np.bool_)
+
+
+def _grown(mask: NDArray[np.bool_], by_px: float) -> NDArray[np.bool_]:
+    """A mask and what is around it, by half of `by_px`."""
+    reach = 2 * round(by_px / 2) + 1
+    square = np.ones((reach, reach), np.uint8)
+    return np.asarray(cv2.dilate(mask.astype(np.uint8), square), dtype=np.bool_)
 
 
 def known_thickness(solid: NDArray[np.bool_]) -> Thickness:

@@ -20,6 +20,19 @@ LEAST_OVER_LINE = 1.6
 """Walls are at least so many times as thick as lines."""
 
 
+SINGLE_LINE = 4.0
+"""Walls that are thinner than so many lines may be lines themselves, of a broader pen."""
+
+SINGLE_LONG = 0.02
+"""Strokes that tell pens apart are so long, as a share of the half perimeter: no letters."""
+
+PEN_EDGE = 0.65
+"""Lines are walls if they are nearer to the broad pen than to the thin one: leaves of doors may be
+broader than other lines."""
+
+PEN_SHARE = 0.4
+"""The thin pen draws at least so much, as a part of what the walls are asked for."""
+
 LEAST_MARK = 4.0
 """Connected ink is part of the house if so many times as long as its walls are thick."""
 
@@ -48,13 +61,42 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
     most = float(thick[-1]) if len(thick) else 0.0
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
-    if most < 2 * line_px or most < least:
-        return None
-    return Thickness(least, most)
+    if most >= SINGLE_LINE * line_px and most >= least:
+        return Thickness(least, most)
+    # A pen that is twice as broad as another draws a wall as one line.
+    straight = ink & (long >= 8 * thin) & (long >= SINGLE_LONG * extent)
+    counts = np.bincount(thin[straight], minlength=4).astype(float)
+    pens = two_pens(counts / np.maximum(1, np.arange(len(counts))), LEAST_SHARE * extent)
+    if pens is None and most >= max(2 * line_px, least):
+        return Thickness(least, most)
+    return pens
+
+
+def two_pens(lengths: NDArray[np.float64], least_length: float) -> Thickness | None:
+    """The broader of two pens, by the lengths of lines of 0, 1, 2... pixels; None if there is one.
+
+    Parted where the variance within both is least (Otsu 1979), on the logarithm of the width.
+    """
+    width = np.arange(1, len(lengths))
+    length, place = lengths[1:], np.log(width)
+    best: tuple[float, Thickness] | None = None
+    for cut in range(1, len(width)):
+        low, high = length[:cut], length[cut:]
+        if low.sum() < PEN_SHARE * least_length or high.sum() < least_length:
+            continue
+        means = [
+            float(np.average(place[part], weights=length[part]))
+            for part in (slice(None, cut), slice(cut, None))
+        ]
+        between = low.sum() * high.sum() * (means[1] - means[0]) ** 2
+        if means[1] - means[0] > np.log(LEAST_OVER_LINE) and (best is None or between > best[0]):
+            edge = float(np.exp((1 - PEN_EDGE) * means[0] + PEN_EDGE * means[1]))
+            best = between, Thickness(edge, float(np.exp(means[1])))
+    return None if best is None else best[1]
 
 
 def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bool_]:
-    """The mask of what is at least as thick as the thinnest wall, and no letter."""
+    """The mask of what is at least as thick as the thinnest wall, letters and marks with it."""
     reach = max(2, round(0.85 * thickness.least_px))
     square = np.ones((reach, reach), np.uint8)
     grey = ink.astype(np.uint8)
@@ -63,7 +105,22 @@ def thick_strokes(ink: NDArray[np.bool_], thickness: Thickness) -> NDArray[np.bo
     opened = np.maximum(
         cv2.morphologyEx(grey, cv2.MORPH_OPEN, square), cv2.morphologyEx(grey, cv2.MORPH_OPEN, disc)
     )
-    return opened.astype(np.bool_) & _large(ink, LEAST_MARK * thickness.most_px)
+    return opened.astype(np.bool_)
+
+
+def without_marks(
+    strokes: NDArray[np.bool_], ink: NDArray[np.bool_], thickness: Thickness
+) -> NDArray[np.bool_]:
+    """Thick strokes of connected ink that is large enough for a house."""
+    return strokes & _large(ink, LEAST_MARK * thickness.most_px)
+
+
+def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:
+    """How long the strokes that are at least so thick are together."""
+    across, down = run_lengths(mask), run_lengths_down(mask)
+    thin, long = np.minimum(across, down), np.maximum(across, down)
+    stroke = mask & (long >= 2 * thin) & (thin >= least_px)
+    return float((1.0 / np.maximum(thin[stroke], 1)).sum())
 
 
 def _large(ink: NDArray[np.bool_], least_px: float) -> NDArray[np.bool_]:

@@ -1,0 +1,197 @@
+"""Hollow walls: which cells between lines are the insides of walls.
+
+What tells a wall from a bed's head, a wardrobe or a pane, in this order:
+
+1. The insides of walls run on around corners and past where walls meet. Those that do, are long
+   and of even breadth, and have rooms on their sides, are walls. They say how broad walls are.
+2. A line across a wall is where an opening begins or ends. So a cell in line with a wall that a
+   line parts from it is an opening, and the next one is wall again.
+3. Between open doors stand pieces of wall that touch nothing: they are as broad as a wall and in
+   line with one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.plan.walls.cells import Cells, common_values, tolerance
+
+LONG = 10.0
+"""Walls that say how broad walls are, are so many times as long as broad."""
+
+EVEN = 0.72
+"""They have one of two breadths along this part of their middle."""
+
+STRAIGHT = 1.5
+"""A cell is straight if the rectangle around it is at most so many times as broad as itself."""
+
+BESIDE_ANOTHER = 0.7
+"""What lies beside one other narrow cell for so much of its length is a pane or furniture."""
+
+BESIDE_ROOMS = 0.4
+"""At least so much of what lies beside a wall is no narrow cell, but a room or outdoors."""
+
+A_SIDE = 0.15
+"""A room is beside a wall if they share a line of this part of the wall's length."""
+
+TURNS = 4.0
+"""Walls around a corner are so many times as long as broad, at least."""
+
+END = 1.7
+"""Cells touch with an end if their common line is at most so many times as long as broad."""
+
+IN_LINE_FARTHEST = 30.0
+"""A piece of wall is in line with one that is at most so many times its breadth away."""
+
+MOST_ROUNDS = 20
+
+
+def wall_cells(cells: Cells) -> NDArray[np.bool_]:
+    """(n,) whether each cell is the inside of a wall; none where no cell says how broad."""
+    return _Sorting(cells).walls()
+
+
+class _Sorting:
+    def __init__(self, cells: Cells) -> None:
+        self.cells = cells
+        self.even: dict[int, tuple[list[float], float]] = {
+            int(one): cells.widths(int(one)) for one in np.flatnonzero(cells.narrow)
+        }
+        self.wall = np.zeros(len(cells.area), dtype=np.bool_)
+        self.opening = np.zeros(len(cells.area), dtype=np.bool_)
+        self.breadths: list[float] = []
+
+    def walls(self) -> NDArray[np.bool_]:
+        first = [one for one in self.even if self._runs_on(one)]
+        if not first:
+            return self.wall
+        self.wall[first] = True
+        along = np.concatenate([self.cells.ridges[one] for one in first])
+        self.breadths = common_values(along, 4)[0]
+        fitting = [one for one in self.even if not self.wall[one] and self._is_as_broad(one)]
+        fitting = [one for one in fitting if self._is_between_rooms(one)]
+        corners = [one for one in fitting if self._turns(one)]
+        self.wall[corners] = True
+        for _ in range(MOST_ROUNDS):
+            while self._alternate(fitting):
+                pass
+            left = [one for one in fitting if not self.wall[one] and not self.opening[one]]
+            new = next((one for one in left if self._stands_in_line(one)), None)
+            if new is None:
+                break
+            self.wall[new] = True
+        return self.wall
+
+    def _runs_on(self, cell: int) -> bool:
+        """Whether a cell is a wall by itself: long, even, not straight, between two rooms."""
+        cells = self.cells
+        if cells.length[cell] < LONG * cells.breadth[cell] or self.even[cell][1] < EVEN:
+            return False
+        return (
+            self._parts_rooms(cell) and self._is_between_rooms(cell) and not self._is_straight(cell)
+        )
+
+    def _parts_rooms(self, cell: int) -> bool:
+        """Whether it has two rooms beside it, or one and what is outdoors."""
+        least = A_SIDE * self.cells.length[cell]
+        beside = self.cells.beside.get(cell, [])
+        rooms = [other for other, length in beside if self.cells.room[other] and length >= least]
+        return len(rooms) > 1
+
+    def _turns(self, cell: int) -> bool:
+        """Whether a cell that is as broad as a wall goes around a corner."""
+        long = self.cells.length[cell] >= TURNS * self.cells.breadth[cell]
+        return bool(long and not self._is_straight(cell) and self._parts_rooms(cell))
+
+    def _is_straight(self, cell: int) -> bool:
+        _, _, _, short = self.cells.middle(cell)
+        return bool(short <= STRAIGHT * self.cells.breadth[cell] + 1)
+
+    def _is_between_rooms(self, cell: int) -> bool:
+        narrow = rooms = most = 0
+        for other, length in self.cells.beside.get(cell, []):
+            if self.cells.narrow[other]:
+                narrow += length
+                most = max(most, length)
+            else:
+                rooms += length
+        pane = most > BESIDE_ANOTHER * self.cells.length[cell] and not self._blocky(cell)
+        return bool(not pane and rooms >= BESIDE_ROOMS * (narrow + rooms))
+
+    def _blocky(self, cell: int) -> bool:
+        return bool(self.cells.length[cell] < 2.5 * self.cells.breadth[cell])
+
+    def _is_as_broad(self, cell: int) -> bool:
+        breadths, share = self.even[cell]
+        near = [abs(breadths[0] - one) <= tolerance(np.array(one)) for one in self.breadths]
+        return share >= EVEN and any(near)
+
+    def _alternate(self, fitting: Iterable[int]) -> bool:
+        """Cells at the ends of walls are openings, those at the ends of openings are walls.
+
+        Returns whether any were found.
+        """
+        new = False
+        for one in self.even:
+            if self.wall[one] or self.opening[one]:
+                continue
+            ends = [other for other in self._at_ends(one) if self.wall[other]]
+            if ends and self._in_line(one, ends):
+                self.opening[one] = new = True
+        for one in fitting:
+            if self.wall[one] or self.opening[one]:
+                continue
+            beside = [other for other, _ in self.cells.beside.get(one, []) if self.opening[other]]
+            if any(one in self._at_ends(other) for other in beside):
+                self.wall[one] = new = True
+        return new
+
+    def _at_ends(self, cell: int) -> list[int]:
+        """Narrow cells with which it shares a line about as long as itself is broad."""
+        cells = self.cells
+        breadth = cells.breadth[cell]
+        return [
+            other
+            for other, length in cells.beside.get(cell, [])
+            if cells.narrow[other] and 0.5 * breadth <= length <= END * breadth + 4
+        ]
+
+    def _in_line(self, opening: int, walls: list[int]) -> bool:
+        """Whether one of the walls goes on in the direction of a straight cell at its end."""
+        if not self._is_straight(opening):
+            return False
+        centre, along, long, _ = self.cells.middle(opening)
+        for wall in walls:
+            away = long / 2 + 1.3 * max(self.even[wall][0]) + 4
+            if any(self._label(centre + side * away * along) == wall for side in (1, -1)):
+                return True
+        return False
+
+    def _stands_in_line(self, cell: int) -> bool:
+        """Whether a wall of the same breadth lies ahead, with its middle on the same line."""
+        cells = self.cells
+        centre, along, long, short = cells.middle(cell)
+        ways = [along]
+        if long < 1.5 * short:
+            ways.append(np.array([-along[1], along[0]]))
+        breadth = float(cells.breadth[cell])
+        for way in ways:
+            for side in (1, -1):
+                steps = np.arange(long / 2 + 3, long / 2 + IN_LINE_FARTHEST * breadth, 2.0)
+                points = centre + side * steps[:, None] * way
+                x = np.clip(np.floor(points[:, 0]).astype(int), 0, cells.labels.shape[1] - 1)
+                y = np.clip(np.floor(points[:, 1]).astype(int), 0, cells.labels.shape[0] - 1)
+                here = 2.0 * cells.depth[y, x] - 1.0
+                same = np.abs(here - breadth) <= float(tolerance(np.array(breadth)))
+                on_wall = self.wall[cells.labels[y, x]] & same
+                if on_wall.sum() >= 3:
+                    return True
+        return False
+
+    def _label(self, point: NDArray[np.float64]) -> int:
+        height, width = self.cells.labels.shape
+        x, y = (int(np.floor(value)) for value in point)
+        return int(self.cells.labels[y, x]) if 0 <= x < width and 0 <= y < height else 0

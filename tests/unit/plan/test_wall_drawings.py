@@ -1,0 +1,196 @@
+"""Hollow, hatched, grey and single-line walls against what was drawn."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from veduta.plan.walls.cells import common_values, find_cells
+from veduta.plan.walls.find import choose_drawing, connected, outlined_walls
+from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
+from veduta.plan.walls.outlined import wall_cells
+from veduta.plan.walls.outlines import without_half_outline
+from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.solid import two_pens, wall_thickness
+from veduta.plan.walls.tone import toned_areas
+
+Mask = np.ndarray
+LINE = 2
+
+
+def _blurred(ink: np.ndarray, sigma: float) -> NDArray[np.float32]:
+    return np.asarray(cv2.GaussianBlur(ink, (0, 0), sigma), np.float32)
+
+
+def _box(mask: Mask, left: int, top: int, right: int, bottom: int) -> None:
+    """Lines of two pixels around a box; the second pixel is inside."""
+    mask[top : top + LINE, left:right] = True
+    mask[bottom - LINE : bottom, left:right] = True
+    mask[top:bottom, left : left + LINE] = True
+    mask[top:bottom, right - LINE : right] = True
+
+
+def _house() -> tuple[Mask, Mask]:
+    """Two rooms in hollow walls of 24 and 14 px with a window, a bed's head; and the insides."""
+    ink = np.zeros((700, 1000), np.bool_)
+    _box(ink, 50, 50, 950, 650)
+    inside = np.zeros_like(ink)
+    inside[52:648, 52:948] = True
+    for left, right in ((74, 500), (514, 926)):
+        _box(ink, left, 74, right, 626)
+        inside[74:626, left:right] = False
+    # Where the inner wall meets the outer ones there is no line.
+    # A window of the wall's whole breadth in the upper wall, one with a middle line in the lower.
+    for x in (200, 320):
+        ink[50:76, x : x + LINE] = True
+        ink[624:650, x : x + LINE] = True
+    ink[636:638, 200:322] = True
+    inside[52:74, 200:322] = inside[626:648, 200:322] = False
+    # A bed with its head at the left wall.
+    _box(ink, 74, 300, 90, 420)
+    _box(ink, 88, 300, 250, 420)
+    return ink, inside
+
+
+def test_breadth_and_length_of_a_cell_are_those_of_its_rectangle() -> None:
+    ink = np.zeros((300, 900), np.bool_)
+    _box(ink, 40, 100, 840, 130)
+    _box(ink, 838, 100, 870, 130)
+    cells = find_cells(ink, LINE)
+    wall = int(cells.labels[115, 400])
+    end = int(cells.labels[115, 850])
+    assert cells.narrow[wall]
+    assert cells.breadth[wall] == pytest.approx(26, abs=1)
+    assert cells.length[wall] == pytest.approx(796, rel=0.05)
+    lengths = dict(cells.beside[wall])
+    assert lengths[end] == pytest.approx(26, abs=4)
+    outdoors = int(cells.labels[10, 10])
+    assert cells.room[outdoors]
+    assert lengths[outdoors] == pytest.approx(2 * 800, rel=0.05)
+
+
+def test_common_values_are_the_heights_of_two_peaks() -> None:
+    rng = np.random.default_rng(3)
+    values = np.concatenate(
+        [rng.normal(10, 0.2, 200), rng.normal(30, 0.2, 90), rng.uniform(0, 60, 20)]
+    )
+    found, share = common_values(values, 2)
+    assert found == pytest.approx([10, 30], abs=1)
+    assert share > 290 / 310 - 0.02
+
+
+def test_hollow_walls_are_filled_and_windows_and_beds_are_not() -> None:
+    ink, inside = _house()
+    cells = find_cells(ink, LINE)
+    found = wall_cells(cells)[cells.labels]
+    paper = ~ink
+    assert (found & inside & paper).sum() > 0.99 * (inside & paper).sum()
+    assert (found & ~inside).sum() == 0
+
+
+def test_without_long_cells_there_are_no_hollow_walls() -> None:
+    ink = np.zeros((700, 1000), np.bool_)
+    _box(ink, 50, 50, 950, 650)
+    _box(ink, 300, 300, 316, 420)
+    cells = find_cells(ink, LINE)
+    assert not wall_cells(cells).any()
+
+
+def _hatched() -> tuple[Mask, Mask]:
+    ink, inside = _house()
+    y, x = np.indices(ink.shape)
+    return ink | (inside & ((x + y) % 12 < 2)), inside
+
+
+def test_strokes_of_hatching_are_found_and_long_slanted_lines_are_not() -> None:
+    ink, inside = _hatched()
+    grey = ink.astype(np.uint8)
+    cv2.line(grey, (560, 120), (880, 480), 1, LINE)
+    strokes = hatch_strokes(grey.astype(np.bool_), LINE)
+    y, x = np.indices(ink.shape)
+    drawn = inside & ((x + y) % 12 < 2)
+    middle = cv2.erode(inside.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
+    assert (strokes & drawn & middle).sum() > 0.9 * (drawn & middle).sum()
+    assert strokes[110:490, 550:890].sum() == 0
+
+
+def test_few_strokes_are_no_hatching() -> None:
+    ink, _ = _house()
+    for x in range(560, 860, 12):
+        cv2.line(grey := ink.astype(np.uint8), (x, 200), (x + 20, 180), 1, LINE)
+        ink = grey.astype(np.bool_)
+    assert not hatch_strokes(ink, LINE).any()
+
+
+def test_hatched_areas_cover_what_is_hatched() -> None:
+    ink, inside = _hatched()
+    areas = hatched_areas(hatch_strokes(ink, LINE))
+    grown = cv2.dilate(inside.astype(np.uint8), np.ones((7, 7), np.uint8)) > 0
+    assert (areas & inside).sum() > 0.85 * inside.sum()
+    assert (areas & ~grown).sum() == 0
+
+
+@pytest.mark.parametrize(("draw", "name"), [(_house, "hollow"), (_hatched, "hatched")])
+def test_the_drawing_of_walls_is_told(draw: object, name: str) -> None:
+    ink, inside = draw()  # type: ignore[operator]
+    mask, drawing = outlined_walls(connected(ink), LINE)
+    assert drawing == name
+    assert (mask & inside).sum() > 0.97 * inside.sum()
+    chosen, thickness, drawing = choose_drawing(ink, LINE)
+    assert drawing == name
+    assert (chosen == mask).all()
+    # From outside to outside of the outlines.
+    assert thickness.most_px == pytest.approx(26, abs=1)
+
+
+@pytest.mark.parametrize("tone", [0.35, 0.6])
+def test_grey_walls_are_toned_areas_and_floors_and_lines_are_not(tone: float) -> None:
+    lines, inside = _house()
+    ink = np.where(lines, np.float32(1), np.float32(0))
+    ink[inside & ~lines] = tone
+    ink[76:300, 80:480] = np.maximum(ink[76:300, 80:480], 0.1)
+    found = toned_areas(_blurred(ink, 0.7), LINE)
+    paper = ~cv2.dilate(lines.astype(np.uint8), np.ones((5, 5), np.uint8)).astype(np.bool_)
+    assert (found & inside & paper).sum() > 0.98 * (inside & paper).sum()
+    assert (found & ~inside & paper).sum() == 0
+
+
+def test_black_walls_are_no_tone() -> None:
+    lines, inside = _house()
+    assert not toned_areas((lines | inside).astype(np.float32), LINE).any()
+
+
+def test_two_pens_are_parted_and_one_is_not() -> None:
+    lengths = np.zeros(20)
+    lengths[[2, 3, 6, 7]] = 900, 700, 1500, 900
+    found = two_pens(lengths, 500.0)
+    assert found is not None
+    assert 3 < found.least_px < 6
+    assert found.most_px == pytest.approx(6.4, abs=0.3)
+    lengths[[2, 3]] = 0
+    assert two_pens(lengths, 500.0) is None
+
+
+def test_lines_of_a_broad_pen_are_walls() -> None:
+    ink = np.zeros((700, 1000), np.bool_)
+    for top in (100, 300, 600):
+        ink[top : top + 6, 100:900] = True
+    for row in (150, 160, 170, 400, 410):
+        ink[row : row + 2, 300:800] = True
+    found = wall_thickness(ink, 2.0)
+    assert found is not None
+    assert 2 < found.least_px < 6
+
+
+@pytest.mark.parametrize("outlined", [True, False])
+def test_outlined_walls_end_in_the_middle_of_their_lines(outlined: bool) -> None:
+    ink = np.full((200, 600), 0.0, np.float32)
+    ink[80:110, 50:550] = 0.4 if outlined else 1.0
+    if outlined:
+        ink[80:84, 50:550] = ink[106:110, 50:550] = 1.0
+    piece = Piece(np.array([50.0, 95.0]), np.array([550.0, 95.0]), 30.0)
+    found = without_half_outline([piece], _blurred(ink, 0.6), 4.0)[0]
+    assert found.thickness_px == pytest.approx(26 if outlined else 30, abs=0.4)
+    assert found.start[1] == pytest.approx(95, abs=0.2)
