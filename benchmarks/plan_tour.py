@@ -166,7 +166,7 @@ def _boxes(storey: Storey, rng: np.random.Generator) -> list[Furniture]:
             found.append(
                 Furniture(
                     id=f"t{len(found)}",
-                    object="table",
+                    object="dining-table-white",
                     room=room.id,
                     at_m=(float(middle[0]), float(middle[1])),
                     turn_rad=float(rng.uniform(0.0, np.pi)),
