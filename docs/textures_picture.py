@@ -30,6 +30,7 @@ COLOURS = {
     "siding": "#e4e6dc",
     "cobbles": "#b5b0a8",
     "paving": "#c4bdb0",
+    "lawn": "#7f9a52",
     "slate": "#6b737f",
     "clay-tile": "#b0654c",
     "pantile": "#c4744f",

@@ -20,8 +20,9 @@ from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 
 FILES = {
-    ".veduta", "house.glb", "house.ifc", "overlay.png", "place.json", "plan.dxf", "plan.json",
-    "plan.svg", "report.html", "report.json", "sheet-1.png", "tour.png",
+    ".veduta", "garden.glb", "ground.glb", "house.glb", "house.ifc", "house.x3d", "overlay.png",
+    "place.json", "plan.dxf", "plan.json", "plan.svg", "report.html", "report.json", "sheet-1.png",
+    "tour.png",
 }  # fmt: skip
 
 
@@ -43,8 +44,9 @@ def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, docum
     assert {path.name for path in out.iterdir()} == FILES
     assert made.measures["rooms"] == 2
     assert read_place(out / "place.json").parts[0].model == "house.glb"
-    issues = validate_gltf(out / "house.glb")
-    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    for name in ("house.glb", "ground.glb", "garden.glb"):
+        issues = validate_gltf(out / name)
+        assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
     report = json.loads((out / "report.json").read_text())
     assert (report["verb"], report["state"]) == ("plan", "done")
     assert "sheet-1.png is missing: overlay.png has a blank sheet" in report["notes"]

@@ -5,7 +5,7 @@ material; faces have flat normals; no vertex is shared between features. The fea
 `scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
 of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
 Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
-(`gltf_movers`). Tours are cameras that move (`gltf_camera`).
+(`gltf_movers`) and lamps (`gltf_lights`). Tours are cameras that move (`gltf_camera`).
 """
 
 from __future__ import annotations
@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import add_instances
+from veduta.formats.gltf_lights import add_lights
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
 from veduta.imaging.encode import jpeg_bytes, mask_bytes
@@ -78,6 +79,7 @@ def glb_bytes(part: Part, tours: Sequence[CameraPath] = ()) -> bytes:
         root["nodes"][0]["mesh"] = 0
         root["meshes"].append({"primitives": primitives_of(still, (0.0, 0.0, 0.0))})
     add_movers(root, part, primitives_of, binary)
+    add_lights(root, part)
     if part.instances is not None:
         add_instances(root, part.instances, materials.number, binary)
     for tour in tours:
@@ -155,6 +157,10 @@ class _Materials:
         entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
         if material.opacity < 1.0:
             entry["alphaMode"] = "BLEND"
+        if material.glow > 0.0:
+            entry["emissiveFactor"] = [
+                round(material.glow * _linear(channel), 6) for channel in material.colour
+            ]
         if material.texture is not None:
             image, invented = self._pictures(material.texture)
             shading["baseColorTexture"] = {"index": self._texture(image, _wrap(self._part, row))}

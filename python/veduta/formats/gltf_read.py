@@ -219,7 +219,14 @@ def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
         shading["metallicFactor"],
         texture,
         shading["baseColorFactor"][3],
+        _glow(entry),
     )
+
+
+def _glow(entry: dict[str, Any]) -> float:
+    """The share of its colour that a material gives off."""
+    given, own = entry.get("emissiveFactor", [0.0]), entry["pbrMetallicRoughness"]
+    return round(max(given) / max(own["baseColorFactor"][:3]), 5) if max(given) > 0.0 else 0.0
 
 
 def _pixels(glb: _Glb, number: int, mode: str) -> NDArray[np.uint8]:

@@ -8,6 +8,7 @@ from collections.abc import Callable, Sequence
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from veduta.place.lamp import Lamp
 from veduta.place.material import Material
 from veduta.place.mover import Mover
 from veduta.place.part import NO_PARENT, Features, Part
@@ -36,6 +37,7 @@ class PartBuilder:
         self._counts: Counter[SemanticClass] = Counter()
         self._shells = 1
         self._movers: list[Mover] = []
+        self._lamps: list[Lamp] = []
 
     @property
     def polygon_count(self) -> int:
@@ -45,6 +47,10 @@ class PartBuilder:
     def mover(self, mover: Mover) -> None:
         """Have polygons that were added move together."""
         self._movers.append(mover)
+
+    def lamp(self, lamp: Lamp) -> None:
+        """Add a point that shines."""
+        self._lamps.append(lamp)
 
     def material(self, material: Material) -> int:
         """Register a material; returns its number."""
@@ -142,4 +148,5 @@ class PartBuilder:
             attributes=dict(self.attributes),
             notes=tuple(self.notes),
             movers=tuple(self._movers),
+            lamps=tuple(self._lamps),
         )

@@ -36,6 +36,7 @@ class Material:
     colour: sRGB, 0..1; it multiplies the texture where there is one (white leaves it alone).
     roughness, metalness: glTF's, 0..1.
     opacity: 0..1; below 1 one sees through it (glass).
+    glow: 0..1; the share of its colour that it gives off by itself (a lamp's glass).
     """
 
     name: str
@@ -44,3 +45,4 @@ class Material:
     metalness: float = 0.0
     texture: Texture | None = None
     opacity: float = 1.0
+    glow: float = 0.0

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.place.instances import Instances
+from veduta.place.lamp import Lamp
 from veduta.place.material import Material
 from veduta.place.mover import Mover
 from veduta.place.semantics import Provenance, SemanticClass
@@ -88,6 +89,7 @@ class Part:
     notes: what was adjusted or left out, and why.
     instances: meshes that stand in the part many times, besides its polygons; None without any.
     movers: polygons of the part that move together, such as the leaves of doors.
+    lamps: points of the part that shine.
     """
 
     id: str
@@ -103,6 +105,7 @@ class Part:
     notes: tuple[str, ...] = ()
     instances: Instances | None = None
     movers: tuple[Mover, ...] = ()
+    lamps: tuple[Lamp, ...] = ()
 
     @cached_property
     def triangles(self) -> Triangles:

@@ -66,7 +66,7 @@ def _faults(document: PlanDocument) -> list[str]:
 def _id_faults(storey: Storey, place: str) -> list[str]:
     """Ids that are there twice, and ids of nothing."""
     found = []
-    for kind in ("junctions", "walls", "openings", "rooms", "stairs", "furniture"):
+    for kind in ("junctions", "walls", "openings", "rooms", "stairs", "furniture", "lights"):
         items = getattr(storey, kind) or ()
         if len(items) > MAX_PARTS:
             return [f"{place}.{kind}: {len(items)}, more than {MAX_PARTS}"]
@@ -78,6 +78,9 @@ def _id_faults(storey: Storey, place: str) -> list[str]:
     junctions = {item.id for item in storey.junctions}
     walls = {item.id for item in storey.walls}
     openings = {item.id for item in storey.openings}
+    rooms = {item.id for item in storey.rooms}
+    for index, light in enumerate(storey.lights or []):
+        found += _unknown([(f"{place}.lights[{index}].room", light.room)], rooms)
     for index, wall in enumerate(storey.walls):
         at = f"{place}.walls[{index}]"
         found += _unknown([(f"{at}.start", wall.start), (f"{at}.end", wall.end)], junctions)

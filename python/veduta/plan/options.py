@@ -11,6 +11,7 @@ from veduta.run.options import Options
 
 RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]
 FrameKind = Literal["surround", "bottom", "none"]
+LightKind = Literal["ceiling", "wall", "none"]
 
 
 PAGES = r"^[1-9]\d{0,4}(-[1-9]\d{0,4})?(,[1-9]\d{0,4}(-[1-9]\d{0,4})?)*$"
@@ -90,6 +91,17 @@ class HouseOptions(Options):
     )
     doors: Literal["open", "closed"] = Field(
         default="open", description="how doors stand in the model; each can be opened in any case"
+    )
+    lights: LightKind = Field(
+        default="ceiling",
+        description="lamps of rooms at their ceilings, on their walls, or none at all",
+    )
+    surroundings: Literal["garden", "none"] = Field(
+        default="garden", description="what lies around the house: ground with plants, or nothing"
+    )
+    ground_slope: Annotated[float, Field(ge=0.0, le=15.0)] = Field(
+        default=0.0,
+        description="how steeply the ground falls before the house and rises behind it (degrees)",
     )
     no_furniture: bool = Field(default=False, description="leave the rooms empty")
     seed: Annotated[int, Field(ge=0, le=2**31)] = Field(

@@ -18,6 +18,7 @@ from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.furnish.furnish import furnish
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
+from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
@@ -136,7 +137,8 @@ def _make(
         document, sheets, notes = _document(call, given, options, steps, progress)
         if not options.house.no_furniture:
             document = _furnish(document, catalogue, options.house, steps, progress)
-        result = _house(document, sheets, options, steps, progress)
+        lit = _lights(document, options, steps, progress)
+        result = _house(lit.document, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -198,6 +200,25 @@ def _furnish(
             if room.missing
         )
     return done
+
+
+def _lights(
+    document: PlanDocument,
+    options: PlanOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Lit:
+    """The document with lamps in each storey that has none yet."""
+    progress("lights", 0.0)
+    with timed_step(steps, "lights") as step:
+        lit = light_house(document, options.house)
+        step.counts |= {
+            "lamps": sum(len(storey.lights or []) for storey in lit.document.storeys),
+            "points_looked_at": lit.points,
+            "points_in_the_dark": lit.dark,
+        }
+        step.rejected.extend(lit.notes)
+    return lit
 
 
 def _house(

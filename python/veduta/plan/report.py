@@ -26,9 +26,12 @@ FILES = (
     ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms, furniture"),
     (
         "house.ifc",
-        "the house for BIM software (IFC4): walls, openings, doors, windows, spaces, furniture",
+        "the house for BIM software (IFC4): walls, doors, windows, spaces, furniture, lamps",
     ),
     ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
+    ("house.x3d", "the house as X3D 4.0: doors that open, lamps that switch on, views of rooms"),
+    ("ground.glb", "the ground around it: lawn, paths, a drive to the garage"),
+    ("garden.glb", "what grows there"),
     ("place.json", "the house as a place with its tour, for `veduta view`"),
     ("tour.png", "the plan with the way of the tour"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
+from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import draw
 from veduta.plan.house.build import House
@@ -23,7 +24,9 @@ from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.outputs.tour_picture import tour_picture
+from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.sheets import sheet_name
+from veduta.plan.surroundings.build import build_surroundings, with_surroundings
 from veduta.plan.tour.find import Tour
 from veduta.plan.tour.placing import placed_tour
 
@@ -75,4 +78,15 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     tour = result.tour
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path])
     tours = [] if tour is None else [placed_tour(tour, raised_m(result.house, options))]
-    write_place(place_of(result.house, MODEL, DOCUMENT, options, tours), folder / "place.json")
+    place = place_of(result.house, MODEL, DOCUMENT, options, tours)
+    around: list[Part] = []
+    if options.surroundings != "none":
+        surroundings = build_surroundings(result.house.spaces[0], options)
+        around = [surroundings.ground, *([surroundings.garden] if surroundings.garden else [])]
+        models = {part.id: f"{part.id}.glb" for part in around}
+        for part in around:
+            write_glb(part, folder / models[part.id])
+        place = with_surroundings(place, surroundings, models)
+    x3d = house_x3d(result.house, options, place.start, tours=tours, others=around)
+    (folder / "house.x3d").write_bytes(x3d)
+    write_place(place, folder / "place.json")

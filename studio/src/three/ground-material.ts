@@ -25,7 +25,10 @@ export const GROUND_LOOK = `
     return mix(colour, horizon, 1.0 - exp(-max(0.0, away - 30.0) / 260.0));
   }`;
 
-/** Makes a mesh ground: it throws no shadow, for it would be on itself alone. */
+/**
+ * Makes a mesh ground: it throws no shadow, for it would be on itself alone. Where it has a picture,
+ * lawn or cobbles, that gives the scale, and it gets no lines.
+ */
 export function layGround(mesh: Mesh): void {
   mesh.castShadow = false;
   for (const material of [mesh.material].flat()) pave(material);
@@ -45,7 +48,9 @@ function pave(material: Material): void {
       .replace("#include <common>", `#include <common>\nvarying vec3 vGround;\nuniform vec3 groundHorizon;\n${GROUND_LOOK}`)
       .replace("#include <color_fragment>", `#include <color_fragment>
         float groundAway = distance(vGround, cameraPosition);
-        diffuseColor.rgb = paved(diffuseColor.rgb, vGround, groundAway);`)
+        #ifndef USE_MAP
+        diffuseColor.rgb = paved(diffuseColor.rgb, vGround, groundAway);
+        #endif`)
       .replace("#include <colorspace_fragment>", `
         gl_FragColor.rgb = hazed(gl_FragColor.rgb, groundHorizon, groundAway);
         #include <colorspace_fragment>`);

@@ -19,6 +19,7 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import build_house
 from veduta.plan.house.space import space_of
+from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import door_operation, house_ifc, wall_regions
@@ -84,7 +85,7 @@ def test_overlay_draws_walls_where_the_sheet_has_them() -> None:
 
 
 def test_ifc_is_valid_and_has_everything() -> None:
-    document = two_storeys()
+    document = light_house(two_storeys(), HouseOptions()).document
     house = build_house(document, HouseOptions())
     content = house_ifc(house, HouseOptions())
     model = ifcopenshell.file.from_string(content.decode())
@@ -96,6 +97,7 @@ def test_ifc_is_valid_and_has_everything() -> None:
     counts = {
         "IfcBuildingStorey": 2, "IfcWall": 14, "IfcOpeningElement": 8, "IfcDoor": 4,
         "IfcWindow": 4, "IfcSpace": 4, "IfcSlab": 3, "IfcRoof": 1,
+        "IfcLightFixture": 8,
     }  # fmt: skip
     assert {kind: len(model.by_type(kind)) for kind in counts} == counts
     for kind in ("IfcDoor", "IfcWindow"):

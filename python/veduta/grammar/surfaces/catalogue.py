@@ -62,6 +62,7 @@ SURFACES: dict[str, Surface] = {
     "wood": Surface(wood.planed, (1.2, 1.2), (0.93, 0.92, 0.92)),
     "cobbles": Surface(ground.cobbles, (2.13, 2.13), (0.77, 0.77, 0.77)),
     "paving": Surface(ground.paving, (2.4, 2.4), (0.88, 0.87, 0.86)),
+    "lawn": Surface(ground.lawn, (2.0, 2.0), (0.84, 0.85, 0.83)),
     "asphalt": Surface(ground.asphalt, (2.0, 2.0), (0.81, 0.81, 0.81)),
 }
 

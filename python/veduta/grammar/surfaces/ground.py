@@ -34,6 +34,15 @@ def paving(canvas: Canvas) -> Image:
     return canvas.image(shade, (1.0, 0.99, 0.975), 0.86)
 
 
+def lawn(canvas: Canvas) -> Image:
+    """A mown lawn: short blades, some of them dry."""
+    blades = np.asarray(0.006 * canvas.noise(0.035, 0.008, 0.2), np.float32)
+    shade = canvas.lit(blades, 0.8) * canvas.hollow(blades, 0.012, 6.0)
+    shade *= 1.0 + 0.05 * canvas.noise(0.9, 0.08) + 0.05 * canvas.grain()
+    dry = eased(canvas.noise(0.3, 0.02, 0.6), 0.3, 2.2)
+    return canvas.image(shade, mixed((0.95, 1.0, 0.93), (1.0, 0.97, 0.82), dry), 0.8)
+
+
 def asphalt(canvas: Canvas) -> Image:
     """Asphalt with grit in it."""
     relief = np.asarray(0.0012 * canvas.noise(0.025, 0.012, 0.0), np.float32)

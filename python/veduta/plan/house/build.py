@@ -12,7 +12,7 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.doors import add_door
 from veduta.plan.house.flights import Stairwell, stairwells
-from veduta.plan.house.floors import add_ceilings, add_floors, add_skirting, add_slab
+from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.looks import Looks
@@ -22,6 +22,7 @@ from veduta.plan.house.space import Space, solid_region, space_of
 from veduta.plan.house.stairs import add_stairs
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
+from veduta.plan.lights.bodies import add_lamps
 from veduta.plan.options import HouseOptions
 
 GROUND_SLAB_M = 0.2
@@ -83,6 +84,7 @@ def _add_storey(
     add_floors(space, sculptor)
     add_ceilings(space, height, well.opening, sculptor)
     add_skirting(space, sculptor)
+    add_lamps(storey, height - FINISH_M, sculptor)
     over = space.covered if above is None else space.covered.union(above.slab)
     over = solid_region(over.difference(well.opening))
     if above is not None:

@@ -26,6 +26,7 @@ class Look:
     roughness: float = 0.9
     opacity: float = 1.0
     metalness: float = 0.0
+    glow: float = 0.0
 
 
 LOOKS: dict[str, Look] = {
@@ -47,8 +48,18 @@ LOOKS: dict[str, Look] = {
     "entrance": Look((0.36, 0.27, 0.22), "wood", roughness=0.5),
     "garage door": Look((0.82, 0.83, 0.84), "siding", roughness=0.5),
     "handle": Look((0.62, 0.62, 0.60), roughness=0.3, metalness=0.8),
+    "lamp glass": Look((1.0, 0.97, 0.91), roughness=0.4, glow=0.45),
+    "lamp metal": Look((0.72, 0.70, 0.66), roughness=0.35, metalness=0.7),
     "roof": Look((0.66, 0.36, 0.27), "clay-tile", roughness=0.8),
     "flat roof": Look((0.70, 0.70, 0.70), "gravel"),
+    "lawn": Look((0.42, 0.54, 0.27), "lawn"),
+    "path": Look((0.78, 0.75, 0.70), "paving"),
+    "drive": Look((0.66, 0.65, 0.63), "cobbles"),
+    "bark": Look((0.38, 0.29, 0.21)),
+    "leaves": Look((0.33, 0.48, 0.20)),
+    "needles": Look((0.16, 0.33, 0.20)),
+    "bush": Look((0.27, 0.42, 0.19)),
+    "gravel": Look((0.74, 0.72, 0.69), "gravel"),
     "soffit": Look((0.93, 0.91, 0.87)),
 }
 _FLOORS: dict[RoomUse, str] = {
@@ -87,7 +98,7 @@ class Looks:
             texture = None if look.texture is None else _texture(look.texture)
             material = Material(
                 name.replace(" ", "-"), look.colour, look.roughness, look.metalness,
-                texture, look.opacity,
+                texture, look.opacity, look.glow,
             )  # fmt: skip
             self._numbers[name] = self._builder.material(material)
         if look.texture is None:

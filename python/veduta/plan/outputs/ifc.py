@@ -1,7 +1,7 @@
 """`house.ifc`: the house for BIM software, as IFC4 (ISO 16739-1:2018), in metres.
 
 Project, site, building and storeys; walls with openings that doors and windows fill; slabs, the
-roof, and a space for each room. Ids derive from what is named, so that a rebuild keeps them.
+roof, a space for each room, and lamps. Ids derive from what is named, so that a rebuild keeps them.
 """
 
 from __future__ import annotations
@@ -45,6 +45,7 @@ def house_ifc(house: House, options: HouseOptions) -> bytes:
     for index, space in enumerate(house.spaces):
         above = house.spaces[index + 1].slab if index + 1 < len(house.spaces) else Polygon()
         storeys.append(_storey(model, space, above, options, is_lowest=index == 0))
+        model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
         model.contain(storeys[-1], things, "furniture")
     model.aggregate(model.building, storeys, "storeys")
@@ -335,16 +336,43 @@ def _spaces(model: _Model, space: Space, height: float, place: Entity) -> list[E
     return found
 
 
+def _lamps(model: _Model, house: House, space: Space, storey: Entity) -> list[Entity]:
+    """A light fixture for each lamp that has a body of its own, as it is in the part."""
+    names = {f"{space.storey.name} light {light.id}": light for light in space.storey.lights or []}
+    found = []
+    for feature, name in enumerate(house.part.features.name):
+        light = names.get(name)
+        if light is None:
+            continue
+        fixture = model.product(
+            "IfcLightFixture", name, storey.ObjectPlacement,
+            ObjectType=light.kind, PredefinedType="POINTSOURCE",
+        )  # fmt: skip
+        points, corners = _triangles(house, np.array([feature]))
+        points = points - np.array([0.0, 0.0, space.storey.elevation_m])
+        fixture.Representation = model.mesh(points, corners)
+        found.append(fixture)
+    return found
+
+
+def _triangles(
+    house: House, features: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
+    """(n, 3) points and (m, 3) triangles of some features of the part."""
+    part = house.part
+    chosen = np.isin(part.polygon_feature, features)[part.triangles.polygon]
+    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
+    points: NDArray[np.float64] = part.positions_m[used].astype(np.float64)
+    return points, corners.reshape(-1, 3).astype(np.int64)
+
+
 def _roof(model: _Model, house: House) -> Entity | None:
     """The roof as it is in the part, its triangles about the building's origin."""
-    part = house.part
-    is_roof = part.features.class_code == SemanticClass.ROOF.code
-    chosen = is_roof[part.polygon_feature[part.triangles.polygon]]
-    if not chosen.any():
+    is_roof = house.part.features.class_code == SemanticClass.ROOF.code
+    points, corners = _triangles(house, np.flatnonzero(is_roof))
+    if not len(corners):
         return None
-    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
     roof = model.product("IfcRoof", "Roof", model.building.ObjectPlacement)
     roof.PredefinedType = "NOTDEFINED"
-    points = part.positions_m[used].astype(np.float64)
-    roof.Representation = model.mesh(points, corners.reshape(-1, 3).astype(np.int64))
+    roof.Representation = model.mesh(points, corners)
     return roof

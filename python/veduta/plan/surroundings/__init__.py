@@ -1,0 +1,1 @@
+"""What lies around a house: ground of several materials, on a slope if asked for, and plants."""

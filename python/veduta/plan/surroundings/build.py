@@ -1,0 +1,94 @@
+"""The surroundings as parts of the place: the ground, on which one walks, and what grows on it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from shapely.geometry.polygon import orient
+from shapely.ops import unary_union
+
+from veduta.place.builder import PartBuilder
+from veduta.place.manifest import Bounds, Place, PlacePart
+from veduta.place.part import Part
+from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.frame import Sculptor, Surface, level
+from veduta.plan.house.looks import Looks
+from veduta.plan.house.space import Space
+from veduta.plan.options import HouseOptions
+from veduta.plan.surroundings.plants import Plant, body, plants_of
+from veduta.plan.surroundings.terrain import Terrain, terrain_of
+
+GROUND, GARDEN = "ground", "garden"
+
+
+@dataclass(frozen=True)
+class Surroundings:
+    """What lies around a house, in the frame of the place; garden is None where nothing grows."""
+
+    terrain: Terrain
+    plants: tuple[Plant, ...]
+    ground: Part
+    garden: Part | None
+
+
+def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
+    """The surroundings of a house by its lowest storey."""
+    terrain = terrain_of(space, options.ground_slope)
+    windows = [hole.outline.buffer(2.2) for hole in space.holes if hole.low_m < 0.8]
+    plants = tuple(plants_of(terrain, unary_union(windows)))
+    return Surroundings(terrain, plants, _ground(terrain), _garden(plants))
+
+
+def with_surroundings(place: Place, around: Surroundings, models: dict[str, str]) -> Place:
+    """The place with the surroundings as further parts. models: the file of each, by its id."""
+    added = []
+    for part, name in ((around.ground, "Ground"), (around.garden, "Garden")):
+        if part is None:
+            continue
+        low, high = part.bounds_m
+        added.append(
+            PlacePart(
+                id=part.id,
+                name=name,
+                model=models[part.id],
+                arrangement="invented",
+                bounds=Bounds(min=low, max=high),
+                ground=part.id == GROUND,
+            )
+        )
+    return place.model_copy(update={"parts": [*place.parts, *added]})
+
+
+def _ground(terrain: Terrain) -> Part:
+    builder = PartBuilder(GROUND)
+    sculptor = Sculptor(builder, Looks(builder))
+    for kind, region in terrain.areas:
+        feature = builder.feature(SemanticClass.GROUND, Provenance.INVENTED, kind)
+        for piece in terrain.flat_pieces(region):
+            shape = orient(piece)
+            rings = []
+            for ring in (shape.exterior, *shape.interiors):
+                points = np.array(ring.coords)[:-1]
+                rings.append(np.column_stack([points, terrain.height(points)]))
+            sculptor.face(rings, level(0.0), Surface(feature, kind))
+    return builder.build()
+
+
+def _garden(plants: tuple[Plant, ...]) -> Part | None:
+    if not plants:
+        return None
+    builder = PartBuilder(GARDEN)
+    sculptor = Sculptor(builder, Looks(builder))
+    for number, plant in enumerate(plants, start=1):
+        feature = builder.feature(
+            SemanticClass.OTHER,
+            Provenance.INVENTED,
+            f"{plant.kind} {number}",
+            shell=builder.new_shell(),
+        )
+        for look, faces in body(plant):
+            for face in faces:
+                placed = face + np.array(plant.at_m)
+                sculptor.face([placed], level(0.0), Surface(feature, look))
+    return builder.build()
