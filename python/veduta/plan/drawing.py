@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Furniture, Stairs, Storey
-from veduta.plan.house.space import Hole, Space, pieces_of
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space, pieces_of
 
 Layer = Literal["rooms", "furniture", "walls", "windows", "doors", "stairs", "names"]
 LAYERS: tuple[Layer, ...] = get_args(Layer)

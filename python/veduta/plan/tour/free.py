@@ -19,7 +19,8 @@ from shapely.ops import unary_union
 from veduta.plan.document import Furniture
 from veduta.plan.house.doors import FRAME_M
 from veduta.plan.house.flights import Flight
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 from veduta.plan.tour.leaves import OpenLeaf
 
 BODY_M = 0.2
