@@ -15,7 +15,8 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Furniture, Storey
-from veduta.plan.house.space import Hole, Space, pieces_of, space_of
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space, pieces_of, space_of
 
 CELL_M, RADIUS_M = 0.02, 0.25
 HEIGHT_M = 2.55

@@ -7,11 +7,13 @@ from pathlib import Path
 
 import pypdfium2
 import pytest
+from drawn_dxf import saved, two_rooms
 from PIL import Image
 from sample_plan import sample_plan
 from test_validators import validate_gltf
 
 from veduta.formats.place_json import read_place
+from veduta.plan import pipeline
 from veduta.plan.options import InputOptions, PlanOptions
 from veduta.plan.pipeline import PlanResult, run_plan
 from veduta.run.errors import InputError
@@ -116,6 +118,34 @@ def test_a_page_without_a_plan_is_named(tmp_path: Path) -> None:
     report = json.loads((tmp_path / "out" / "report.json").read_text())
     assert report["steps"][0]["name"] == "read house.pdf page 2"
     assert "house.pdf page 2 is blank" in report["failures"][0]["reason"]
+
+
+def test_a_dxf_becomes_a_house_and_a_dwg_leaves_nothing_behind(tmp_path: Path) -> None:
+    drawing = saved(two_rooms(0.001), tmp_path / "house.dxf")
+    out = tmp_path / "out"
+    result = run_plan([drawing], out, PlanOptions(), Progress(quiet=True))
+    assert (result.exit_code, result.measures["rooms"]) == (0, 2)
+    assert {path.name for path in out.iterdir()} >= FILES
+    drawing.write_bytes(b"AC1027" + bytes(100))
+    with pytest.raises(InputError, match=r"house\.dxf: is a DWG file"):
+        run_plan([drawing], tmp_path / "other", PlanOptions(), Progress(quiet=True))
+    assert not (tmp_path / "other").exists()
+
+
+def test_a_run_that_was_stopped_is_done_by_the_next(
+    tmp_path: Path, document: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def stopped(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr(pipeline, "write_result", stopped)
+        with pytest.raises(KeyboardInterrupt):
+            plan(document, tmp_path / "out")
+    assert not (tmp_path / "out" / "house.glb").exists()
+    again = plan(document, tmp_path / "out")
+    assert (again.exit_code, again.up_to_date) == (0, False)
+    assert {path.name for path in (tmp_path / "out").iterdir()} >= FILES
 
 
 def test_pages_are_of_no_use_to_a_document(tmp_path: Path, document: Path) -> None:

@@ -12,8 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Furniture, Storey
-from veduta.plan.house.space import Hole, Space, pieces_of
+from veduta.plan.document import Furniture, Stairs, Storey
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space, pieces_of
 
 Layer = Literal["rooms", "furniture", "walls", "windows", "doors", "stairs", "names"]
 LAYERS: tuple[Layer, ...] = get_args(Layer)
@@ -77,8 +78,7 @@ def draw(space: Space) -> Drawing:
     shapes += [Shape("walls", _rings(piece)) for piece in pieces_of(solid)]
     shapes += [_opening(hole) for hole in space.holes]
     for stairs in space.storey.stairs:
-        ring = np.array(stairs.outline_m)
-        shapes.append(Shape("stairs", (ring,), name=stairs.id))
+        shapes.append(_stairs(stairs))
     labels = [
         Label(room.name or room.use, f"{room.area_m2:.1f} m²", _middle(region))
         for room, region in space.rooms
@@ -90,6 +90,34 @@ def draw(space: Space) -> Drawing:
 def _rings(shape: Polygon) -> tuple[NDArray[np.float64], ...]:
     rings = (shape.exterior, *shape.interiors)
     return tuple(np.array(ring.coords)[:-1] for ring in rings)
+
+
+def _stairs(stairs: Stairs) -> Shape:
+    """A flight with its treads, and an arrow up where it is known."""
+    ring = np.array(stairs.outline_m)
+    way = np.array(stairs.up)
+    sides = np.roll(ring, -1, axis=0) - ring
+    if not np.hypot(*way) > 0.5:
+        way = max(sides, key=lambda side: float(np.hypot(*side)))
+    along = way / np.hypot(*way)
+    across = np.array([-along[1], along[0]])
+    forward, beside = ring @ along, ring @ across
+    low, high = forward.min(), forward.max()
+    left, right, middle = beside.min(), beside.max(), (beside.min() + beside.max()) / 2
+
+    def point(ahead: float, aside: float) -> NDArray[np.float64]:
+        return np.asarray(ahead * along + aside * across)
+
+    lines = [
+        np.array([point(at, left), point(at, right)])
+        for at in np.linspace(low, high, stairs.treads + 1)[1:-1]
+    ]
+    if np.hypot(*stairs.up) > 0.5:
+        tip, barb = high - 0.1 * (high - low), 0.12 * (right - left)
+        lines.append(np.array([point(low + 0.05 * (high - low), middle), point(tip, middle)]))
+        heads = [point(tip - 1.5 * barb, middle + side * barb) for side in (-1.0, 1.0)]
+        lines.append(np.array([heads[0], point(tip, middle), heads[1]]))
+    return Shape("stairs", (ring,), tuple(lines), name=stairs.id)
 
 
 def _middle(region: Polygon) -> tuple[float, float]:

@@ -1,7 +1,9 @@
 """Storeys laid onto each other: each so that its outline covers most of that below it.
 
 A storey is moved by what brings sides or middles of both outlines onto each other: outer walls
-stand over outer walls. Its drawing moves along: the plan frame is the same for all storeys.
+stand over outer walls. So do flights of stairs that run the same way and have the same size, as
+long as outlines then cover each other nearly as well. Its drawing moves along: the plan frame is
+the same for all storeys.
 """
 
 from __future__ import annotations
@@ -9,12 +11,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import product
 
+import numpy as np
 from shapely.affinity import translate
+from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Point, Storey
 from veduta.plan.house.lines import footprint, wall_lines
 from veduta.plan.house.space import filled
+
+SAME_FLIGHT_M = 0.25
+"""Flights over each other differ in size by at most so much: a tread may be hidden on one."""
+STAIRS_SHARE = 0.93
+"""Outlines cover each other so much as well, at least, where stairs are laid onto each other."""
 
 
 def registered(storeys: Sequence[Storey]) -> list[Storey]:
@@ -64,7 +73,28 @@ def _onto(storey: Storey, below: Storey) -> Storey:
     # The first of the best: of equal ones that which moves least.
     ways = sorted(product(across, up), key=lambda way: abs(way[0]) + abs(way[1]))
     best = max(ways, key=lambda way: round(_overlap(translate(own, *way), under), 6))
+    covered = _overlap(translate(own, *best), under)
+    by_stairs = [
+        way
+        for way in _stair_shifts(storey, below)
+        if _overlap(translate(own, *way), under) >= STAIRS_SHARE * covered
+    ]
+    if by_stairs:
+        best = max(by_stairs, key=lambda way: _overlap(translate(own, *way), under))
     return moved(storey, best)
+
+
+def _stair_shifts(storey: Storey, below: Storey) -> list[Point]:
+    """What brings a flight of a storey onto one of that below."""
+    shifts = []
+    for own, under in product(storey.stairs, below.stairs):
+        here, there = Polygon(own.outline_m), Polygon(under.outline_m)
+        sizes = [np.ptp(np.array(one.outline_m), axis=0) for one in (own, under)]
+        opposed = float(np.dot(own.up, under.up)) < 0.5 and own.up != (0.0, 0.0) != under.up
+        if opposed or np.abs(sizes[0] - sizes[1]).max() > SAME_FLIGHT_M:
+            continue
+        shifts.append((there.centroid.x - here.centroid.x, there.centroid.y - here.centroid.y))
+    return shifts
 
 
 def _outline(storey: Storey) -> BaseGeometry:

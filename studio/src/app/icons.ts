@@ -15,6 +15,8 @@ export const icons = {
   fullscreen: icon(svg`<path d="M4.5 9V4.5H9M15 4.5h4.5V9M19.5 15v4.5H15M9 19.5H4.5V15"/>`),
   help: icon(svg`<circle cx="12" cy="12" r="8.2"/><path d="M9.7 9.6a2.4 2.4 0 1 1 3.4 2.5c-.8.4-1.1.9-1.1 1.7"/><path d="M12 16.4v.1"/>`),
   mouse: icon(svg`<rect x="7" y="3.8" width="10" height="16.4" rx="5"/><path d="M12 7.4v3"/>`),
+  sun: icon(svg`<circle cx="12" cy="12" r="3.8"/><path d="M12 3.5v2.2M12 18.3v2.2M3.5 12h2.2M18.3 12h2.2M6 6l1.5 1.5M16.5 16.5 18 18M18 6l-1.5 1.5M7.5 16.5 6 18"/>`),
+  moon: icon(svg`<path d="M19.5 14.2A8 8 0 0 1 9.8 4.5a8 8 0 1 0 9.7 9.7z"/>`),
   close: icon(svg`<path d="M6.5 6.5l11 11M17.5 6.5l-11 11"/>`),
   eye: icon(svg`<path d="M3 12s3.3-5.6 9-5.6 9 5.6 9 5.6-3.3 5.6-9 5.6S3 12 3 12z"/><circle cx="12" cy="12" r="2.5"/>`),
   eyeOff: icon(svg`<path d="M4 4l16 16"/><path d="M9.6 6.7A9.4 9.4 0 0 1 12 6.4c5.7 0 9 5.6 9 5.6a16 16 0 0 1-2.6 3.2M6.3 8A15.5 15.5 0 0 0 3 12s3.3 5.6 9 5.6c1.2 0 2.3-.25 3.3-.65"/>`),

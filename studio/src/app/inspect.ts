@@ -4,10 +4,12 @@
  * degrees. The page says that it is ready (or failed) in `<html data-veduta="ready|error">`.
  */
 import type { Feature } from "../core/features.ts";
+import { roomsOf } from "../core/room-map.ts";
 import type { StudioState } from "../core/state.ts";
 import { stretchAt } from "../core/tour.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
+import { roomTitle } from "../core/whereabouts.ts";
 import type { ViewerStats } from "../three/viewer.ts";
 import type { Session } from "./session.ts";
 
@@ -16,6 +18,11 @@ export interface Inspection {
   state(): { mode: string; colouring: string; hidden: string[]; flying: boolean };
   camera(): { eye: Vec3; direction: Vec3; fov_deg: number };
   walk(): { feet: Vec3; velocity: Vec3; grounded: boolean; blocked: boolean };
+  /** The doors of the place: the feature, where it is, and how far it is open (0..1). */
+  doors(): { id: string; name: string; foot: Vec3; share: number }[];
+  /** The room in which the walker is, of its house, and the rooms whose lamps are on. */
+  room(): { storey: string; id: string; name: string } | null;
+  litRooms(): string[];
   /** The selected feature and the part that it belongs to. */
   picked(): (Feature & { part: string }) | null;
   features(): (Feature & { part: string })[];
@@ -57,6 +64,22 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
       const { feet, velocity, grounded, blocked } = viewer.walker;
       return { feet, velocity, grounded, blocked };
     },
+    doors: () =>
+      viewer.household.doors?.states.map(({ feature, foot, share }) => {
+        const row = tables[feature.part]?.rows[feature.row];
+        return { id: row?.id ?? "", name: row?.name ?? "", foot, share };
+      }) ?? [],
+    room: () => {
+      const where = viewer.household.whereabouts(viewer.walker.feet);
+      const storey = where === null ? undefined : session.houses[where.house]?.storeys[where.storey];
+      const room = storey?.rooms[where?.room ?? -1];
+      return storey === undefined || room === undefined ? null : { storey: storey.name, id: room.id, name: roomTitle(room) };
+    },
+    litRooms: () =>
+      session.houses.flatMap((house, index) => {
+        const levels = viewer.household.levelsOf(index);
+        return roomsOf(house).flatMap(({ room }, number) => ((levels[number] ?? 0) > 0.5 ? [room.id] : []));
+      }),
     picked: () => {
       const { selected } = store.value;
       const feature = selected === null ? undefined : tables[selected.part]?.rows[selected.row];

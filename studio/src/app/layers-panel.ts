@@ -11,6 +11,7 @@ import {
 import { countClasses, countProvenances, type FeatureTable } from "../core/features.ts";
 import type { Colouring } from "../core/state.ts";
 import { icons } from "./icons.ts";
+import { rowStyles } from "./row-styles.ts";
 import { theme } from "./theme.ts";
 
 const COLOURINGS: readonly { readonly value: Colouring; readonly label: string }[] = [
@@ -39,6 +40,7 @@ export class LayersPanel extends LitElement {
 
   static override styles = [
     theme,
+    rowStyles,
     css`
       :host {
         display: block;
@@ -52,63 +54,13 @@ export class LayersPanel extends LitElement {
         margin-bottom: 6px;
       }
       .segments {
-        display: grid;
-        grid-auto-flow: column;
-        grid-auto-columns: auto;
-        gap: 2px;
-        padding: 3px;
         margin: 0 4px 16px;
-        border-radius: 10px;
-        background: var(--hover);
-      }
-      .segments button {
-        padding: 6px 10px;
-        border-radius: 8px;
-        font-size: 13px;
-        font-weight: 520;
-        color: var(--ink-soft);
-      }
-      .segments button[aria-checked="true"] {
-        background: #fff;
-        color: var(--ink);
-        box-shadow: 0 1px 3px rgb(20 30 40 / 0.16);
-      }
-      ul {
-        list-style: none;
-      }
-      .layer,
-      .legend li {
-        display: flex;
-        align-items: center;
-        gap: 10px;
-        width: 100%;
-        min-height: 36px;
-        padding: 6px 8px;
-        border-radius: 8px;
-        text-align: left;
-      }
-      .layer:hover {
-        background: var(--hover);
-      }
-      .layer .name,
-      .legend .name {
-        flex: 1;
       }
       .count {
         color: var(--ink-faint);
         font-variant-numeric: tabular-nums;
       }
-      .layer svg {
-        width: 18px;
-        height: 18px;
-        color: var(--ink-faint);
-      }
-      .layer[aria-checked="false"] .name {
-        color: var(--ink-faint);
-        text-decoration: line-through;
-        text-decoration-thickness: 1px;
-      }
-      .layer[aria-checked="false"] .swatch {
+      .row[aria-checked="false"] .swatch {
         background: transparent !important;
       }
       .legend {
@@ -160,11 +112,11 @@ export class LayersPanel extends LitElement {
     const visible = !this.hidden_.has(kind);
     const { plural, colour } = CLASS_LOOKS[kind];
     return html`<li>
-      <button class="layer" role="switch" aria-checked=${visible} data-class=${kind}
+      <button class="row" role="switch" aria-checked=${visible} data-class=${kind}
         title=${visible ? `Hide: ${plural}` : `Show: ${plural}`}
         @click=${() => this.#emit("layer", { kind, visible: !visible })}>
         <span class="swatch" .style=${`background:${colour}`}></span>
-        <span class="name">${plural}</span>
+        <span class="name hides">${plural}</span>
         <span class="count">${count}</span>
         ${visible ? icons.eye : icons.eyeOff}
       </button>
@@ -176,7 +128,7 @@ export class LayersPanel extends LitElement {
     return html`<ul class="legend">
       ${PROVENANCES.map((kind) => {
         const { label, meaning, colour } = PROVENANCE_LOOKS[kind];
-        return html`<li>
+        return html`<li class="row">
           <span class="swatch" .style=${`background:${colour}`}></span>
           <span class="name">${label}<small>${meaning}</small></span>
           <span class="count">${counts.get(kind) ?? 0}</span>

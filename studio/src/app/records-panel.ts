@@ -2,6 +2,7 @@
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import type { Layer } from "../core/state.ts";
 import { icons } from "./icons.ts";
+import { rowStyles } from "./row-styles.ts";
 import { theme } from "./theme.ts";
 
 const NAMES: Readonly<Record<Layer, string>> = {
@@ -28,6 +29,7 @@ export class RecordsPanel extends LitElement {
 
   static override styles = [
     theme,
+    rowStyles,
     css`
       :host {
         display: block;
@@ -39,70 +41,6 @@ export class RecordsPanel extends LitElement {
       .eyebrow {
         padding: 10px 8px 0;
         margin-bottom: 6px;
-      }
-      ul {
-        list-style: none;
-      }
-      .switch,
-      label {
-        display: flex;
-        align-items: center;
-        gap: 10px;
-        width: 100%;
-        min-height: 36px;
-        padding: 6px 8px;
-        border-radius: 8px;
-        text-align: left;
-      }
-      .switch:hover {
-        background: var(--hover);
-      }
-      .switch span {
-        flex: 1;
-      }
-      .switch[aria-checked="false"] span {
-        color: var(--ink-faint);
-      }
-      .switch[data-layer][aria-checked="false"] span {
-        text-decoration: line-through;
-        text-decoration-thickness: 1px;
-      }
-      .switch svg {
-        width: 18px;
-        height: 18px;
-        color: var(--ink-faint);
-      }
-      .knob {
-        flex: none;
-        width: 30px;
-        height: 18px;
-        padding: 2px;
-        border-radius: 9px;
-        background: #b9c0c5;
-        transition: background 0.15s;
-      }
-      .knob::after {
-        content: "";
-        display: block;
-        width: 14px;
-        height: 14px;
-        border-radius: 50%;
-        background: #fff;
-        transition: transform 0.15s;
-      }
-      [aria-checked="true"] > .knob {
-        background: var(--deep);
-      }
-      [aria-checked="true"] > .knob::after {
-        transform: translateX(12px);
-      }
-      label {
-        color: var(--ink-soft);
-      }
-      input {
-        flex: 1;
-        min-width: 0;
-        accent-color: var(--deep);
       }
     `,
   ];
@@ -122,26 +60,26 @@ export class RecordsPanel extends LitElement {
         ${this.layers.map((layer) => html`<li>${this.#layer(layer)}${layer === "points" ? this.#size() : nothing}</li>`)}
       </ul>
       ${this.layers.includes("cameras")
-        ? html`<button class="switch" role="switch" aria-checked=${this.fading}
+        ? html`<button class="row" role="switch" aria-checked=${this.fading}
             title="While walking, photos that show what you see lie over the place (V)"
             @click=${() => this.#emit("fading", !this.fading)}>
-            <span>Photos fade in</span><i class="knob"></i></button>`
+            <span class="name">Photos fade in</span><i class="knob"></i></button>`
         : nothing}
     `;
   }
 
   #size(): TemplateResult {
-    return html`<label>Size <input type="range" aria-label="Size of the points" min=${SMALLEST_PX} max=${LARGEST_PX} step="0.5"
+    return html`<label class="row">Size <input type="range" aria-label="Size of the points" min=${SMALLEST_PX} max=${LARGEST_PX} step="0.5"
       .value=${String(this.point_px)} ?disabled=${this.off.has("points")}
       @input=${(event: Event) => this.#emit("point-size", Number((event.target as HTMLInputElement).value))} /></label>`;
   }
 
   #layer(layer: Layer): TemplateResult {
     const visible = !this.off.has(layer);
-    return html`<button class="switch" role="switch" aria-checked=${visible} data-layer=${layer}
+    return html`<button class="row" role="switch" aria-checked=${visible} data-layer=${layer}
       title=${visible ? `Hide: ${NAMES[layer]}` : `Show: ${NAMES[layer]}`}
       @click=${() => this.#emit("record", { layer, visible: !visible })}>
-      <span>${NAMES[layer]}</span>${visible ? icons.eye : icons.eyeOff}
+      <span class="name hides">${NAMES[layer]}</span>${visible ? icons.eye : icons.eyeOff}
     </button>`;
   }
 

@@ -1,6 +1,7 @@
 /** Opens the place that the page's address asks for. */
 import type { FeatureTable } from "../core/features.ts";
 import { Fault } from "../core/fault.ts";
+import type { House } from "../core/house.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
@@ -10,6 +11,10 @@ import type { Viewer } from "../three/viewer.ts";
 export interface Session {
   readonly place: Place;
   readonly tables: readonly FeatureTable[];
+  /** Those that one can walk in; empty where the place has none. */
+  readonly houses: readonly House[];
+  /** Whether there are lamps in them. */
+  readonly hasLamps: boolean;
   readonly viewer: Viewer;
   readonly loadSeconds: number;
   /** A place that is streamed; its tables grow as tiles arrive. */
@@ -39,13 +44,14 @@ export async function openPlace(
     import("../three/clouds.ts"),
     import("../three/fetch.ts"),
     import("../three/frusta.ts"),
+    import("../three/houses.ts"),
     import("../three/load.ts"),
     import("../three/photo-textures.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ loadClouds }, { fetchText }, { Frusta }, { loadParts }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
+  const [{ loadClouds }, { fetchText }, { Frusta }, { loadHouses }, { loadParts }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
   const grounds = place.parts.filter(({ isGround }) => isGround).map(({ model }) => fileAddress(model, address));
@@ -59,17 +65,20 @@ export async function openPlace(
       ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))
       : [];
   await town?.open((share) => onProgress(share, "tileset.json"));
+  const houses = await loadHouses(parts, address, onFault);
   const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   store.update({ off: firstOff(place) });
-  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures }, store);
+  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {
     place,
     tables: town?.tables ?? parts.map(({ table }) => table),
     town,
+    houses: houses.map(({ house }) => house),
+    hasLamps: houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0)),
     records: recordsOf(place, town !== null),
     nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,

@@ -85,6 +85,12 @@ export const studioStyles = css`
     width: 328px;
     max-height: calc(100% - 2 * var(--edge));
   }
+  veduta-minimap {
+    position: absolute;
+    right: var(--edge);
+    bottom: var(--edge);
+    width: 232px;
+  }
   veduta-photo-panel {
     position: absolute;
     top: var(--edge);
@@ -142,6 +148,15 @@ export const studioStyles = css`
     left: calc(var(--edge) + 8px);
     bottom: calc(var(--edge) + 84px);
   }
+  @media (max-width: 1080px) {
+    /* Beside the tools there is no room for it. */
+    veduta-minimap {
+      bottom: calc(var(--edge) + 66px);
+    }
+    veduta-minimap.over-tour {
+      bottom: calc(var(--edge) + 124px);
+    }
+  }
   @media (max-width: 720px) {
     :host {
       --edge: max(10px, env(safe-area-inset-bottom));
@@ -158,6 +173,18 @@ export const studioStyles = css`
       top: calc(var(--edge) + 62px);
       width: min(264px, calc(100% - 2 * var(--edge)));
       max-height: calc(100% - 2 * var(--edge) - 62px - 100px);
+    }
+    veduta-minimap {
+      bottom: calc(var(--edge) + 84px);
+      width: 150px;
+      --map-height: 110px;
+    }
+    veduta-minimap.over-tour,
+    veduta-joystick.over-tour {
+      bottom: calc(var(--edge) + 144px);
+    }
+    veduta-feature-panel:not([hidden]) ~ veduta-minimap {
+      display: none;
     }
     veduta-feature-panel {
       top: auto;

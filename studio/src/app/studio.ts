@@ -4,18 +4,26 @@ import { keyed } from "lit/directives/keyed.js";
 import { faultOf, Fault } from "../core/fault.ts";
 import { type Command, commandOf, holdOf } from "../core/input.ts";
 import type { SemanticClass } from "../core/classes.ts";
-import { type Colouring, INITIAL_STATE, type Layer, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
+import { type Colouring, INITIAL_STATE, type Layer, NEXT_COLOURING, type StudioState, throughPhoto, withLayer } from "../core/state.ts";
 import { Store } from "../core/store.ts";
+import { changeBy, type HouseCommand } from "../core/house-keys.ts";
+import { daylightAt } from "../core/daylight.ts";
+import type { Vec3 } from "../core/vector.ts";
 import { durationOf } from "../core/tour.ts";
 import "./feature-panel.ts";
+import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
 import "./help-dialog.ts";
 import { inspect } from "./inspect.ts";
+import "./house-panel.ts";
 import "./joystick.ts";
 import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
+import "./minimap.ts";
+import type { Minimap } from "./minimap.ts";
+import { savePicture, toggleFullscreen } from "./page-actions.ts";
 import "./photo-list.ts";
 import "./photo-panel.ts";
 import "./records-panel.ts";
@@ -25,13 +33,8 @@ import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
 import "./toolbar.ts";
 import "./tour-panel.ts";
+import { isTyping } from "./typing.ts";
 import { hintOf, titleOf } from "./words.ts";
-
-const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
-  photo: "class",
-  class: "provenance",
-  provenance: "photo",
-};
 
 export class Studio extends LitElement {
   static override properties = {
@@ -105,6 +108,7 @@ export class Studio extends LitElement {
         (fault) => this.#say(fault.message),
       );
       this.session = session;
+      if (session.houses.length > 0) session.viewer.onDrawn = () => this.#drawMap(session);
       document.title = `${titleOf(session)} · Veduta`;
       window.veduta = inspect(session, this.#store);
       await this.updateComplete;
@@ -126,19 +130,7 @@ export class Studio extends LitElement {
 
   /** Tells the viewer which part of the picture the panels cover. */
   #leaveFree(session: Session): void {
-    const { width, height } = this.#canvas.getBoundingClientRect();
-    const boxOf = (name: string): DOMRect | null =>
-      this.renderRoot.querySelector(name)?.getBoundingClientRect() ?? null;
-    const [brand, layers, tools] = [boxOf(".brand"), boxOf(".left"), boxOf("veduta-toolbar")];
-    const panel = boxOf("veduta-feature-panel");
-    const below = panel !== null && panel.height > 0 && panel.width > 0.5 * width ? panel.top : null;
-    const beside = (box: DOMRect | null): boolean => box !== null && box.width > 0 && box.width < 0.4 * width;
-    session.viewer.setInsets({
-      left: beside(layers) ? (layers?.right ?? 0) / width : 0,
-      right: beside(panel) ? 1 - (panel?.left ?? width) / width : 0,
-      top: beside(layers) ? 0 : (brand?.bottom ?? 0) / height,
-      bottom: 1 - (below ?? tools?.top ?? height) / height,
-    });
+    session.viewer.setInsets(insetsOf(this.renderRoot, this.#canvas));
   }
 
   #fail(error: unknown): void {
@@ -162,12 +154,14 @@ export class Studio extends LitElement {
     const state = this.#store.value;
     const shown = shownFeature(session, state.selected);
     const coarse = matchMedia("(pointer: coarse)").matches;
+    const overTour = session.place.tours.length > 0 ? "over-tour" : "";
     return html`
       <header class="brand sheet">
         <img src="./icon.svg" alt="" width="26" height="26" />
         <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
       </header>
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
+        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
       <div class="left" ?hidden=${!this.layersOpen}>${this.#layers(session)}</div>
@@ -175,16 +169,20 @@ export class Studio extends LitElement {
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
       ${this.#photoPanel(session)}
+      ${session.houses.length === 0
+        ? nothing
+        : html`<veduta-minimap class="sheet ${overTour}" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
+            .houses=${session.houses} @go=${(event: CustomEvent<Vec3[]>) => session.viewer.goTo(event.detail)}></veduta-minimap>`}
       ${this.#tourPanel(session)}
       ${state.mode === "walk" && coarse
-        ? html`<veduta-joystick
+        ? html`<veduta-joystick class=${overTour}
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
       ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
-        html`<p class="hint ${session.place.tours.length > 0 ? "over-tour" : ""}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
+        html`<p class="hint ${overTour}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
       )}
       <veduta-help></veduta-help>
     `;
@@ -197,6 +195,9 @@ export class Studio extends LitElement {
     const { records } = session;
     return html`
       <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
+        <veduta-house ?hidden=${session.houses.length === 0} .state=${this.#store.value}
+          .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${session.hasLamps}
+          @change-state=${(event: CustomEvent<Partial<StudioState>>) => this.#store.update(event.detail)}></veduta-house>
         <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
           @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
           @point-size=${(event: CustomEvent<number>) => this.#store.update({ point_px: event.detail })}
@@ -310,14 +311,18 @@ export class Studio extends LitElement {
       },
       layers: () => (this.layersOpen = !this.layersOpen),
       colouring: () => this.#nextColouring(),
-      screenshot: () => void this.#savePicture(session),
-      fullscreen: () => void this.#toggleFullscreen(),
+      screenshot: () => void savePicture(session).then((words) => this.#say(words)),
+      fullscreen: () => void toggleFullscreen().then((words) => this.#say(words)),
       "mouse-look": () => void this.#toggleMouseLook(session),
       help: () => this.#help?.toggle(),
       "next-photo": () => this.#stepPhoto(1),
       "previous-photo": () => this.#stepPhoto(-1),
       project: () => this.#toggleProjection(session),
       fading: () => this.#toggleFading(session),
+      daylight: () => this.#changeHouse("daylight"),
+      lights: () => this.#changeHouse("lights"),
+      doors: () => this.#changeHouse("doors"),
+      map: () => this.#changeHouse("map"),
       tour: () => this.#toggleTour(),
       close: () => this.#close(),
     };
@@ -354,34 +359,25 @@ export class Studio extends LitElement {
     this.#lookThrough(next);
   }
 
+  #changeHouse(command: HouseCommand): void {
+    if (this.session === null || this.session.houses.length === 0) return;
+    const { change, words } = changeBy(command, this.#store.value);
+    this.#store.update(change);
+    this.#say(words);
+  }
+
+  /** The map shows the same moment as the picture. */
+  #drawMap({ viewer }: Session): void {
+    const { feet, heading } = viewer.walker;
+    const where = viewer.household.whereabouts(feet);
+    const levels = where === null ? [] : viewer.household.levelsOf(where.house);
+    this.renderRoot.querySelector<Minimap>("veduta-minimap")?.show({ feet, yaw: heading.yaw, where, levels });
+  }
+
   #nextColouring(): void {
     const colouring = NEXT_COLOURING[this.#store.value.colouring];
     this.#store.update({ colouring });
     this.#say(`Colours: ${colouring}`);
-  }
-
-  async #savePicture(session: Session): Promise<void> {
-    try {
-      const address = URL.createObjectURL(await session.viewer.screenshot());
-      const link = document.createElement("a");
-      link.href = address;
-      link.download = `${session.place.parts[0]?.id ?? "veduta"}.png`;
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(address), 10_000);
-      this.#say("Picture saved");
-    } catch (error) {
-      this.#say(faultOf(error).message);
-    }
-  }
-
-  async #toggleFullscreen(): Promise<void> {
-    try {
-      if (document.fullscreenElement === null) await document.documentElement.requestFullscreen();
-      else await document.exitFullscreen();
-    } catch (error) {
-      if (!(error instanceof TypeError || error instanceof DOMException)) throw error;
-      this.#say("This browser does not allow full screen here");
-    }
   }
 
   async #toggleMouseLook(session: Session): Promise<void> {
@@ -397,16 +393,6 @@ export class Studio extends LitElement {
     clearTimeout(this.#noticeTimer);
     this.#noticeTimer = window.setTimeout(() => (this.notice = ""), 2500);
   }
-}
-
-function isNarrow(): boolean {
-  return matchMedia("(max-width: 720px)").matches;
-}
-
-/** Keys pressed in a field or on a switch belong to it, except those that no control uses. */
-function isTyping(event: KeyboardEvent): boolean {
-  const target = event.composedPath()[0];
-  return target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement;
 }
 
 customElements.define("veduta-studio", Studio);

@@ -11,12 +11,15 @@ export class Toolbar extends LitElement {
     layersOpen: { type: Boolean },
     mouseLook: { type: Boolean },
     coarse: { type: Boolean },
+    isDay: { attribute: false },
   };
   declare mode: Mode;
   declare layersOpen: boolean;
   declare mouseLook: boolean;
   /** The pointer is a finger. */
   declare coarse: boolean;
+  /** Null where the place has no day and night. */
+  declare isDay: boolean | null;
 
   static override styles = [
     theme,
@@ -93,6 +96,7 @@ export class Toolbar extends LitElement {
     this.layersOpen = false;
     this.mouseLook = false;
     this.coarse = false;
+    this.isDay = null;
   }
 
   override render(): TemplateResult {
@@ -108,6 +112,7 @@ export class Toolbar extends LitElement {
       ${this.mode === "walk" && !this.coarse
         ? this.#tool("mouse-look", "Look around with the mouse", "M", icons.mouse, this.mouseLook)
         : nothing}
+      ${this.isDay === null ? nothing : this.#tool("daylight", this.isDay ? "Make it night" : "Make it day", "X", this.isDay ? icons.moon : icons.sun)}
       <button class="icon-button" aria-label="Layers and colours" title="Layers and colours (L)"
         aria-expanded=${this.layersOpen} @click=${() => this.#ask("layers")}>${icons.layers}</button>
       <div class="rule"></div>

@@ -14,6 +14,10 @@ export type Command =
   | "previous-photo"
   | "project"
   | "fading"
+  | "daylight"
+  | "lights"
+  | "doors"
+  | "map"
   | "tour"
   | "help"
   | "close";
@@ -51,6 +55,10 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyB"], action: "previous-photo", shown: "B", text: "Look through the photo before" },
   { codes: ["KeyT"], action: "project", shown: "T", text: "Throw the photo onto the place, take it off" },
   { codes: ["KeyV"], action: "fading", shown: "V", text: "Photos fade in as one walks past, or do not" },
+  { codes: ["KeyX"], action: "daylight", shown: "X", text: "In a house: day or night" },
+  { codes: ["KeyI"], action: "lights", shown: "I", text: "In a house: lamps go on where you come in, all on, all off" },
+  { codes: ["KeyO"], action: "doors", shown: "O", text: "In a house: doors open as you come, or all stand open" },
+  { codes: ["KeyK"], action: "map", shown: "K", text: "In a house: the map, while walking" },
   { codes: ["KeyG"], action: "tour", shown: "G", text: "Play or pause the guided tour" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },

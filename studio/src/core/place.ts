@@ -13,6 +13,8 @@ export interface Part {
   /** Addresses relative to `place.json`. */
   readonly model: string;
   readonly photo: string | null;
+  /** What it was built from. */
+  readonly document: string | null;
   readonly worldFromPart: readonly number[];
   readonly arrangement: PlacePart["arrangement"];
   /** The part's own frame; null where the manifest does not say it. */
@@ -140,6 +142,7 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
     name: text("name"),
     model: part.model,
     photo: isInside(part.photo) ? part.photo : null,
+    document: isInside(part.document) ? part.document : null,
     worldFromPart: transform,
     arrangement: part.arrangement,
     bounds: readBounds(part.bounds),

@@ -1,11 +1,23 @@
 /** What the person has chosen to see. */
 import type { SemanticClass } from "./classes.ts";
+import { DAY_HOUR } from "./daylight.ts";
 import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
 export type Layer = "points" | "cameras" | "walls" | "model";
+/** Doors open for whoever comes and close behind him, or all stand open. */
+export type DoorHabit = "approach" | "open";
+/** Lamps go on in the room that one comes into, or all are on, or off. */
+export type LightHabit = "auto" | "on" | "off";
 export type Colouring = "photo" | "class" | "provenance";
+
+/** In the order in which a key goes through them. */
+export const NEXT_COLOURING: Readonly<Record<Colouring, Colouring>> = {
+  photo: "class",
+  class: "provenance",
+  provenance: "photo",
+};
 
 /** A feature of the place: which part, and which row of the part's table. */
 export interface FeatureRef {
@@ -29,6 +41,11 @@ export interface StudioState {
   /** Size of a point, CSS pixels. */
   readonly point_px: number;
   readonly mouseLook: boolean;
+  readonly doors: DoorHabit;
+  readonly lights: LightHabit;
+  /** Time of the day by the sun, 0 to 24. */
+  readonly hour: number;
+  readonly map: boolean;
   /** Null before the tour was begun. */
   readonly tour: TourState | null;
 }
@@ -45,6 +62,10 @@ export const INITIAL_STATE: StudioState = {
   off: new Set(),
   point_px: 2.5,
   mouseLook: false,
+  doors: "approach",
+  lights: "auto",
+  hour: DAY_HOUR,
+  map: true,
   tour: null,
 };
 

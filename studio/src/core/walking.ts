@@ -29,6 +29,9 @@ export interface WalkOptions {
   readonly reachCentre: readonly [number, number];
 }
 
+/** Within a house: doors are narrow, and nobody goes through them chest first. */
+export const INDOOR_BODY: Body = { radius_m: 0.2, height_m: 1.8, eye_m: 1.7 };
+
 export const DEFAULT_WALK: WalkOptions = {
   body: { radius_m: 0.3, height_m: 1.8, eye_m: 1.7 },
   walk_m_s: 2.0,
@@ -72,6 +75,13 @@ const STANDABLE = Math.SQRT1_2;
 const TOUCH_M = 1e-4;
 /** A body that stands is pressed down no more than this, so that no floor's edge throws it aside. */
 const PRESS_M = 0.01;
+/** What stands in the way of a body that stands is a step if this lifts it over; the least that does. */
+const LIFTS_M = [0.1, 0.25];
+const LOWERINGS = 8;
+/** A step has room for this much of a foot. */
+const FOOTING_M = 0.1;
+/** How far two pushes off the same wall may differ, as a share. */
+const NOISE = 0.05;
 
 export function standing(eye: Vec3, heading: Heading, options: WalkOptions): Walker {
   return {
@@ -102,7 +112,7 @@ export function step(
   const dt = Math.min(seconds, LONGEST_STEP_S);
   if (dt <= 0) return walker;
   const moved = advance(walker, wishedVelocity(wish, walker.heading, options), dt, options);
-  const landed = collide(walker.feet, moved.way, moved.velocity, obstacles, options);
+  const landed = collide(walker, moved.way, moved.velocity, obstacles, options);
   return { ...landed, heading: walker.heading };
 }
 
@@ -144,17 +154,18 @@ function advance(
 
 /** Goes the way in steps shorter than half the body's radius, so that no wall is jumped over. */
 function collide(
-  from: Vec3,
+  { feet: from, grounded: stood }: Walker,
   way: Vec3,
   velocity: Vec3,
   obstacles: Obstacles,
   options: WalkOptions,
-): Omit<Walker, "heading"> {
+): Moving {
   const steps = Math.max(1, Math.ceil(length(way) / (options.body.radius_m / 2)));
-  let state = { feet: from, velocity, grounded: false, blocked: false };
+  let state: Moving = { feet: from, velocity, grounded: false, blocked: false };
   let leg = scale(way, 1 / steps);
   for (let i = 0; i < steps; i += 1) {
-    state = settle({ ...state, feet: add(state.feet, leg) }, obstacles, options);
+    const canStep = state.grounded || (i === 0 && stood);
+    state = settle({ ...state, feet: add(state.feet, leg) }, canStep, obstacles, options);
     if (state.grounded && leg[2] < 0) leg = [leg[0], leg[1], 0];
   }
   return state;
@@ -163,7 +174,7 @@ function collide(
 type Moving = Omit<Walker, "heading">;
 
 /** Frees the body from what it touches and takes the velocity into it away. */
-function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Moving {
+function settle(state: Moving, canStep: boolean, obstacles: Obstacles, options: WalkOptions): Moving {
   let { feet, velocity, grounded, blocked } = onGround(state, obstacles);
   for (let i = 0; i < PUSHES; i += 1) {
     const push = obstacles.pushOut(feet, options.body);
@@ -175,13 +186,47 @@ function settle(state: Moving, obstacles: Obstacles, options: WalkOptions): Movi
       feet = add(feet, [0, 0, size / normal[2]]);
       velocity = withoutInto(velocity, [0, 0, 1]);
       grounded = true;
+      continue;
+    }
+    const step = canStep ? stepped(feet, push, obstacles, options.body) : null;
+    if (step !== null) {
+      feet = step;
+      velocity = withoutInto(velocity, [0, 0, 1]);
+      grounded = true;
     } else {
-      feet = add(feet, push);
-      velocity = withoutInto(velocity, normal);
+      // Sideways alone, for the push may be that of a wall and of the floor before it: the next has
+      // the floor's.
+      const aside: Vec3 = push[2] > 0 ? [push[0], push[1], 0] : push;
+      feet = add(feet, aside);
+      velocity = withoutInto(velocity, scale(aside, 1 / length(aside)));
       blocked = true;
     }
   }
   return withinReach(onGround({ feet, velocity, grounded, blocked }, obstacles), options);
+}
+
+/** Where a body that `push` would move back stands instead, if what is in its way is a step. */
+function stepped(feet: Vec3, push: Vec3, obstacles: Obstacles, body: Body): Vec3 | null {
+  for (const lift of LIFTS_M) {
+    const above = add(feet, [0, 0, lift]);
+    const aside = obstacles.pushOut(above, body) ?? [0, 0, 0];
+    // A wall beside the step pushes there, too: only what it does not push is the step's.
+    const back: Vec3 = [push[0] - aside[0], push[1] - aside[1], 0];
+    if (length(back) < Math.max(TOUCH_M, NOISE * length(push))) continue;
+    const from: Vec3 = [feet[0] + aside[0], feet[1] + aside[1], feet[2]];
+    const isFree = (height: number, ahead: Vec3 = [0, 0, 0]): boolean =>
+      length(obstacles.pushOut(add(add(from, ahead), [0, 0, height]), body) ?? [0, 0, 0]) < TOUCH_M;
+    // Free further on, too: else it is only the rounding of the body that slips over an edge.
+    if (!isFree(lift) || !isFree(lift, scale(back, -FOOTING_M / length(back)))) continue;
+    let [low, high] = [0, lift];
+    for (let i = 0; i < LOWERINGS; i += 1) {
+      const middle = (low + high) / 2;
+      if (isFree(middle)) high = middle;
+      else low = middle;
+    }
+    return add(from, [0, 0, high]);
+  }
+  return null;
 }
 
 /** The ground carries whoever would be below it. */

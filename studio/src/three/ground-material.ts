@@ -4,6 +4,7 @@
  */
 import { Color, type Material, type Mesh } from "three";
 
+/** Changes with the hour: who draws it has this very colour. */
 export const HORIZON = new Color("#e4eaee");
 
 /** Paving lines of one and five metres give the eye a scale; they fade with distance. */

@@ -1,5 +1,5 @@
 /** From the place to parts that can be drawn. */
-import { Group, InstancedMesh, Mesh, Texture } from "three";
+import { Group, InstancedMesh, Light, Mesh, Texture } from "three";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
@@ -9,6 +9,7 @@ import { fetchBytes } from "./fetch.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
 import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
+import { type Mover, moversOf } from "./movers.ts";
 
 export interface LoadedPart {
   readonly part: Part;
@@ -17,6 +18,8 @@ export interface LoadedPart {
   readonly meshes: readonly FeatureMesh[];
   readonly instanced: readonly InstancedFeatures[];
   readonly masks: Masks;
+  /** What of the meshes moves. */
+  readonly movers: readonly Mover[];
 }
 
 /** `share` in 0..1 of all parts; `file` is the one in hand. */
@@ -49,6 +52,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   checkContainer(bytes, part.model);
   const gltf = await parse(bytes, part.model);
   const { scene } = gltf;
+  removeLights(scene);
   const extras = scene.userData as { veduta?: { features?: unknown } };
   const table = readFeatureTable(extras.veduta?.features, part.model);
   const group = new Group();
@@ -67,7 +71,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const mesh of drawn) sharpenTextures(mesh);
   const masks = await named(part.model, () => loadMasks(gltf, drawn));
-  return { part, table, group, meshes, instanced, masks };
+  return { part, table, group, meshes, instanced, masks, movers: moversOf(gltf, meshes) };
 }
 
 /** The loader trusts the lengths in the file; a truncated one must not reach it. */
@@ -98,6 +102,18 @@ async function named<T>(file: string, read: () => Promise<T>): Promise<T> {
     const words = error instanceof Error ? error.message : String(error);
     throw new Fault(file, `the model is broken (${words})`, REMEDY);
   }
+}
+
+/**
+ * A model may bring the lamps of a whole house (KHR_lights_punctual). They would all shine at once and
+ * through its walls: what shines is what the house's document says (`RoomLights`).
+ */
+function removeLights(scene: Group): void {
+  const lights: Light[] = [];
+  scene.traverse((node) => {
+    if (node instanceof Light) lights.push(node);
+  });
+  for (const light of lights) light.removeFromParent();
 }
 
 function sharpenTextures(mesh: Mesh): void {

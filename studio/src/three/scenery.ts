@@ -1,4 +1,4 @@
-/** Sun, sky and ground: calm daylight that leaves the photo's colours as they are. */
+/** Sun, sky and ground, at an hour of the day. */
 import {
   BackSide,
   type Box3,
@@ -6,6 +6,7 @@ import {
   DirectionalLight,
   Group,
   HemisphereLight,
+  type IUniform,
   Mesh,
   PlaneGeometry,
   ShaderMaterial,
@@ -14,19 +15,13 @@ import {
   Vector3,
   Vector4,
 } from "three";
+import { DAY_HOUR, type Daylight, daylightAt } from "../core/daylight.ts";
 import { drawnFromWorld } from "../core/frames.ts";
 import type { Box } from "../core/framing.ts";
-import type { Vec3 } from "../core/vector.ts";
 import { GROUND_LOOK, HORIZON } from "./ground-material.ts";
+import { skyLightAt } from "./sky-light.ts";
 
-/** To the sun, world frame: a spring afternoon, from the street's side (facades look south). */
-const TO_SUN: Vec3 = [-0.72, -0.62, 0.66];
-const SUN_STRENGTH = 3.1;
-const SKY_STRENGTH = 2.05;
-const SKY_LIGHT = new Color("#e3edf7");
-const GROUND_LIGHT = new Color("#d8d0c2");
-const ZENITH = new Color("#7ea6c9");
-const SUN_GLOW = new Color("#fff3dc");
+const SHADE = 0.36;
 const GROUND = new Color("#cfccc4");
 /** Radius of the ground; beyond, the sky's lower half has the same colour as the horizon. */
 const GROUND_RADIUS_M = 3000;
@@ -44,6 +39,8 @@ export interface Scenery {
   follow(camera: { readonly position: Vector3 }): void;
   /** Lets the sun's shadows fall around a place of the drawn frame. */
   shadeAround(centre: Vector3, radius_m: number): void;
+  /** Sets the sun, or the moon, and all colours. */
+  light(daylight: Daylight): void;
 }
 
 /**
@@ -58,37 +55,56 @@ export function makeScenery(
 ): Scenery {
   const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
   const group = new Group();
-  const sky = makeSky();
-  const sun = makeSun(bounds);
+  const { toLight } = daylightAt(DAY_HOUR);
+  const toSun = new Vector3(...drawnFromWorld(toLight));
+  const sky = makeSky(toSun);
+  const sun = makeSun();
+  let shaded = sphereOf(bounds);
+  aimSun(sun, toSun, shaded.centre, shaded.radius);
   // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
   // most of the loading time without a graphics card.
-  const skyLight = new HemisphereLight(SKY_LIGHT, GROUND_LIGHT, SKY_STRENGTH);
+  const skyLight = new HemisphereLight();
   const shade = makeGroundShadow(bounds, height_m);
-  group.add(sky, makeGround(footprints, height_m, scaleKnown), shade, skyLight, sun, sun.target);
+  const ground = makeGround(footprints, height_m, scaleKnown);
+  group.add(sky, ground, shade, skyLight, sun, sun.target);
+  const light = (daylight: Daylight): void => {
+    const look = skyLightAt(daylight);
+    toSun.set(...drawnFromWorld(daylight.toLight));
+    sun.color.copy(look.sun);
+    sun.intensity = look.sunStrength;
+    skyLight.color.copy(look.above);
+    skyLight.groundColor.copy(look.below);
+    skyLight.intensity = look.strength;
+    HORIZON.copy(look.horizon);
+    shade.material.opacity = SHADE * look.shade;
+    (sky.material.uniforms.zenith as IUniform<Color>).value.copy(look.zenith);
+    (sky.material.uniforms.glow as IUniform<Color>).value.copy(look.glow);
+    (ground.material.uniforms.light as IUniform<Color>).value.copy(look.ground);
+    aimSun(sun, toSun, shaded.centre, shaded.radius);
+  };
+  light(daylightAt(DAY_HOUR));
   return {
+    light,
     group,
     sun,
     follow: (camera) => sky.position.copy(camera.position),
     shadeAround: (centre, radius_m) => {
-      aimSun(sun, centre, radius_m);
+      shaded = { centre: centre.clone(), radius: radius_m };
+      aimSun(sun, toSun, centre, radius_m);
       shade.position.set(centre.x, shade.position.y, centre.z);
     },
   };
 }
 
-function toSun(): Vector3 {
-  return new Vector3(...drawnFromWorld(TO_SUN)).normalize();
-}
-
-function makeSky(): Mesh {
+function makeSky(toSun: Vector3): Mesh<SphereGeometry, ShaderMaterial> {
   const material = new ShaderMaterial({
     side: BackSide,
     depthWrite: false,
     uniforms: {
       horizon: { value: HORIZON },
-      zenith: { value: ZENITH },
-      glow: { value: SUN_GLOW },
-      toSun: { value: toSun() },
+      zenith: { value: new Color() },
+      glow: { value: new Color() },
+      toSun: { value: toSun },
     },
     vertexShader: `
       varying vec3 vDirection;
@@ -117,19 +133,17 @@ function makeSky(): Mesh {
   return sky;
 }
 
-function makeSun(bounds: Box): DirectionalLight {
-  const sun = new DirectionalLight("#fff6ea", SUN_STRENGTH);
-  const { centre, radius } = sphereOf(bounds);
+function makeSun(): DirectionalLight {
+  const sun = new DirectionalLight();
   sun.castShadow = true;
-  aimSun(sun, centre, radius);
-  // Nothing moves in a place: shadows are drawn again only when layers change.
+  // Little moves in a place: shadows are drawn again when layers change, doors move or the sun does.
   sun.shadow.autoUpdate = false;
   return sun;
 }
 
 /** Frames a sphere, with room for the shadows that fall in front of it. */
-function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
-  sun.position.copy(centre).addScaledVector(toSun(), 2 * radius);
+function aimSun(sun: DirectionalLight, toSun: Vector3, centre: Vector3, radius: number): void {
+  sun.position.copy(centre).addScaledVector(toSun, 2 * radius);
   sun.target.position.copy(centre);
   sun.target.updateMatrixWorld();
   const camera = sun.shadow.camera;
@@ -148,7 +162,7 @@ function aimSun(sun: DirectionalLight, centre: Vector3, radius: number): void {
   sun.shadow.needsUpdate = true;
 }
 
-function makeGround(footprints: readonly Box3[], height_m: number, scaleKnown: boolean): Mesh {
+function makeGround(footprints: readonly Box3[], height_m: number, scaleKnown: boolean): Mesh<PlaneGeometry, ShaderMaterial> {
   const boxes = footprints
     .slice(0, MOST_FOOTPRINTS)
     .map(({ min, max }) => new Vector4(min.x, min.z, max.x, max.z));
@@ -156,6 +170,7 @@ function makeGround(footprints: readonly Box3[], height_m: number, scaleKnown: b
     defines: { FOOTPRINTS: boxes.length, LINES: scaleKnown ? 1 : 0 },
     uniforms: {
       ground: { value: GROUND },
+      light: { value: new Color() },
       horizon: { value: HORIZON },
       footprints: { value: boxes },
     },
@@ -177,7 +192,7 @@ function makeGround(footprints: readonly Box3[], height_m: number, scaleKnown: b
 
 /** The ground, darker along the walls of buildings. */
 const GROUND_SHADER = `
-  uniform vec3 ground, horizon;
+  uniform vec3 ground, horizon, light;
   #if FOOTPRINTS > 0
   uniform vec4 footprints[FOOTPRINTS];
   #endif
@@ -200,15 +215,15 @@ const GROUND_SHADER = `
     }
     colour *= 1.0 - dark;
     #endif
-    colour = hazed(colour, horizon, away);
+    colour = hazed(colour * light, horizon, away);
     gl_FragColor = vec4(colour, 1.0);
     #include <colorspace_fragment>
     gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;
   }`;
 
-function makeGroundShadow(bounds: Box, height_m: number): Mesh {
+function makeGroundShadow(bounds: Box, height_m: number): Mesh<PlaneGeometry, ShadowMaterial> {
   const { centre, radius } = sphereOf(bounds);
-  const material = new ShadowMaterial({ color: "#2b3442", opacity: 0.36, depthWrite: false });
+  const material = new ShadowMaterial({ color: "#2b3442", depthWrite: false });
   const plane = new Mesh(new PlaneGeometry(6 * radius, 6 * radius), material);
   plane.rotation.x = -Math.PI / 2;
   plane.position.set(centre.x, height_m + 0.004, centre.z);

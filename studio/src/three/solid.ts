@@ -150,7 +150,10 @@ const BOX_CORNERS = [
   0, 2, 3, 0, 3, 1, 4, 5, 7, 4, 7, 6, 0, 1, 5, 0, 5, 4, 2, 6, 7, 2, 7, 3, 0, 4, 6, 0, 6, 2, 1, 3, 7, 1, 7, 5,
 ];
 
-export function soupOf(parts: readonly LoadedPart[]): Soup {
+/** What a soup takes of a part. */
+export type Soupable = Pick<LoadedPart, "meshes" | "instanced">;
+
+export function soupOf(parts: readonly Soupable[]): Soup {
   const own = parts.flatMap(({ meshes }) => meshes);
   const firstBoxFace = own.reduce((faces, mesh) => faces + mesh.rowOfFace.length, 0);
   const instances = parts.flatMap(({ instanced }) =>
@@ -183,7 +186,7 @@ export function soupOf(parts: readonly LoadedPart[]): Soup {
 }
 
 /** Twelve triangles for each instance: the box of its mesh where it stands. */
-function addBoxes(soup: Soup, parts: readonly LoadedPart[]): void {
+function addBoxes(soup: Soup, parts: readonly Soupable[]): void {
   const corner = new Vector3();
   let face = soup.firstBoxFace;
   for (const [part, { instanced }] of parts.entries()) {

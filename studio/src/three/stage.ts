@@ -1,14 +1,19 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
+import { daylightAt } from "../core/daylight.ts";
+import { drawnFaces } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
-import type { StudioState } from "../core/state.ts";
+import type { FeatureRef, StudioState } from "../core/state.ts";
+import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
+import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
+import { Household, type LoadedHouse } from "./household.ts";
 import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
 import { OpenSpace } from "./open-space.ts";
@@ -34,16 +39,18 @@ export interface ViewerContent {
   readonly clouds: Group;
   readonly frusta: Frusta | null;
   readonly textures: PhotoTextures | null;
+  readonly houses: readonly LoadedHouse[];
 }
 
 export class Stage {
   readonly scene = new Scene();
   /** What one meets with: surfaces, or nothing but a space where there are photos alone. */
-  readonly solid: Solid | Town | OpenSpace;
+  readonly solid: Solid | SolidWithDoors | Town | OpenSpace;
   readonly appearance: Appearance;
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
   readonly seen: Box;
+  readonly household: Household;
   /** The photos that lie on the place; null where it has none. */
   readonly photos: PhotoShow | null;
   readonly #content: ViewerContent;
@@ -56,7 +63,7 @@ export class Stage {
 
   /** `onChange` is called when something has arrived that is to be drawn. */
   constructor(place: Place, content: ViewerContent, onChange: () => void) {
-    const { parts, town, clouds, frusta, textures } = content;
+    const { parts, town, clouds, frusta, textures, houses } = content;
     this.#content = content;
     this.#town = town;
     const ground = parts.filter(({ part }) => part.isGround);
@@ -71,8 +78,10 @@ export class Stage {
     const hasGround = place.parts.some(({ isGround }) => isGround);
     this.#scenery = makeScenery(this.seen, footprints, { hasGround, scaleKnown: place.scaleKnown });
     this.appearance = new Appearance(parts);
+    // After the tints: rooms light the colours that are shown.
+    this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);
     for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
-    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces);
+    this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces, this.household.group);
     for (const { group } of parts) this.#surfaces.add(group);
     if (town !== null) this.#surfaces.add(town.group);
     if (frusta !== null) this.scene.add(frusta.group);
@@ -90,6 +99,11 @@ export class Stage {
     return shown.length > 0 ? "walls" : "nothing";
   }
 
+  /** Who walks here. */
+  get body(): Body {
+    return this.solid instanceof SolidWithDoors ? INDOOR_BODY : DEFAULT_WALK.body;
+  }
+
   /** Shows what the person wants to see, and hides the rest. */
   showLayers(state: StudioState): void {
     const { parts, clouds, frusta } = this.#content;
@@ -101,6 +115,42 @@ export class Stage {
     sizePoints(clouds, state.point_px);
     this.photos?.lookAgain();
     this.#scenery.sun.shadow.needsUpdate = true;
+  }
+
+  /** Moves what moves by itself; true while something does. */
+  advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): boolean {
+    if (this.#town !== null) return false;
+    const { doors, lamps } = this.household.advance(state, walker, eye, seconds);
+    if (doors) {
+      this.#scenery.sun.shadow.needsUpdate = true;
+      this.appearance.outlineSelected(state.selected);
+    }
+    return doors || lamps;
+  }
+
+  /** True while a photo comes or goes. */
+  fade(state: StudioState, pose: { readonly eye: Vec3; readonly direction: Vec3 }, seconds: number): boolean {
+    const walks = state.mode === "walk" && state.shot === null && state.fading;
+    const appears = this.#content.frusta?.advance(seconds, state.projected !== null) ?? false;
+    return (this.photos?.advance(state, walks ? pose : null, seconds) ?? false) || appears;
+  }
+
+  outline(selected: FeatureRef | null): void {
+    const { outline } = this.appearance;
+    if (this.#town === null) {
+      this.appearance.outlineSelected(selected);
+      return;
+    }
+    const faces = selected === null ? null : this.#town.facesOf(selected);
+    if (faces === null) outline.clear();
+    else outline.showFaces(drawnFaces(faces));
+  }
+
+  /** Sets the time of the day; 0 to 24. */
+  light(hour: number): void {
+    const daylight = daylightAt(hour);
+    this.#scenery.light(daylight);
+    this.household.daylight = daylight;
   }
 
   /** Whether something is still on its way, when it is seen from here. */
@@ -135,7 +185,16 @@ export class Stage {
   }
 }
 
-function solidOf(place: Place, parts: readonly LoadedPart[], ground: readonly LoadedPart[]): Solid | OpenSpace {
+function solidOf(
+  place: Place,
+  parts: readonly LoadedPart[],
+  ground: readonly LoadedPart[],
+): Solid | SolidWithDoors | OpenSpace {
   if (parts.length === 0) return new OpenSpace(boundsOfShots(place.clouds, place.shots));
-  return new Solid(soupOf(parts), ground.length > 0 ? new Solid(soupOf(ground)) : null);
+  const still = parts.map(({ meshes, instanced, movers }) => {
+    const moving = new Set(movers.flatMap((mover) => mover.meshes));
+    return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
+  });
+  const solid = new Solid(soupOf(still), ground.length > 0 ? new Solid(soupOf(ground)) : null);
+  return parts.some(({ movers }) => movers.length > 0) ? new SolidWithDoors(solid, new Doors(parts)) : solid;
 }

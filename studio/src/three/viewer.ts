@@ -1,15 +1,14 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
-import { Fault } from "../core/fault.ts";
-import { drawnFaces, worldFromDrawn } from "../core/frames.ts";
+import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
-import { FULL_PACE, paced, sharpnessOf } from "../core/pace.ts";
 import type { Place } from "../core/place.ts";
-import { type FeatureRef, type StudioState, throughPhoto } from "../core/state.ts";
+import { type StudioState, throughPhoto } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Walker } from "../core/walking.ts";
+import { FramePace } from "./frame-pace.ts";
 import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
 import { OrbitRig } from "./orbit-rig.ts";
@@ -17,6 +16,7 @@ import type { ShownPhoto } from "./photo-show.ts";
 import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
+import { Screen } from "./screen.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
 import { TourGuide } from "./tour-guide.ts";
 import type { Town } from "./town.ts";
@@ -25,14 +25,12 @@ import { WalkRig } from "./walk-rig.ts";
 /** Radians per CSS pixel: a drag takes the picture along, the captured mouse turns the head. */
 const DRAG_RAD_PX = 0.0032;
 const MOUSE_RAD_PX = 0.0022;
-const MOST_PIXELS_PER_CSS_PX = 2;
 /** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
 const NEAR_M = 0.08;
 const NEAR_SHARE = 0.2;
 
 export interface ViewerStats {
   readonly frames: number;
-  /** Mean over the frames that were drawn one after the other; 0 before there were two. */
   readonly framesPerSecond: number;
   readonly triangles: number;
   /** Tiles that are drawn; 0 where the place is loaded whole. */
@@ -40,7 +38,7 @@ export interface ViewerStats {
 }
 
 export class Viewer {
-  readonly #canvas: HTMLCanvasElement;
+  readonly #screen: Screen;
   readonly #store: Store<StudioState>;
   readonly #town: Town | null;
   readonly #frusta: Frusta | null;
@@ -59,18 +57,17 @@ export class Viewer {
   #flight: Flight | null = null;
   #orbitPose: { pose: Pose; target: Vector3 } | null = null;
   #request = 0;
-  #lastFrame_ms: number | null = null;
   #frames = 0;
   #insets: Insets = NO_INSETS;
-  #pace = FULL_PACE;
-  #sharpness = 1;
-  #streak = { frames: 0, seconds: 0 };
+  readonly #pace = new FramePace();
+  /** Called after each picture. */
+  onDrawn: () => void = () => undefined;
 
   constructor(canvas: HTMLCanvasElement, place: Place, content: ViewerContent, store: Store<StudioState>) {
     const { town, frusta } = content;
-    this.#canvas = canvas;
     this.#store = store;
     this.#renderer = makeRenderer(canvas);
+    this.#screen = new Screen(canvas, this.#renderer);
     this.#town = town;
     this.#frusta = frusta;
     this.#stage = new Stage(place, content, () => this.invalidate());
@@ -78,7 +75,7 @@ export class Viewer {
     const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
-    this.#walk = new WalkRig(place.start, solid, solid.bounds);
+    this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
     const tour = place.tours[0];
     this.#guide = tour === undefined ? null : new TourGuide(tour, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
@@ -93,6 +90,7 @@ export class Viewer {
     this.#resize();
     this.#stage.appearance.tint(store.value);
     this.#stage.showLayers(store.value);
+    this.#stage.light(store.value.hour);
     town?.show(store.value);
     this.goHome();
   }
@@ -113,15 +111,27 @@ export class Viewer {
     return this.#walk.walker;
   }
 
+  /** What goes on in the houses of the place. */
+  get household(): Stage["household"] {
+    return this.#stage.household;
+  }
+
+  /** Puts the walker at the first of these places (feet) where nothing is in the way. */
+  goTo(places: readonly Vec3[]): void {
+    if (!this.#walk.goTo(places)) return;
+    this.#guide?.stop();
+    setPose(this.#camera, this.#walk.pose(this.#camera));
+    this.invalidate();
+  }
+
   get isFlying(): boolean {
     return this.#flight !== null;
   }
 
   get stats(): ViewerStats {
-    const { frames, seconds } = this.#streak;
     return {
       frames: this.#frames,
-      framesPerSecond: seconds > 0 ? frames / seconds : 0,
+      framesPerSecond: this.#pace.perSecond,
       triangles: this.solid.faceCount,
       tiles: this.#town?.tileCount ?? 0,
     };
@@ -201,12 +211,7 @@ export class Viewer {
 
   async screenshot(): Promise<Blob> {
     this.#draw();
-    return await new Promise((resolve, reject) => {
-      this.#canvas.toBlob((blob) => {
-        if (blob !== null) resolve(blob);
-        else reject(new Fault("Picture", "the browser made no image", "Try a smaller window."));
-      }, "image/png");
-    });
+    return await this.#screen.picture();
   }
 
   dispose(): void {
@@ -227,16 +232,16 @@ export class Viewer {
 
   #frame(now_ms: number): void {
     this.#request = 0;
-    const seconds = this.#lastFrame_ms === null ? 1 / 60 : (now_ms - this.#lastFrame_ms) / 1000;
-    if (this.#lastFrame_ms !== null) {
-      this.#streak = { frames: this.#streak.frames + 1, seconds: this.#streak.seconds + seconds };
-      this.#pace = paced(this.#pace, seconds);
-    }
-    const moves = this.#advance(seconds);
-    const goesOn = this.#fade(Math.min(seconds, 0.1)) || moves;
-    this.#sharpen(goesOn ? sharpnessOf(this.#pace) : 1);
+    const seconds = this.#pace.begin(now_ms);
+    const moves = [
+      this.#advance(seconds),
+      this.#stage.advance(this.#store.value, this.walker, this.pose.eye, Math.min(seconds, 0.1)),
+      this.#stage.fade(this.#store.value, this.pose, Math.min(seconds, 0.1)),
+    ];
+    const goesOn = moves.includes(true);
+    this.#screen.sharpen(goesOn ? this.#pace.sharpness : 1);
     this.#draw();
-    this.#lastFrame_ms = goesOn ? now_ms : null;
+    this.#pace.end(now_ms, goesOn);
     if (goesOn) this.invalidate();
   }
 
@@ -268,27 +273,13 @@ export class Viewer {
     return this.#orbit.advance() || steering;
   }
 
-  /** True while a photo comes or goes. */
-  #fade(seconds: number): boolean {
-    const state = this.#store.value;
-    const { eye, direction } = this.pose;
-    const walks = state.mode === "walk" && state.shot === null && state.fading;
-    const appears = this.#frusta?.advance(seconds, state.projected !== null) ?? false;
-    return (this.#stage.photos?.advance(state, walks ? { eye, direction } : null, seconds) ?? false) || appears;
-  }
-
-  #sharpen(share: number): void {
-    if (share === this.#sharpness) return;
-    this.#sharpness = share;
-    this.#renderer.setPixelRatio(share * Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX));
-  }
-
   #draw(): void {
     this.#keepDepth();
     if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
     this.#renderer.render(this.#stage.scene, this.#camera);
     this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     this.#frames += 1;
+    this.onDrawn();
   }
 
   /** Depth is told apart best where nothing is drawn near: the ground lies close over the plane. */
@@ -306,8 +297,9 @@ export class Viewer {
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
     if (shows || now.shot !== before.shot) this.#stage.showLayers(now);
+    if (now.hour !== before.hour) this.#stage.light(now.hour);
     if (this.#town !== null) this.#town.show(now);
-    if (now.selected !== before.selected) this.#outline(now.selected);
+    if (now.selected !== before.selected) this.#stage.outline(now.selected);
     if (now.selected !== before.selected || now.colouring !== before.colouring) {
       this.#stage.appearance.tint(now);
     }
@@ -322,17 +314,6 @@ export class Viewer {
     if (now.mode !== "walk" || before.mode !== "walk") return; // the change of mode flies there
     if (now.tour?.playing === true) this.#fly(this.#walk.pose(this.#camera));
     else setPose(this.#camera, this.#walk.pose(this.#camera));
-  }
-
-  #outline(selected: FeatureRef | null): void {
-    const { outline } = this.#stage.appearance;
-    if (this.#town === null) {
-      this.#stage.appearance.outlineSelected(selected);
-      return;
-    }
-    const faces = selected === null ? null : this.#town.facesOf(selected);
-    if (faces === null) outline.clear();
-    else outline.showFaces(drawnFaces(faces));
   }
 
   #changeMode(mode: StudioState["mode"]): void {
@@ -401,13 +382,10 @@ export class Viewer {
   }
 
   #resize(): void {
-    const { clientWidth: width, clientHeight: height } = this.#canvas;
-    if (width === 0 || height === 0) return;
-    const ratio = Math.min(devicePixelRatio, MOST_PIXELS_PER_CSS_PX);
-    this.#renderer.setPixelRatio(this.#sharpness * ratio);
-    this.#renderer.setSize(width, height, false);
-    this.#stage.appearance.outline.resize(width, height);
-    this.#camera.aspect = width / height;
+    const size = this.#screen.resize();
+    if (size === null) return;
+    this.#stage.appearance.outline.resize(size.width, size.height);
+    this.#camera.aspect = size.width / size.height;
     setPose(this.#camera, poseOf(this.#camera));
     this.invalidate();
   }

@@ -1,7 +1,6 @@
 import { BoxGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, BufferAttribute } from "three";
 import { describe, expect, it } from "vitest";
 import type { FeatureTable } from "../../src/core/features.ts";
-import type { LoadedPart } from "../../src/three/load.ts";
 import { facesOfInstances, instancedFeatures, showInstances } from "../../src/three/instanced-mesh.ts";
 import { Solid, soupOf } from "../../src/three/solid.ts";
 import { DEFAULT_WALK } from "../../src/core/walking.ts";
@@ -33,7 +32,7 @@ function instanced(rows: readonly number[]): ReturnType<typeof instancedFeatures
 }
 
 function solidOf(target: ReturnType<typeof instancedFeatures>): Solid {
-  return new Solid(soupOf([{ meshes: [], instanced: [target] } as unknown as LoadedPart]));
+  return new Solid(soupOf([{ meshes: [], instanced: [target] }]));
 }
 
 const ALL = (): boolean => true;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { headingOf } from "../../src/core/heading.ts";
-import { DEFAULT_WALK, standing, step } from "../../src/core/walking.ts";
+import { DEFAULT_WALK, INDOOR_BODY, standing, step } from "../../src/core/walking.ts";
 import type { Vec3 } from "../../src/core/vector.ts";
 import { Solid } from "../../src/three/solid.ts";
 
@@ -96,5 +96,50 @@ describe("the first hit", () => {
 
   it("is nothing where there is nothing", () => {
     expect(solidOf([WALL]).firstHit([0, 0, 1], [0, -1, 0], () => true)).toBeNull();
+  });
+});
+
+describe("a stair", () => {
+  const [RISER, TREAD, STEPS] = [0.18, 0.27, 12];
+  const WIDTH = 0.5;
+  /** It rises to the north from y = 1, between two walls; a landing is on top. */
+  const quads: (readonly [Vec3, Vec3, Vec3, Vec3])[] = Array.from({ length: STEPS }, (_, i) => i).flatMap((i) => {
+    const [y, z] = [1 + i * TREAD, i * RISER];
+    const end = i === STEPS - 1 ? y + 4 : y + TREAD;
+    const at = (py: number, pz: number): readonly [Vec3, Vec3] => [[-WIDTH, py, pz], [WIDTH, py, pz]];
+    const [a, b] = at(y, z);
+    const [d, c] = at(y, z + RISER);
+    const [f, e] = at(end, z + RISER);
+    return [[a, b, c, d] as const, [d, c, e, f] as const];
+  });
+  const side = (x: number): readonly [Vec3, Vec3, Vec3, Vec3] => [[x, -3, 0], [x, 12, 0], [x, 12, 6], [x, -3, 6]];
+  const stair = solidOf([...quads, side(-WIDTH), side(WIDTH)]);
+  const top = STEPS * RISER;
+
+  it.each([
+    ["in the middle", 1 / 60, 0, [0, 1, 0] as Vec3],
+    ["along its wall, slowly drawn", 0.1, 0.2, [0.5, 1, 0] as Vec3],
+  ])("is climbed %s, and walked down again", (_, dt, x, direction) => {
+    const options = { ...DEFAULT_WALK, body: INDOOR_BODY };
+    let walker = standing([x, 0, INDOOR_BODY.eye_m], headingOf(direction), options);
+    const go = (forward: number, seconds: number): void => {
+      for (let t = 0; t < seconds; t += dt) walker = step(walker, { forward, right: 0, run: false }, dt, stair, options);
+    };
+    go(1, 3.4);
+    expect(walker.feet[1]).toBeGreaterThan(1 + STEPS * TREAD);
+    expect(walker.feet[2]).toBeCloseTo(top, 2);
+    expect(walker.grounded).toBe(true);
+    go(-1, 4);
+    expect(walker.feet[1]).toBeLessThan(0.5);
+    expect(walker.feet[2]).toBeCloseTo(0, 2);
+  });
+
+  it("with steps as high as a table is none", () => {
+    const table: readonly [Vec3, Vec3, Vec3, Vec3] = [[-5, 1, 0], [5, 1, 0], [5, 1, 0.5], [-5, 1, 0.5]];
+    const top: readonly [Vec3, Vec3, Vec3, Vec3] = [[-5, 1, 0.5], [5, 1, 0.5], [5, 9, 0.5], [-5, 9, 0.5]];
+    let walker = standing([0, 0, 1.7], headingOf([0, 1, 0]), DEFAULT_WALK);
+    for (let i = 0; i < 120; i += 1) walker = step(walker, { forward: 1, right: 0, run: true }, 1 / 60, solidOf([table, top]), DEFAULT_WALK);
+    expect(walker.feet[2]).toBeCloseTo(0, 6);
+    expect(walker.feet[1]).toBeLessThan(1);
   });
 });

@@ -9,13 +9,17 @@ import ezdxf
 import numpy as np
 import pytest
 from drawn_dxf import WALLS, saved, two_rooms
+from sample_plan import sample_storey
 from shapely.affinity import affine_transform, translate
 from shapely.geometry import Polygon, box
 
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import Storey
+from veduta.plan.drawing import draw
 from veduta.plan.house.lines import footprint, wall_lines
+from veduta.plan.house.space import space_of
 from veduta.plan.options import PlanOptions, ScaleOptions
+from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.vector.entities import Entities, entities_of
 from veduta.plan.vector.faces import bounds_of, extent_of, solid_walls
@@ -87,6 +91,22 @@ def test_walls_of_lines_alone_are_found_without_layers(tmp_path: Path) -> None:
     whole = _moved(SOLID)
     assert body.intersection(whole).area / body.union(whole).area > 0.9
     assert {round(wall.thickness_m, 4) for wall in found.walls} <= {0.1, 0.3}
+
+
+def test_what_the_verb_draws_it_reads_again(tmp_path: Path) -> None:
+    before = sample_storey()
+    path = tmp_path / "plan.dxf"
+    path.write_bytes(plan_dxf([draw(space_of(before, 2.5))]))
+    after = storey_of(path)
+    walls = [footprint(wall_lines(one).values()) for one in (before, after)]
+    assert walls[0].symmetric_difference(walls[1]).area < 2e-3
+    for kind in ("door", "window"):
+        widths = [
+            sorted(round(one.width_m, 3) for one in storey.openings if one.kind == kind)
+            for storey in (before, after)
+        ]
+        assert widths[0] == widths[1]
+    assert {room.name.split()[0] for room in after.rooms} == {"Living", "Bath"}
 
 
 def test_faces_between_lines_are_the_walls() -> None:

@@ -1,8 +1,8 @@
 """The two photos that a map begins with, by the conditions of the thesis.
 
 Algorithm 6, 2 (a), and section 2.5.2 of the thesis: the two views have known intrinsic parameters,
-and the most matches of all that a homography does not model well; they are far enough apart for points
-to be well placed. Where the thesis gives no number the one that is taken stands here.
+and the most matches of all that a homography does not model well; they are far enough apart for
+points to be well placed. Where the thesis gives no number the one that is taken stands here.
 
 Matches of a plane tell two poses, of which one is false (Faugeras and Lustman, Motion and structure
 from motion in a piecewise planar environment, 1988), and a map that begins falsely may stay whole
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 FEWEST = 20
 """Matches of a pair (n_min of algorithm 6)."""
 SURE = 30
-"""From so many matches off the plane on a pair with known focal lengths goes before one with more."""
+"""From so many matches off a plane on a pair with known focal lengths goes before one with more."""
 MOST_PLANAR = 0.8
 """Share of the matches that a homography may explain. That by which the engine calls a pair
 planar, too; true scenes with relief have 0.2 to 0.7."""

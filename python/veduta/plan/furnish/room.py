@@ -19,7 +19,8 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 
 from veduta.plan.document import Room, Stairs
-from veduta.plan.house.space import Hole, Space, pieces_of
+from veduta.plan.house.hole import ENDS, Hole
+from veduta.plan.house.space import Space, pieces_of
 
 APPROACH_M = 0.65
 """What stays free before a door."""
@@ -31,7 +32,6 @@ LEAST_WALL_M = 0.25
 LEAST_FLOOR_M2 = 0.2
 _STRAIGHT_M = 0.015
 _BEHIND_M = 0.03
-_SECTOR_STEPS = 10
 Vector = NDArray[np.float64]
 
 
@@ -145,7 +145,7 @@ def _room_space(
     middles = np.array([_middle(hole) for hole, _ in doors]).reshape(-1, 2)
     zones = [zone for hole, sign in doors for zone in _door_zones(hole, sign)]
     windows = tuple(
-        Window(hole, _front_of(hole, sign, WINDOW_M, 0.0), hole.low_m, sign * _left(hole))
+        Window(hole, _front_of(hole, sign, WINDOW_M, 0.0), hole.low_m, sign * hole.leftward)
         for hole, sign in ways
         if hole.opening.kind == "window"
     )
@@ -170,22 +170,18 @@ def _sides(hole: Hole, room: Room) -> list[float]:
     ]
 
 
-def _left(hole: Hole) -> Vector:
-    return np.array([-hole.along[1], hole.along[0]])
-
-
 def _middle(hole: Hole) -> Vector:
     return hole.start + hole.along * hole.width_m / 2.0
 
 
 def _before(hole: Hole, sign: float) -> Vector:
     """Where one stands before a door."""
-    return _middle(hole) + sign * (hole.line.half_m + 0.32) * _left(hole)
+    return _middle(hole) + sign * (hole.line.half_m + 0.32) * hole.leftward
 
 
 def _front_of(hole: Hole, sign: float, deep_m: float, beside_m: float) -> Polygon:
     """The rectangle before an opening, from the middle of its wall on."""
-    inward = sign * _left(hole)
+    inward = sign * hole.leftward
     first = hole.start - beside_m * hole.along
     last = hole.start + (hole.width_m + beside_m) * hole.along
     out = (hole.line.half_m + deep_m) * inward
@@ -202,24 +198,12 @@ def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
     if opening.type in {"sliding", "pocket"}:
         # The leaf runs along the wall.
         return [*zones, _front_of(hole, sign, 0.1, hole.width_m)]
-    swings = -1.0 if opening.swing == "right" else 1.0
-    if opening.swing != "both" and swings != sign:
+    swings = -1.0 if hole.swing == "right" else 1.0
+    if hole.swing != "both" and swings != sign:
         return zones
-    face = hole.line.half_m * sign * _left(hole)
-    ends = (hole.start + face, hole.start + hole.width_m * hole.along + face)
-    both = opening.hinge == "both" or opening.type in {"double", "french", "folding"}
+    both = hole.hinge == "both" or opening.type in {"double", "french", "folding"}
     radius = (hole.width_m / 2.0 if both else hole.width_m) + 0.03
-    hinges = {"start": [0], "end": [1], "none": [0], "both": [0, 1]}[opening.hinge]
-    for end in [0, 1] if both else hinges:
-        way = hole.along if end == 0 else -hole.along
-        zones.append(_sector(ends[end], way, sign * _left(hole), radius))
-    return zones
-
-
-def _sector(hinge: Vector, closed: Vector, opened: Vector, radius: float) -> Polygon:
-    turn = np.linspace(0.0, np.pi / 2.0, _SECTOR_STEPS + 1)[:, None]
-    arc = hinge + radius * (np.cos(turn) * closed + np.sin(turn) * opened)
-    return Polygon([hinge, *arc])
+    return zones + [hole.sweep(end, sign, radius) for end in ENDS if both or end == hole.hinge]
 
 
 def _flight(stairs: Stairs, *, comes_up: bool) -> BaseGeometry:

@@ -15,7 +15,8 @@ from shapely.geometry import box
 from veduta.place.mover import Mover, Vector
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.frame import Frame, Sculptor, Surface, ring_of, upright
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 from veduta.plan.options import HouseOptions
 
 FRAME_M = 0.05
@@ -109,11 +110,11 @@ class _Door:
             self._lift()
         elif kind == "folding":
             self._fold()
-        elif kind in {"double", "french"} or self.hole.opening.hinge == "both":
+        elif kind in {"double", "french"} or self.hole.hinge == "both":
             middle = (self.first + self.last) / 2.0
             self._swing(Leaf("left", self.first, middle - GAP_M / 2, self.first, self.side))
             self._swing(Leaf("right", middle + GAP_M / 2, self.last, self.last, -self.side))
-        elif self.hole.opening.hinge == "end":
+        elif self.hole.hinge == "end":
             self._swing(Leaf("leaf", self.first, self.last, self.last, -self.side))
         else:
             self._swing(Leaf("leaf", self.first, self.last, self.first, self.side))
@@ -122,9 +123,7 @@ class _Door:
         opening, hole = self.hole.opening, self.hole
         if opening.type == "garage":  # it goes up under the ceiling, inside
             return -1.0 if hole.right is not None and hole.left is None else 1.0
-        if opening.swing == "right":
-            return -1.0
-        return 1.0
+        return -1.0 if hole.swing == "right" else 1.0
 
     @property
     def look(self) -> str:
@@ -150,15 +149,13 @@ class _Door:
         width = self.last - self.first
         before = self.hole.start_m
         after = self.hole.line.line.length - self.hole.end_m
-        to_end = self.hole.opening.hinge == "end" or (
-            self.hole.opening.hinge != "start" and after > before
-        )
+        to_end = self.hole.hinge == "end" or (self.hole.opening.hinge != "start" and after > before)
         way = self.hole.along * width * (1.0 if to_end else -1.0)
         self._mover("leaf", polygons, (self.first, 0.0), 0.0, (float(way[0]), float(way[1]), 0.0))
 
     def _fold(self) -> None:
         """Two leaves that fold onto each other at one end."""
-        at_end = self.hole.opening.hinge == "end"
+        at_end = self.hole.hinge == "end"
         middle = (self.first + self.last) / 2.0
         face = self.side * self.hole.line.half_m
         first = Leaf("hung", middle, self.last, self.last, -self.side) if at_end else Leaf(

@@ -8,7 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Point
 
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 
 AWAY_M = (5.0, 4.0, 3.0, 2.0)
 """From the front door to the visitor: the first from which nothing is in the way."""

@@ -12,6 +12,8 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Opening, Room, Storey
+from veduta.plan.house.hanging import hung
+from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine, footprint, wall_lines
 
 END_M = 0.02
@@ -24,49 +26,6 @@ GAP_M = 1.6
 _SLIVER_M2 = 0.01
 _JOIN_M = 1e-3
 _STEP_M = 0.05
-
-
-@dataclass(frozen=True)
-class Hole:
-    """An opening as it is cut: from `start_m` to `end_m` along its wall.
-
-    start, end: (2,) the ends on the centre line. low_m, high_m: above the storey's floor.
-    left, right: the rooms on its sides; None is outdoors.
-    """
-
-    opening: Opening
-    line: WallLine
-    start_m: float
-    end_m: float
-    low_m: float
-    high_m: float
-    left: Room | None = None
-    right: Room | None = None
-
-    @property
-    def start(self) -> NDArray[np.float64]:
-        """The end that is nearer to the wall's start."""
-        return self.line.at(self.start_m)
-
-    @property
-    def width_m(self) -> float:
-        """From end to end, straight."""
-        return float(np.linalg.norm(self.line.at(self.end_m) - self.start))
-
-    @property
-    def along(self) -> NDArray[np.float64]:
-        """(2,) unit vector along the wall."""
-        return (self.line.at(self.end_m) - self.start) / self.width_m
-
-    @property
-    def reaches_floor(self) -> bool:
-        """Whether one can walk through it."""
-        return self.low_m <= 0.0
-
-    @cached_property
-    def outline(self) -> Polygon:
-        """What it takes from the wall's footprint."""
-        return self.line.piece(self.start_m, self.end_m, self.line.half_m + _JOIN_M)
 
 
 @dataclass(frozen=True)
@@ -166,7 +125,7 @@ def space_of(storey: Storey, wall_height_m: float) -> Space:
         " floored and roofed, but no room"
         for piece in empty.leaks
     ]
-    return Space(storey, lines, walls, tuple(holes), tuple(notes))
+    return Space(storey, lines, walls, hung(holes, empty.rooms), tuple(notes))
 
 
 def room_polygon(room: Room) -> Polygon:

@@ -17,8 +17,9 @@ from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Room
 from veduta.plan.house.frame import Sculptor, Surface, level
+from veduta.plan.house.hole import Hole
 from veduta.plan.house.looks import wall_look
-from veduta.plan.house.space import Hole, Space, pieces_of
+from veduta.plan.house.space import Space, pieces_of
 
 _BEYOND_M = 0.01
 """How far cutters reach beyond what they cut."""

@@ -11,7 +11,8 @@ from shapely.geometry import Polygon, box
 
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.frame import Frame, Sculptor, Surface, ring_of, upright
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 from veduta.plan.options import FrameKind
 
 FRAME_M = 0.06

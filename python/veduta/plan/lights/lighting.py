@@ -12,7 +12,8 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture, Light, PlanDocument, Room, Storey
-from veduta.plan.house.space import Hole, Space, pieces_of, space_of
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space, pieces_of, space_of
 from veduta.plan.lights.ceiling import ceiling_lamps
 from veduta.plan.lights.furnished import footprint, furniture_lamps, seat_lamp
 from veduta.plan.lights.needs import (
@@ -193,9 +194,12 @@ def leaves(space: Space) -> list[Polygon]:
     ]
 
 
+_WITHOUT_HINGE = frozenset({"sliding", "pocket", "garage", "plain"})
+
+
 def _hinges(hole: Hole) -> list[tuple[NDArray[np.float64], float]]:
     ends = {"start": [hole.start_m], "end": [hole.end_m], "both": [hole.start_m, hole.end_m]}
-    at = ends.get(hole.opening.hinge, [])
+    at = [] if hole.opening.type in _WITHOUT_HINGE else ends[hole.hinge]
     return [(hole.line.at(one), hole.width_m / len(at)) for one in at]
 
 

@@ -17,6 +17,7 @@ from shapely.geometry.base import BaseGeometry
 from veduta.plan.document import OpeningType
 from veduta.plan.openings.classify import LEAST_TONE, Judged, judge, slides
 from veduta.plan.openings.evidence import Evidence
+from veduta.plan.openings.score import likely
 from veduta.plan.openings.sky import leads_out
 from veduta.plan.walls.axes import Axis, OnAxis
 
@@ -26,8 +27,11 @@ GARAGE = 2.3
 USUAL_DOOR = 8.0
 """The usual door in (thin) wall thicknesses, where no leaves say it."""
 
-DOOR_WIDTHS = (0.6, 1.7)
-"""Front doors without a leaf are so many usual doors wide."""
+LEAST_DOOR = 0.5
+"""Ways through are at least so many usual doors wide."""
+
+LEAST_WAY = 2.5
+"""Or so many (thin) wall thicknesses, where no leaves say how wide doors are."""
 
 LEAST_TIMES = 3
 """What is drawn so often between rooms is this sheet's manner of drawing doors."""
@@ -60,7 +64,9 @@ def settled(axes: Sequence[Axis], thin_px: float, sky: BaseGeometry) -> list[Axi
     """The axes with their openings judged by what lies on both sides; `sky` is what is outdoors."""
     places = list(_places(axes, sky))
     again = [_again(place, thin_px) for place in places]
-    door_px = _usual_door(again) or USUAL_DOOR * thin_px
+    usual = _usual_door(again)
+    door_px = usual or USUAL_DOOR * thin_px
+    least_px = LEAST_DOOR * usual if usual else LEAST_WAY * thin_px
     leaf_px = _usual_leaf(again)
     windows = _window_manner(places, again)
     doors = _door_manners(places, again)
@@ -69,16 +75,21 @@ def settled(axes: Sequence[Axis], thin_px: float, sky: BaseGeometry) -> list[Axi
         final = replace(judged, type="french") if _is_french(judged, leaf_px) else judged
         if place.outer and windows is not None:
             final = _by_manner(judged, windows, doors, door_px)
-        done[(place.axis, place.index)] = final
+        done[(place.axis, place.index)] = replace(final, score=likely(final))
     return [
-        replace(
-            axis,
-            openings=tuple(
-                _moved(axis, one, done[(number, index)]) for index, one in enumerate(axis.openings)
-            ),
-        )
+        replace(axis, openings=tuple(_kept(axis, number, done, least_px)))
         for number, axis in enumerate(axes)
     ]
+
+
+def _kept(
+    axis: Axis, number: int, done: dict[tuple[int, int], Judged], least_px: float
+) -> Iterator[OnAxis]:
+    """The openings of an axis with their new judgements, without slits."""
+    for index, one in enumerate(axis.openings):
+        judged = done[(number, index)]
+        if not _is_slit(judged, least_px):
+            yield _moved(axis, one, judged)
 
 
 def manner(seen: Evidence) -> Manner:
@@ -98,6 +109,12 @@ def _again(place: _Place, thin_px: float) -> Judged:
     if old.seen is None or old.type == "pocket":
         return old
     return judge(old.gap, old.seen, thin_px, place.outer) or old
+
+
+def _is_slit(judged: Judged, least_px: float) -> bool:
+    """Whether nobody could walk through: a flaw of the ink, behind which the wall goes on."""
+    leafless = judged.kind == "gap" or judged.type in ("plain", "unknown")
+    return judged.kind != "window" and leafless and judged.gap.width_px < least_px
 
 
 def _usual_door(judged: Sequence[Judged]) -> float | None:

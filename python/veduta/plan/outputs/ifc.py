@@ -23,8 +23,9 @@ from veduta.place.semantics import SemanticClass
 from veduta.plan.document import Opening
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
+from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine
-from veduta.plan.house.space import Hole, Space, pieces_of, solid_region
+from veduta.plan.house.space import Space, pieces_of, solid_region
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
 

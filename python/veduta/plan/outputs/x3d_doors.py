@@ -16,7 +16,8 @@ import numpy as np
 from veduta.formats.x3d import Element, X3dScene, place_of, turn_of
 from veduta.place.mover import Mover
 from veduta.place.part import Part
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 
 NEAR_M = 1.5
 """From a door's plane: within it the door opens."""

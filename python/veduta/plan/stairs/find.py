@@ -6,9 +6,11 @@ the middle parts each in two. What has lines as close in both directions is a ti
 
 from __future__ import annotations
 
+from bisect import bisect_left, bisect_right
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from statistics import median
 
 import cv2
 import numpy as np
@@ -36,12 +38,16 @@ EVEN = 0.16
 """Treads of a flight differ by at most this share (and a pixel) from the usual one."""
 SAME_ENDS = 0.16
 """Ends of treads lie in line but for this share of their length."""
-ARROW = 0.02
+ARROW = 0.032
 """A tread may be broken over such a share by an arrow or a word."""
 INSIDE = 0.85
 """So much of a flight lies in the rooms."""
 MISSED = 1
 """So many treads in a row may be hidden, by the word beside an arrow."""
+LONGER = 1.3
+"""Lines that are so many times as long go on beyond the treads."""
+MOST_LINES = 4000
+"""A sheet with more short lines is a texture."""
 WALL = 0.8
 """A row of ink with this share of the treads' width is a wall's face."""
 ACROSS = 0.5
@@ -72,7 +78,9 @@ def find_flights(
     found: list[tuple[float, Polygon, int, bool]] = []
     for lines, others, turned in ((level, upright, False), (upright, level, True)):
         for chain in _chains(lines, extent):
-            chain = _to_walls(chain, turned_ink if turned else ink)
+            if _goes_on(chain, lines):
+                continue
+            chain = _to_walls(chain, turned_ink if turned else ink, line_px)
             area = _area(chain)
             if not _crossed(area, len(chain), others):
                 shape = _turned(area) if turned else area
@@ -181,6 +189,9 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
     """Series of lines one above the other, evenly apart."""
     near, far = (one * extent for one in TREAD)
     wide = [one for one in lines if RATIO[0] * near <= one.length <= RATIO[1] * far]
+    if len(wide) > MOST_LINES:
+        return []
+    ys = [one.y for one in wide]
     used: set[int] = set()
     chains = []
     for first in range(len(wide)):
@@ -197,7 +208,7 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
                 and RATIO[0] <= ratio <= RATIO[1]
                 and _alike(wide[first], wide[second])
             ):
-                chain = _followed(wide, [first, second])
+                chain = _followed(wide, ys, [first, second])
                 best = chain if len(chain) > len(best) else best
         if LEAST_TREADS <= len(best) - 1 <= MOST_TREADS:
             used.update(best)
@@ -205,20 +216,22 @@ def _chains(lines: Sequence[_Line], extent: float) -> list[list[_Line]]:
     return [_with_hidden(chain) for chain in chains]
 
 
-def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
+def _followed(lines: Sequence[_Line], ys: Sequence[float], chain: list[int]) -> list[int]:
     """The chain, as long as there is a line where the next tread should be."""
     while True:
         last = lines[chain[-1]]
-        steps = _steps([lines[index] for index in chain])
-        step = float(np.median(steps))
+        step = median(_steps([lines[index] for index in chain]))
         slack = EVEN * step + 1.0
         after: int | None = None
         for jump in range(1, MISSED + 2):
             wanted = last.y + jump * step
             near = [
                 index
-                for index in range(chain[-1] + 1, len(lines))
-                if abs(lines[index].y - wanted) <= slack and _alike(lines[index], lines[chain[0]])
+                for index in range(
+                    max(chain[-1] + 1, bisect_left(ys, wanted - slack)),
+                    bisect_right(ys, wanted + slack),
+                )
+                if _alike(lines[index], lines[chain[0]])
             ]
             if near:
                 after = min(near, key=lambda index: abs(lines[index].y - wanted))
@@ -228,9 +241,9 @@ def _followed(lines: Sequence[_Line], chain: list[int]) -> list[int]:
         chain.append(after)
 
 
-def _to_walls(chain: list[_Line], ink: NDArray[np.bool_]) -> list[_Line]:
-    """The chain with the face of a wall as its first or last tread, where one stands there."""
-    step = float(np.median(_steps(chain)))
+def _to_walls(chain: list[_Line], ink: NDArray[np.bool_], line_px: float) -> list[_Line]:
+    """The chain with the face of a solid wall as its first or last tread, where one stands."""
+    step = median(_steps(chain))
     left = round(np.median([one.left for one in chain]))
     right = round(np.median([one.right for one in chain]))
     rows = ink[:, left:right].mean(axis=1) > WALL
@@ -239,22 +252,31 @@ def _to_walls(chain: list[_Line], ink: NDArray[np.bool_]) -> list[_Line]:
         near, far = (end.y + way * share * step for share in (1.0 - EVEN, 1.0 + EVEN))
         low, high = round(max(0.0, min(near, far))), round(max(near, far)) + 1
         dark = np.flatnonzero(rows[low:high]) + low
-        if len(dark):
-            face = float(dark[0] if way > 0 else dark[-1] + 1)
+        if not len(dark):
+            continue
+        face = float(dark[0] if way > 0 else dark[-1] + 1)
+        deep = round(2.0 * line_px) + 3
+        behind = (
+            rows[round(face) : round(face) + deep]
+            if way > 0
+            else rows[max(0, round(face) - deep) : round(face)]
+        )
+        if behind.all():
             one = _Line(face, left, right)
             found = [one, *found] if way < 0 else [*found, one]
     return found
 
 
-def _steps(chain: Sequence[_Line]) -> NDArray[np.float64]:
+def _steps(chain: Sequence[_Line]) -> list[float]:
     """Spacings, those over hidden treads in parts."""
-    gaps = np.diff([one.y for one in chain])
-    return np.asarray(gaps / np.maximum(1.0, np.round(gaps / gaps.min())))
+    gaps = [there.y - here.y for here, there in pairwise(chain)]
+    least = min(gaps)
+    return [gap / max(1, round(gap / least)) for gap in gaps]
 
 
 def _with_hidden(chain: list[_Line]) -> list[_Line]:
     """The chain with the treads put in that a word hides."""
-    step = float(np.median(_steps(chain)))
+    step = median(_steps(chain))
     whole = [chain[0]]
     for here, there in pairwise(chain):
         count = max(1, round((there.y - here.y) / step))
@@ -287,6 +309,21 @@ def _crossed(area: Polygon, count: int, others: Sequence[_Line]) -> bool:
     # An arrow is one line, or two where it turns.
     rows = len({round(one.y / 3.0) for one in inside})
     return rows >= max(3.0, ACROSS * count * (right - left) / max(high - low, 1.0))
+
+
+def _goes_on(chain: Sequence[_Line], lines: Sequence[_Line]) -> bool:
+    """Whether most of the treads are parts of longer lines: tiles, or half of a flight."""
+    longer = [
+        any(
+            abs(other.y - one.y) <= 2.0
+            and other.left <= one.left + 2.0
+            and other.right >= one.right - 2.0
+            and other.length > LONGER * one.length
+            for other in lines
+        )
+        for one in chain
+    ]
+    return float(np.mean(longer)) > 0.5
 
 
 def _score(chain: Sequence[_Line]) -> float:

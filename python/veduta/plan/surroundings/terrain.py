@@ -17,7 +17,8 @@ from shapely.geometry import Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from veduta.plan.house.space import Hole, Space, pieces_of, solid_region
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space, pieces_of, solid_region
 
 Ground = Literal["lawn", "path", "drive", "gravel"]
 MARGIN_M = 11.5

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString
 
-from veduta.plan.document import Stairs
+from veduta.plan.house.flights import Flight, Stairwell
 from veduta.plan.house.space import Space
 from veduta.plan.tour.free import BODY_M
 
@@ -26,37 +26,28 @@ class Climb:
     """
 
     lower: int
-    flight: Stairs
     foot_m: NDArray[np.float64]
     head_m: NDArray[np.float64]
     length_m: float
 
 
-def climbs_of(spaces: Sequence[Space]) -> list[Climb]:
-    """All flights whose direction is drawn, that lead to a storey and have no wall on their way."""
+def climbs_of(spaces: Sequence[Space], wells: Sequence[Stairwell]) -> list[Climb]:
+    """All flights of a house that have no wall on their way; one stairwell for each storey."""
     found = []
     for number, (space, above) in enumerate(zip(spaces, spaces[1:], strict=False)):
-        rise = above.storey.elevation_m - space.storey.elevation_m
-        for flight in space.storey.stairs:
-            climb = _climb(number, flight, rise)
-            if climb is not None and not any(_blocked(climb, one) for one in (space, above)):
+        for flight in wells[number].flights:
+            climb = _climb(number, flight)
+            if not any(_blocked(climb, one) for one in (space, above)):
                 found.append(climb)
     return found
 
 
-def _climb(lower: int, flight: Stairs, rise_m: float) -> Climb | None:
-    up = np.array(flight.up)
-    size = float(np.linalg.norm(up))
-    if size < 0.5:
-        return None
-    up /= size
-    across = np.array([-up[1], up[0]])
-    corners = np.array(flight.outline_m)
-    along, beside = corners @ up, corners @ across
-    middle = across * float(beside.min() + beside.max()) / 2.0
-    foot = middle + up * (float(along.min()) - BODY_M - BESIDE_M)
-    head = middle + up * (float(along.max()) + BODY_M + BESIDE_M)
-    return Climb(lower, flight, foot, head, float(np.hypot(np.linalg.norm(head - foot), rise_m)))
+def _climb(lower: int, flight: Flight) -> Climb:
+    away = BODY_M + BESIDE_M
+    middle = flight.foot + flight.right * flight.width_m / 2.0
+    foot = middle - away * flight.along
+    head = middle + (flight.run_m + away) * flight.along
+    return Climb(lower, foot, head, float(np.hypot(flight.run_m + 2.0 * away, flight.rise_m)))
 
 
 def _blocked(climb: Climb, space: Space) -> bool:

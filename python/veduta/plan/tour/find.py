@@ -17,14 +17,15 @@ from veduta.place.camera_path import CameraPath
 from veduta.plan.document import RoomUse
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
+from veduta.plan.house.flights import stairwells
 from veduta.plan.tour import gaze, pace
-from veduta.plan.tour.climbs import Climb, climbs_of
-from veduta.plan.tour.free import Ground, ground_of
+from veduta.plan.tour.climbs import climbs_of
+from veduta.plan.tour.free import BODY_M, SLIM_M, Ground, ground_of
 from veduta.plan.tour.grid import Grid, cells_of
 from veduta.plan.tour.leaves import open_leaves
 from veduta.plan.tour.outside import Outside, outside_of
 from veduta.plan.tour.smooth import STEP_M, resampled, smoothed
-from veduta.plan.tour.stops import Stop, short_order, squares_in, stops_of
+from veduta.plan.tour.stops import Stop, Stops, short_order, squares_in, stops_of
 from veduta.plan.tour.stretches import Stretch, stretches_of
 
 EYE_M = 1.7
@@ -63,35 +64,61 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
     first = house.spaces[0]
     ways_in = entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
-    climbs = climbs_of(house.spaces)
-    grounds = _grounds(house, outside, climbs)
-    grid = Grid([cells_of(ground) for ground in grounds], climbs)
-    begin = _begin(grid, grounds, outside)
-    if begin is None:
+    plan = _plan(house, outside)
+    if plan is None:
         return None
-    found = stops_of(grounds, grid, begin.node)
-    legs = _legs_through(begin.node, found.stops, grid, grounds)
-    around = outside if begin.is_outside else None
+    legs = _legs_through(plan.begin.node, plan.found.stops, plan.grid, plan.grounds)
+    around = outside if plan.begin.is_outside else None
     timed = pace.timed(_motions(legs, around, first.slab, speed_m_s))
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
     length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
-    notes = (*found.missed, *((INDOORS,) if around is None else ()))
-    return Tour(path, stretches_of(timed, grounds), length, notes, tuple(grounds))
+    notes = (*plan.found.missed, *((INDOORS,) if around is None else ()))
+    return Tour(path, stretches_of(timed, plan.grounds), length, notes, plan.grounds)
 
 
-def _grounds(house: House, outside: Outside | None, climbs: Sequence[Climb]) -> list[Ground]:
+@dataclass(frozen=True)
+class _Plan:
+    """Where one can walk, where to begin, and which rooms to go to."""
+
+    grounds: tuple[Ground, ...]
+    grid: Grid
+    begin: _Begin
+    found: Stops
+
+
+def _plan(house: House, outside: Outside | None) -> _Plan | None:
+    """For a visitor who walks straight, or turns sideways where that leads to more rooms."""
+    usual = _plan_for(house, outside, BODY_M)
+    if usual is not None and not usual.found.missed and usual.begin.is_outside:
+        return usual
+    slim = _plan_for(house, outside, SLIM_M)
+    if usual is None or slim is None:
+        return slim
+    return max(usual, slim, key=lambda plan: (len(plan.found.stops), plan.begin.is_outside))
+
+
+def _plan_for(house: House, outside: Outside | None, body_m: float) -> _Plan | None:
     leaves = open_leaves(house.part)
+    # How thick the slab is matters for wells alone, and those the house has.
+    wells = stairwells(house.spaces, 0.0)
+    climbs = climbs_of(house.spaces, wells)
     around = Polygon() if outside is None else outside.region
-    return [
+    grounds = tuple(
         ground_of(
             space,
             leaves,
             around if number == 0 else Polygon(),
-            [climb.flight for climb in climbs if climb.lower + 1 == number],
+            wells[number].flights,
+            body_m,
         )
         for number, space in enumerate(house.spaces)
-    ]
+    )
+    grid = Grid([cells_of(ground) for ground in grounds], climbs)
+    begin = _begin(grid, grounds, outside)
+    if begin is None:
+        return None
+    return _Plan(grounds, grid, begin, stops_of(grounds, grid, begin.node))
 
 
 @dataclass(frozen=True)
@@ -169,7 +196,7 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     """(n, 3) the feet on a way over squares, smoothed in each storey."""
     storeys = grid.storey[squares]
     breaks = np.flatnonzero(np.diff(storeys)) + 1
-    pieces = []
+    pieces: list[NDArray[np.float64]] = []
     for run in np.split(np.array(squares), breaks):
         ground = grounds[grid.storey[run[0]]]
         flat = smoothed(grid.places_m[run], ground.free)

@@ -16,13 +16,17 @@ from shapely.geometry import Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from veduta.plan.document import Furniture, Stairs
+from veduta.plan.document import Furniture
 from veduta.plan.house.doors import FRAME_M
-from veduta.plan.house.space import Hole, Space
+from veduta.plan.house.flights import Flight
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
 from veduta.plan.tour.leaves import OpenLeaf
 
 BODY_M = 0.2
-"""Radius of the visitor: a person who passes a narrow door with the shoulders turned."""
+"""Radius of the visitor."""
+SLIM_M = 0.14
+"""Of one who turns sideways, where that leads to more rooms: between two leaves that stand open."""
 HEAD_M = 1.8
 """What lies higher above the floor is walked under."""
 FOOT_M = 0.05
@@ -35,17 +39,18 @@ _THROUGH_M = 1e-3
 class Ground:
     """A storey as a visitor meets it.
 
-    solid: what stands in the way. floor: what there is to walk on.
+    solid: what stands in the way. floor: what there is to walk on. body_m: the visitor's radius.
     """
 
     space: Space
     solid: BaseGeometry
     floor: BaseGeometry
+    body_m: float = BODY_M
 
     @cached_property
     def free(self) -> BaseGeometry:
         """Where the middle of the visitor may be."""
-        region = self.floor.difference(self.solid.buffer(BODY_M, quad_segs=4))
+        region = self.floor.difference(self.solid.buffer(self.body_m, quad_segs=4))
         shapely.prepare(region)
         return region
 
@@ -56,11 +61,15 @@ class Ground:
 
 
 def ground_of(
-    space: Space, leaves: Sequence[OpenLeaf], outdoors: BaseGeometry, climbed: Sequence[Stairs]
+    space: Space,
+    leaves: Sequence[OpenLeaf],
+    outdoors: BaseGeometry,
+    flights: Sequence[Flight],
+    body_m: float = BODY_M,
 ) -> Ground:
     """The ground of a storey; outdoors is what of the surroundings one may walk on.
 
-    climbed: flights that lead up to this storey, whose well is open in its floor.
+    flights: those that lead up from this storey. What comes up to it leaves a well in its floor.
     """
     storey = space.storey
     low, high = storey.elevation_m + FOOT_M, storey.elevation_m + HEAD_M
@@ -69,15 +78,16 @@ def ground_of(
         [
             space.walls.difference(unary_union(passages)),
             *(leaf.footprint for leaf in leaves if leaf.low_m < high and leaf.high_m > low),
-            *(Polygon(flight.outline_m) for flight in (*storey.stairs, *climbed)),
+            *(flight.outline for flight in flights),
+            space.well,
             *obstacles(storey.furniture or ()),
         ]
     )
     floor = unary_union([space.slab, outdoors])
     if outdoors.is_empty:
         # No one steps over the edge of a floor.
-        floor = floor.buffer(-BODY_M)
-    return Ground(space, solid, floor)
+        floor = floor.buffer(-body_m)
+    return Ground(space, solid, floor, body_m)
 
 
 def obstacles(furniture: Iterable[Furniture]) -> list[Polygon]:

@@ -93,10 +93,9 @@ def find_walls(
     else:
         ink = mask = known
         thickness, drawing = known_thickness(known), "filled"
-    solid = thick_strokes(mask, thickness)
-    if known is not None:
-        solid = without_marks(solid, mask, thickness)
-    elif drawing in ("filled", "single-line"):
+    # Of what is known, short piers between openings count, too.
+    solid = thick_strokes(mask, thickness) if known is None else known
+    if known is None and drawing in ("filled", "single-line"):
         # Shaded panes are thick strokes, too, but paler than the walls.
         solid = without_marks(solid, mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0

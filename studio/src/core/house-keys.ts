@@ -1,0 +1,30 @@
+/** What the keys for houses change, and what is said of it. */
+import { DAY_HOUR, daylightAt, hourText, NIGHT_HOUR } from "./daylight.ts";
+import type { Command } from "./input.ts";
+import type { LightHabit, StudioState } from "./state.ts";
+
+export type HouseCommand = Extract<Command, "daylight" | "lights" | "doors" | "map">;
+type Change = Partial<Pick<StudioState, "hour" | "lights" | "doors" | "map">>;
+
+const NEXT_LIGHTS: Readonly<Record<LightHabit, LightHabit>> = { auto: "on", on: "off", off: "auto" };
+const LIGHTS_WORDS: Readonly<Record<LightHabit, string>> = {
+  auto: "Lamps go on where you come in",
+  on: "All lamps are on",
+  off: "All lamps are off",
+};
+
+export function changeBy(command: HouseCommand, state: StudioState): { change: Change; words: string } {
+  if (command === "daylight") {
+    const hour = daylightAt(state.hour).day > 0.5 ? NIGHT_HOUR : DAY_HOUR;
+    return { change: { hour }, words: `${hourText(hour)}, ${hour === NIGHT_HOUR ? "night" : "day"}` };
+  }
+  if (command === "lights") {
+    const lights = NEXT_LIGHTS[state.lights];
+    return { change: { lights }, words: LIGHTS_WORDS[lights] };
+  }
+  if (command === "doors") {
+    const doors = state.doors === "open" ? "approach" : "open";
+    return { change: { doors }, words: doors === "open" ? "All doors stand open" : "Doors open as you come" };
+  }
+  return { change: { map: !state.map }, words: "" };
+}

@@ -1,0 +1,80 @@
+/** What goes on by itself in the houses of a place: doors open, lamps go on. */
+import { Group } from "three";
+import type { Daylight } from "../core/daylight.ts";
+import type { House } from "../core/house.ts";
+import type { StudioState } from "../core/state.ts";
+import type { Vec3 } from "../core/vector.ts";
+import type { Walker } from "../core/walking.ts";
+import { type Whereabouts, whereaboutsOf } from "../core/whereabouts.ts";
+import type { Doors } from "./doors.ts";
+import type { LoadedPart } from "./load.ts";
+import { RoomLights } from "./room-lights.ts";
+
+export interface LoadedHouse {
+  readonly house: House;
+  readonly part: LoadedPart;
+}
+
+/** Below this share of the day's light lamps are lit in a house that is seen from outside. */
+const EVENING = 0.5;
+
+export class Household {
+  /** Light around the lamps. */
+  readonly group = new Group();
+  readonly #houses: readonly House[];
+  readonly #doors: Doors | null;
+  readonly #lights: readonly RoomLights[];
+  #day = 1;
+
+  constructor(houses: readonly LoadedHouse[], doors: Doors | null) {
+    this.#houses = houses.map(({ house }) => house);
+    this.#doors = doors;
+    this.#lights = houses.map(({ house, part }) => new RoomLights(house, part));
+    for (const { glow } of this.#lights) this.group.add(glow);
+  }
+
+  get doors(): Doors | null {
+    return this.#doors;
+  }
+
+  /** How far the lamps of each room of a house are on (0..1), by its number over all storeys. */
+  levelsOf(house: number): readonly number[] {
+    return [...(this.#lights[house]?.levels ?? [])];
+  }
+
+  whereabouts(feet: Vec3): Whereabouts | null {
+    return whereaboutsOf(this.#houses, feet);
+  }
+
+  set daylight({ day }: Daylight) {
+    this.#day = day;
+    for (const lights of this.#lights) lights.day = day;
+  }
+
+  /** True for each of doors and lamps while it changes. */
+  advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): { doors: boolean; lamps: boolean } {
+    const walks = state.mode === "walk";
+    const heading = state.tour?.playing === true ? null : walker.heading;
+    const doors = this.#doors?.advance(walks ? { feet: walker.feet, heading } : null, state.doors === "open", seconds) ?? false;
+    const here = walks ? this.whereabouts(walker.feet) : null;
+    let lamps = false;
+    for (const [house, lights] of this.#lights.entries()) {
+      const occasion = {
+        habit: state.lights,
+        mode: state.mode,
+        isNight: this.#day < EVENING,
+        here: here?.house === house ? this.#roomOf(here) : null,
+        now_s: performance.now() / 1000,
+      };
+      if (lights.advance(occasion, eye, seconds)) lamps = true;
+    }
+    return { doors, lamps };
+  }
+
+  /** The number over all storeys of the room that somebody is in. */
+  #roomOf({ house, storey, room }: Whereabouts): number | null {
+    if (room === null) return null;
+    const below = this.#houses[house]?.storeys.slice(0, storey) ?? [];
+    return below.reduce((count, { rooms }) => count + rooms.length, room);
+  }
+}

@@ -1,0 +1,100 @@
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { launch, MISSING } from "./chromium.ts";
+import { type Inspection, open, settled, walkState } from "./page.ts";
+import { makeSite, type Site } from "./site.ts";
+
+/** Along the street before the house of the fixture, looking at it; then a turn to the east. */
+const TOUR = {
+  id: "tour",
+  name: "Tour",
+  times_s: [0, 20, 22],
+  eyes: [[-4, -9, 1.7], [6, -9, 1.7], [6, -9, 1.7]],
+  directions: [[0, 1, 0], [0, 1, 0], [1, 0, 0]],
+  stretches: [
+    { room: null, name: "The street", start_s: 0, end_s: 20 },
+    { room: "r", name: "The corner", start_s: 20, end_s: 22 },
+  ],
+};
+
+describe.skipIf(MISSING !== null)("a guided tour", () => {
+  let browser: Browser;
+  let site: Site;
+  let page: Page;
+  let complaints: string[];
+
+  beforeAll(async () => {
+    site = await makeSite();
+    const file = join(site.folder, "place.json");
+    const place = JSON.parse(readFileSync(file, "utf8")) as object;
+    writeFileSync(file, JSON.stringify({ ...place, tours: [TOUR] }));
+    browser = await launch();
+  });
+  afterAll(async () => {
+    await browser.close();
+    await site.close();
+  });
+  beforeEach(async () => {
+    ({ page, complaints } = await open(browser, `${site.origin}/`));
+  });
+  afterEach(async () => {
+    expect(complaints).toEqual([]);
+    await page.context().close();
+  });
+
+  const tourState = async (): Promise<ReturnType<Inspection["tour"]>> =>
+    await page.evaluate(() => window.veduta?.tour() ?? null);
+  const camera = async (): Promise<ReturnType<Inspection["camera"]>> => {
+    const state = await page.evaluate(() => window.veduta?.camera());
+    if (state === undefined) throw new Error("window.veduta is not there");
+    return state;
+  };
+  const playing = async (): Promise<void> => {
+    await page.waitForFunction(() => (window.veduta?.tour()?.time_s ?? 0) > 0.2);
+  };
+
+  it("plays from the panel, takes the eye along, and pauses", async () => {
+    expect(await tourState()).toBeNull();
+    await page.getByRole("button", { name: "Play the tour" }).click();
+    await playing();
+    await page.getByRole("button", { name: "Pause the tour" }).click();
+    await settled(page);
+    const [state, { eye, direction }] = [await tourState(), await camera()];
+    expect(state?.playing).toBe(false);
+    expect(state?.room).toBe("The street");
+    // Half a metre a second; the page knows the time to a quarter of a second.
+    expect(Math.abs(eye[0] - (-4 + 0.5 * (state?.time_s ?? 0)))).toBeLessThan(0.3);
+    expect(eye[1]).toBeCloseTo(-9, 3);
+    expect(direction[1]).toBeCloseTo(1, 3);
+  });
+
+  it("goes where the slider says and names the room", async () => {
+    const slider = page.getByRole("slider", { name: "How far the tour is" });
+    await slider.fill("21");
+    await settled(page);
+    const { eye, direction } = await camera();
+    expect(eye[0]).toBeCloseTo(6, 3);
+    expect(direction[0]).toBeCloseTo(Math.SQRT1_2, 3);
+    expect(await page.locator("veduta-tour-panel [data-field=room]").textContent()).toBe("The corner");
+    expect(await page.locator("veduta-tour-panel [data-field=time]").textContent()).toBe("0:21 of 0:22");
+  });
+
+  it("stops for a visitor who walks on, and goes on where it was left", async () => {
+    await page.keyboard.press("KeyG");
+    await playing();
+    await page.keyboard.down("KeyW");
+    await page.waitForFunction(() => window.veduta?.tour()?.playing === false);
+    await page.waitForFunction(() => (window.veduta?.walk().feet[1] ?? -9) > -8.7);
+    await page.keyboard.up("KeyW");
+    const left = await tourState();
+    expect((await walkState(page)).feet[1]).toBeGreaterThan(-8.7);
+    await page.keyboard.press("KeyG");
+    await page.waitForFunction((time) => (window.veduta?.tour()?.time_s ?? 0) > time, left?.time_s ?? 0);
+    const { eye } = await camera();
+    expect(eye[1]).toBeCloseTo(-9, 3);
+    await page.keyboard.press("Digit1");
+    expect((await tourState())?.playing).toBe(false);
+  });
+});

@@ -1,0 +1,80 @@
+"""Leaves that are not drawn hang where a builder would hang them."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+from sample_plan import opening, rectangle, room, sample_storey
+
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import space_of
+
+LIVING = rectangle(0.15, 0.15, 4.94, 4.85)
+BEYOND = rectangle(5.06, 0.15, 7.85, 4.85)
+
+
+def hung(name: str, *openings: Any, **beyond: Any) -> Hole:
+    """An opening of the sample house, whose second room is what `beyond` says."""
+    rooms = [room("living", LIVING), room("beyond", BEYOND, **({"use": "bedroom"} | beyond))]
+    space = space_of(sample_storey(openings=list(openings), rooms=rooms), 2.55)
+    return next(hole for hole in space.holes if hole.opening.id == name)
+
+
+INNER = opening("inner", "middle", 1.0, 0.9)
+"""Its wall goes north: the living room is on the left, 1 m of wall is south of it, 3.1 m north."""
+
+
+def test_it_opens_into_the_smaller_room_against_the_nearest_wall() -> None:
+    hole = hung("inner", INNER)
+    assert (hole.hinge, hole.swing) == ("start", "right")
+    far = hung("inner", opening("inner", "middle", 3.4, 0.9))
+    assert (far.hinge, far.swing) == ("end", "right")
+
+
+@pytest.mark.parametrize("beyond", [{"use": "corridor"}, {"use": "stairs"}])
+def test_it_does_not_open_into_a_way(beyond: dict[str, Any]) -> None:
+    assert hung("inner", INNER, **beyond).swing == "left"
+
+
+def test_it_does_not_fill_a_closet() -> None:
+    storey = sample_storey(openings=[INNER])
+    closet = room("beyond", rectangle(5.06, 0.15, 5.9, 2.9), use="wardrobe")
+    rooms = [room("living", LIVING), closet]
+    (hole,) = space_of(storey.model_copy(update={"rooms": rooms}), 2.55).holes
+    assert hole.swing == "left"
+
+
+def test_a_front_door_opens_inward() -> None:
+    """The south wall goes east, and the house is on its left."""
+    assert hung("front", opening("front", "south-1", 0.6, 1.0)).swing == "left"
+
+
+def test_it_does_not_stand_before_another_opening() -> None:
+    """The west wall goes south: its door is beside the front door's first end."""
+    front = opening("front", "south-1", 0.3, 0.9)
+    beside = opening("beside", "west", 3.6, 1.0, kind="gap", type="plain")
+    assert hung("front", front).hinge == "start"
+    assert hung("front", front, beside).hinge == "end"
+
+
+@pytest.mark.parametrize("hinge", ["start", "end", "both"])
+@pytest.mark.parametrize("swing", ["left", "right", "both"])
+def test_what_is_drawn_stays(hinge: str, swing: str) -> None:
+    hole = hung("inner", opening("inner", "middle", 1.0, 0.9, hinge=hinge, swing=swing))
+    assert (hole.hinge, hole.swing) == (hinge, swing)
+
+
+def test_half_of_it_may_be_drawn() -> None:
+    hole = hung("inner", opening("inner", "middle", 1.0, 0.9, hinge="end"))
+    assert (hole.hinge, hole.swing) == ("end", "right")
+    hole = hung("inner", opening("inner", "middle", 1.0, 0.9, swing="left"))
+    assert (hole.hinge, hole.swing) == ("start", "left")
+
+
+def test_what_a_leaf_sweeps_is_a_quarter_disc() -> None:
+    hole = hung("inner", INNER)
+    swept = hole.sweep("start", -1.0, 0.9)
+    assert swept.area == pytest.approx(3.14159 * 0.81 / 4.0, rel=0.02)
+    left, bottom, right, top = swept.bounds
+    assert (left, bottom, right, top) == pytest.approx((5.06, 1.0, 5.96, 1.9), abs=0.02)
