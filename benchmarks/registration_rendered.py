@@ -1,6 +1,6 @@
 """Whether rendered photos of a street are laid into a city model rightly, or refused: whole runs.
 
-    python benchmarks/registration_rendered.py WORK [--seeds 20] [--first 0] [--keep]
+    python benchmarks/registration_rendered.py WORK [--seeds 0 1 2 ...] [--keep]
 
 A street of six or more houses is rendered as 40 photos with lens distortion, changing exposure,
 noise and a GPS that is 5 m wrong. Structure from motion runs once a street; the model of that
@@ -30,6 +30,7 @@ from street_sets import IMAGES, StreetSet, write_model, write_set
 from veduta.formats.place_json import read_place
 from veduta.synthetic.streets.plan import plan_street
 
+STREETS = 20
 OTHER = 1000
 MODEL = "model.city.json"
 LAID = ("--georef", "model", "--no-texture")
@@ -171,16 +172,16 @@ def main() -> None:
     """Measure, and print or keep the table."""
     parser = argparse.ArgumentParser()
     parser.add_argument("work", type=Path)
-    parser.add_argument("--seeds", type=int, default=20)
-    parser.add_argument("--first", type=int, default=0)
+    parser.add_argument("--seeds", type=int, nargs="+", default=list(range(STREETS)))
     parser.add_argument("--keep", action="store_true")
     given = parser.parse_args()
     found = []
-    for seed in range(given.first, given.first + given.seeds):
+    for seed in given.seeds:
         found += street(seed, given.work)
         for one in found[-4:]:
             print(seed, one, flush=True)
-    keep_or_print("registration-rendered", rows(found), NOTES, given.keep)
+    run = f"Seeds: {', '.join(str(seed) for seed in given.seeds)}."
+    keep_or_print("registration-rendered", rows(found), (*NOTES, run), given.keep)
 
 
 if __name__ == "__main__":

@@ -120,9 +120,9 @@ def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> Non
     for label in drawing.labels:
         width = max(font.getlength(label.text), small.getlength(label.detail))
         x, y = _beside(_spot(drawing.storey.sheet, label.at_m, scale), width, written)
-        _haloed(pen, (x, y - 12), label.text, font, _INK)
+        haloed(pen, (x, y - 12), label.text, font, _INK)
         # Pillow's own font has no superscripts.
-        _haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
+        haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
 
 
 def _beside(at: tuple[float, float], width: float, written: list[Polygon]) -> tuple[float, float]:
@@ -147,7 +147,7 @@ def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> No
         doubt = "?" if scores[shape.name] < _DOUBTFUL else ""
         colour = rgb(LAYER_COLOURS[shape.layer])
         at = _spot(drawing.storey.sheet, (float(middle[0]), float(middle[1])), scale)
-        _haloed(pen, at, f"{shape.name}{doubt}", font, colour)
+        haloed(pen, at, f"{shape.name}{doubt}", font, colour)
 
 
 def _spot(sheet: Sheet, at_m: tuple[float, float], scale: float) -> tuple[float, float]:
@@ -155,13 +155,14 @@ def _spot(sheet: Sheet, at_m: tuple[float, float], scale: float) -> tuple[float,
     return (x, y)
 
 
-def _haloed(
+def haloed(
     pen: ImageDraw.ImageDraw,
     at: tuple[float, float],
     text: str,
     font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
     colour: Rgb,
 ) -> None:
+    """Write text about a place, with a rim that keeps it legible on any drawing."""
     pen.text(at, text, fill=colour, font=font, anchor="mm", stroke_width=3, stroke_fill=_PAPER)
 
 

@@ -11,6 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from veduta.plan.drawing import Drawing, Shape
 from veduta.plan.outputs.colours import USE_COLOURS, Rgb, rgb
+from veduta.plan.outputs.overlay import haloed
 from veduta.plan.tour.find import EYE_M, Tour
 
 SIDE_PX = 1500
@@ -127,7 +128,7 @@ def _write(
     font, small = ImageFont.load_default(21), ImageFont.load_default(16)
     for label in drawing.labels:
         at = sheet.at(np.array([label.at_m]))[0]
-        _haloed(pen, (float(at[0]), float(at[1])), label.text, font)
+        haloed(pen, (float(at[0]), float(at[1])), label.text, font, _INK)
     seen: dict[str, int] = {}
     path = tour.path
     for stretch in tour.stretches:
@@ -162,12 +163,3 @@ def _badge(
     x, y = at
     pen.ellipse((x - 12, y - 12, x + 12, y + 12), fill=colour, outline=_PAPER, width=2)
     pen.text(at, text, fill=_PAPER, font=font, anchor="mm")
-
-
-def _haloed(
-    pen: ImageDraw.ImageDraw,
-    at: tuple[float, float],
-    text: str,
-    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
-) -> None:
-    pen.text(at, text, fill=_INK, font=font, anchor="mm", stroke_width=3, stroke_fill=_PAPER)

@@ -6,9 +6,9 @@ from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
 
 from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.profile import profile_across
 
 STEP_PX = 0.25
 MOST_MOVED = 0.3
@@ -23,20 +23,13 @@ def measured(piece: Piece, soft: NDArray[np.float32]) -> Piece:
     """
     half, reach = piece.thickness_px / 2, MOST_MOVED * piece.thickness_px + 2
     across = np.arange(-half - reach, half + reach + STEP_PX / 2, STEP_PX)
-    trim = min(0.5 * piece.thickness_px, 0.2 * piece.length_px)
-    count = int(np.clip(piece.length_px / 2, 5, 200))
-    along = np.linspace(trim, piece.length_px - trim, count)
-    normal = np.array([-piece.direction[1], piece.direction[0]])
-    points = piece.start + along[:, None, None] * piece.direction + across[None, :, None] * normal
-    # The centre of the upper left pixel is (0.5, 0.5).
-    flat = points.reshape(-1, 2).T[::-1] - 0.5
-    values = map_coordinates(soft, flat, order=1, mode="nearest", prefilter=False)
-    profile = np.median(values.reshape(count, len(across)).astype(np.float64), axis=0)
+    profile = profile_across(piece, soft, across)
     inside = float(np.median(profile[np.abs(across) < 0.5 * half]))
     low = _face(profile[::-1], -across[::-1], inside, half, reach)
     high = _face(profile, across, inside, half, reach)
     if low is None or high is None or low + high < 0.5 * piece.thickness_px:
         return piece
+    normal = np.array([-piece.direction[1], piece.direction[0]])
     moved = (high - low) / 2 * normal
     return replace(piece, start=piece.start + moved, end=piece.end + moved, thickness_px=high + low)
 

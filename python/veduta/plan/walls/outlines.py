@@ -11,9 +11,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.ndimage import map_coordinates
 
 from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.profile import profile_across
 
 STEP_PX = 0.25
 
@@ -71,14 +71,7 @@ def _insets(piece: Piece, ink: NDArray[np.float32], line_px: float) -> _Insets:
     """By the median over the length, so that what touches the wall here and there is nothing."""
     half = piece.thickness_px / 2
     across = np.arange(-half - 2.5, half + 2.5 + STEP_PX / 2, STEP_PX)
-    trim = min(0.5 * piece.thickness_px, 0.2 * piece.length_px)
-    count = int(np.clip(piece.length_px / 2, 5, 200))
-    along = np.linspace(trim, piece.length_px - trim, count)
-    normal = np.array([-piece.direction[1], piece.direction[0]])
-    points = piece.start + along[:, None, None] * piece.direction + across[None, :, None] * normal
-    flat = points.reshape(-1, 2).T[::-1] - 0.5
-    values = map_coordinates(ink, flat, order=1, mode="nearest", prefilter=False)
-    profile = np.median(values.reshape(count, len(across)).astype(np.float64), axis=0)
+    profile = profile_across(piece, ink, across)
     inside = np.abs(across) < max(0.25 * half, half - LINES_WIDE * line_px)
     level = float(np.median(profile[inside]))
     return _Insets(
