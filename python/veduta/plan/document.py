@@ -134,7 +134,7 @@ class Opening(_Record):
 class Room(_Record):
     """A closed space. Outlines are inner faces of walls, counter-clockwise, not closed twice."""
 
-    id: str
+    id: Annotated[str, Field(max_length=256)]
     outline_m: list[Point]
     holes_m: list[list[Point]] = []
     area_m2: float
@@ -155,7 +155,7 @@ class Stairs(_Record):
 
     id: str
     outline_m: list[Point]
-    treads: int
+    treads: Annotated[int, Field(ge=1, le=100)]
     up: Point = Field(description="direction in which it rises, of length 1; (0, 0) if not drawn")
     score: Score
     origin: Origin = "measured"

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Storey, Wall
+from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
 from veduta.plan.house.lines import wall_lines
 from veduta.run.edited import numbers_of, read_edited, shown_faults
 from veduta.run.errors import InputError
@@ -24,7 +24,11 @@ MAX_COORDINATE = 1e6
 MAX_BULGE = 1.0
 """A wall is at most half a circle."""
 LEAST_STOREY_M = 2.0
+TALLEST_M = 100.0
+"""Nothing that stands in a house reaches higher."""
 _SHORTEST_M = 0.01
+_LEAST_FLIGHT_M2 = 0.05
+_UNIT_SLACK = 0.01
 _BEYOND_M = 0.02
 _REMEDY = "Mend it there; docs/plan.md says what each field means."
 
@@ -60,6 +64,14 @@ def _faults(document: PlanDocument) -> list[str]:
         place = f"storeys[{index}]"
         # Geometry is looked at only where the ids hold together.
         found += _id_faults(storey, place) or _storey_faults(storey, place)
+        if not storey.walls and not storey.rooms:
+            found.append(f"{place}: has neither walls nor rooms")
+    elevations = [storey.elevation_m for storey in document.storeys]
+    for index, elevation in enumerate(elevations):
+        if elevation in elevations[:index]:
+            found.append(
+                f"storeys[{index}].elevation_m: another storey lies at {elevation:g} m, too"
+            )
     return found
 
 
@@ -80,7 +92,10 @@ def _id_faults(storey: Storey, place: str) -> list[str]:
     openings = {item.id for item in storey.openings}
     rooms = {item.id for item in storey.rooms}
     for index, light in enumerate(storey.lights or []):
-        found += _unknown([(f"{place}.lights[{index}].room", light.room)], rooms)
+        at = f"{place}.lights[{index}]"
+        found += _unknown([(f"{at}.room", light.room)], rooms)
+        if not 0.0 < light.above_m < storey.height_m:
+            found.append(f"{at}.above_m: {light.above_m:g} m is not between floor and ceiling")
     for index, wall in enumerate(storey.walls):
         at = f"{place}.walls[{index}]"
         found += _unknown([(f"{at}.start", wall.start), (f"{at}.end", wall.end)], junctions)
@@ -98,11 +113,13 @@ def _furniture_faults(storey: Storey, place: str) -> list[str]:
     rooms = {room.id for room in storey.rooms}
     things = {thing.id: thing for thing in storey.furniture or ()}
     found = []
-    for index, thing in enumerate(things.values()):
+    for index, thing in enumerate(storey.furniture or ()):
         at = f"{place}.furniture[{index}]"
         found += _unknown([(f"{at}.room", thing.room)], rooms)
         if min(thing.size_m) < _SHORTEST_M:
             found.append(f"{at}.size_m: a side is less than {_SHORTEST_M:g} m")
+        if thing.above_m + thing.size_m[2] > TALLEST_M:
+            found.append(f"{at}: reaches {thing.above_m + thing.size_m[2]:g} m up")
         if thing.on is not None and thing.on not in things:
             found.append(f"{at}.on: there is no {thing.on!r}")
         elif thing.on is not None and _stands_on_itself(thing, things):
@@ -139,6 +156,8 @@ def _storey_faults(storey: Storey, place: str) -> list[str]:
         found += _opening_faults(opening, lengths[opening.wall], f"{place}.openings[{index}]")
     for index, room in enumerate(storey.rooms):
         found += _room_faults(room, f"{place}.rooms[{index}]")
+    for index, flight in enumerate(storey.stairs):
+        found += _stairs_faults(flight, f"{place}.stairs[{index}]")
     return found
 
 
@@ -176,6 +195,20 @@ def _room_faults(room: Room, place: str) -> list[str]:
             return [f"{place}.{name}: {len(ring)} points, not between 3 and {MAX_POINTS}"]
         if not Polygon(ring).is_valid:
             return [f"{place}.{name}: its line crosses or touches itself"]
+    if len(rings) > 1 and not Polygon(room.outline_m, room.holes_m).is_valid:
+        return [f"{place}.holes_m: they cross or touch the outline, or each other"]
+    return []
+
+
+def _stairs_faults(flight: Stairs, place: str) -> list[str]:
+    count, length = len(flight.outline_m), math.hypot(*flight.up)
+    if not 3 <= count <= MAX_POINTS:
+        return [f"{place}.outline_m: {count} points, not between 3 and {MAX_POINTS}"]
+    outline = Polygon(flight.outline_m)
+    if not outline.is_valid or outline.area < _LEAST_FLIGHT_M2:
+        return [f"{place}.outline_m: its line crosses itself, or encloses nothing"]
+    if length > 0.0 and abs(length - 1.0) > _UNIT_SLACK:
+        return [f"{place}.up: is {length:g} long, not 1 (or 0 where it is not known)"]
     return []
 
 

@@ -251,8 +251,10 @@ export interface PlaceCamera {
   ];
 }
 /**
- * A guided tour: where the eye is and looks, key by key. Between two keys the eye moves on a
- * straight line, and the direction turns the shorter way at an even pace.
+ * A guided tour: where the eye is and looks, key by key.
+ *
+ * Between two keys the eye moves on a straight line, and the direction turns the shorter way at an
+ * even pace.
  */
 export interface Tour {
   id: string;

@@ -101,18 +101,26 @@ def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
     ways = Ways(space.floor, space.doors)
     best: tuple[Layout, list[str]] | None = None
+    given_up: list[str] = []
     for _ in range(RESTARTS):
         layout = Layout(space, ways)
         missing, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
+        missing = [*_not_replaced(given_up, layout), *missing]
         if best is None or len(missing) < len(best[1]):
             best = (layout, missing)
         if failed is None or not failed:
             break
         # The first wishes are the largest: without the first, there is place for the critical one.
-        wishes = [wish for wish in wishes if wish != wishes[0]]
+        given_up.append(wishes.pop(0).type)
     assert best is not None  # noqa: S101
     place_upon(best[0], choice, np.random.default_rng([*seeds, 1]))
     return FurnishedRoom(space.room, tuple(best[0].stood), tuple(best[1]))
+
+
+def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:
+    """What gave way, unless what stands does its work."""
+    stood = {one.entry.type for one in layout.stood}
+    return [one for one in given_up if INSTEAD.get(one) not in stood]
 
 
 def _wishes(space: RoomSpace, choice: Choice, rng: np.random.Generator) -> Iterator[Wanted]:

@@ -1,7 +1,7 @@
 """Frames and leaves of doors. Each leaf is a mover: it turns about its hinges, or slides.
 
-Where no drawing says on which side a leaf hangs, it hangs at the start and opens to the left; the
-feature is then marked as invented.
+Where no drawing says on which side a leaf hangs, `hanging` does, and the feature is marked as
+invented.
 """
 
 from __future__ import annotations

@@ -101,7 +101,8 @@ def _stairwell(lower: Space, upper: Space, slab_m: float) -> Stairwell:
     for one in drawn:
         flight = _flight(one, lower, rise)
         if flight is None:
-            notes.append(f"stairs {one.id} of {lower.storey.name} are left out: they have no size")
+            where = f"stairs {one.id} of {lower.storey.name}"
+            notes.append(f"{where} are left out: they are too small to walk on")
             continue
         flights.append(flight)
         notes += _told(flight, lower, upper, bool(own))

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import median_filter
 from shapely.geometry.base import BaseGeometry
 
-from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.classify import judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.lines import runs
@@ -40,9 +40,6 @@ LEAST_WIDTH = 4.0
 
 BESIDE = 0.6
 """What differs so near to an opening or the wall's end, in its thicknesses, is part of that."""
-
-DOUBT = 0.8
-"""Scores of openings in walls that are not interrupted are less by this factor."""
 
 STEADY = 0.16
 """Across an opening its own drawing is the same, up to this part of the darkest row."""
@@ -99,12 +96,7 @@ def _opening(
     seen = judge(gap, look_at(gap, sheet), thin_px, True)
     if seen is None or seen.kind == "gap":
         return None
-    return OnAxis(_doubted(seen), low, high, along=True)
-
-
-def _doubted(judged: Judged) -> Judged:
-    """Less sure than one that interrupts its wall."""
-    return replace(judged, score=DOUBT * judged.score)
+    return OnAxis(seen, low, high, along=True)
 
 
 def profile(strip: Strip) -> NDArray[np.float64]:

@@ -44,7 +44,7 @@ def house_ifc(house: House, options: HouseOptions) -> bytes:
     furniture = FurnitureMaker(model, catalogue_of(options.catalogue))
     storeys = []
     for index, space in enumerate(house.spaces):
-        above = house.spaces[index + 1].slab if index + 1 < len(house.spaces) else Polygon()
+        above = house.spaces[index + 1] if index + 1 < len(house.spaces) else None
         storeys.append(_storey(model, space, above, options, is_lowest=index == 0))
         model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
@@ -184,7 +184,7 @@ class _Model:
 
 
 def _storey(
-    model: _Model, space: Space, above: BaseGeometry, options: HouseOptions, *, is_lowest: bool
+    model: _Model, space: Space, above: Space | None, options: HouseOptions, *, is_lowest: bool
 ) -> Entity:
     """A storey with everything in it."""
     name, up = space.storey.name, space.storey.elevation_m
@@ -203,7 +203,10 @@ def _storey(
         slabs.append(
             _slab(model, f"{name} floor", space.slab, (-GROUND_SLAB_M, 0.0), place, "BASESLAB")
         )
-    over = solid_region(space.covered.union(above))
+    over = space.covered
+    if above is not None:
+        over = over.union(above.slab).difference(above.well)
+    over = solid_region(over)
     if not over.is_empty:
         ends = (height, height + options.slab)
         slabs.append(_slab(model, f"{name} ceiling", over, ends, place, "FLOOR"))

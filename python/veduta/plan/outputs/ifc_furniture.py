@@ -72,7 +72,10 @@ class FurnitureMaker:
             ObjectType=thing.object,
         )  # fmt: skip
         if hasattr(element, "PredefinedType"):
-            element.PredefinedType = PREDEFINED.get(entry.type, "NOTDEFINED")
+            try:
+                element.PredefinedType = PREDEFINED.get(entry.type, "NOTDEFINED")
+            except RuntimeError:  # a catalogue of the user's may have the type in another class
+                element.PredefinedType = "NOTDEFINED"
         element.ObjectPlacement.RelativePlacement = self._axes(
             (*thing.at_m, thing.above_m + FINISH_M), thing.turn_rad
         )

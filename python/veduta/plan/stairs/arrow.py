@@ -11,8 +11,8 @@ from shapely.geometry import Point, Polygon
 
 from veduta.plan.document import Text
 
-UP = re.compile(r"^\W*(up|sobe|subir|monte|montée|h|haut|auf|hoch|ylös)\b", re.I)
-DOWN = re.compile(r"^\W*(dn|down|desce|descer|descend|descente|b|bas|ab|runter|alas)\b", re.I)
+UP = re.compile(r"^\W*((up|sobe|subir|monte|montée|haut|auf|hoch|ylös)\b|h\W*$)", re.I)
+DOWN = re.compile(r"^\W*((dn|down|desce|descer|descend|descente|bas|ab|runter|alas)\b|b\W*$)", re.I)
 HEAD = 1.3
 """How far from the end of its shaft an arrow's head is looked for, in treads."""
 BESIDE = (0.15, 0.6)

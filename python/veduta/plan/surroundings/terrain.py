@@ -65,9 +65,15 @@ class Terrain:
         way, side = self.downhill, np.array([-self.downhill[1], self.downhill[0]])
         first, last = self.ends_m
         found = []
-        for start, end in ((-_FAR_M + first, first), (first, last), (last, last + _FAR_M)):
+        if region.is_empty:
+            return []
+        left, bottom, right, top = region.bounds
+        corners_m = np.array([(left, bottom), (right, bottom), (right, top), (left, top)])
+        low, high = (corners_m @ way).min() - 1.0, (corners_m @ way).max() + 1.0
+        near, far = (corners_m @ side).min() - 1.0, (corners_m @ side).max() + 1.0
+        for start, end in ((min(low, first), first), (first, last), (last, max(high, last))):
             corners = [a * way + b * side for a, b in (
-                (start, -_FAR_M), (end, -_FAR_M), (end, _FAR_M), (start, _FAR_M)
+                (start, near), (end, near), (end, far), (start, far)
             )]  # fmt: skip
             found += pieces_of(region.intersection(Polygon(corners)))
         return found

@@ -109,7 +109,7 @@ def footprint(item: Furniture) -> Polygon:
 
 def _is_passable(hole: Hole) -> bool:
     """Whether one walks through it upright."""
-    return hole.opening.kind != "window" and hole.reaches_floor and hole.high_m >= HEAD_M
+    return hole.opening.kind != "window" and hole.low_m <= FOOT_M and hole.high_m >= HEAD_M
 
 
 def _passage(hole: Hole) -> Polygon:

@@ -10,6 +10,8 @@ from veduta.plan.tour.find import Tour
 
 ID = "tour"
 NAME = "Tour of the house"
+LONGEST_NAME = 256
+"""The manifest takes no longer names."""
 
 
 def placed_tour(tour: Tour, raised_m: float) -> PlaceTour:
@@ -25,7 +27,7 @@ def placed_tour(tour: Tour, raised_m: float) -> PlaceTour:
         stretches=[
             TourStretch(
                 room=stretch.room,
-                name=stretch.title,
+                name=stretch.title[:LONGEST_NAME],
                 start_s=round(stretch.start_s, 3),
                 end_s=round(stretch.end_s, 3),
             )

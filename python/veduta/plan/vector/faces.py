@@ -14,7 +14,7 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import polygonize
 
 from veduta.plan.vector.entities import Entities, Points, Stroke
-from veduta.plan.vector.layers import OPENINGS
+from veduta.plan.vector.layers import OPENINGS, Role
 
 THICKEST_M = 0.65
 """Faces that hold a larger circle are rooms."""
@@ -39,6 +39,7 @@ MOST_LINES = 60_000
 LEAST_NAMED = 1.0
 """Layers of walls are believed if their lines are so many times as long as what they enclose is
 wide."""
+OF_HOUSE: tuple[Role, ...] = ("wall", *OPENINGS, "stairs", "other")
 SINGLE_M = 0.1
 """Thickness of walls that are drawn as one line."""
 
@@ -58,10 +59,15 @@ def extent_of(found: Entities) -> float:
     return float((high - low).max())
 
 
+def shows_house(found: Entities) -> bool:
+    """Whether anything is drawn that may be of a house, by its layer."""
+    return len(_points(found, OF_HOUSE)) > 0
+
+
 def bounds_of(found: Entities) -> tuple[Points, Points]:
     """Low and high corner of the walls, without what lies far away by itself."""
     named = _points(found, ("wall",))
-    points = named if len(named) >= 4 else _points(found, ("wall", *OPENINGS, "stairs", "other"))
+    points = named if len(named) >= 4 else _points(found, OF_HOUSE)
     middle = np.median(points, axis=0)
     away = np.abs(points - middle).max(axis=1)
     # Far strays: beyond ten times what nine in ten points need.

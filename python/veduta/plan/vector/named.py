@@ -73,7 +73,7 @@ def _renamed(one: DrawnOpening, lengths: dict[str, float], leaf: bool) -> DrawnO
         if leaf:  # the leaf of a door beside a pane
             return one
         return replace(one, kind="window", type="unknown", hinge="none", swing="none", score=_SURE)
-    return replace(one, kind="door", type="sliding", score=_SURE)
+    return replace(one, kind="door", type="unknown", score=_SURE)
 
 
 def _leaf(one: DrawnOpening, strokes: list[Stroke], tree: STRtree, hole: BaseGeometry) -> bool:

@@ -14,7 +14,7 @@ from veduta.plan.drawn import Drawn
 from veduta.plan.reading import KnownWalls, read_cleaned
 from veduta.plan.vector.entities import Entities, entities_of
 from veduta.plan.vector.exact import Segments, exact_axes
-from veduta.plan.vector.faces import Walls, extent_of, solid_walls
+from veduta.plan.vector.faces import Walls, extent_of, shows_house, solid_walls
 from veduta.plan.vector.layers import OPENINGS
 from veduta.plan.vector.named import named_openings
 from veduta.plan.vector.open_dxf import open_dxf
@@ -67,7 +67,7 @@ def read_vectors(path: Path, given_m: float | None = None) -> VectorPlan:
 
 
 def _require_lines(path: Path, found: Entities) -> None:
-    if len(found.strokes) + len(found.filled) >= _LEAST_STROKES:
+    if len(found.strokes) + len(found.filled) >= _LEAST_STROKES and shows_house(found):
         return
     if found.missing:
         named = ", ".join(found.missing[:3])

@@ -43,7 +43,7 @@ CREATE TABLE IF NOT EXISTS wanted (
   least INTEGER NOT NULL DEFAULT 1,
   most INTEGER NOT NULL DEFAULT 1,
   from_m2 REAL NOT NULL DEFAULT 0,   -- in rooms of this area and more
-  each_m2 REAL NOT NULL DEFAULT 1000,  -- one more for each so many square metres
+  each_m2 REAL NOT NULL DEFAULT 1000 CHECK (each_m2 > 0),  -- one more for each so many square metres
   chance REAL NOT NULL DEFAULT 1.0,
   critical INTEGER NOT NULL DEFAULT 0,  -- others make room for it
   place INTEGER NOT NULL             -- order in the room
