@@ -85,6 +85,16 @@ def test_the_word_at_an_end_goes_before_the_arrow(word: str, rises: float) -> No
     assert one.up_px == (0.0, rises)
 
 
+@pytest.mark.parametrize(("words", "up"), [("H=2.60", 0.0), ("b 1.20", 0.0), ("h", -1.0)])
+def test_a_height_is_no_word_for_up(words: str, up: float) -> None:
+    grey = sheet()
+    treads(grey)
+    y = TOP + TREADS * STEP + 10.0
+    box = [(250.0, y), (280.0, y), (280.0, y + 15), (250.0, y + 15)]
+    (one,) = found(grey, (Text(text=words, box_px=box, score=1.0),))
+    assert one.up_px == (0.0, up)
+
+
 def test_treads_may_end_at_solid_walls() -> None:
     grey = sheet()
     cv2.rectangle(grey, (LEFT - 20, 125), (LEFT, 600), 255, -1)

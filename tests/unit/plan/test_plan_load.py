@@ -34,6 +34,27 @@ def test_a_sound_document_is_read_and_its_areas_made_anew(tmp_path: Path) -> Non
     assert document.storeys[0].rooms[0].area_m2 == pytest.approx(4.79 * 4.7, abs=1e-3)
 
 
+def flight(**changes: Any) -> dict[str, Any]:
+    """A flight of stairs as it stands in a file."""
+    outline = [[1.0, 1.0], [2.0, 1.0], [2.0, 3.5], [1.0, 3.5]]
+    good = {"id": "s1", "outline_m": outline, "treads": 10, "up": [0.0, 1.0], "score": 0.9}
+    return good | changes
+
+
+def lamp(**changes: Any) -> dict[str, Any]:
+    """A lamp as it stands in a file."""
+    good = {"id": "l1", "kind": "floor", "room": "living", "at_m": [1.0, 1.0], "lumen": 800.0}
+    return good | {"above_m": 1.5} | changes
+
+
+def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
+    stairs = load_document(written(tmp_path, (["stairs"], [flight()]))).storeys[0].stairs
+    assert [one.id for one in stairs] == ["s1"]
+    lights = load_document(written(tmp_path, (["lights"], [lamp()]))).storeys[0].lights
+    assert lights is not None
+    assert [one.id for one in lights] == ["l1"]
+
+
 @pytest.mark.parametrize(
     ("place", "value", "told"),
     [
@@ -57,6 +78,20 @@ def test_a_sound_document_is_read_and_its_areas_made_anew(tmp_path: Path) -> Non
         (["junctions", 0, "at_m"], [1e9, 0.0], "storeys[0].junctions[0].at_m[0]: 1000000000.0 is"),
         (["height_m"], 1.0, "storeys[0].height_m: 1 m, less than 2"),
         (["scale"], KeyError, "storeys[0].scale: Field required"),
+        (
+            ["rooms", 0, "holes_m"],
+            [[[-1.0, 2.0], [9.0, 2.0], [9.0, 2.5], [-1.0, 2.5]]],
+            "storeys[0].rooms[0].holes_m: they cross",
+        ),
+        (["stairs"], [flight(treads=0)], "storeys[0].stairs[0].treads: Input should be"),
+        (["stairs"], [flight(outline_m=[])], "storeys[0].stairs[0].outline_m: 0 points"),
+        (
+            ["stairs"],
+            [flight(outline_m=[[1, 1], [1, 1], [1, 1]])],
+            "storeys[0].stairs[0].outline_m: its line crosses itself, or encloses nothing",
+        ),
+        (["stairs"], [flight(up=[100.0, 0.0])], "storeys[0].stairs[0].up: is 100 long"),
+        (["lights"], [lamp(above_m=50.0)], "storeys[0].lights[0].above_m: 50 m is not between"),
         (["colour"], "red", "storeys[0].colour: Extra inputs are not permitted"),
     ],
 )

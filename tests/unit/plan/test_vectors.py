@@ -256,6 +256,11 @@ def test_drawings_without_lines_are_told_apart(tmp_path: Path) -> None:
     blank = saved(ezdxf.new(), tmp_path / "blank.dxf")
     with pytest.raises(NotFoundError, match=r"blank\.dxf has no lines in its model space"):
         read_vectors(blank)
+    axes = ezdxf.new()
+    for x in range(12):
+        axes.modelspace().add_line((x, 0), (x, 9), {"layer": "GRID"})
+    with pytest.raises(NotFoundError, match=r"axes\.dxf has no lines that may be of a house"):
+        read_vectors(saved(axes, tmp_path / "axes.dxf"))
     model = ezdxf.new()
     for z in range(6):
         model.modelspace().add_3dface([(0, 0, z), (1, 0, z), (1, 1, z)])

@@ -105,3 +105,11 @@ def test_a_small_bathroom_gets_a_shower_for_a_bathtub() -> None:
     done = furnished(sample_plan(storey)).storeys[0]
     assert "toilet" in things(done, "bathroom")
     assert "bathtub" not in things(done, "bathroom")
+
+
+def test_a_garage_for_one_car_has_one_and_the_other_is_told() -> None:
+    """A second car is asked for by the area of 4.8 x 4.7 m, and finds no place."""
+    rooms = [room("car", rectangle(0.15, 0.15, 4.94, 4.85), use="garage")]
+    storey = sample_storey(rooms=rooms, openings=[opening("gate", "west", 1.0, 3.0, type="garage")])
+    done = furnished(sample_plan(storey)).storeys[0]
+    assert sum("car" in one for one in things(done, "garage")) == 1

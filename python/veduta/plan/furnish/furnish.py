@@ -102,11 +102,17 @@ def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom
     ways = Ways(space.floor, space.doors)
     best: tuple[Layout, list[str]] | None = None
     given_up: list[str] = []
+    critical = {wish.type for wish in wishes if wish.critical}
+
+    def lack(missing: Sequence[str]) -> tuple[int, int]:
+        return sum(one in critical for one in missing), len(missing)
+
     for _ in range(RESTARTS):
         layout = Layout(space, ways)
         missing, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
         missing = [*_not_replaced(given_up, layout), *missing]
-        if best is None or len(missing) < len(best[1]):
+        # As much is missing either way: what was asked for in vain has its place now.
+        if best is None or lack(missing) <= lack(best[1]):
             best = (layout, missing)
         if failed is None or not failed:
             break
@@ -120,7 +126,8 @@ def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom
 def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:
     """What gave way, unless what stands does its work."""
     stood = {one.entry.type for one in layout.stood}
-    return [one for one in given_up if INSTEAD.get(one) not in stood]
+    serve = {INSTEAD[one] for one in stood if one in INSTEAD}
+    return [one for one in given_up if one not in serve and INSTEAD.get(one) not in stood]
 
 
 def _wishes(space: RoomSpace, choice: Choice, rng: np.random.Generator) -> Iterator[Wanted]:

@@ -80,6 +80,9 @@ def _require_lines(path: Path, found: Entities) -> None:
             f"has {found.bodies} 3D faces or solids and no lines",
             "Export a plan view of it as 2D lines.",
         )
+    if found.strokes or found.filled:
+        fault = f"{path.name} has no lines that may be of a house, by the names of its layers"
+        raise NotFoundError("a floor plan", fault, "Draw it on layers of other names.")
     raise NotFoundError(
         "a floor plan", f"{path.name} has no lines in its model space", "Give a drawn plan."
     )
