@@ -78,6 +78,8 @@ const PRESS_M = 0.01;
 /** What stands in the way of a body that stands is a step if this lifts it over; the least that does. */
 const LIFTS_M = [0.1, 0.25];
 const LOWERINGS = 8;
+/** What is lower the round foot of the body rolls over: so low a step is a wall that pushes unevenly. */
+const LEAST_STEP_M = 0.02;
 /** A step has room for this much of a foot. */
 const FOOTING_M = 0.1;
 /** How far two pushes off the same wall may differ, as a share. */
@@ -224,6 +226,7 @@ function stepped(feet: Vec3, push: Vec3, obstacles: Obstacles, body: Body): Vec3
       if (isFree(middle)) high = middle;
       else low = middle;
     }
+    if (high < LEAST_STEP_M) continue;
     return add(from, [0, 0, high]);
   }
   return null;
