@@ -90,8 +90,7 @@ def _reached(space: Space, doors: list[Hole], things: list[Polygon]) -> set[str]
 
 
 def _cell(hole: Hole, side: float, out: float, origin: NDArray[np.float64]) -> tuple[int, int]:
-    left = np.array([-hole.along[1], hole.along[0]])
-    at = hole.start + hole.along * hole.width_m / 2 + side * (hole.line.half_m + out) * left
+    at = hole.middle + side * (hole.line.half_m + out) * hole.leftward
     column, row = np.floor((at - origin) / CELL_M).astype(int)
     return int(row), int(column)
 

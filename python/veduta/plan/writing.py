@@ -14,7 +14,7 @@ from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
-from veduta.plan.drawing import draw
+from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
 from veduta.plan.house.placing import place_of, raised_m
 from veduta.plan.load import DOCUMENT
@@ -38,13 +38,14 @@ TOUR_PICTURE = "tour.png"
 class Result:
     """What was made: sheets are the cleaned drawings, overlay the picture that shows all.
 
-    tour_picture: the plan with the tour; None without one.
+    drawings: of the storeys from the lowest up. tour_picture: the plan with the tour; None without.
     """
 
     document: PlanDocument
     house: House
     tour: Tour | None
     sheets: Sequence[NDArray[np.uint8]]
+    drawings: Sequence[Drawing]
     overlay: NDArray[np.uint8]
     tour_picture: NDArray[np.uint8] | None
 
@@ -56,10 +57,11 @@ def result_of(
     sheets: Sequence[NDArray[np.uint8]],
 ) -> Result:
     """With the pictures drawn; sheets in the order of the document's storeys."""
-    drawings = {space.storey.name: draw(space) for space in house.spaces}
-    ordered = [drawings[storey.name] for storey in document.storeys]
+    drawings = [draw(space) for space in house.spaces]
+    by_name = {one.storey.name: one for one in drawings}
+    ordered = [by_name[storey.name] for storey in document.storeys]
     shown = None if tour is None else tour_picture(ordered, tour)
-    return Result(document, house, tour, sheets, overlay(ordered, sheets), shown)
+    return Result(document, house, tour, sheets, drawings, overlay(ordered, sheets), shown)
 
 
 def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
@@ -71,9 +73,8 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     if result.tour_picture is not None:
         (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))
-    drawings = [draw(space) for space in result.house.spaces]
-    (folder / "plan.svg").write_bytes(plan_svg(drawings))
-    (folder / "plan.dxf").write_bytes(plan_dxf(drawings))
+    (folder / "plan.svg").write_bytes(plan_svg(result.drawings))
+    (folder / "plan.dxf").write_bytes(plan_dxf(result.drawings))
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
     tour = result.tour
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path])

@@ -95,12 +95,12 @@ def weighed_pairs(database: Path, image_ids: Sequence[int], seed: int) -> list[W
     with pycolmap.Database.open(database) as opened:
         cameras = {image: _camera_of(opened, image) for image in image_ids}
         counted = _counted(opened, set(image_ids))
-        counted.sort(key=lambda pair: _place(pair, cameras))
+        counted.sort(key=lambda one: _place(one[2], _are_known(one[:2], cameras), one[:2]))
         weighed = [
             _read_and_weigh(opened, (first, second), cameras, seed)
             for first, second, _ in counted[:MOST_WEIGHED]
         ]
-    return sorted(weighed, key=_rank)
+    return sorted(weighed, key=lambda one: _place(one.telling, one.known, (one.first, one.second)))
 
 
 def weighed_pair(database: Path, pair: tuple[int, int], seed: int) -> WeighedPair:
@@ -157,18 +157,14 @@ def _counted(opened: pycolmap.Database, images: set[int]) -> list[tuple[int, int
     return found
 
 
-def _place(
-    pair: tuple[int, int, int], cameras: Mapping[int, pycolmap.Camera]
-) -> tuple[bool, bool, int, int, int]:
-    """Where a pair stands in the order in which pairs are weighed."""
-    first, second, count = pair
-    known = all(cameras[image].has_prior_focal_length for image in (first, second))
-    return (count < SURE, not known, -count, first, second)
+def _are_known(pair: tuple[int, int], cameras: Mapping[int, pycolmap.Camera]) -> bool:
+    """Whether the focal lengths of both photos are known beforehand."""
+    return all(cameras[image].has_prior_focal_length for image in pair)
 
 
-def _rank(pair: WeighedPair) -> tuple[bool, bool, int, int, int]:
-    """Where a pair stands in the order in which they are tried."""
-    return (pair.telling < SURE, not pair.known, -pair.telling, pair.first, pair.second)
+def _place(matches: int, known: bool, pair: tuple[int, int]) -> tuple[bool, bool, int, int, int]:
+    """Where a pair with so many matches stands in the order."""
+    return (matches < SURE, not known, -matches, *pair)
 
 
 def _planar_share(

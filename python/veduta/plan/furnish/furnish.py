@@ -4,12 +4,11 @@ from __future__ import annotations
 
 import zlib
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
-from shapely.geometry import Polygon
 
-from veduta.plan.document import Furniture, PlanDocument, Room, RoomUse, Stairs, Storey
+from veduta.plan.document import Furniture, PlanDocument, Room, RoomUse, Stairs
 from veduta.plan.furnish.arrangement import Spot, Variant, alone
 from veduta.plan.furnish.catalogue.entry import Wanted
 from veduta.plan.furnish.catalogue.read import Catalogue
@@ -24,8 +23,7 @@ from veduta.plan.furnish.place import place_first
 from veduta.plan.furnish.room import RoomSpace, room_spaces
 from veduta.plan.furnish.upon import place_upon
 from veduta.plan.furnish.walk import Ways
-from veduta.plan.house.flights import stairwells
-from veduta.plan.house.space import Space, space_of
+from veduta.plan.house.flights import storey_spaces
 
 GROUPS: dict[str, Callable[[Choice, RoomSpace], list[Variant]]] = {
     "sleeping": sleeping,
@@ -71,7 +69,7 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
     order = sorted(
         range(len(document.storeys)), key=lambda index: document.storeys[index].elevation_m
     )
-    spaces = storey_spaces([document.storeys[index] for index in order], slab_m)
+    spaces, _ = storey_spaces([document.storeys[index] for index in order], slab_m)
     storeys, rooms = list(document.storeys), []
     below: list[Stairs] = []
     for index, space in zip(order, spaces, strict=True):
@@ -87,40 +85,31 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
     return document.model_copy(update={"storeys": storeys}), rooms
 
 
-def storey_spaces(storeys: Sequence[Storey], slab_m: float) -> list[Space]:
-    """The storeys' regions from the lowest up, without the floors over their stairs."""
-    found = [space_of(storey, storey.height_m - slab_m) for storey in storeys]
-    openings = [Polygon(), *(well.opening for well in stairwells(found, slab_m))]
-    return [replace(space, well=opening) for space, opening in zip(found, openings, strict=False)]
-
-
 def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom:
     """A room by its use; where something critical finds no place, what came before it gives way."""
     name = zlib.crc32(f"{storey} {space.room.id}".encode())
     seeds = [choice.seed, name]
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
     ways = Ways(space.floor, space.doors)
-    best: tuple[Layout, list[str]] | None = None
+    tried: list[tuple[Layout, list[str]]] = []
     given_up: list[str] = []
     critical = {wish.type for wish in wishes if wish.critical}
 
-    def lack(missing: Sequence[str]) -> tuple[int, int]:
-        return sum(one in critical for one in missing), len(missing)
+    def lack(one: tuple[Layout, list[str]]) -> tuple[int, int]:
+        return sum(kind in critical for kind in one[1]), len(one[1])
 
     for _ in range(RESTARTS):
         layout = Layout(space, ways)
         missing, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
-        missing = [*_not_replaced(given_up, layout), *missing]
-        # As much is missing either way: what was asked for in vain has its place now.
-        if best is None or lack(missing) <= lack(best[1]):
-            best = (layout, missing)
-        if failed is None or not failed:
+        tried.append((layout, [*_not_replaced(given_up, layout), *missing]))
+        if not failed:
             break
         # The first wishes are the largest: without the first, there is place for the critical one.
         given_up.append(wishes.pop(0).type)
-    assert best is not None  # noqa: S101
-    place_upon(best[0], choice, np.random.default_rng([*seeds, 1]))
-    return FurnishedRoom(space.room, tuple(best[0].stood), tuple(best[1]))
+    # The last of those that lack as little: what was asked for in vain has its place there.
+    best, missing = min(reversed(tried), key=lack)
+    place_upon(best, choice, np.random.default_rng([*seeds, 1]))
+    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing))
 
 
 def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:
@@ -189,7 +178,7 @@ def _hang_curtain(layout: Layout, choice: Choice, group: int) -> bool:
     entry = choice.entry("curtain")
     hung = [one.shape.centroid for one in layout.stood if one.entry.type == "curtain"]
     for window in layout.space.windows:
-        middle = window.hole.start + window.hole.along * window.hole.width_m / 2.0
+        middle = window.hole.middle
         face = middle + (window.hole.line.half_m + 0.02) * window.inward
         if any(np.hypot(p.x - middle[0], p.y - middle[1]) < 0.6 for p in hung):
             continue

@@ -142,7 +142,7 @@ def _room_space(
     ways = [(hole, sign) for hole in space.holes for sign in _sides(hole, room)]
     doors = [way for way in ways if way[0].opening.kind != "window"]
     points = np.array([_before(hole, sign) for hole, sign in doors]).reshape(-1, 2)
-    middles = np.array([_middle(hole) for hole, _ in doors]).reshape(-1, 2)
+    middles = np.array([hole.middle for hole, _ in doors]).reshape(-1, 2)
     zones = [zone for hole, sign in doors for zone in _door_zones(hole, sign)]
     windows = tuple(
         Window(hole, _front_of(hole, sign, WINDOW_M, 0.0), hole.low_m, sign * hole.leftward)
@@ -170,13 +170,9 @@ def _sides(hole: Hole, room: Room) -> list[float]:
     ]
 
 
-def _middle(hole: Hole) -> Vector:
-    return hole.start + hole.along * hole.width_m / 2.0
-
-
 def _before(hole: Hole, sign: float) -> Vector:
     """Where one stands before a door."""
-    return _middle(hole) + sign * (hole.line.half_m + 0.32) * hole.leftward
+    return hole.middle + sign * (hole.line.half_m + 0.32) * hole.leftward
 
 
 def _front_of(hole: Hole, sign: float, deep_m: float, beside_m: float) -> Polygon:

@@ -2,23 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
-
-from shapely.geometry import Polygon
+from dataclasses import dataclass
 
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.doors import add_door
-from veduta.plan.house.flights import Stairwell, stairwells
+from veduta.plan.house.flights import Stairwell, storey_spaces
 from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.sound import sound_part
-from veduta.plan.house.space import Space, solid_region, space_of
+from veduta.plan.house.space import Space, solid_region
 from veduta.plan.house.stairs import add_stairs
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
@@ -45,12 +43,7 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
         builder, catalogue_of(options.catalogue), coarse=options.furniture_detail == "coarse"
     )
     storeys = sorted(document.storeys, key=lambda storey: storey.elevation_m)
-    found = [space_of(storey, storey.height_m - options.slab) for storey in storeys]
-    wells = stairwells(found, options.slab)
-    openings = [Polygon(), *(well.opening for well in wells)]
-    spaces = tuple(
-        replace(space, well=opening) for space, opening in zip(found, openings, strict=False)
-    )
+    spaces, wells = storey_spaces(storeys, options.slab)
     for index, (space, well) in enumerate(zip(spaces, wells, strict=True)):
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         _add_storey(space, above, well, sculptor, options)

@@ -167,8 +167,9 @@ class _Door:
         self._swing(first)
         polygons = self._leaf(second, face - self.side * LEAF_M, face)
         length = middle - self.first
-        left = np.array([-self.hole.along[1], self.hole.along[0]])
-        way = length * (self.side * left + (1.0 if at_end else -1.0) * self.hole.along)
+        way = length * (
+            self.side * self.hole.leftward + (1.0 if at_end else -1.0) * self.hole.along
+        )
         way = way + (1.0 if not at_end else -1.0) * LEAF_M * self.hole.along
         shift = (float(way[0]), float(way[1]), 0.0)
         self._mover("folded", polygons, (middle, face), second.turn * TURN_RAD, shift)

@@ -48,8 +48,7 @@ def free_before(entrance: Entrance, space: Space) -> NDArray[np.float64]:
 
 
 def _entrance(hole: Hole, space: Space) -> Entrance:
-    left = np.array([-hole.along[1], hole.along[0]])
-    return Entrance(hole, hole.start + hole.along * hole.width_m / 2.0, _side(hole, space) * left)
+    return Entrance(hole, hole.middle, _side(hole, space) * hole.leftward)
 
 
 def _inviting(hole: Hole) -> tuple[bool, bool, float]:
@@ -60,9 +59,8 @@ def _inviting(hole: Hole) -> tuple[bool, bool, float]:
 
 def _side(hole: Hole, space: Space) -> int:
     """+1 where the left of an opening is outdoors and its right is not, -1 the other way, or 0."""
-    middle = hole.start + hole.along * hole.width_m / 2.0
-    left = np.array([-hole.along[1], hole.along[0]]) * (hole.line.half_m + _BEYOND_M)
+    left = hole.leftward * (hole.line.half_m + _BEYOND_M)
     on_left, on_right = (
-        not space.covered.covers(Point(middle + side * left)) for side in (1.0, -1.0)
+        not space.covered.covers(Point(hole.middle + side * left)) for side in (1.0, -1.0)
     )
     return int(on_left) - int(on_right)

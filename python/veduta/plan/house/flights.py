@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,8 +17,8 @@ from shapely.geometry import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
-from veduta.plan.document import Stairs
-from veduta.plan.house.space import Space, solid_region
+from veduta.plan.document import Stairs, Storey
+from veduta.plan.house.space import Space, solid_region, space_of
 
 HEADROOM_M = 2.0
 STEEP_M = 0.22
@@ -85,6 +85,17 @@ class Stairwell:
     flights: tuple[Flight, ...] = ()
     opening: BaseGeometry = field(default_factory=Polygon)
     notes: tuple[str, ...] = ()
+
+
+def storey_spaces(
+    storeys: Sequence[Storey], slab_m: float
+) -> tuple[tuple[Space, ...], list[Stairwell]]:
+    """The storeys' regions from the lowest up, without the floors over their stairs; the stairs."""
+    found = [space_of(storey, storey.height_m - slab_m) for storey in storeys]
+    wells = stairwells(found, slab_m)
+    openings = [Polygon(), *(well.opening for well in wells[:-1])]
+    spaces = (replace(space, well=opening) for space, opening in zip(found, openings, strict=True))
+    return tuple(spaces), wells
 
 
 def stairwells(spaces: Sequence[Space], slab_m: float) -> list[Stairwell]:

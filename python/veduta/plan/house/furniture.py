@@ -11,6 +11,8 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely.affinity import rotate, translate
+from shapely.geometry import Polygon, box
 
 from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES, painted
 from veduta.place.builder import PartBuilder
@@ -24,6 +26,14 @@ from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.shapes import asset_of, finishes_of
 from veduta.plan.house.floors import FINISH_M
 from veduta.run.errors import InputError
+
+
+def footprint(item: Furniture) -> Polygon:
+    """The rectangle on which a thing stands (plan frame, m)."""
+    width, depth, _ = item.size_m
+    shape = box(-width / 2.0, -depth / 2.0, width / 2.0, depth / 2.0)
+    turned = rotate(shape, item.turn_rad, origin=(0.0, 0.0), use_radians=True)
+    return translate(turned, *item.at_m)
 
 
 @dataclass

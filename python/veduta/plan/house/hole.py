@@ -67,6 +67,11 @@ class Hole:
         return self.line.piece(self.start_m, self.end_m, self.line.half_m + _JOIN_M)
 
     @property
+    def middle(self) -> NDArray[np.float64]:
+        """Half-way between its ends, straight."""
+        return self.start + self.along * self.width_m / 2.0
+
+    @property
     def leftward(self) -> NDArray[np.float64]:
         """(2,) unit vector to the left of the wall."""
         return np.array([-self.along[1], self.along[0]])

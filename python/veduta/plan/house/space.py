@@ -174,7 +174,7 @@ def _hole(opening: Opening, space: Space, highest: float) -> Hole | None:
         return None
     hole = Hole(opening, line, start, end, low, high)
     middle = line.at((start + end) / 2.0)
-    left = np.array([-hole.along[1], hole.along[0]]) * (line.half_m + _STEP_M)
+    left = hole.leftward * (line.half_m + _STEP_M)
     return Hole(
         opening, line, start, end, low, high,
         space.room_at(middle + left), space.room_at(middle - left),

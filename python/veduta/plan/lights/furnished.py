@@ -6,8 +6,7 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from shapely.affinity import rotate, translate
-from shapely.geometry import Point, Polygon, box
+from shapely.geometry import Point
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Furniture, Light
@@ -23,14 +22,6 @@ _SHADE = 0.85
 """A lamp shines from this share of its height."""
 _NEAR_M = 2.0
 _WALL_M = 0.04
-
-
-def footprint(item: Furniture) -> Polygon:
-    """The rectangle on which a thing stands (plan frame, m)."""
-    width, depth, _ = item.size_m
-    shape = box(-width / 2.0, -depth / 2.0, width / 2.0, depth / 2.0)
-    turned = rotate(shape, item.turn_rad, origin=(0.0, 0.0), use_radians=True)
-    return translate(turned, *item.at_m)
 
 
 def light_id(item: Furniture) -> str:

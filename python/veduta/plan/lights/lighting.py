@@ -12,10 +12,11 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture, Light, PlanDocument, Room, Storey
+from veduta.plan.house.furniture import footprint
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space, pieces_of, space_of
 from veduta.plan.lights.ceiling import ceiling_lamps
-from veduta.plan.lights.furnished import footprint, furniture_lamps, seat_lamp
+from veduta.plan.lights.furnished import furniture_lamps, seat_lamp
 from veduta.plan.lights.needs import (
     CEILING_LUMEN,
     REACH_PER_HEIGHT,

@@ -47,7 +47,7 @@ def _clocks(
     scene: X3dScene, group: Element, name: str, space: Space, hole: Hole
 ) -> tuple[Element, Element]:
     """Two clocks: one that starts when somebody comes, and one when nobody is left."""
-    middle = hole.start + hole.along * hole.width_m / 2.0
+    middle = hole.middle
     up = space.storey.elevation_m + hole.low_m + (hole.high_m - hole.low_m) / 2.0
     angle = math.atan2(hole.along[1], hole.along[0])
     turned = scene.node(

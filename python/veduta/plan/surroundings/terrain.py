@@ -126,8 +126,7 @@ def ways_in(space: Space) -> list[tuple[Hole, NDArray[np.float64]]]:
 
 def outwards(hole: Hole, space: Space) -> NDArray[np.float64] | None:
     """(2,) the way out through an opening; None where both sides are in the house, or none is."""
-    middle = hole.start + hole.along * hole.width_m / 2.0
-    left = np.array([-hole.along[1], hole.along[0]])
+    middle, left = hole.middle, hole.leftward
     step = hole.line.half_m + 0.1
     inside = [space.slab.covers(Point(middle + side * step * left)) for side in (1.0, -1.0)]
     if inside[0] == inside[1]:
@@ -141,7 +140,7 @@ def _strip(
     """A way from a door straight out to the end of the plot; up to a wing that is in its way."""
     width = DRIVE_M if _is_garage(hole) else PATH_M
     half = max(width, hole.width_m + 0.3) / 2.0
-    middle = hole.start + hole.along * hole.width_m / 2.0
+    middle = hole.middle
     corners = [
         middle - half * hole.along, middle + half * hole.along,
         middle + half * hole.along + _FAR_M * out, middle - half * hole.along + _FAR_M * out,

@@ -11,14 +11,14 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import shapely
-from shapely.affinity import rotate, translate
-from shapely.geometry import Polygon, box
+from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture
 from veduta.plan.house.doors import FRAME_M
 from veduta.plan.house.flights import Flight
+from veduta.plan.house.furniture import footprint
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
 from veduta.plan.tour.leaves import OpenLeaf
@@ -97,14 +97,6 @@ def obstacles(furniture: Iterable[Furniture]) -> list[Polygon]:
         for item in furniture
         if item.above_m < HEAD_M and item.above_m + item.size_m[2] > FOOT_M
     ]
-
-
-def footprint(item: Furniture) -> Polygon:
-    """What a thing covers of the floor."""
-    width, depth, _ = item.size_m
-    shape = box(-width / 2.0, -depth / 2.0, width / 2.0, depth / 2.0)
-    turned = rotate(shape, item.turn_rad, origin=(0.0, 0.0), use_radians=True)
-    return translate(turned, *item.at_m)
 
 
 def _is_passable(hole: Hole) -> bool:
