@@ -203,6 +203,9 @@ def _furnish(
             for room in rooms
             if room.missing
         )
+        step.rejected.extend(
+            f"{room.room.id} ({room.room.use}): {note}" for room in rooms for note in room.notes
+        )
     return done
 
 
