@@ -22,12 +22,18 @@ from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
 from veduta.plan.remarks import remarks
-from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
+from veduta.plan.scale.estimate import (
+    DrawnSizes,
+    estimate_scale,
+    judged_by,
+    scale_notes,
+)
 from veduta.plan.sheets import Pixels
 from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.vector.read import VectorPlan, read_vectors
+from veduta.plan.vector.units import text_notes
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -137,7 +143,7 @@ def _read_vectors(
         }
     progress("scale and names", 0.0)
     with timed_step(steps, "scale and names") as step:
-        scale = _vector_scale(plan)
+        scale, scale_said = _vector_scale(plan)
         drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
         named = _names(drawn, scale.metres_per_px)
         step.counts["evidence"] = len(scale.evidence)
@@ -150,13 +156,18 @@ def _read_vectors(
         elevation_m=elevation_m,
         height_m=options.house.storey_height,
         named=named,
-        notes=[*plan.notes, *remarks(drawn, None, scale.metres_per_px), *_strays(drawn)],
+        notes=[
+            *plan.notes,
+            *remarks(drawn, None, scale.metres_per_px),
+            *scale_said,
+            *_strays(drawn),
+        ],
     )
     return storey, drawn.cleaned.pixels
 
 
-def _vector_scale(plan: VectorPlan) -> Scale:
-    """Of a pixel: the unit's, with what the texts say beside it; they are rounded."""
+def _vector_scale(plan: VectorPlan) -> tuple[Scale, list[str]]:
+    """Of a pixel: the unit's, with what the texts say beside it; and notes where they differ."""
     drawn, unit = plan.drawn, plan.unit
     metres_per_px = unit.metres_per_px / plan.px_per_unit
     sizes = DrawnSizes(
@@ -170,8 +181,10 @@ def _vector_scale(plan: VectorPlan) -> Scale:
         one.model_copy(update={"metres_per_px": one.metres_per_px / plan.px_per_unit})
         for one in unit.evidence
     ]
-    told = [one for one in estimate_scale(sizes, metres_per_px).evidence if one.kind != "given"]
-    return unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
+    said = estimate_scale(sizes)
+    told = judged_by(metres_per_px, said.evidence) if said.basis == "evidence" else []
+    scale = unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
+    return scale, text_notes(scale, said)
 
 
 def _remedy(drawing: Drawing) -> str:

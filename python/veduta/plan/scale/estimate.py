@@ -131,18 +131,23 @@ def _given(metres_per_px: float, voters: list[Voter]) -> Scale:
     first = ScaleEvidence(
         kind="given", metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, agrees=True
     )
-    judged = [
+    judged = judged_by(metres_per_px, own)
+    return Scale(
+        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
+    )
+
+
+def judged_by(metres_per_px: float, evidence: Sequence[ScaleEvidence]) -> list[ScaleEvidence]:
+    """The evidence with whether it agrees with a scale that is known."""
+    return [
         one.model_copy(
             update={
                 "agrees": abs(one.metres_per_px / metres_per_px - 1.0)
                 <= max(3.0 * one.sigma, _DISAGREES)
             }
         )
-        for one in own
+        for one in evidence
     ]
-    return Scale(
-        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
-    )
 
 
 def _assumed(doors: Voter | None, sizes: DrawnSizes, options: VoteOptions) -> Scale:
