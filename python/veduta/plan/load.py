@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import numpy as np
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
@@ -85,9 +86,7 @@ def size_of(storey: Storey) -> float:
     points = [junction.at_m for junction in storey.junctions]
     points += [point for room in storey.rooms for point in room.outline_m]
     points += [point for flight in storey.stairs for point in flight.outline_m]
-    if not points:
-        return 0.0
-    return max(max(values) - min(values) for values in zip(*points, strict=True))
+    return float(np.ptp(points, axis=0).max()) if points else 0.0
 
 
 def _id_faults(storey: Storey, place: str) -> list[str]:

@@ -13,6 +13,7 @@ from sample_plan import sample_storey
 from shapely.affinity import affine_transform, translate
 from shapely.geometry import Polygon, box
 
+from veduta.plan import analyse
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import Storey
 from veduta.plan.drawing import draw
@@ -150,6 +151,15 @@ def test_sizes_that_contradict_the_unit_are_told(tmp_path: Path, times: float, t
 def test_a_drawing_that_is_no_house_in_any_unit_is_named(tmp_path: Path) -> None:
     with pytest.raises(InputError, match=r"tiny\.dxf: is 0\.0008 units wide"):
         storey_of(saved(two_rooms(10_000.0), tmp_path / "tiny.dxf"))
+
+
+def test_a_drawing_of_more_than_a_house_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The house is 7.7 m long between centre lines."""
+    monkeypatch.setattr(analyse, "LARGEST_M", 5.0)
+    with pytest.raises(InputError, match=r"large\.dxf: is 8 m from end to end; 5 m are the most"):
+        storey_of(saved(two_rooms(), tmp_path / "large.dxf"))
 
 
 def test_faces_between_lines_are_the_walls() -> None:

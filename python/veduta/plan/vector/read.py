@@ -54,7 +54,7 @@ def read_vectors(path: Path, given_m: float | None = None) -> VectorPlan:
     known = KnownWalls(
         sheet.solid if not walls.solid.is_empty else None, lambda axes: exact_axes(axes, segments)
     )
-    drawn = read_cleaned(sheet.cleaned, sheet.cleaned.texts or (), known=known)
+    drawn = read_cleaned(sheet.cleaned, sheet.texts, known=known)
     drawn = replace(drawn, openings=named_openings(drawn, found, sheet))
     return VectorPlan(
         drawn=drawn,
