@@ -36,7 +36,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -82,8 +82,7 @@ def run_plan(
     if checked is not None:
         check_objects(checked, catalogue, call.paths[0])
     drawings = _drawings(call, options)
-    used: Options = options if call.kind == "drawings" else options.house
-    key = result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *digests])
+    key = result_key_of(call, options, digests)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
@@ -94,6 +93,14 @@ def run_plan(
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
+
+
+def result_key_of(call: Call, options: PlanOptions, catalogue_digests: Sequence[str]) -> str:
+    """What the result depends on: of a catalogue its content, wherever it lies."""
+    house = options.house.model_copy(update={"catalogue": None})
+    drawn = options.model_copy(update={"house": house})
+    used: Options = drawn if call.kind == "drawings" else house
+    return result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *catalogue_digests])
 
 
 def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:

@@ -14,14 +14,17 @@ from scipy.spatial.transform import Rotation
 from veduta.photos.city.facades import facades_of
 from veduta.photos.city.model import CityBuilding, CityModel
 from veduta.photos.laying import walls_in_the_world
+from veduta.photos.world import register as register_step
 from veduta.photos.world.believed import Standing, believed
 from veduta.photos.world.columns import plane_fit
 from veduta.photos.world.evidence import Matches
 from veduta.photos.world.free_space import sight_lines, violations
 from veduta.photos.world.gauss_newton import Pose
 from veduta.photos.world.georeference import Georeference, Similarity
+from veduta.photos.world.georeferencing import Georeferenced
 from veduta.photos.world.refine import PLANE, Refined
 from veduta.photos.world.register import register, residuals_of
+from veduta.photos.world.report import georef_notes
 
 
 @pytest.fixture(scope="module", params=[2, 1], ids=["both sides", "one side"])
@@ -133,6 +136,22 @@ def test_a_terrace_of_equal_houses_is_refused(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(registration_streets, "_town", terrace)
     street = simulated_street(1, streets=2)
     assert not laid(street, street.model).accepted
+
+
+def test_a_refinement_that_runs_away_is_told(
+    monkeypatch: pytest.MonkeyPatch, street: SimulatedStreet, found: Georeference
+) -> None:
+    def away(refined: Refined, *_: object) -> Refined:
+        world = refined.world_from_model
+        return replace(refined, world_from_model=replace(world, shift=world.shift + 10.0))
+
+    monkeypatch.setattr(register_step, "refine_by_points", away)
+    again = laid(street, street.model)
+    assert again.best is not None
+    assert errors(street, again)[0] < 1.0
+    notes = georef_notes([Georeferenced((again,))])
+    assert sum("leads away from the walls' placement" in note for note in notes) == 1
+    assert not found.notes
 
 
 def test_too_few_walls_are_refused(street: SimulatedStreet) -> None:
