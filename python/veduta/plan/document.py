@@ -188,6 +188,9 @@ class Light(_Record):
     at_m: Point
     above_m: Metres = Field(description="from the floor to where it shines from")
     lumen: Annotated[float, Field(gt=0.0, le=100_000.0)]
+    thing: str | None = Field(
+        default=None, description="id of the furniture that is this lamp: it shines from there"
+    )
     origin: Origin = "invented"
 
 

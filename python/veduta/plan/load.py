@@ -6,6 +6,7 @@ import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
+import numpy as np
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
@@ -26,6 +27,8 @@ MAX_BULGE = 1.0
 LEAST_STOREY_M = 2.0
 TALLEST_M = 100.0
 """Nothing that stands in a house reaches higher."""
+LARGEST_M = 500.0
+"""From one end of a storey to the other: what is larger is no house."""
 _SHORTEST_M = 0.01
 _LEAST_FLIGHT_M2 = 0.05
 _UNIT_SLACK = 0.01
@@ -64,6 +67,9 @@ def _faults(document: PlanDocument) -> list[str]:
         place = f"storeys[{index}]"
         # Geometry is looked at only where the ids hold together.
         found += _id_faults(storey, place) or _storey_faults(storey, place)
+        if size_of(storey) > LARGEST_M:
+            size = f"{size_of(storey):.0f} m from end to end"
+            found.append(f"{place}: is {size}; {LARGEST_M:.0f} m are the most")
         if not storey.walls and not storey.rooms:
             found.append(f"{place}: has neither walls nor rooms")
     elevations = [storey.elevation_m for storey in document.storeys]
@@ -73,6 +79,14 @@ def _faults(document: PlanDocument) -> list[str]:
                 f"storeys[{index}].elevation_m: another storey lies at {elevation:g} m, too"
             )
     return found
+
+
+def size_of(storey: Storey) -> float:
+    """From one end of its walls, rooms and stairs to the other, along x or y (m)."""
+    points = [junction.at_m for junction in storey.junctions]
+    points += [point for room in storey.rooms for point in room.outline_m]
+    points += [point for flight in storey.stairs for point in flight.outline_m]
+    return float(np.ptp(points, axis=0).max()) if points else 0.0
 
 
 def _id_faults(storey: Storey, place: str) -> list[str]:

@@ -13,6 +13,7 @@ from veduta.plan.house.flights import Stairwell, storey_spaces
 from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
+from veduta.plan.house.ground_level import ground_storey
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.sound import sound_part
@@ -33,6 +34,12 @@ class House:
 
     part: Part
     spaces: tuple[Space, ...]
+    """From the lowest storey up."""
+
+    @property
+    def ground(self) -> int:
+        """The row of the storey at the level of the ground around the house."""
+        return ground_storey([space.storey for space in self.spaces])
 
 
 def build_house(document: PlanDocument, options: HouseOptions) -> House:
@@ -54,7 +61,10 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     add_slab(first.slab, base - GROUND_SLAB_M, base, "ground slab", sculptor)
     top = last.storey.elevation_m + last.storey.height_m
     builder.notes.extend(add_roof(last.covered, top, sculptor, options))
-    builder.attributes["storeysAboveGround"] = len(spaces)
+    below = ground_storey(storeys)
+    builder.attributes["storeysAboveGround"] = len(spaces) - below
+    if below:
+        builder.attributes["storeysBelowGround"] = below
     return House(furnishing.onto(sound_part(builder.build())), spaces)
 
 
