@@ -82,7 +82,9 @@ $(CJVAL):
 test: setup lint test-rust test-python test-studio test-browser ## all checks and all tests
 	@printf '\nAll tests passed.\n'
 
-lint: lint-python lint-rust lint-studio ## style and types of the three languages
+# Two at a time: mypy and eslint use one core each.
+lint: $(EXTENSION) $(NODE_PACKAGES) ## style and types of the three languages
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint-python lint-rust lint-studio
 
 lint-python: $(EXTENSION)
 	@$(STAGE) "ruff" $(PY) -m ruff check .
