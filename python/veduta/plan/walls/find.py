@@ -164,7 +164,9 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     inside = walls[cells.labels]
     hatched = hatched_areas(strokes)
     drawing: WallDrawing = "hollow"
-    if hatched.any() and float(hatched.sum()) > MOSTLY * float(inside.sum()):
+    # Where walls have outlines, their hatching lies in these: arcs of doors have strokes, too.
+    covered = hatched & inside if inside.any() else hatched
+    if hatched.any() and float(covered.sum()) > MOSTLY * float(inside.sum()):
         drawing = "hatched"
         inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
     return inside | (ink & _grown(inside, 3 * line_px)), drawing

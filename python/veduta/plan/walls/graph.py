@@ -67,6 +67,10 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
             ends = (alias[one], alias[other])
             key = (min(ends), max(ends))
             if ends[0] != ends[1] and key not in edges:
+                line = axes[index].line
+                first, second = ((nodes[end] - line.start) @ line.direction for end in ends)
+                if first < second:  # of two points that became one, one has moved along the axis
+                    low, high = float(first), float(second)
                 edges[key] = Edge(ends[0], ends[1], index, low, high)
     kept = _without_islands(tuple(edges.values()))
     return Graph(nodes, kept, tuple(_type(node, nodes, kept) for node in range(len(nodes))))
@@ -179,7 +183,33 @@ def _clustered(
         if weight[index] > heaviest[alias[index]]:
             heaviest[alias[index]] = weight[index]
             nodes[alias[index]] = point
-    return nodes, alias
+    through: list[set[int]] = [set() for _ in roots]
+    for axis_index, here in enumerate(stops):
+        for _, index in here:
+            through[alias[index]].add(axis_index)
+    return np.array(
+        [_on_lines(node, [axes[i] for i in at]) for node, at in zip(nodes, through, strict=True)]
+    ).reshape(-1, 2), alias
+
+
+def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.float64]:
+    """The node moved to where the two longest walls cross that meet there, so that none is bent.
+
+    Its cluster may have their crossing and, a little beside it, the end of one of them.
+    """
+    ordered = sorted(axes, key=lambda one: -one.line.length_px)
+    first = ordered[0].line
+    for other in ordered[1:]:
+        line = other.line
+        cross = first.direction[0] * line.direction[1] - first.direction[1] * line.direction[0]
+        if abs(cross) < np.sin(MEET_RAD):
+            continue
+        apart = line.start - first.start
+        along = (apart[0] * line.direction[1] - apart[1] * line.direction[0]) / cross
+        place = first.start + along * first.direction
+        near = max(first.thickness_px, line.thickness_px)
+        return place if float(np.hypot(*(place - node))) <= near else node
+    return node
 
 
 def _type(node: int, nodes: NDArray[np.float64], edges: Sequence[Edge]) -> JunctionType:
