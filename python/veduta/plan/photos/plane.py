@@ -25,11 +25,15 @@ _FOCALS = (0.45, 1.8)
 """Those that a lattice may give; of a plane seen nearly head-on it is no more than noise."""
 HEAD_ON = math.cos(math.radians(20.0))
 _LEVEL = math.cos(math.radians(45.0))
-EYE_M = {"floor": (1.5, 0.15), "wall": (1.8, 0.5), "ceiling": (1.0, 0.5)}
-"""How far the camera is from the plane (m), and by what factor that is doubtful (a logarithm)."""
+EYE_M = 1.5
+"""How high a camera is held."""
+_DOUBT = {"floor": 0.15, "wall": 0.4}
+"""How far the camera is from the plane is known so exactly (a logarithm)."""
+WALL_AWAY = 0.75
+"""How far one stands from the wall that one photographs, in widths of the room."""
 _SHAPE = 0.06
 """How exactly the ratio of the sides is known (a logarithm)."""
-TYPICAL_M: dict[Seen, tuple[Size, ...]] = {
+TYPICAL_M: dict[Literal["floor", "wall"], tuple[Size, ...]] = {
     "floor": (
         (0.10, 0.10), (0.20, 0.20), (0.30, 0.30), (0.45, 0.45), (0.60, 0.60), (0.80, 0.80),
         (0.60, 0.30), (0.20, 0.10), (0.80, 0.40), (0.90, 0.15), (1.20, 0.20), (0.45, 0.30),
@@ -38,7 +42,6 @@ TYPICAL_M: dict[Seen, tuple[Size, ...]] = {
         (0.10, 0.10), (0.15, 0.15), (0.20, 0.20), (0.30, 0.30), (0.15, 0.075), (0.20, 0.10),
         (0.25, 0.20), (0.30, 0.20), (0.40, 0.25), (0.50, 0.20), (0.60, 0.30), (0.60, 0.20),
     ),
-    "ceiling": ((0.60, 0.60), (1.20, 0.60)),
 }  # fmt: skip
 """Sizes in which tiles are sold (m), longer side first."""
 
@@ -56,9 +59,7 @@ class Plane:
     distance: float
 
 
-def plane_of(
-    photo_from_tiles: Matrix, size_px: tuple[int, int], focal_px: float | None
-) -> Plane:
+def plane_of(photo_from_tiles: Matrix, size_px: tuple[int, int], focal_px: float | None) -> Plane:
     """The plane of a lattice. size_px: of the photo, width and height; upright."""
     centred = translation(-size_px[0] / 2.0, -size_px[1] / 2.0) @ photo_from_tiles
     focal = focal_px or _focal_of(centred, max(size_px))
@@ -75,14 +76,18 @@ def plane_of(
     return Plane(surface, head_on, width / height, abs(depth) / width)
 
 
-def likely_size(plane: Plane) -> Size:
-    """Width and height of a tile (m): the likeliest of the typical sizes, either way round."""
-    eye_m, doubt = EYE_M[plane.surface]
-    both = [turned for size in TYPICAL_M[plane.surface] for turned in (size, size[::-1])]
+def likely_size(plane: Plane, room_m: float) -> Size:
+    """Width and height of a tile (m): the likeliest of the typical sizes, either way round.
+
+    room_m: how wide the room is about.
+    """
+    kind: Literal["floor", "wall"] = "floor" if plane.surface == "floor" else "wall"
+    away_m = EYE_M if kind == "floor" else WALL_AWAY * room_m
+    both = [turned for size in TYPICAL_M[kind] for turned in (size, size[::-1])]
 
     def unlikely(size: Size) -> float:
         shape = math.log(size[0] / size[1] / plane.shape) / _SHAPE
-        away = math.log(size[0] * plane.distance / eye_m) / doubt
+        away = math.log(size[0] * plane.distance / away_m) / _DOUBT[kind]
         return shape**2 + away**2
 
     return min(both, key=unlikely)

@@ -63,9 +63,7 @@ def best_block(lattice: Lattice) -> Block | None:
     return None if best is None else best[1]
 
 
-def block_texture(
-    pixels: Pixels, photo_from_tiles: Matrix, block: Block, shape: float
-) -> Pixels:
+def block_texture(pixels: Pixels, photo_from_tiles: Matrix, block: Block, shape: float) -> Pixels:
     """(h, w, 3) the block seen from straight before it, evenly lit; shape: a tile's width by height.
 
     photo_from_tiles: for these pixels.

@@ -50,8 +50,11 @@ class Looked:
     rectangles: int
 
 
-def find_tiles(pixels: Pixels, focal_px: float | None) -> Looked:
-    """The tiles of the floor and of a wall in (h, w, 3) sRGB: of each the lattice of most tiles."""
+def find_tiles(pixels: Pixels, focal_px: float | None, room_m: float) -> Looked:
+    """The tiles of the floor and of a wall in (h, w, 3) sRGB: of each the lattice of most tiles.
+
+    room_m: how wide the room is about; it bounds how far a wall is, and so how large its tiles are.
+    """
     height, width = pixels.shape[:2]
     shrink = min(1.0, WORK_PX / max(height, width))
     size = (max(1, round(width * shrink)), max(1, round(height * shrink)))
@@ -60,14 +63,18 @@ def find_tiles(pixels: Pixels, focal_px: float | None) -> Looked:
     photo_from_small = homography.scaling(width / size[0], height / size[1])
     found: dict[Surface, TilesSeen] = {}
     for lattice in find_lattices(rectangles):
-        seen = _seen(pixels, lattice, photo_from_small, focal_px)
+        seen = _seen(pixels, lattice, photo_from_small, focal_px, room_m)
         if seen is not None and seen.surface not in found:
             found[seen.surface] = seen
     return Looked(tuple(found.values()), len(rectangles))
 
 
 def _seen(
-    pixels: Pixels, small: Lattice, photo_from_small: homography.Matrix, focal_px: float | None
+    pixels: Pixels,
+    small: Lattice,
+    photo_from_small: homography.Matrix,
+    focal_px: float | None,
+    room_m: float,
 ) -> TilesSeen | None:
     """The tiles of a lattice; None on ceilings, and where no block of it is whole."""
     block = best_block(small)
@@ -80,6 +87,6 @@ def _seen(
     lattice = Lattice(
         matrix, small.cells, small.corners_px * scale, small.bond, small.joint, small.residual
     )
-    size = likely_size(plane)
+    size = likely_size(plane, room_m)
     texture = block_texture(pixels, matrix, block, size[0] / size[1])
     return TilesSeen(plane.surface, plane, lattice, block, texture, size)
