@@ -15,7 +15,7 @@ Rgb = tuple[int, int, int]
 
 @dataclass(frozen=True)
 class Tiled:
-    """Tiles of a size (m, with the joint), their joint (m), colours; bond: shift of every other row."""
+    """Tiles of a size (m, with the joint) and colours; bond: the shift of every other row."""
 
     size_m: tuple[float, float]
     joint_m: float = 0.005

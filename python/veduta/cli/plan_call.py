@@ -29,8 +29,8 @@ Photos = Annotated[
         metavar="ROOM=FILE",
         help_behavior_hint="",
         help=(
-            "a photo of a room, by its id or name: its walls get the colour, its floor and walls the"
-            " tiles that it shows; may be given several times"
+            "a photo of a room, by its id or name: its walls get the colour, its floor and walls"
+            " the tiles that it shows; may be given several times"
         ),
     ),
 ]

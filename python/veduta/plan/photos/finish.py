@@ -82,9 +82,8 @@ def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
     document = document.model_copy(update={"storeys": storeys})
     used = set(picture_names(document))
     kept = {name: pixels for name, pixels in pictures.items() if name in used}
-    return Finished(
-        document, kept, tuple(l for own in by_place.values() for l in own), tuple(notes)
-    )
+    seen = tuple(look for looks in by_place.values() for look in looks)
+    return Finished(document, kept, seen, tuple(notes))
 
 
 def _finished(

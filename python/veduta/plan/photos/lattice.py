@@ -122,7 +122,7 @@ def _grown(
 
 @dataclass(frozen=True)
 class _Neighbours:
-    """rows: (n,) of the rectangles. cells: (n, 2). corners_px: (n, 4, 2), as those of the lattice."""
+    """rows: (n,) of rectangles. cells: (n, 2). corners_px: (n, 4, 2), turned as the lattice's."""
 
     rows: NDArray[np.int64]
     cells: NDArray[np.int64]
@@ -204,9 +204,10 @@ def _fitted(
     several = len(cells) > 1
     for _ in range(_FITS if several else 1):
         model = start[:, None] + _inset(joint)
-        matrix, _ = cv2.findHomography(model.reshape(-1, 2), corners_px.reshape(-1, 2))
-        if matrix is None or abs(np.linalg.det(matrix)) < _DEGENERATE:
+        found, _ = cv2.findHomography(model.reshape(-1, 2), corners_px.reshape(-1, 2))
+        if found is None or abs(np.linalg.det(found)) < _DEGENERATE:
             return None
+        matrix = np.asarray(found, dtype=np.float64)
         flat = homography.apply(homography.inverse(matrix), corners_px.reshape(-1, 2))
         flat = flat.reshape(-1, 4, 2)
         residual = float(np.sqrt(((flat - model) ** 2).sum(axis=2).mean()))

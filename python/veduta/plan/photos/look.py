@@ -26,7 +26,7 @@ FEW = 0.02
 
 @dataclass(frozen=True)
 class Look:
-    """colour: of the walls, None where tiles leave nothing of them. tiles: with no `texture` twice.
+    """colour: of the walls, None where they are tiled. tiles: one of a surface at most.
 
     notes: what is doubtful, or was not found.
     """
@@ -48,7 +48,11 @@ def look_at(photo: RoomPhoto, room: Room) -> Look:
     pixels = image.pixels
     found = find_tiles(pixels, image.focal_px, room.area_m2**0.5)
     notes = [f"{photo.path.name}: {note}" for note in image.notes]
-    notes += [f"{photo.path.name}: {_doubt(one)}" for one in found.tiles if one.plane.head_on]
+    if len(found.tiles) == 1 and found.tiles[0].plane.head_on:
+        notes.append(
+            f"{photo.path.name}: tiles that are seen from straight before them are taken for those"
+            " of a wall"
+        )
     if not found.tiles:
         notes.append(
             f"{photo.path.name}: no tiles: of {found.rectangles} rectangles in it, no six lie as"
@@ -71,16 +75,17 @@ def look_at(photo: RoomPhoto, room: Room) -> Look:
     return Look(photo, pixels, colour, found.tiles, tuple(notes))
 
 
-def _doubt(tiles: TilesSeen) -> str:
-    return f"tiles that are seen from straight before them are taken for those of a {tiles.surface}"
+def tile_rings(tiles: TilesSeen) -> NDArray[np.float64]:
+    """(n, 4, 2) the outline of each tile with half of its joints, in the photo."""
+    lattice = tiles.lattice
+    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    rings = origins(lattice.cells, lattice.bond)[:, None] + square
+    return homography.apply(lattice.photo_from_tiles, rings.reshape(-1, 2)).reshape(-1, 4, 2)
 
 
 def _covered(tiles: tuple[TilesSeen, ...], shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """(h, w) what tiles cover of the photo."""
     canvas = np.zeros(shape[:2], dtype=np.uint8)
-    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     for one in tiles:
-        for start in origins(one.lattice.cells, one.lattice.bond):
-            ring = homography.apply(one.lattice.photo_from_tiles, start + square)
-            cv2.fillConvexPoly(canvas, ring.round().astype(np.int32), 1)
+        cv2.fillPoly(canvas, list(tile_rings(one).round().astype(np.int32)), 1)
     return canvas.astype(np.bool_)

@@ -1,4 +1,4 @@
-"""How the plane of a lattice lies before the camera: a floor or a wall, and how large its tiles are.
+"""How the plane of a lattice lies before the camera, a floor or a wall, and its tiles' size.
 
 A photo alone has no scale. The size of a tile is the typical one that fits its shape best, and
 that puts the camera about as high over a floor, or as far from a wall, as one stands. It is

@@ -80,7 +80,7 @@ def _of_level(calm: NDArray[np.bool_]) -> list[NDArray[np.float64]]:
     for number in outer:
         size = cv2.contourArea(rings[number])
         if SHORTEST_PX**2 < size < most:
-            corners = _four_corners(rings[number], size)
+            corners = _four_corners(np.asarray(rings[number], dtype=np.int32), size)
             found += [] if corners is None else [corners]
     return found
 

@@ -55,7 +55,7 @@ def best_block(lattice: Lattice) -> Block | None:
             if not len(rows):
                 continue
             starts = np.stack([columns, rows], axis=1) + low
-            worth = width * height * _sharpness(lattice, starts + [width / 2, height / 2])
+            worth = width * height * _sharpness(lattice, starts + np.array([width, height]) / 2.0)
             at = int(worth.argmax())
             if best is None or worth[at] > best[0]:
                 x, y = starts[at].tolist()
@@ -64,8 +64,9 @@ def best_block(lattice: Lattice) -> Block | None:
 
 
 def block_texture(pixels: Pixels, photo_from_tiles: Matrix, block: Block, shape: float) -> Pixels:
-    """(h, w, 3) the block seen from straight before it, evenly lit; shape: a tile's width by height.
+    """(h, w, 3) the block as seen from straight before it, evenly lit.
 
+    shape: a tile's width by its height.
     photo_from_tiles: for these pixels.
     """
     middle = block.corners.mean(axis=0, keepdims=True)
@@ -98,7 +99,7 @@ def _period(bond: Bond) -> tuple[int, int]:
 
 
 def _half_cells(lattice: Lattice) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """The first corner (whole tiles), and which halves of tiles from there on were found, (h, w)."""
+    """The first corner, in whole tiles, and (h, w) which halves of tiles were found from there."""
     at = origins(lattice.cells, lattice.bond)
     low = np.floor(at.min(axis=0))
     halves = ((at - low) * 2.0).round().astype(np.int64)
