@@ -211,9 +211,22 @@ def _room_faults(room: Room, place: str) -> list[str]:
             return [f"{place}.{name}: {len(ring)} points, not between 3 and {MAX_POINTS}"]
         if not Polygon(ring).is_valid:
             return [f"{place}.{name}: its line crosses or touches itself"]
+    if room.tilings and (faults := _tiling_faults(room, place)):
+        return faults
     if len(rings) > 1 and not Polygon(room.outline_m, room.holes_m).is_valid:
         return [f"{place}.holes_m: they cross or touch the outline, or each other"]
     return []
+
+
+def _tiling_faults(room: Room, place: str) -> list[str]:
+    found = []
+    for index, tiling in enumerate(room.tilings):
+        at = f"{place}.tilings[{index}]"
+        if min(tiling.size_m) < _SHORTEST_M:
+            found.append(f"{at}.size_m: a side is less than {_SHORTEST_M:g} m")
+        if any(other.surface == tiling.surface for other in room.tilings[:index]):
+            found.append(f"{at}.surface: the {tiling.surface} has tiles already")
+    return found
 
 
 def _stairs_faults(flight: Stairs, place: str) -> list[str]:

@@ -16,6 +16,7 @@ from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.ground_level import ground_storey
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
+from veduta.plan.house.room_looks import Pictures, room_looks
 from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space, solid_region
 from veduta.plan.house.stairs import add_stairs
@@ -42,10 +43,15 @@ class House:
         return ground_storey([space.storey for space in self.spaces])
 
 
-def build_house(document: PlanDocument, options: HouseOptions) -> House:
-    """The house; the notes of the part say what was left out or is otherwise than asked."""
+def build_house(
+    document: PlanDocument, options: HouseOptions, pictures: Pictures | None = None
+) -> House:
+    """The house; the notes of the part say what was left out or is otherwise than asked.
+
+    pictures: of tiles that photos of rooms show.
+    """
     builder = PartBuilder(PART)
-    sculptor = Sculptor(builder, Looks(builder))
+    sculptor = Sculptor(builder, Looks(builder, room_looks(document, pictures or {})))
     furnishing = Furnishing(
         builder, catalogue_of(options.catalogue), coarse=options.furniture_detail == "coarse"
     )
