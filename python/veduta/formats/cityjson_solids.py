@@ -160,7 +160,9 @@ class CityDocument:
 
     def _rings(self, rings: Rings) -> list[list[int]]:
         """The vertices of a face; none where it is too thin for the grid."""
-        steps = [np.round((ring - self._origin) / GRID_M).astype(np.int64).tolist() for ring in rings]
+        steps = [
+            np.round((ring - self._origin) / GRID_M).astype(np.int64).tolist() for ring in rings
+        ]
         kept = _cleaned([[(x, y, z) for x, y, z in ring] for ring in steps])
         known = self._vertices
         return [[known.setdefault(vertex, len(known)) for vertex in ring] for ring in kept]

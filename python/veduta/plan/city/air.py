@@ -19,7 +19,7 @@ from veduta.plan.city.matter import INTO_M
 from veduta.plan.document import Room
 from veduta.plan.house.floors import FINISH_M
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.space import Space, pieces_of
+from veduta.plan.house.space import Space
 
 BESIDE_M = 0.1
 """What lies so near to a room's floor, and is no wall's and no other room's, belongs to it."""
@@ -63,9 +63,7 @@ def cavities(
     return found, joined(filled)
 
 
-def _hollows(
-    space: Space, opening: BaseGeometry, slab_m: float, marks: Marks
-) -> list[_Hollow]:
+def _hollows(space: Space, opening: BaseGeometry, slab_m: float, marks: Marks) -> list[_Hollow]:
     """The rooms of a storey; a floor goes on over the well in it."""
     floors = replace(space, well=Polygon()).floors
     regions = _regions(space, [region for _, region in floors])

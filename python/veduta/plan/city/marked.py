@@ -117,6 +117,15 @@ class Marks:
         return list(numbers), np.array(group, dtype=np.uint32)[which.reshape(-1)]
 
 
+def one_mark(mark: Mark) -> MarkOf:
+    """The same mark for all faces."""
+
+    def mark_of(_middle: NDArray[np.float64], _normal: NDArray[np.float64]) -> Mark:
+        return mark
+
+    return mark_of
+
+
 def joined(solids: Sequence[manifold3d.Manifold]) -> manifold3d.Manifold:
     """All of them as one."""
     return manifold3d.Manifold.batch_boolean(list(solids), manifold3d.OpType.Add)

@@ -11,11 +11,10 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry.base import BaseGeometry
 
 from veduta.place.part import Part
 from veduta.place.semantics import SemanticClass
-from veduta.plan.city.marked import Mark, MarkOf, Marks, joined
+from veduta.plan.city.marked import Mark, Marks, joined, one_mark
 from veduta.plan.house.build import GROUND_SLAB_M
 from veduta.plan.house.floors import FINISH_M, slab_over
 from veduta.plan.house.hole import Hole
@@ -28,7 +27,8 @@ _THIN = 0.8
 """A panel is thinner than its wall."""
 INTO_M = 0.002
 """How far what fills an opening reaches into the wall around it."""
-_INTO_ROOF_M = 0.01
+_JOINT_M = 0.001
+_EDGE_M = 0.005
 
 
 def is_shut(hole: Hole) -> bool:
@@ -63,8 +63,8 @@ def matter_of(
         if roof is None:
             notes.append(f"{name} is no closed solid: house.city.json has no roof there")
         else:
-            solids.append(marks.marked(roof, _all(Mark("roof", name))))
-            solids.append(_under_roof(last, marks))
+            solids.append(marks.marked(roof, one_mark(Mark("roof", name))))
+            solids += _joints(last, roof, marks)
     return joined(solids), notes
 
 
@@ -98,7 +98,9 @@ def _storey(
 
 def _panel(hole: Hole, space: Space, marks: Marks) -> manifold3d.Manifold:
     kind = hole.opening.kind
-    mark = Mark("window" if kind == "window" else "door", f"{space.storey.name} {kind} {hole.opening.id}")
+    mark = Mark(
+        "window" if kind == "window" else "door", f"{space.storey.name} {kind} {hole.opening.id}"
+    )
     region = hole.line.piece(hole.start_m - INTO_M, hole.end_m + INTO_M, panel_half_m(hole))
     floor = space.storey.elevation_m
     return marks.prism(
@@ -132,19 +134,18 @@ def solid_of(part: Part, features: Sequence[int]) -> manifold3d.Manifold | None:
     return joined(solid.decompose())
 
 
-def _all(mark: Mark) -> MarkOf:
-    """One mark for all faces."""
-
-    def mark_of(_middle: NDArray[np.float64], _normal: NDArray[np.float64]) -> Mark:
-        return mark
-
-    return mark_of
-
-
-def _under_roof(last: Space, marks: Marks) -> manifold3d.Manifold:
-    """What fills the joint between the highest slab and the roof."""
+def _joints(last: Space, roof: manifold3d.Manifold, marks: Marks) -> list[manifold3d.Manifold]:
+    """What fills the joints between a roof and what it lies on, in single precision, and beside."""
     slab = Mark("slab", f"{last.storey.name} slab")
     top = last.storey.elevation_m + last.storey.height_m
-    return marks.prism(
-        last.covered, top - _INTO_ROOF_M, top + UNDER_M + _INTO_ROOF_M, slab, slab, slab
+    eaves = roof.bounding_box()[2]
+    inner = last.covered.buffer(-_JOINT_M, join_style="mitre")
+    edge = last.covered.buffer(_JOINT_M / 2.0, join_style="mitre").difference(
+        last.covered.buffer(-_EDGE_M, join_style="mitre")
     )
+    ends = [(inner, top - _EDGE_M), (edge, eaves)] if eaves < top else [(inner, top - _EDGE_M)]
+    return [
+        marks.prism(region, low, top + UNDER_M - _JOINT_M, slab, slab, slab)
+        for region, low in ends
+        if not region.is_empty
+    ]
