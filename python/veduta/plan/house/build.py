@@ -10,7 +10,14 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.doors import add_door
 from veduta.plan.house.flights import Stairwell, storey_spaces
-from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
+from veduta.plan.house.floors import (
+    FINISH_M,
+    add_ceilings,
+    add_floors,
+    add_skirting,
+    add_slab,
+    slab_over,
+)
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.ground_level import ground_storey
@@ -18,7 +25,7 @@ from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
 from veduta.plan.house.room_looks import Pictures, room_looks
 from veduta.plan.house.sound import sound_part
-from veduta.plan.house.space import Space, solid_region
+from veduta.plan.house.space import Space
 from veduta.plan.house.stairs import add_stairs
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
@@ -94,9 +101,7 @@ def _add_storey(
     add_ceilings(space, height, well.opening, sculptor)
     add_skirting(space, sculptor)
     add_lamps(storey, height - FINISH_M, sculptor)
-    over = space.covered if above is None else space.covered.union(above.slab)
-    over = solid_region(over.difference(well.opening))
     if above is not None:
         add_stairs(well, space, above, sculptor)
     top = storey.elevation_m + storey.height_m
-    add_slab(over, top - options.slab, top, f"{storey.name} slab", sculptor)
+    add_slab(slab_over(space, above), top - options.slab, top, f"{storey.name} slab", sculptor)
