@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pydantic import JsonValue
+
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
@@ -23,6 +25,8 @@ from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
+from veduta.plan.photos.finish import Finished, load_pictures, picture_digests, with_photos
+from veduta.plan.photos.given import RoomPhoto, place_of
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.tour.find import Tour, find_tour
@@ -70,9 +74,13 @@ def run_plan(
     options: PlanOptions,
     progress: Progress,
     *,
+    photos: Sequence[RoomPhoto] = (),
     force: bool = False,
 ) -> PlanResult:
-    """Make a house of drawings or of a document in OUT, by the rules of `run.outputs`."""
+    """Make a house of drawings or of a document in OUT, by the rules of `run.outputs`.
+
+    photos: of rooms, whose paint and tiles they show.
+    """
     call = plan_call(paths)
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
@@ -81,26 +89,33 @@ def run_plan(
     digests = catalogue_digests(options.house.catalogue, catalogue)
     if checked is not None:
         check_objects(checked, catalogue, call.paths[0])
+        for photo in photos:
+            place_of(checked, photo.room)
+        digests = [*digests, *picture_digests(call.paths[0].parent, checked)]
     drawings = _drawings(call, options)
-    key = result_key_of(call, options, digests)
+    key = result_key_of(call, options, [*digests, *(photo.identity for photo in photos)])
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked or drawings, catalogue, options, opened, key, progress.step)
+                given = _Given(checked or drawings, photos, catalogue)
+                _make(call, given, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
 
 
-def result_key_of(call: Call, options: PlanOptions, catalogue_digests: Sequence[str]) -> str:
-    """What the result depends on: of a catalogue its content, wherever it lies."""
+def result_key_of(call: Call, options: PlanOptions, others: Sequence[JsonValue]) -> str:
+    """What the result depends on: of a catalogue its content, wherever it lies.
+
+    others: what of the catalogue and other files takes part, besides what is read or rebuilt.
+    """
     house = options.house.model_copy(update={"catalogue": None})
     drawn = options.model_copy(update={"house": house})
     used: Options = drawn if call.kind == "drawings" else house
-    return result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *catalogue_digests])
+    return result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *others])
 
 
 def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:
@@ -131,10 +146,18 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
     return True
 
 
+@dataclass(frozen=True)
+class _Given:
+    """What a house is made of: a document or drawings, photos of rooms, and furniture."""
+
+    plan: PlanDocument | list[Drawing]
+    photos: Sequence[RoomPhoto]
+    catalogue: Catalogue
+
+
 def _make(
     call: Call,
-    given: PlanDocument | list[Drawing],
-    catalogue: Catalogue,
+    given: _Given,
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -145,11 +168,14 @@ def _make(
     used: Options = options if call.kind == "drawings" else options.house
     work = opened.work_folder(CALL)
     try:
-        document, sheets, notes = _document(call, given, options, steps, progress)
+        document, sheets, notes = _document(call, given.plan, options, steps, progress)
+        finished = _finishes(call, document, given.photos, steps, progress)
+        notes = [*notes, *finished.notes]
+        document = finished.document
         if not options.house.no_furniture:
-            document = _furnish(document, catalogue, options.house, steps, progress)
+            document = _furnish(document, given.catalogue, options.house, steps, progress)
         lit = _lights(document, options, steps, progress)
-        result = _house(lit.document, sheets, options, steps, progress)
+        result = _house(lit.document, finished, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -189,6 +215,29 @@ def _document(
         sheets, notes = load_sheets(call.paths[0].parent, given)
         step.counts["storeys"] = len(given.storeys)
     return given, sheets, [*idle_notes(given, options), *notes]
+
+
+def _finishes(
+    call: Call,
+    document: PlanDocument,
+    photos: Sequence[RoomPhoto],
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Finished:
+    """The document with the paint and the tiles that photos show, and the pictures of tiles."""
+    before = load_pictures(call.paths[0].parent, document)
+    if not photos:
+        return before
+    progress("photos", 0.0)
+    with timed_step(steps, "photos") as step:
+        finished = with_photos(before, photos)
+        step.counts |= {
+            "photos": len(photos),
+            "colours": sum(look.colour is not None for look in finished.looks),
+            "tiles": sum(len(look.tiles) for look in finished.looks),
+        }
+        step.rejected.extend(finished.notes)
+    return finished
 
 
 def _furnish(
@@ -237,6 +286,7 @@ def _lights(
 
 def _house(
     document: PlanDocument,
+    finished: Finished,
     sheets: list[Pixels],
     options: PlanOptions,
     steps: list[StepRecord],
@@ -244,7 +294,7 @@ def _house(
 ) -> Result:
     progress("house", 0.0)
     with timed_step(steps, "house") as step:
-        house = build_house(document, options.house)
+        house = build_house(document, options.house, finished.pictures)
         part = house.part
         step.counts |= {
             "features": len(part.features),
@@ -255,7 +305,7 @@ def _house(
     tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
     progress("drawings", 0.0)
     with timed_step(steps, "drawings"):
-        return result_of(document, house, tour, sheets)
+        return result_of(document, house, tour, sheets, finished.pictures, finished.looks)
 
 
 def _tour(

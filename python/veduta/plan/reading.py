@@ -20,6 +20,7 @@ from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.leaf_pieces import leaf_pieces
@@ -80,7 +81,7 @@ def read_cleaned(
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)
         judged = judge_gaps(found, sheet)
-    axes = axes_of(found.pieces, judged)
+    axes = axes_of([*found.pieces, *found.curved], judged)
     whole = mended(axes, found, sheet, texts)
     sky = open_sky(whole.axes, found.thin_px, texts)
     # What a vector file says of its openings goes before what its picture looks like.
@@ -92,11 +93,16 @@ def read_cleaned(
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
     """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
-    gaps = [one for gap in find_gaps(found.pieces) if (one := trimmed(gap, found.solid))]
+    ahead = [
+        *find_gaps(found.pieces, found.curved),
+        *gaps_on_circles(found.pieces, found.curved),
+    ]
+    gaps = [one for gap in ahead if (one := trimmed(gap, found.solid))]
     seen = [look_at(gap, sheet) for gap in gaps]
     first = [judge(gap, view, found.thin_px, None) for gap, view in zip(gaps, seen, strict=True)]
     kept = [one.gap for one in first if one is not None]
-    outer = leads_outdoors(gaps, found.pieces, kept, sheet.ink.shape)
+    walls = [*found.pieces, *found.curved]
+    outer = leads_outdoors(gaps, walls, kept, sheet.ink.shape)
     second = [
         judge(gap, view, found.thin_px, out)
         for gap, view, out in zip(gaps, seen, outer, strict=True)

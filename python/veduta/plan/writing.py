@@ -17,6 +17,7 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
 from veduta.plan.house.placing import place_of, raised_m
+from veduta.plan.house.room_looks import Pictures
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
@@ -25,6 +26,7 @@ from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.outputs.x3d import house_x3d
+from veduta.plan.photos.look import Look
 from veduta.plan.sheets import sheet_name
 from veduta.plan.surroundings.build import build_surroundings, with_surroundings
 from veduta.plan.tour.find import Tour
@@ -39,6 +41,7 @@ class Result:
     """What was made: sheets are the cleaned drawings, overlay the picture that shows all.
 
     drawings: of the storeys from the lowest up. tour_picture: the plan with the tour; None without.
+    pictures: of tiles, by name. looks: what was seen in photos of rooms.
     """
 
     document: PlanDocument
@@ -48,6 +51,8 @@ class Result:
     drawings: Sequence[Drawing]
     overlay: NDArray[np.uint8]
     tour_picture: NDArray[np.uint8] | None
+    pictures: Pictures
+    looks: Sequence[Look]
 
 
 def result_of(
@@ -55,13 +60,16 @@ def result_of(
     house: House,
     tour: Tour | None,
     sheets: Sequence[NDArray[np.uint8]],
+    pictures: Pictures,
+    looks: Sequence[Look],
 ) -> Result:
     """With the pictures drawn; sheets in the order of the document's storeys."""
     drawings = [draw(space) for space in house.spaces]
     by_name = {one.storey.name: one for one in drawings}
     ordered = [by_name[storey.name] for storey in document.storeys]
     shown = None if tour is None else tour_picture(ordered, tour)
-    return Result(document, house, tour, sheets, drawings, overlay(ordered, sheets), shown)
+    found = overlay(ordered, sheets)
+    return Result(document, house, tour, sheets, drawings, found, shown, pictures, looks)
 
 
 def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
@@ -70,6 +78,8 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):
         (folder / sheet_name(index)).write_bytes(png_bytes(pixels, compress_level=3))
+    for name, pixels in result.pictures.items():
+        (folder / name).write_bytes(png_bytes(pixels))
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     if result.tour_picture is not None:
         (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))

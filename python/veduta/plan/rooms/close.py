@@ -8,12 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from shapely import affinity, set_precision, unary_union
-from shapely.geometry import Point, Polygon, box
+from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import LinearRing, orient
 
 from veduta.plan.walls.axes import Axis
-from veduta.plan.walls.graph import Graph
+from veduta.plan.walls.graph import Graph, edge_line
+from veduta.plan.walls.pieces import Piece
+
+ARC_STEP_RAD = np.radians(6.0)
+"""Outlines follow curved walls in pieces that turn by this, or less."""
 
 LEAST_WIDTH = 2.2
 """A room is at least so many (thin) wall thicknesses wide: shafts and slots are none."""
@@ -47,6 +51,24 @@ def wall_body(
     return affinity.translate(turned, float(start[0]), float(start[1]))
 
 
+def curved_body(line: Piece, more_px: tuple[float, float] = (0.0, 0.0)) -> Polygon:
+    """What a straight or curved wall covers, prolonged straight on at its start and end."""
+    points = line.arc.points(ARC_STEP_RAD)
+    first, last = line.arc.way(np.array([0.0, line.length_px]))
+    ends = [points[0] - more_px[0] * first, points[-1] + more_px[1] * last]
+    inner = points[1:-1] if len(points) > 2 else points
+    centre = LineString(
+        [
+            ends[0],
+            *([points[0]] if more_px[0] else []),
+            *inner,
+            *([points[-1]] if more_px[1] else []),
+            ends[1],
+        ]
+    )
+    return centre.buffer(line.thickness_px / 2, cap_style="flat", join_style="mitre")
+
+
 def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
     """Each edge's rectangle, prolonged to the far faces of the walls that it meets."""
     thick = [axes[edge.axis].line.thickness_px for edge in graph.edges]
@@ -60,8 +82,11 @@ def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
         for node in (edge.first, edge.second):
             others = [thick[other] for other in at[node] if other != index]
             more.append(min(others) / 2 if others else 0.0)
-        start, end = graph.nodes[edge.first], graph.nodes[edge.second]
-        bodies.append(wall_body(start, end, thick[index], (more[0], more[1])))
+        line = edge_line(edge, graph, axes)
+        if line.bulge:
+            bodies.append(curved_body(line, (more[0], more[1])))
+        else:
+            bodies.append(wall_body(line.start, line.end, thick[index], (more[0], more[1])))
     return bodies
 
 

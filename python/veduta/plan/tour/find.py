@@ -215,13 +215,18 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     storeys = grid.storey[squares]
     breaks = np.flatnonzero(np.diff(storeys)) + 1
     pieces: list[NDArray[np.float64]] = []
+    last = squares[0]
     for run in np.split(np.array(squares), breaks):
         ground = grounds[grid.storey[run[0]]]
         flat = smoothed(grid.places_m[run], ground.free)
         level = np.column_stack([flat, np.full(len(flat), ground.elevation_m)])
         if pieces:  # up or down a flight
-            pieces.append(resampled(np.stack([pieces[-1][-1], level[0]]), STEP_M)[1:-1])
+            low = min(grounds[grid.storey[one]].elevation_m for one in (last, run[0]))
+            stairs = grid.climb(last, run[0])[1:-1] + np.array([0.0, 0.0, low])
+            line = np.concatenate([pieces[-1][-1:], stairs, level[:1]])
+            pieces.append(resampled(line, STEP_M)[1:-1])
         pieces.append(level)
+        last = int(run[-1])
     return np.concatenate(pieces)
 
 

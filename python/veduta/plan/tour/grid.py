@@ -104,6 +104,7 @@ class Grid:
         self._graph.add_nodes_from(range(len(self.places_m)))
         self._edges: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
         self._add_edges()
+        self._climbs: dict[tuple[int, int], Climb] = {}
         for climb in climbs:
             self._add_climb(climb)
 
@@ -133,8 +134,15 @@ class Grid:
         if foot is None or head is None:
             return
         self._join(np.array([[foot, head]]), np.array([climb.length_m]))
+        self._climbs[foot, head] = climb
         joined, kept = self._piece[head], self._piece[foot]
         self._piece[self._piece == joined] = kept
+
+    def climb(self, start: int, end: int) -> NDArray[np.float64]:
+        """(n, 3) the feet on the stairs from one square to another, above the lower floor."""
+        if (start, end) in self._climbs:
+            return self._climbs[start, end].line_m
+        return self._climbs[end, start].line_m[::-1]
 
     def nearest(
         self, storey: int, at_m: Sequence[float] | NDArray[np.float64], within_m: float = 0.15
