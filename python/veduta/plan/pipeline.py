@@ -24,6 +24,8 @@ from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
+from veduta.plan.surroundings.site import check_site, with_site
 from veduta.plan.tour.find import Tour, find_tour
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
@@ -35,11 +37,24 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
+_UNWRITTEN = (
+    "plan.json was edited and stays as it is: it does not say what --north, --place, --time and"
+    " --panorama do. Give them again at the next rebuild, or write them there."
+)
+
+
+@dataclass(frozen=True)
+class _Read:
+    """What is read before OUT is opened: drawings or a document, objects, and the panorama."""
+
+    given: PlanDocument | list[Drawing]
+    catalogue: Catalogue
+    pictures: Pictures | None
 
 
 @dataclass
@@ -74,19 +89,23 @@ def run_plan(
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
     checked = load_document(call.paths[0]) if call.kind == "document" else None
+    check_site(checked, options.site)
+    pictures = _pictures(call, checked, options)
     catalogue = catalogue_of(options.house.catalogue)
     digests = catalogue_digests(options.house.catalogue, catalogue)
+    digests += [] if pictures is None else [pictures.digest]
     if checked is not None:
         check_objects(checked, catalogue, call.paths[0])
     drawings = _drawings(call, options)
-    used: Options = options if call.kind == "drawings" else options.house
+    used = _used(call, options)
     key = result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *digests])
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked or drawings, catalogue, options, opened, key, progress.step)
+                read = _Read(checked or drawings, catalogue, pictures)
+                _make(call, read, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
@@ -99,6 +118,22 @@ def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:
     if options.input.pages is not None:
         raise InputError("--pages", "is for PDFs, and a document is given", "Leave it out.")
     return []
+
+
+def _pictures(call: Call, checked: PlanDocument | None, options: PlanOptions) -> Pictures | None:
+    """The panorama: the one that is asked for, else the document's."""
+    if options.site.panorama is not None:
+        return given_pictures(options.site.panorama)
+    if checked is None or checked.panorama is None:
+        return None
+    return kept_pictures(checked.panorama, call.paths[0].parent)
+
+
+def _used(call: Call, options: PlanOptions) -> Options:
+    """The options that count: a house that is rebuilt has its drawings and scale."""
+    if call.kind == "drawings":
+        return options
+    return PlanOptions(house=options.house, site=options.site)
 
 
 def _is_made(opened: OutFolder, call: Call, key: str, *, force: bool) -> bool:
@@ -122,8 +157,7 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
 
 def _make(
     call: Call,
-    given: PlanDocument | list[Drawing],
-    catalogue: Catalogue,
+    read: _Read,
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -131,14 +165,21 @@ def _make(
 ) -> None:
     """All steps; drawings in which there is no plan end in a report that says why."""
     steps: list[StepRecord] = []
-    used: Options = options if call.kind == "drawings" else options.house
+    used = _used(call, options)
+    # An edited document in OUT stays as it is.
+    stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
     work = opened.work_folder(CALL)
     try:
-        document, sheets, notes = _document(call, given, options, steps, progress)
+        document, sheets, notes = _document(call, read.given, options, steps, progress)
+        kind = None if read.pictures is None else read.pictures.kind
+        sited = with_site(document, options.site).model_copy(update={"panorama": kind})
+        if stays and sited != document:
+            notes = [*notes, _UNWRITTEN]
+        document = sited
         if not options.house.no_furniture:
-            document = _furnish(document, catalogue, options.house, steps, progress)
+            document = _furnish(document, read.catalogue, options.house, steps, progress)
         lit = _lights(document, options, steps, progress)
-        result = _house(lit.document, sheets, options, steps, progress)
+        result = _house(lit.document, sheets, read.pictures, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -154,8 +195,6 @@ def _make(
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
-        # An edited document in OUT stays as it is.
-        stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
         made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
         opened.publish(CALL, key, work, {**measures(result.document), MADE_FROM: made_from})
     if opened.standing is not Standing.AMENDED:
@@ -224,6 +263,7 @@ def _lights(
 def _house(
     document: PlanDocument,
     sheets: list[Pixels],
+    pictures: Pictures | None,
     options: PlanOptions,
     steps: list[StepRecord],
     progress: StepProgress,
@@ -241,7 +281,7 @@ def _house(
     tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
     progress("drawings", 0.0)
     with timed_step(steps, "drawings"):
-        return result_of(document, house, tour, sheets)
+        return result_of(document, house, tour, sheets, pictures)
 
 
 def _tour(
