@@ -57,8 +57,8 @@ class Result:
     drawings: Sequence[Drawing]
     overlay: NDArray[np.uint8]
     tour_picture: NDArray[np.uint8] | None
-    pictures: Pictures | None = None
-    site: Site = Site()
+    pictures: Pictures | None
+    site: Site
 
 
 def result_of(

@@ -48,6 +48,29 @@ class Site:
         """Unit vector to the sun in the plan frame."""
         return self.sun.toward(self.turn_deg)
 
+    def measures(self) -> dict[str, object]:
+        """In numbers, for the report."""
+        return {
+            "sun_azimuth_deg": round(self.sun.azimuth_deg, 2),
+            "sun_elevation_deg": round(self.sun.elevation_deg, 2),
+            "sun_assumed": list(self.assumed),
+        }
+
+    def facts(self) -> list[tuple[str, str]]:
+        """In words, for the report: what is known and what is assumed."""
+        north = f"{self.turn_deg:g} degrees clockwise from up on the page"
+        if self.north_deg is None:
+            north = "up on the page: assumed, --north says it"
+        told = "a spring afternoon's: assumed, --place and --time say it"
+        if self.place_deg is not None:
+            latitude, longitude = self.place_deg
+            told = f"at latitude {latitude:g}, longitude {longitude:g}, {self.time}"
+            told += " (the time is assumed)" if "time" in self.assumed else ""
+        where = (
+            f"azimuth {self.sun.azimuth_deg:.1f}, elevation {self.sun.elevation_deg:.1f} degrees"
+        )
+        return [("north", north), ("sun", f"{where}; {told}")]
+
     def for_place(self) -> PlaceSun:
         """What `place.json` says of it."""
         latitude, longitude = self.place_deg or (None, None)

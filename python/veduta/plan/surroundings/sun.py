@@ -49,8 +49,7 @@ USUAL_SUN = SunPosition(USUAL_AZIMUTH_DEG, USUAL_ELEVATION_DEG)
 
 def sun_position(latitude_deg: float, longitude_deg: float, when: datetime) -> SunPosition:
     """The sun over a place at a time with its offset from UTC (years 1901 to 2099)."""
-    # At a pole itself all directions are south, and astral divides by zero.
-    here = astral.Observer(max(-89.999, min(89.999, latitude_deg)), longitude_deg)
+    here = astral.Observer(latitude_deg, longitude_deg)
     return SunPosition(
         astral.sun.azimuth(here, when),
         astral.sun.elevation(here, when, with_refraction=False),
