@@ -105,9 +105,7 @@ def _is_side(edge: Edge, number: int, flight: TurningFlight) -> bool:
     line = LineString(edge)
     ends = [flight.foot] if number == 0 else []
     ends += [flight.arrival] if number == flight.treads - 1 else []
-    return line.length > _LEAST_RAIL_M and not any(
-        one.buffer(_SAME_M).covers(line) for one in ends
-    )
+    return line.length > _LEAST_RAIL_M and not any(one.buffer(_SAME_M).covers(line) for one in ends)
 
 
 def _rail_height(corner: Corner, number: int, flight: TurningFlight) -> float:
