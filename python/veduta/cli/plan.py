@@ -44,6 +44,8 @@ def _tell(result: PlanResult) -> None:
     if result.outdated:
         command = shlex.join(["veduta", "plan", str(out / DOCUMENT), "-o", str(out)])
         print(f"{out / DOCUMENT}: was edited; to rebuild from it: {command}")
+    for note in result.notes:
+        print(f"note: {note}")
     if result.failure is None and result.measures:
         print(summary_line(result.measures))
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(out)])}")

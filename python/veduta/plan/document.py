@@ -195,12 +195,27 @@ class Room(_Record):
 
 
 class Stairs(_Record):
-    """A flight of stairs, as drawn."""
+    """Stairs, as drawn: a straight flight, or treads that turn or share landings."""
 
     id: str
     outline_m: list[Point]
-    treads: Annotated[int, Field(ge=1, le=100)]
-    up: Point = Field(description="direction in which it rises, of length 1; (0, 0) if not drawn")
+    treads: Annotated[int, Field(ge=1, le=100)] = Field(description="a landing is one")
+    up: Point = Field(
+        description="direction in which it rises at its foot, of length 1; (0, 0) if not drawn"
+    )
+    steps_m: list[list[Point]] = Field(
+        default=[],
+        description=(
+            "outlines of its treads and landings, from the lowest up; empty: a straight flight,"
+            " whose outline is cut into `treads` equal parts across `up`"
+        ),
+    )
+    path_m: list[Point] = Field(
+        default=[],
+        description=(
+            "walking line over `steps_m`, from the edge of the lowest to that of the upper floor"
+        ),
+    )
     score: Score
     origin: Origin = "measured"
 
@@ -232,6 +247,9 @@ class Light(_Record):
     at_m: Point
     above_m: Metres = Field(description="from the floor to where it shines from")
     lumen: Annotated[float, Field(gt=0.0, le=100_000.0)]
+    thing: str | None = Field(
+        default=None, description="id of the furniture that is this lamp: it shines from there"
+    )
     origin: Origin = "invented"
 
 

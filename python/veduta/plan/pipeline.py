@@ -18,6 +18,7 @@ from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.furnish.furnish import furnish
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
+from veduta.plan.idle_options import idle_notes
 from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import HouseOptions, PlanOptions
@@ -54,6 +55,8 @@ class PlanResult:
     failure: Failure | None = None
     outdated: bool = False
     """Whether plan.json was changed since the house was made from it."""
+    notes: list[str] = field(default_factory=list)
+    """Options that changed nothing, and why."""
     edited: list[str] = field(default_factory=list)
     foreign: list[str] = field(default_factory=list)
 
@@ -97,6 +100,7 @@ def run_plan(
     )
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
+        result.notes = [] if checked is None else idle_notes(checked, options)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
@@ -203,7 +207,7 @@ def _document(
     with timed_step(steps, "load") as step:
         sheets, notes = load_sheets(call.paths[0].parent, given)
         step.counts["storeys"] = len(given.storeys)
-    return given, sheets, notes
+    return given, sheets, [*idle_notes(given, options), *notes]
 
 
 def _finishes(
@@ -247,6 +251,9 @@ def _furnish(
             f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
             for room in rooms
             if room.missing
+        )
+        step.rejected.extend(
+            f"{room.room.id} ({room.room.use}): {note}" for room in rooms for note in room.notes
         )
     return done
 

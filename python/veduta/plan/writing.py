@@ -92,7 +92,7 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     place = place_of(result.house, MODEL, DOCUMENT, options, tours)
     around: list[Part] = []
     if options.surroundings != "none":
-        surroundings = build_surroundings(result.house.spaces[0], options)
+        surroundings = build_surroundings(result.house.spaces[result.house.ground], options)
         around = [surroundings.ground, *([surroundings.garden] if surroundings.garden else [])]
         models = {part.id: f"{part.id}.glb" for part in around}
         for part in around:

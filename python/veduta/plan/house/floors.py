@@ -33,6 +33,14 @@ def add_slab(
     )
 
 
+def slab_over(space: Space, above: Space | None) -> BaseGeometry:
+    """The slab over a storey, open where stairs come up."""
+    over = space.covered
+    if above is not None:
+        over = over.union(above.slab).difference(above.well)
+    return solid_region(over)
+
+
 def add_floors(space: Space, sculptor: Sculptor) -> None:
     """What one walks on: a finish in each room, and a threshold in each opening to the floor."""
     frame = level(space.storey.elevation_m)

@@ -12,6 +12,7 @@ from shapely.geometry.polygon import orient
 
 from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.eaves import clear_of
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.space import pieces_of
 from veduta.plan.options import HouseOptions, RoofKind
@@ -19,7 +20,7 @@ from veduta.plan.options import HouseOptions, RoofKind
 FLAT_M = 0.12
 _JOG_M = 0.08
 _LEAST_M2 = 1.0
-_UNDER_M = 0.005
+UNDER_M = 0.005
 
 
 def add_roof(
@@ -44,7 +45,7 @@ def add_roof(
         if found is None:
             _add_flat(shape, height_m, sculptor, feature, options.overhang)
         else:
-            _add_solid(found, height_m, sculptor, feature)
+            _add_solid(clear_of(found, region), height_m, sculptor, feature)
     return notes
 
 
@@ -81,7 +82,7 @@ def _solid(shape: Polygon, kind: str, options: HouseOptions) -> Solid | None:
 
 
 def _add_solid(faces: Solid, height_m: float, sculptor: Sculptor, feature: int) -> None:
-    frame = level(height_m + _UNDER_M)
+    frame = level(height_m + UNDER_M)
     for rings in faces:
         normal = np.cross(rings[0], np.roll(rings[0], -1, axis=0)).sum(axis=0)
         look = "roof" if normal[2] > 1e-9 else "soffit"

@@ -86,7 +86,7 @@ def house_x3d(
     that walks. others: what stands around the house. All in the frame of the place.
     """
     part = flattened(house.part)
-    up_m = options.plinth - house.spaces[0].storey.elevation_m
+    up_m = options.plinth - house.spaces[house.ground].storey.elevation_m
     ceilings = {s.storey.name: s.storey.height_m - options.slab for s in house.spaces}
     scene = X3dScene("House from a floor plan")
     _add_surroundings(scene)
