@@ -43,6 +43,10 @@ VERSION = "4"
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
+_PHOTOS_STAY_OUT = (
+    f"{DOCUMENT} was edited and stays as it is: what photos show is in the house, not in the"
+    " document; give --photos again when you rebuild"
+)
 
 
 @dataclass
@@ -101,6 +105,8 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
+        if photos and _stays(opened):
+            result.notes.append(_PHOTOS_STAY_OUT)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
@@ -139,6 +145,11 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
     return True
 
 
+def _stays(opened: OutFolder) -> bool:
+    """Whether the house is made from the document in OUT, and that was edited: it is kept."""
+    return opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
+
+
 @dataclass(frozen=True)
 class _Given:
     """What a house is made of: a document or drawings, photos of rooms, and furniture."""
@@ -163,7 +174,8 @@ def _make(
     try:
         document, sheets, notes = _document(call, given.plan, options, steps, progress)
         finished = _finishes(call, document, given.photos, steps, progress)
-        notes = [*notes, *finished.notes]
+        kept_out = [_PHOTOS_STAY_OUT] if given.photos and _stays(opened) else []
+        notes = [*notes, *finished.notes, *kept_out]
         document = finished.document
         if not options.house.no_furniture:
             document = _furnish(document, given.catalogue, options.house, steps, progress)
@@ -184,9 +196,7 @@ def _make(
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
-        # An edited document in OUT stays as it is.
-        stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
-        made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
+        made_from = call.digests[0] if _stays(opened) else file_digest(work / DOCUMENT)
         opened.publish(CALL, key, work, {**measures(result.document), MADE_FROM: made_from})
     if opened.standing is not Standing.AMENDED:
         opened.finish()
