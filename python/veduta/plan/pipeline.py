@@ -48,8 +48,8 @@ COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
 _UNWRITTEN = (
-    "plan.json was edited and stays as it is: it does not say what --north, --place, --time and"
-    " --panorama do. Give them again at the next rebuild, or write them there."
+    f"{DOCUMENT} was edited and stays as it is: it does not say what --north, --place, --time,"
+    " --panorama and --photos do. Give them again at the next rebuild, or write them there."
 )
 
 
@@ -114,6 +114,8 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
+        if photos and _stays(opened):
+            result.notes.append(_PHOTOS_STAY_OUT)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
