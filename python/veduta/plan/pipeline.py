@@ -35,7 +35,7 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "3"
+VERSION = "4"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
@@ -148,8 +148,8 @@ def _make(
         opened.publish(CALL, key, work, {}, failure)
     else:
         progress("write", 0.0)
-        with writing_to(opened.path), timed_step(steps, "write"):
-            write_result(result, work, options.house)
+        with writing_to(opened.path), timed_step(steps, "write") as step:
+            step.rejected.extend(write_result(result, work, options.house))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())

@@ -19,10 +19,12 @@ from veduta.plan.house.build import House
 from veduta.plan.house.placing import place_of, raised_m
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.cityjson import house_cityjson
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.outputs.tiles import write_tiles
 from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.sheets import sheet_name
@@ -31,6 +33,7 @@ from veduta.plan.tour.find import Tour
 from veduta.plan.tour.placing import placed_tour
 
 MODEL = "house.glb"
+CITY_MODEL = "house.city.json"
 TOUR_PICTURE = "tour.png"
 
 
@@ -64,8 +67,8 @@ def result_of(
     return Result(document, house, tour, sheets, drawings, overlay(ordered, sheets), shown)
 
 
-def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
-    """Write the document, the drawings, the model and the place."""
+def write_result(result: Result, folder: Path, options: HouseOptions) -> list[str]:
+    """Write the document, the drawings, the model and the place; what is not as it should be."""
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):
@@ -76,10 +79,13 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / "plan.svg").write_bytes(plan_svg(result.drawings))
     (folder / "plan.dxf").write_bytes(plan_dxf(result.drawings))
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options))
+    city, notes = house_cityjson(result.house, options)
+    (folder / CITY_MODEL).write_bytes(city)
+    write_tiles(result.house, raised_m(result.house, options), folder)
     tour = result.tour
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path])
     tours = [] if tour is None else [placed_tour(tour, raised_m(result.house, options))]
-    place = place_of(result.house, MODEL, DOCUMENT, options, tours)
+    place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
     around: list[Part] = []
     if options.surroundings != "none":
         surroundings = build_surroundings(result.house.spaces[0], options)
@@ -91,3 +97,4 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     x3d = house_x3d(result.house, options, place.start, tours=tours, others=around)
     (folder / "house.x3d").write_bytes(x3d)
     write_place(place, folder / "place.json")
+    return notes
