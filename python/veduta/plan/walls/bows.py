@@ -17,13 +17,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import PARALLEL_RAD
 from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.curved import lies_in
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import Edge, Graph, wall_graph
-from veduta.plan.walls.join import solid_share
+from veduta.plan.walls.join import UPRIGHT_RAD, solid_share
 from veduta.plan.walls.pieces import Piece
 
 CHORD = (9.0, 50.0)
@@ -146,7 +145,7 @@ def _sees_out(
     """Whether no wall lies before the middle of a break; side: 1 right, -1 left."""
     line = Arc(first, second)
     away = np.arange(2.0, sum(solid.shape), 2.0)
-    middle = line.chord_px * np.array([0.4, 0.5, 0.6])
+    middle = line.chord_px * np.linspace(0.33, 0.67, 9)
     places = line.at(middle[:, None], side * away[None, :])
     return not bool(_look(solid, places, 0.0).any())
 
@@ -158,9 +157,9 @@ def _squares(way: NDArray[np.float64], node: int, edges: Sequence[Edge], graph: 
         run = run / max(float(np.hypot(*run)), 1e-9)
         if edge.second == node:
             run = -run
-        if abs(float(run[0] * way[1] - run[1] * way[0])) <= np.sin(PARALLEL_RAD):
+        if abs(float(run[0] * way[1] - run[1] * way[0])) <= np.sin(UPRIGHT_RAD):
             return True
-        if abs(float(run @ way)) <= np.sin(PARALLEL_RAD):
+        if abs(float(run @ way)) <= np.sin(UPRIGHT_RAD):
             return True
     return False
 
