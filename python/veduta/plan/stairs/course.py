@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 
@@ -17,6 +16,8 @@ from veduta.plan.stairs.probe import Probe, Spot
 
 COLUMN = 0.08
 """Radius of a spiral's column, of the spiral's: it is too small on most sheets to be measured."""
+WALK = 0.6
+"""Where one walks on a spiral, as a share of its radius."""
 FIRST = (0.6, 1.75)
 """The first straight tread beside a fan, of the depth of its treads in the middle."""
 MOST_TREADS = 24
@@ -127,7 +128,7 @@ def _wedge(newel: Spot, low: float, high: float, bounds: Polygon) -> Polygon:
     far = 10.0 * math.sqrt(bounds.area)
     ends = [newel + far * _ways(angle)[0] for angle in (low, high)]
     piece = Polygon([newel, *ends]).intersection(bounds)
-    return piece if isinstance(piece, Polygon) else piece.convex_hull
+    return piece if isinstance(piece, Polygon) else Polygon([newel, *ends])
 
 
 def _arc(fan: Fan, middle: Spot, first_px: float, last_px: float) -> list[Spot]:
@@ -155,7 +156,9 @@ def _spiral(fan: Fan) -> Course:
         for here, there in pairwise(ways)
     ]
     walk = 0.6 * outer
-    return Course(tuple(steps), np.array(_arc(fan, fan.newel, walk, walk)), outer - inner, fan.score)
+    return Course(
+        tuple(steps), np.array(_arc(fan, fan.newel, walk, walk)), outer - inner, fan.score
+    )
 
 
 def _ways(angle: float) -> tuple[Spot, Spot]:
@@ -164,8 +167,3 @@ def _ways(angle: float) -> tuple[Spot, Spot]:
         np.array([math.cos(angle), math.sin(angle)]),
         np.array([-math.sin(angle), math.cos(angle)]),
     )
-
-
-def joined(parts: Sequence[Sequence[Polygon]]) -> tuple[Polygon, ...]:
-    """Treads of parts after each other."""
-    return tuple(step for part in parts for step in part)

@@ -80,9 +80,8 @@ def _slanted(ink: NDArray[np.bool_], probe: Probe) -> NDArray[np.float64]:
     """(n, 2, 2) the ends of pieces of slanted lines, the longest first (LSD)."""
     thin = (ink & ~(probe.solid > 0)).astype(np.uint8) * 255
     lines = cv2.createLineSegmentDetector().detect(thin)[0]
-    if lines is None:
-        return np.zeros((0, 2, 2))
-    ends = lines.reshape(-1, 2, 2).astype(np.float64)
+    # OpenCV has None for no lines.
+    ends = np.reshape(() if lines is None else lines, (-1, 2, 2)).astype(np.float64)
     ways = ends[:, 1] - ends[:, 0]
     lengths = np.hypot(*ways.T)
     angle = np.abs(np.arctan2(ways[:, 1], ways[:, 0])) % (math.pi / 2)
@@ -196,7 +195,9 @@ def _from_widest_gap(peaks: NDArray[np.float64], count: int) -> NDArray[np.float
 
 def _between(share: NDArray[np.float32], run: NDArray[np.float64]) -> float:
     """How much is inked between treads, away from their edges."""
-    places = [np.arange(int(a + 0.3 * (b - a)), int(b - 0.3 * (b - a)) + 1) for a, b in pairwise(run)]
+    places = [
+        np.arange(int(a + 0.3 * (b - a)), int(b - 0.3 * (b - a)) + 1) for a, b in pairwise(run)
+    ]
     return float(share[np.concatenate(places) % len(share)].mean())
 
 
