@@ -63,7 +63,15 @@ def estimate_scale(
     doors = door_voter(sizes.doors, options)
     if not voters:
         return _assumed(doors, sizes, options)
-    return _voted([*voters, doors] if doors else voters)
+    told = _voted([*voters, doors] if doors else voters)
+    if any(one.agrees and one.kind != "door" for one in told.evidence):
+        return told
+    # Doors outvote a lone number that means something else; but they are an assumption.
+    assumed = _assumed(doors, sizes, options)
+    others = [
+        one.model_copy(update={"agrees": False}) for one in told.evidence if one.kind != "door"
+    ]
+    return assumed.model_copy(update={"evidence": [*assumed.evidence, *others]})
 
 
 def find_voters(sizes: DrawnSizes, options: VoteOptions) -> list[Voter]:

@@ -60,6 +60,9 @@ LEAST_STROKES = 0.15
 MOSTLY = 0.3
 """Walls are hatched if there is so much that is hatched, as a part of the insides of walls."""
 
+LEAST_HATCHING = 0.04
+"""Strokes of hatching cover at least this part of what lies between the outlines of walls."""
+
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
@@ -165,8 +168,8 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     hatched = hatched_areas(strokes)
     drawing: WallDrawing = "hollow"
     # Where walls have outlines, their hatching lies in these: arcs of doors have strokes, too.
-    covered = hatched & inside if inside.any() else hatched
-    if hatched.any() and float(covered.sum()) > MOSTLY * float(inside.sum()):
+    lie_in_walls = float((strokes & inside).sum()) >= LEAST_HATCHING * float(inside.sum())
+    if hatched.any() and lie_in_walls and float(hatched.sum()) > MOSTLY * float(inside.sum()):
         drawing = "hatched"
         inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
     return inside | (ink & _grown(inside, 3 * line_px)), drawing
