@@ -105,7 +105,7 @@ def test_two_names_in_one_space_close_it_and_that_is_said() -> None:
 
 
 def leafless(both: bool) -> Image:
-    """As `without_arc`, with lines on both faces of the inner wall over the way, or on one alone."""
+    """As `without_arc`, with lines over the way on both faces of the inner wall, or on one."""
     image = without_arc()
     for x in (396, 403) if both else (396,):
         cv2.line(image, (x, 400), (x, 484), BLACK, 1)

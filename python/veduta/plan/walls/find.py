@@ -63,6 +63,7 @@ MOSTLY = 0.3
 LEAST_HATCHING = 0.04
 """Strokes of hatching cover at least this part of what lies between the outlines of walls."""
 
+FINE = 2.0
 THICK = 0.6
 """Thick walls are at least this part of the thickest common ones."""
 
@@ -163,11 +164,11 @@ def _more_wall(
     full = wall_thickness(filled, line_px)
     if full is None:
         return None
-    # Fine walls are no thicker than letters and double lines: then the thick ones are compared.
-    for least in (0.9 * full.least_px, THICK * full.most_px):
-        if stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least):
-            return full
-    return None
+    # Where thin walls are no thicker than letters and double lines, the thick ones are compared.
+    fine = full.least_px < FINE * line_px
+    least = THICK * full.most_px if fine else 0.9 * full.least_px
+    more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
+    return full if more else None
 
 
 def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.bool_], WallDrawing]:
