@@ -66,6 +66,8 @@ def measures(document: PlanDocument) -> dict[str, Any]:
         "windows": sum(opening.kind == "window" for opening in openings),
         "gaps": sum(opening.kind == "gap" for opening in openings),
         "stairs": sum(len(storey.stairs) for storey in storeys),
+        "painted_rooms": sum(room.wall_colour is not None for room in rooms),
+        "tilings": sum(len(room.tilings) for room in rooms),
         "furniture": sum(len(storey.furniture or ()) for storey in storeys),
         "doubtful_openings": doubtful,
         "mended_rooms": sum(room.mended for room in rooms),

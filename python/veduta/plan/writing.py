@@ -20,10 +20,12 @@ from veduta.plan.house.placing import place_of, raised_m
 from veduta.plan.house.room_looks import TilePictures
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.cityjson import house_cityjson
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.outputs.tiles import write_tiles
 from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.photos.finish import Finished
@@ -42,6 +44,7 @@ from veduta.plan.tour.placing import placed_tour
 
 MODEL = "house.glb"
 BACKDROP = f"{PANORAMA}.glb"
+CITY_MODEL = "house.city.json"
 TOUR_PICTURE = "tour.png"
 
 
@@ -86,8 +89,8 @@ def result_of(
     )  # fmt: skip
 
 
-def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
-    """Write the document, the drawings, the model and the place."""
+def write_result(result: Result, folder: Path, options: HouseOptions) -> list[str]:
+    """Write the document, the drawings, the model and the place; what is not as it should be."""
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):
@@ -100,11 +103,20 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> None:
     (folder / "plan.svg").write_bytes(plan_svg(result.drawings))
     (folder / "plan.dxf").write_bytes(plan_dxf(result.drawings))
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options, result.site))
+    city, notes = house_cityjson(result.house, options)
+    (folder / CITY_MODEL).write_bytes(city)
+    write_tiles(result.house, raised_m(result.house, options), folder)
+    _write_place(result, folder, options)
+    return notes
+
+
+def _write_place(result: Result, folder: Path, options: HouseOptions) -> None:
+    """The models and the place: the house, what lies around it, and its tour."""
     tour = result.tour
     sun = sunlight_of(result.site)
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
     tours = [] if tour is None else [placed_tour(tour, raised_m(result.house, options))]
-    place = place_of(result.house, MODEL, DOCUMENT, options, tours)
+    place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
     around: list[Part] = []
     if options.surroundings != "none":
         surroundings = build_surroundings(result.house.spaces[result.house.ground], options)
@@ -134,6 +146,6 @@ def _backdrop(result: Result, options: HouseOptions) -> Part | None:
     """The panorama around the garden, by the light of the sun; None without pictures."""
     if result.panorama is None:
         return None
-    terrain = terrain_of(result.house.spaces[0], options.ground_slope)
+    terrain = terrain_of(result.house.spaces[result.house.ground], options.ground_slope)
     shown = daylight_of(result.site.sun).shown
     return build_backdrop(sky_picture(result.panorama), terrain, result.site.turn_deg, shown)

@@ -29,6 +29,7 @@ from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
 from veduta.plan.surroundings.site import Site
 
@@ -52,6 +53,10 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
         model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
         model.contain(storeys[-1], things, "furniture")
+        rooms = [one for rel in storeys[-1].IsDecomposedBy for one in rel.RelatedObjects]
+        place = storeys[-1].ObjectPlacement
+        coverings = finishes_of(model, house.part, space, place, rooms)
+        model.contain(storeys[-1], coverings, "finishes")
     model.aggregate(model.building, storeys, "storeys")
     roof = _roof(model, house)
     if roof is not None:
