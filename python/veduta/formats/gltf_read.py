@@ -220,6 +220,7 @@ def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
         texture,
         shading["baseColorFactor"][3],
         _glow(entry),
+        "KHR_materials_unlit" in entry.get("extensions", {}),
     )
 
 

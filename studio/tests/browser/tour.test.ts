@@ -19,6 +19,16 @@ const TOUR = {
   ],
 };
 
+/** The same street the other way. */
+const BACK = {
+  id: "back",
+  name: "Back again",
+  times_s: [0, 10],
+  eyes: [[6, -9, 1.7], [-4, -9, 1.7]],
+  directions: [[0, 1, 0], [0, 1, 0]],
+  stretches: [{ room: null, name: "Back", start_s: 0, end_s: 10 }],
+};
+
 describe.skipIf(MISSING !== null)("a guided tour", () => {
   let browser: Browser;
   let site: Site;
@@ -29,7 +39,7 @@ describe.skipIf(MISSING !== null)("a guided tour", () => {
     site = await makeSite();
     const file = join(site.folder, "place.json");
     const place = JSON.parse(readFileSync(file, "utf8")) as object;
-    writeFileSync(file, JSON.stringify({ ...place, tours: [TOUR] }));
+    writeFileSync(file, JSON.stringify({ ...place, tours: [TOUR, BACK] }));
     browser = await launch();
   });
   afterAll(async () => {
@@ -79,6 +89,16 @@ describe.skipIf(MISSING !== null)("a guided tour", () => {
     expect(direction[0]).toBeCloseTo(Math.SQRT1_2, 3);
     expect(await page.locator("veduta-tour-panel [data-field=room]").textContent()).toBe("The corner");
     expect(await page.locator("veduta-tour-panel [data-field=time]").textContent()).toBe("0:21 of 0:22");
+  });
+
+  it("takes the tour that one chooses", async () => {
+    await page.getByRole("combobox", { name: "Which tour" }).selectOption("Back again");
+    await settled(page);
+    expect((await camera()).eye[0]).toBeCloseTo(6, 3);
+    await page.getByRole("slider", { name: "How far the tour is" }).fill("10");
+    await settled(page);
+    expect((await camera()).eye[0]).toBeCloseTo(-4, 3);
+    expect((await tourState())?.room).toBe("Back");
   });
 
   it("stops for a visitor who walks on, and goes on where it was left", async () => {

@@ -11,13 +11,12 @@ from shapely.ops import unary_union
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Room
 from veduta.plan.house.frame import Sculptor, Surface, level
-from veduta.plan.house.looks import floor_look, wall_look
+from veduta.plan.house.looks import floor_look, has_skirting
 from veduta.plan.house.space import Space, solid_region
 
 FINISH_M = 0.01
 SKIRTING_M = (0.012, 0.07)
 """How deep and how high it is."""
-_DRY = {"inner wall"}
 
 
 def add_slab(
@@ -80,7 +79,7 @@ def add_skirting(space: Space, sculptor: Sculptor) -> None:
     openings.append(space.well.buffer(1e-3))
     walls = space.walls.buffer(depth, join_style="mitre")
     for room, region in space.floors:
-        if room is None or wall_look(room) not in _DRY:
+        if room is None or not has_skirting(room):
             continue
         board = region.intersection(walls).difference(unary_union(openings))
         board = solid_region_of_boards(board)

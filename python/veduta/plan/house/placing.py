@@ -19,7 +19,7 @@ WHOLE = 0.7
 
 def raised_m(house: House, options: HouseOptions) -> float:
     """How much higher the house stands in its place than in the plan frame."""
-    return options.plinth - house.spaces[0].storey.elevation_m
+    return options.plinth - house.spaces[house.ground].storey.elevation_m
 
 
 def place_of(
@@ -50,7 +50,7 @@ def place_of(
             )
         ],
         tours=list(tours),
-        start=_start(house.spaces[0]),
+        start=_start(house.spaces[house.ground]),
     )
 
 

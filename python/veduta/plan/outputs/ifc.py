@@ -6,6 +6,7 @@ roof, a space for each room, and lamps. Ids derive from what is named, so that a
 
 from __future__ import annotations
 
+import math
 import uuid
 from collections.abc import Sequence
 from typing import Any, Literal
@@ -29,6 +30,7 @@ from veduta.plan.house.lines import WallLine
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
+from veduta.plan.surroundings.site import Site
 
 Entity = Any
 _NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
@@ -39,9 +41,9 @@ DoorOperation = Literal[
 ]  # fmt: skip
 
 
-def house_ifc(house: House, options: HouseOptions) -> bytes:
-    """The file's content."""
-    model = _Model()
+def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> bytes:
+    """The file's content. site: north and the place on the earth, as far as they are known."""
+    model = _Model(site or Site())
     furniture = FurnitureMaker(model, catalogue_of(options.catalogue))
     storeys = []
     for index, space in enumerate(house.spaces):
@@ -60,10 +62,12 @@ def house_ifc(house: House, options: HouseOptions) -> bytes:
 class _Model:
     """The file as it grows, with what every model begins with."""
 
-    def __init__(self) -> None:
+    def __init__(self, site: Site) -> None:
         self.file = ifcopenshell.file(schema="IFC4")
-        self.body, project = self._project()
-        self.site = self.product("IfcSite", "Site", None, CompositionType="ELEMENT")
+        self.body, project = self._project(site)
+        self.site = self.product(
+            "IfcSite", "Site", None, CompositionType="ELEMENT", **_on_earth(site)
+        )
         self.building = self.product(
             "IfcBuilding", "House", self.site.ObjectPlacement, CompositionType="ELEMENT"
         )
@@ -125,7 +129,7 @@ class _Model:
         text: str = self.file.to_string()  # type: ignore[no-untyped-call]
         return text.encode()
 
-    def _project(self) -> tuple[Entity, Entity]:
+    def _project(self, site: Site) -> tuple[Entity, Entity]:
         units = [
             self.make("IfcSIUnit", UnitType=kind, Name=name)
             for kind, name in (
@@ -141,6 +145,7 @@ class _Model:
             CoordinateSpaceDimension=3,
             Precision=1e-5,
             WorldCoordinateSystem=self._axes((0.0, 0.0, 0.0)),
+            **self._true_north(site),
         )
         body = self.make(
             "IfcGeometricRepresentationSubContext",
@@ -155,6 +160,14 @@ class _Model:
             UnitsInContext=self.make("IfcUnitAssignment", units),
         )  # fmt: skip
         return body, project
+
+    def _true_north(self, site: Site) -> dict[str, Entity]:
+        """Where north is on the page; nothing where it is not known."""
+        if site.north_deg is None:
+            return {}
+        angle = math.radians(site.north_deg)
+        way = (round(math.sin(angle), 9) + 0.0, round(math.cos(angle), 9) + 0.0)
+        return {"TrueNorth": self.make("IfcDirection", way)}
 
     def _axes(self, at: tuple[float, float, float]) -> Entity:
         return self.make("IfcAxis2Placement3D", self.make("IfcCartesianPoint", at))
@@ -182,6 +195,23 @@ class _Model:
             for x, y in list(ring)[:-1]
         ]
         return self.make("IfcPolyline", [*points, points[0]])
+
+
+def _on_earth(site: Site) -> dict[str, Any]:
+    """Latitude and longitude of a place that is known (IfcCompoundPlaneAngleMeasure)."""
+    if site.place_deg is None:
+        return {}
+    latitude, longitude = site.place_deg
+    return {"RefLatitude": compound_angle(latitude), "RefLongitude": compound_angle(longitude)}
+
+
+def compound_angle(angle_deg: float) -> tuple[int, int, int, int]:
+    """Degrees, minutes, seconds and millionths of a second, all of the angle's sign."""
+    sign = -1 if angle_deg < 0.0 else 1
+    seconds, millionths = divmod(round(abs(angle_deg) * 3_600_000_000), 1_000_000)
+    minutes, second = divmod(seconds, 60)
+    degree, minute = divmod(minutes, 60)
+    return sign * degree, sign * minute, sign * second, sign * millionths
 
 
 def _storey(
