@@ -23,7 +23,7 @@ from veduta.plan.house.furniture import check_objects
 from veduta.plan.idle_options import idle_notes
 from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import HouseOptions, PlanOptions
+from veduta.plan.options import HouseOptions, PlanOptions, SiteOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.photos.finish import Finished, load_pictures, picture_digests, with_photos
 from veduta.plan.photos.given import RoomPhoto, place_of
@@ -48,8 +48,8 @@ COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
 _UNWRITTEN = (
-    "plan.json was edited and stays as it is: it does not say what --north, --place, --time and"
-    " --panorama do. Give them again at the next rebuild, or write them there."
+    f"{DOCUMENT} was edited and stays as it is: it does not say what --north, --place, --time,"
+    " --panorama and --photos do. Give them again at the next rebuild, or write them there."
 )
 
 
@@ -114,6 +114,8 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
+        if _stays(opened) and (photos or options.site != SiteOptions()):
+            result.notes.append(_UNWRITTEN)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
@@ -143,14 +145,24 @@ def _panorama(call: Call, checked: PlanDocument | None, options: PlanOptions) ->
 
 def _key(call: Call, given: _Given, checked: PlanDocument | None, options: PlanOptions) -> str:
     """All that the result depends on."""
-    digests: list[JsonValue] = [*call.identity]
-    digests += catalogue_digests(options.house.catalogue, given.catalogue)
+    digests: list[JsonValue] = [*catalogue_digests(options.house.catalogue, given.catalogue)]
     if checked is not None:
         digests += picture_digests(call.paths[0].parent, checked)
     if given.panorama is not None:
         digests.append(given.panorama.digest)
     digests += [photo.identity for photo in given.photos]
-    return result_key(COMMAND[call.kind], VERSION, _used(call, options), digests)
+    return result_key_of(call, options, digests)
+
+
+def result_key_of(call: Call, options: PlanOptions, others: Sequence[JsonValue]) -> str:
+    """The key of a result: of the files that options name their content, wherever they lie.
+
+    others: the digests of those files, and what takes part besides what is read or rebuilt.
+    """
+    house = options.house.model_copy(update={"catalogue": None})
+    site = options.site.model_copy(update={"panorama": None})
+    used = _used(call, options.model_copy(update={"house": house, "site": site}))
+    return result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *others])
 
 
 def _used(call: Call, options: PlanOptions) -> Options:
@@ -179,6 +191,11 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
     return True
 
 
+def _stays(opened: OutFolder) -> bool:
+    """Whether the house is made from the document in OUT, and that was edited: it is kept."""
+    return opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
+
+
 def _make(
     call: Call,
     given: _Given,
@@ -190,8 +207,7 @@ def _make(
     """All steps; drawings in which there is no plan end in a report that says why."""
     steps: list[StepRecord] = []
     used = _used(call, options)
-    # An edited document in OUT stays as it is.
-    stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
+    stays = _stays(opened)
     work = opened.work_folder(CALL)
     try:
         read, sheets, notes = _document(call, given.plan, options, steps, progress)

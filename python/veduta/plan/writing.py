@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
+from veduta.place.manifest import Place
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
@@ -43,8 +44,8 @@ from veduta.plan.tour.find import Tour
 from veduta.plan.tour.placing import placed_tour
 
 MODEL = "house.glb"
-CITY_MODEL = "house.city.json"
 BACKDROP = f"{PANORAMA}.glb"
+CITY_MODEL = "house.city.json"
 TOUR_PICTURE = "tour.png"
 
 
@@ -105,6 +106,13 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> list[st
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options, result.site))
     city, notes = house_cityjson(result.house, options)
     (folder / CITY_MODEL).write_bytes(city)
+    place = _write_place(result, folder, options)
+    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
+    return notes
+
+
+def _write_place(result: Result, folder: Path, options: HouseOptions) -> Place:
+    """The models and the place: the house, what lies around it, and its tour."""
     tour = result.tour
     sun = sunlight_of(result.site)
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
@@ -134,14 +142,13 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> list[st
     place = place.model_copy(update={"sun": result.site.for_place()})
     place = turned_north(place, result.site.turn_deg)
     write_place(place, folder / "place.json")
-    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
-    return notes
+    return place
 
 
 def _backdrop(result: Result, options: HouseOptions) -> Part | None:
     """The panorama around the garden, by the light of the sun; None without pictures."""
     if result.panorama is None:
         return None
-    terrain = terrain_of(result.house.spaces[0], options.ground_slope)
+    terrain = terrain_of(result.house.spaces[result.house.ground], options.ground_slope)
     shown = daylight_of(result.site.sun).shown
     return build_backdrop(sky_picture(result.panorama), terrain, result.site.turn_deg, shown)

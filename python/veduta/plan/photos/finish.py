@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -44,8 +45,11 @@ def load_pictures(folder: Path, document: PlanDocument) -> Finished:
 
 def picture_names(document: PlanDocument) -> list[str]:
     """The pictures that a document names, each once."""
-    names = [tiling.picture for room in rooms_of(document) for tiling in room.tilings]
-    return list(dict.fromkeys(names))
+    return list(dict.fromkeys(_pictures([rooms_of(document)])))
+
+
+def _pictures(storeys: Sequence[Sequence[Room]]) -> list[str]:
+    return [tiling.picture for rooms in storeys for room in rooms for tiling in room.tilings]
 
 
 def picture_digests(folder: Path, document: PlanDocument) -> list[str]:
@@ -71,7 +75,7 @@ def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
     notes = list(before.notes)
     for place, looks in by_place.items():
         room = rooms[place.storey][place.room]
-        room, said = _finished(room, looks, pictures)
+        room, said = _finished(room, looks, pictures, Counter(_pictures(rooms)))
         rooms[place.storey][place.room] = room
         notes += [note for look in looks for note in look.notes]
         notes += [f"{document.storeys[place.storey].name} {room.id}: {note}" for note in said]
@@ -87,9 +91,15 @@ def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
 
 
 def _finished(
-    room: Room, looks: Sequence[Look], pictures: dict[str, NDArray[np.uint8]]
+    room: Room,
+    looks: Sequence[Look],
+    pictures: dict[str, NDArray[np.uint8]],
+    uses: Counter[str],
 ) -> tuple[Room, list[str]]:
-    """The room with what its photos show; new pictures are added."""
+    """The room with what its photos show; new pictures are added, or take the place of its own.
+
+    uses: how many tilings have each picture.
+    """
     notes: list[str] = []
     tilings = {tiling.surface: tiling for tiling in room.tilings}
     surfaces: tuple[Surface, ...] = ("floor", "wall")
@@ -98,7 +108,9 @@ def _finished(
         if not seen:
             continue
         look, tiles = max(seen, key=lambda one: len(one[1].lattice))
-        name = _free_name(pictures)
+        known = tilings.get(surface)
+        own = known is not None and uses[known.picture] == 1
+        name = known.picture if known is not None and own else _free_name(pictures)
         pictures[name] = tiles.texture
         laid = surface == "floor" or room.use in TILED
         tilings[surface] = _tiling(look, tiles, name, laid=laid)

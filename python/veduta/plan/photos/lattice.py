@@ -33,6 +33,9 @@ _DEGENERATE = 1e-9
 _LOOSE = 0.2
 _WIDEST_JOINT = 0.4
 _FAR = 1e6
+_STRAY = 2.5
+_NO_STRAY = 0.05
+"""A corner that is further off than so many medians, and than this (in tiles), is a stray."""
 _UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -58,12 +61,15 @@ class Lattice:
 
     @property
     def is_tiling(self) -> bool:
-        """Whether there are enough of them, in several rows and columns, and they fit."""
-        return (
-            len(self) >= LEAST_TILES
-            and bool((np.ptp(self.cells, axis=0) >= 1).all())
-            and self.residual <= LARGEST_RESIDUAL
-        )
+        """Whether there are enough of them with neighbours beside and above or below, and they fit.
+
+        A row of railings or doors is no tiling, nor with a stray rectangle above it.
+        """
+        at = 2.0 * origins(self.cells, self.bond)
+        apart = np.abs(at[:, None] - at)
+        beside = ((apart[..., 0] == 2.0) & (apart[..., 1] <= 1.0)).any(axis=1)
+        above = ((apart[..., 1] == 2.0) & (apart[..., 0] <= 1.0)).any(axis=1)
+        return int((beside & above).sum()) >= LEAST_TILES and self.residual <= LARGEST_RESIDUAL
 
 
 def origins(cells: NDArray[np.int64], bond: Bond) -> NDArray[np.float64]:
@@ -117,7 +123,21 @@ def _grown(
         if wider is None or wider.residual > LARGEST_RESIDUAL:
             break
         used, lattice = np.concatenate([used, new.rows]), wider
-    return lattice, used
+    return _settled(lattice, used)
+
+
+def _settled(lattice: Lattice, used: NDArray[np.int64]) -> tuple[Lattice | None, NDArray[np.int64]]:
+    """Without rectangles that lie otherwise than most: what grew at the edge may be no tile."""
+    start = origins(lattice.cells, lattice.bond)
+    expected = start[:, None] + _inset(lattice.joint)
+    tiles_from_photo = homography.inverse(lattice.photo_from_tiles)
+    flat = homography.apply(tiles_from_photo, lattice.corners_px.reshape(-1, 2))
+    off = np.linalg.norm(flat.reshape(-1, 4, 2) - expected, axis=2).max(axis=1)
+    kept = off <= max(_STRAY * float(np.median(off)), _NO_STRAY)
+    if kept.all():
+        return lattice, used
+    fitted = _fitted(lattice.corners_px[kept], lattice.cells[kept], lattice.bond, lattice.joint)
+    return fitted, used[kept]
 
 
 @dataclass(frozen=True)

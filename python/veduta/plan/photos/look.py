@@ -20,7 +20,7 @@ from veduta.plan.photos.tiles import Surface, TilesSeen, find_tiles
 
 LEAST_REST = 0.05
 """A wall's colour is asked of what is no tiles, if that is at least this share of the photo."""
-FEW = 0.02
+FEW = 0.01
 """A colour that fewer of the pixels have is doubtful."""
 
 

@@ -26,8 +26,9 @@ _QUARTER_DEG = 90.0
 _MIX_DEG = 3.0
 """Two pictures of the four are mixed so far to both sides of where they meet."""
 _FADE_DEG = 35.0
+_EDGE_PX = 3
 _BLUR_SHARE = 0.02
-_BLURRED_BY = 0.25
+_BLURRED_BY = 0.1
 """Of the way of the fade: from there on the edge that goes on is blurred."""
 
 
@@ -130,7 +131,8 @@ def _fade(picture: Pixels, first: NDArray[np.int64], step_deg: float) -> None:
     if rows == 0:
         return
     width = picture.shape[1]
-    edge = picture[first, np.arange(width)].astype(np.float32)
+    rows_down = np.minimum(first + np.arange(_EDGE_PX)[:, None], len(picture) - 1)
+    edge = picture[rows_down, np.arange(width)].mean(axis=0, dtype=np.float32)
     margin = max(1, round(3.0 * _BLUR_SHARE * width))
     around = np.concatenate([edge[-margin:], edge, edge[:margin]])[None]
     soft = cv2.GaussianBlur(around, (0, 0), _BLUR_SHARE * width, sigmaY=1e-3)[0][margin:-margin]
