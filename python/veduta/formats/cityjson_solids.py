@@ -76,7 +76,7 @@ class CityDocument:
     def solid(
         self,
         shells: Sequence[Sequence[CityFace]],
-        surfaces: Mapping[Hashable, Mapping[str, Any]],
+        surfaces: Mapping[Any, Mapping[str, Any]],
     ) -> dict[str, Any]:
         """A Solid of one shell, a MultiSolid of several, a MultiSurface of what is not closed.
 
