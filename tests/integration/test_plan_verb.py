@@ -12,6 +12,7 @@ from PIL import Image
 from sample_plan import sample_plan
 from test_validators import validate_gltf
 
+from veduta.cli.plan import _tell as tell
 from veduta.formats.place_json import read_place
 from veduta.plan import pipeline
 from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, SiteOptions
@@ -26,8 +27,9 @@ FILES = {
 }  # fmt: skip
 
 
-def plan(document: Path, out: Path, *, force: bool = False) -> PlanResult:
-    return run_plan([document], out, PlanOptions(), Progress(quiet=True), force=force)
+def plan(document: Path, out: Path, *, force: bool = False, seed: int = 0) -> PlanResult:
+    options = PlanOptions(house=HouseOptions(seed=seed))
+    return run_plan([document], out, options, Progress(quiet=True), force=force)
 
 
 @pytest.fixture
@@ -37,7 +39,9 @@ def document(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, document: Path) -> None:
+def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(
+    tmp_path: Path, document: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "out"
     made = plan(document, out)
     assert (made.exit_code, made.outdated, made.up_to_date) == (0, False, False)
@@ -61,11 +65,16 @@ def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, docum
     assert (again.up_to_date, again.outdated) == (True, True)
     assert (out / "house.glb").read_bytes() == before
 
-    rebuilt = plan(out / "plan.json", out)
+    rebuilt = plan(out / "plan.json", out, seed=3)
     assert (rebuilt.up_to_date, rebuilt.outdated) == (False, False)
+    assert [note.split()[0] for note in rebuilt.notes] == ["--seed"]
+    assert rebuilt.notes[0] in json.loads((out / "report.json").read_text())["notes"]
+    capsys.readouterr()
+    tell(rebuilt)
+    assert f"note: {rebuilt.notes[0]}" in capsys.readouterr().out
     assert (out / "plan.json").read_text() == edited
     assert (out / "house.glb").read_bytes() != before
-    assert plan(out / "plan.json", out).up_to_date
+    assert plan(out / "plan.json", out, seed=3).up_to_date
 
 
 def test_north_sun_and_panorama_survive_a_rebuild(tmp_path: Path, document: Path) -> None:

@@ -23,6 +23,18 @@ Drawings = Annotated[
     ),
 ]
 
+Photos = Annotated[
+    tyro.conf.UseAppendAction[tuple[str, ...]],
+    tyro.conf.arg(
+        metavar="ROOM=FILE",
+        help_behavior_hint="",
+        help=(
+            "a photo of a room, by its id or name: its walls get the colour, its floor and walls"
+            " the tiles that it shows; may be given several times"
+        ),
+    ),
+]
+
 
 @dataclass(frozen=True)
 class PlanCall:
@@ -43,6 +55,7 @@ class PlanCall:
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     house: HouseOptions = field(default_factory=HouseOptions)
     site: SiteOptions = field(default_factory=SiteOptions)
+    photos: Photos = ()
     force: Force = False
     quiet: Quiet = False
 

@@ -9,7 +9,7 @@ import { Store } from "../core/store.ts";
 import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
-import { durationOf } from "../core/tour.ts";
+import { durationOf, NOT_BEGUN, type TourState } from "../core/tour.ts";
 import "./feature-panel.ts";
 import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
@@ -226,26 +226,25 @@ export class Studio extends LitElement {
   }
 
   #tourPanel({ place }: Session): TemplateResult | typeof nothing {
-    const [tour] = place.tours;
-    if (tour === undefined) return nothing;
+    if (place.tours.length === 0) return nothing;
     const { tour: at } = this.#store.value;
-    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tour=${tour} .at=${at}
+    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tours=${place.tours} .at=${at}
+      @choose-tour=${(event: CustomEvent<number>) => this.#goInTour({ which: event.detail, time_s: 0 })}
       @play-tour=${() => this.#toggleTour()}
-      @seek-tour=${(event: CustomEvent<number>) => this.#seekTour(event.detail)}></veduta-tour-panel>`;
+      @seek-tour=${(event: CustomEvent<number>) => this.#goInTour({ time_s: event.detail })}></veduta-tour-panel>`;
   }
 
   /** Plays on from where it was left, from its beginning after its end. */
   #toggleTour(): void {
-    const tour = this.session?.place.tours[0];
+    const at = this.#store.value.tour ?? NOT_BEGUN;
+    const tour = this.session?.place.tours[at.which];
     if (tour === undefined) return;
-    const at = this.#store.value.tour ?? { time_s: 0, playing: false };
     const time_s = at.time_s >= durationOf(tour) ? 0 : at.time_s;
-    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { time_s, playing: !at.playing } });
+    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { ...at, time_s, playing: !at.playing } });
   }
 
-  #seekTour(time_s: number): void {
-    const playing = this.#store.value.tour?.playing ?? false;
-    this.#store.update({ mode: "walk", shot: null, tour: { time_s, playing } });
+  #goInTour(change: Partial<TourState>): void {
+    this.#store.update({ mode: "walk", shot: null, tour: { ...(this.#store.value.tour ?? NOT_BEGUN), ...change } });
   }
 
   /** What of a streamed place is drawn now, as the panel counts it. */

@@ -24,10 +24,12 @@ from veduta.place.semantics import SemanticClass
 from veduta.plan.document import Opening
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
+from veduta.plan.house.floors import slab_over
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine
-from veduta.plan.house.space import Space, pieces_of, solid_region
+from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
 from veduta.plan.surroundings.site import Site
 
@@ -51,6 +53,10 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
         model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
         model.contain(storeys[-1], things, "furniture")
+        rooms = [one for rel in storeys[-1].IsDecomposedBy for one in rel.RelatedObjects]
+        place = storeys[-1].ObjectPlacement
+        coverings = finishes_of(model, house.part, space, place, rooms)
+        model.contain(storeys[-1], coverings, "finishes")
     model.aggregate(model.building, storeys, "storeys")
     roof = _roof(model, house)
     if roof is not None:
@@ -233,10 +239,7 @@ def _storey(
         slabs.append(
             _slab(model, f"{name} floor", space.slab, (-GROUND_SLAB_M, 0.0), place, "BASESLAB")
         )
-    over = space.covered
-    if above is not None:
-        over = over.union(above.slab).difference(above.well)
-    over = solid_region(over)
+    over = slab_over(space, above)
     if not over.is_empty:
         ends = (height, height + options.slab)
         slabs.append(_slab(model, f"{name} ceiling", over, ends, place, "FLOOR"))

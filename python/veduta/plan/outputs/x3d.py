@@ -88,7 +88,7 @@ def house_x3d(
     backdrop: a picture around all of it, into which nobody bumps.
     """
     part = flattened(house.part)
-    up_m = options.plinth - house.spaces[0].storey.elevation_m
+    up_m = options.plinth - house.spaces[house.ground].storey.elevation_m
     ceilings = {s.storey.name: s.storey.height_m - options.slab for s in house.spaces}
     scene = X3dScene("House from a floor plan")
     _add_surroundings(scene, site or Site())
@@ -100,11 +100,13 @@ def house_x3d(
     still = np.ones(len(part.polygon_feature), dtype=np.bool_)
     for mover in part.movers:
         still[mover.polygons] = False
-    for number, (space, room, region) in enumerate(seen_from.rooms):
-        group = scene.node(whole, "Group", f"{space.storey.name} {room.id}")
-        lamps = RoomLamps(scene, part, f"{space.storey.name} {room.id}")
-        chosen = still & (seen_from.number == number)
-        lamps.add(group, region, space, ceilings[space.storey.name], chosen)
+    for name, numbers in _pieces(seen_from).items():
+        group = scene.node(whole, "Group", name)
+        lamps = RoomLamps(scene, part, name)
+        chosen = still & np.isin(seen_from.number, numbers)
+        space = seen_from.rooms[numbers[0]][0]
+        regions = [seen_from.rooms[number][2] for number in numbers]
+        lamps.add(group, regions, space, ceilings[space.storey.name], chosen)
         scene.shapes(group, part, chosen & ~lamps.glass)
     outside = scene.node(whole, "Group", "outside")
     scene.shapes(outside, part, still & (seen_from.number < 0))
@@ -147,6 +149,14 @@ def room_of_polygons(part: Part, spaces: Sequence[Space], ceilings_m: dict[str, 
         if -STEP_M <= height <= ceilings_m[storey.name] + STEP_M:
             number[point] = room
     return RoomOf(rooms, number)
+
+
+def _pieces(seen_from: RoomOf) -> dict[str, list[int]]:
+    """The pieces of each room by its storey and id: a wall may part a floor."""
+    found: dict[str, list[int]] = {}
+    for number, (space, room, _) in enumerate(seen_from.rooms):
+        found.setdefault(f"{space.storey.name} {room.id}", []).append(number)
+    return found
 
 
 def _add_surroundings(scene: X3dScene, site: Site) -> None:
