@@ -15,9 +15,9 @@ from shapely.geometry import Point, Polygon, box
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture
+from veduta.plan.house.furniture import footprint
 from veduta.plan.house.space import space_of
 from veduta.plan.lights.ceiling import ceiling_lamps, wall_angles
-from veduta.plan.house.furniture import footprint
 from veduta.plan.lights.lighting import darkness, light_house
 from veduta.plan.lights.needs import LUX, UTILISATION
 from veduta.plan.lights.sight import CORNER

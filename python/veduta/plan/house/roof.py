@@ -1,4 +1,8 @@
-"""The roof over the highest storey: by the straight skeleton, or flat."""
+"""The roof over the highest storey: by the straight skeleton, or flat.
+
+Over a curved wall the eaves are a polygonal line, whose sides are tangents of the arc to within
+some centimetres, so that its skeleton is that of AV3D's tangents ("3D generation", roofs).
+"""
 
 from __future__ import annotations
 
@@ -35,6 +39,11 @@ def add_roof(
             continue
         kind: RoofKind = "hip" if options.roof == "auto" else options.roof
         found = None if kind == "flat" else _solid(shape, kind, options)
+        if found is None and kind not in ("flat", "hip"):
+            # A round house has no gables.
+            found = _solid(shape, "hip", options)
+            if found is not None:
+                notes.append(f"roof {number} is hipped: its outline allows no {kind} roof")
         if found is None and kind != "flat":
             notes.append(f"roof {number} is flat: a {kind} roof cannot be built over its outline")
         feature = sculptor.builder.feature(
