@@ -10,6 +10,7 @@ from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import get_coordinates, offset_curve
 from shapely.geometry import Polygon
 from shapely.ops import substring
 
@@ -159,8 +160,8 @@ def _opening(hole: Hole) -> Shape:
 def _beside(hole: Hole, offset_m: float) -> NDArray[np.float64]:
     """(n, 2) points along an opening in a curved wall, to the left of its centre line."""
     part = substring(hole.line.line, hole.start_m, hole.end_m)
-    line = part.offset_curve(offset_m, join_style="mitre") if offset_m else part
-    return np.array(line.coords)
+    line = offset_curve(part, offset_m, join_style="mitre") if offset_m else part
+    return np.asarray(get_coordinates(line))
 
 
 def _thing(thing: Furniture) -> Shape:

@@ -11,6 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 from scipy.optimize import least_squares
+from shapely import get_coordinates
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
@@ -91,9 +92,11 @@ def test_a_circle_is_that_of_least_squares(turn: float, seed: int) -> None:
     points += rng.normal(0.0, 0.3, points.shape)
     found = fit_circle(points)
     assert found is not None
-    best = least_squares(
-        lambda x: np.hypot(points[:, 0] - x[0], points[:, 1] - x[1]) - x[2], [40.0, -20.0, 90.0]
-    )
+
+    def away(guess: NDArray[np.float64]) -> NDArray[np.float64]:
+        return np.asarray(np.hypot(*(points - guess[:2]).T) - guess[2])
+
+    best = least_squares(away, [40.0, -20.0, 90.0])
     assert [*found.centre, found.radius_px] == pytest.approx(best.x, abs=1e-3)
 
 
@@ -151,7 +154,7 @@ def sheet(solid: BaseGeometry, lines: list[LineString]) -> NDArray[np.uint8]:
     things = [box(110, 200, 170, 280).exterior, box(500, 150, 600, 210).exterior]
     thin = unary_union([line.buffer(1.0) for line in (*lines, *things)])
     ink = np.maximum(painted(solid), painted(thin))
-    return np.repeat(np.uint8(255 * (1 - ink))[..., None], 3, axis=2)
+    return np.repeat((255 * (1 - ink)).astype(np.uint8)[..., None], 3, axis=2)
 
 
 def scale_of(drawn: Drawn) -> float:
@@ -176,9 +179,9 @@ def test_a_curved_wall_between_two_rooms_is_read_as_one() -> None:
     assert ends[:, 0] == pytest.approx([330.0, 330.0], abs=2.0)
     assert len(drawn.rooms) == 2
     scale = scale_of(drawn)
-    true_rooms = [
-        part for part in box(80, 110, 620, 390).difference(inner).geoms if part.area > 1000
-    ]
+    free = box(80, 110, 620, 390).difference(inner)
+    true_rooms = [part for part in getattr(free, "geoms", [free]) if part.area > 1000]
+    assert len(true_rooms) == 2
     for part in true_rooms:
         best = max(
             drawn.rooms, key=lambda room: Polygon(room.outline_px / scale).intersection(part).area
@@ -199,7 +202,7 @@ def test_a_bow_that_is_mostly_window_is_a_curved_wall_with_a_window() -> None:
     inside = Polygon([tuple(point) for point in true.at(np.linspace(0, true.length_px, 60), 0.0)])
     solid = unary_union([solid.difference(straight.intersection(inside.buffer(11.0))), band])
     solid = solid.difference(pane.buffer(11.0, cap_style="flat"))
-    faces = [pane.offset_curve(side) for side in (-9.0, 9.0)]
+    faces = [LineString(get_coordinates(pane.offset_curve(side))) for side in (-9.0, 9.0)]
     drawn = read_storey(sheet(solid, faces))
     (wall,) = curved_walls(drawn)
     assert abs(wall.bulge) == pytest.approx(0.4, abs=0.05)

@@ -7,7 +7,9 @@ from __future__ import annotations
 
 import math
 
-from shapely.geometry.base import BaseGeometry
+import numpy as np
+from shapely import get_coordinates, offset_curve
+from shapely.geometry import Polygon
 from shapely.ops import substring
 
 from veduta.plan.house.frame import Frame, Sculptor, Surface, level
@@ -71,11 +73,18 @@ def _add_sills(hole: Hole, frame: Frame, sculptor: Sculptor, surface: Surface) -
     for side, room in ((1.0, hole.left), (-1.0, hole.right)):
         inside = room is not None and not room.outdoors
         reach = hole.line.half_m + SILL_BEYOND_M["inside" if inside else "outside"]
-        board = _beside(hole, side, reach).difference(_beside(hole, side, DEPTH_M / 2.0))
+        board = _board(hole, side, DEPTH_M / 2.0, reach)
         sculptor.prism(board, hole.low_m, hole.low_m + SILL_M, frame, surface)
 
 
-def _beside(hole: Hole, side: float, reach_m: float) -> BaseGeometry:
-    """What lies along the hole on one side of the centre line, 1 left and -1 right."""
+def _board(hole: Hole, side: float, near_m: float, far_m: float) -> Polygon:
+    """What lies along the hole from one distance from the centre line to another.
+
+    side: 1 left of it, -1 right.
+    """
     part = substring(hole.line.line, hole.start_m, hole.end_m)
-    return part.buffer(side * reach_m, single_sided=True, join_style="mitre")
+    near, far = (
+        get_coordinates(offset_curve(part, side * away, join_style="mitre"))
+        for away in (near_m, far_m)
+    )
+    return Polygon(np.concatenate([near, far[::-1]]))
