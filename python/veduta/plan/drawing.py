@@ -10,6 +10,7 @@ from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import get_coordinates, offset_curve
 from shapely.geometry import LineString, Polygon
 from shapely.ops import substring
 
@@ -161,10 +162,23 @@ def _opening(hole: Hole) -> Shape:
     ]
     opening = hole.opening
     if opening.kind == "window":
+        if hole.line.wall.bulge:
+            edges = [_beside(hole, offset) for offset in (-half, half)]
+            ends = [np.array(pair) for pair in zip(*(edge[[0, -1]] for edge in edges), strict=True)]
+            return Shape(
+                "windows", (), (*edges, *ends, _beside(hole, 0.0)), opening.id, opening.type
+            )
         middle = np.array([start, start + width * way])
         return Shape("windows", (), (*edges, *ends, middle), opening.id, opening.type)
     lines = [*ends, *_leaves(hole)]
     return Shape("doors", (), tuple(lines), opening.id, opening.type)
+
+
+def _beside(hole: Hole, offset_m: float) -> NDArray[np.float64]:
+    """(n, 2) points along an opening in a curved wall, to the left of its centre line."""
+    part = substring(hole.line.line, hole.start_m, hole.end_m)
+    line = offset_curve(part, offset_m, join_style="mitre") if offset_m else part
+    return np.asarray(get_coordinates(line))
 
 
 def _thing(thing: Furniture) -> Shape:
