@@ -13,6 +13,7 @@ from plan_documents import document_of
 from plan_tour import judge
 from scipy.spatial import KDTree
 from shapely.geometry import Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.place.part import Part
@@ -106,7 +107,8 @@ def test_rails_stand_on_free_sides_and_not_in_the_way(kind: str) -> None:
     # A body of 20 cm radius passes between all of them.
     places = np.concatenate([flight.line_m + np.array([0.0, 0.0, up]) for up in (0.5, 0.9)])
     points, _ = trimesh.sample.sample_surface(rails, 20_000, seed=0)
-    assert KDTree(points).query(places)[0].min() > 0.2
+    away, _ = KDTree(points).query(places)
+    assert np.min(away) > 0.2
     for number, shell in enumerate(shells(part)):
         owner = part.features.shell.tolist()
         name = part.features.name[owner.index(number)] if number in owner else ""
@@ -156,7 +158,7 @@ def test_a_wall_above_the_foot_of_stairs_is_not_in_the_way() -> None:
     foot = Point(*climb.foot_m).buffer(0.1)
     high = Point(*climb.head_m).buffer(0.1)
 
-    def with_wall(at: Polygon) -> int:
+    def with_wall(at: BaseGeometry) -> int:
         space = type(upper)(
             upper.storey, upper.lines, unary_union([upper.walls, at]), upper.holes, upper.notes
         )
