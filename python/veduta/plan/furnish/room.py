@@ -6,7 +6,7 @@ Plan frame, metres; heights are from the room's floor.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -92,7 +92,6 @@ class RoomSpace:
     blocked: BaseGeometry
     windows: tuple[Window, ...]
     height_m: float
-    notes: list[str] = field(default_factory=list)
 
     @cached_property
     def inside(self) -> Polygon:

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, PARALLEL_RAD, Gap, parted
 from veduta.plan.walls.axes import Axis
-from veduta.plan.walls.graph import Edge, Graph
+from veduta.plan.walls.graph import Edge, Graph, with_facets
 from veduta.plan.walls.join import UPRIGHT_RAD
 
 GOES_ON_RAD = np.radians(30.0)
@@ -30,7 +30,7 @@ SLANTED_FARTHEST = 12.0
 """Nor between two ends of walls that do not lie in one line."""
 
 STUB = (0.5, 2.5)
-"""Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
+"""Stubs on the faces of walls are so broad, in (thin) wall thicknesses, or as the wall is thick."""
 
 LONG = 4.0
 """Slanted pieces of wall have a direction if so many times as long as thick."""
@@ -75,6 +75,7 @@ def find_breaks(
     graph: Graph, axes: Sequence[Axis], solid: NDArray[np.bool_], thin_px: float
 ) -> list[Break]:
     """All places where a wall of the graph may go on; most of them are none."""
+    graph = with_facets(graph, axes)
     walls = _Walls(graph, axes)
     rays = [*_from_nodes(graph, walls), *_from_stubs(graph, walls, solid, thin_px)]
     found = [one for ray in rays if (one := walls.ahead(ray, thin_px, solid))]
@@ -175,7 +176,7 @@ def _from_stubs(
             dark = np.diff(np.pad(_on(solid, points).astype(np.int8), 1))
             pairs = zip(np.flatnonzero(dark == 1), np.flatnonzero(dark == -1), strict=True)
             for low, high in pairs:
-                if not STUB[0] * thin_px <= high - low <= STUB[1] * thin_px:
+                if not STUB[0] * thin_px <= high - low <= max(STUB[1] * thin_px, 1.1 * thick):
                     continue
                 foot = walls.start[index] + float(low + high) / 2 * way
                 yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))

@@ -27,6 +27,8 @@ CELL_M = 0.06
 """Side of a square: doors leave a strip that is little wider for the visitor's middle."""
 MOST_CELLS = 400_000
 """In a storey; larger ones have larger squares."""
+MOST_IN_ALL = 2_000_000
+"""In all storeys together."""
 SHY_M = 0.5
 """Nearer to what stands in the way than this a metre costs more ..."""
 SHY_COST = 3.0
@@ -50,10 +52,11 @@ class Cells:
     lengths_m: NDArray[np.float64]
 
 
-def cells_of(ground: Ground) -> Cells:
-    """The free squares of a storey."""
+def cells_of(ground: Ground, storeys: int = 1) -> Cells:
+    """The free squares of a storey of so many."""
     left, bottom, right, top = ground.free.bounds if not ground.free.is_empty else (0, 0, 0, 0)
-    side = max(CELL_M, math.sqrt((right - left) * (top - bottom) / MOST_CELLS))
+    most = min(MOST_CELLS, MOST_IN_ALL // storeys)
+    side = max(CELL_M, math.sqrt((right - left) * (top - bottom) / most))
     columns = np.arange(left + side / 2.0, right, side)
     rows = np.arange(bottom + side / 2.0, top, side)
     x, y = np.meshgrid(columns, rows)

@@ -1,9 +1,9 @@
-"""Walls of a cleaned sheet as straight pieces, whatever way they are drawn."""
+"""Walls of a cleaned sheet as straight and curved pieces, whatever way they are drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -14,6 +14,7 @@ from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned, DrawnStairs
 from veduta.plan.stairs.find import without_flights
 from veduta.plan.walls.cells import Cells, find_cells
+from veduta.plan.walls.curved import curved_pieces, lies_in
 from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
@@ -60,18 +61,32 @@ LEAST_STROKES = 0.15
 MOSTLY = 0.3
 """Walls are hatched if there is so much that is hatched, as a part of the insides of walls."""
 
+LEAST_HATCHING = 0.04
+"""Strokes of hatching cover at least this part of what lies between the outlines of walls."""
+
+FINE = 2.0
+THICK = 0.6
+"""Thick walls are at least this part of the thickest common ones."""
+
+CUT = 2.5
+"""Walls whose ends are not drawn are parted from rooms, which are so many times as broad."""
+
+LEAKS = 1.3
+"""That is done where it shows so many times as much wall."""
+
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
 
 @dataclass(frozen=True)
 class Found:
-    """Pieces of wall, the mask that they were found in, and how thick walls are."""
+    """Straight and curved pieces of wall, the mask of them, and how thick walls are."""
 
     pieces: list[Piece]
     solid: NDArray[np.bool_]
     thickness: Thickness
     thin_px: float
+    curved: list[Piece] = field(default_factory=list)
 
 
 def find_walls(
@@ -104,20 +119,24 @@ def find_walls(
             # The edges of lines are as pale as panes: without them all lines are thinner.
             thickness = wall_thickness(dark, cleaned.line_px) or thickness
         solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
-    pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
+    least_px = 0.8 * thickness.least_px
+    curved, tracks = curved_pieces(find_tracks(solid), solid, least_px, drawing)
+    pieces = straight_pieces(tracks, least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
     # What was filled in is as solid as ink.
     ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
     soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    curved = [measured(one, soft) for one in curved]
+    whole = [one for one in whole if not any(lies_in(one, arc) for arc in curved)]
     if known is None:
         whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
     if drawing == "single-line":
         whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
-    if not whole:
+    if not whole and not curved:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
-    return Found(whole, solid, thickness, thin_thickness(whole))
+    return Found(whole, solid, thickness, thin_thickness([*whole, *curved]), curved)
 
 
 def choose_drawing(
@@ -151,7 +170,9 @@ def _more_wall(
     full = wall_thickness(filled, line_px)
     if full is None:
         return None
-    least = 0.9 * full.least_px
+    # Where thin walls are no thicker than letters and double lines, the thick ones are compared.
+    fine = full.least_px < FINE * line_px
+    least = THICK * full.most_px if fine else 0.9 * full.least_px
     more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
     return full if more else None
 
@@ -161,13 +182,26 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     strokes = hatch_strokes(ink, line_px)
     cells = find_cells(ink & ~strokes, line_px)
     walls = wall_cells(cells)
+    if walls.any():
+        cut_px = CUT * float(np.quantile(np.repeat(cells.breadth, _lengths(cells, walls)), 0.9))
+        again = find_cells(ink & ~strokes, line_px, cut_px)
+        more = wall_cells(again)
+        if _lengths(again, more).sum() > LEAKS * _lengths(cells, walls).sum():
+            cells, walls = again, more
     inside = walls[cells.labels]
     hatched = hatched_areas(strokes)
     drawing: WallDrawing = "hollow"
-    if hatched.any() and float(hatched.sum()) > MOSTLY * float(inside.sum()):
+    # Where walls have outlines, their hatching lies in these: arcs of doors have strokes, too.
+    lie_in_walls = float((strokes & inside).sum()) >= LEAST_HATCHING * float(inside.sum())
+    if hatched.any() and lie_in_walls and float(hatched.sum()) > MOSTLY * float(inside.sum()):
         drawing = "hatched"
         inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
     return inside | (ink & _grown(inside, 3 * line_px)), drawing
+
+
+def _lengths(cells: Cells, chosen: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(n,) whole pixels along the middles of the chosen cells; 0 of others."""
+    return np.where(chosen, cells.length, 0.0).astype(np.int64)
 
 
 def _as_hatched(
