@@ -73,10 +73,11 @@ def add_roof(
     """A roof over each piece of a region; what could not be built as asked is noted."""
     notes: list[str] = []
     for roof in roofs_over(region, options):
-        if roof.built != roof.asked:
-            found = "hipped" if roof.built == "hip" else "flat"
+        if roof.built != roof.asked and roof.built == "hip":
+            notes.append(f"{roof.name} is hipped: its outline allows no {roof.asked} roof")
+        elif roof.built != roof.asked:
             notes.append(
-                f"{roof.name} is {found}: a {roof.asked} roof cannot be built over its outline"
+                f"{roof.name} is flat: a {roof.asked} roof cannot be built over its outline"
             )
         feature = sculptor.builder.feature(
             SemanticClass.ROOF, Provenance.INVENTED, roof.name,

@@ -23,6 +23,8 @@ WAIST_M = 0.12
 _BARS_M = 0.28
 """Between two bars of a handrail: about one on each tread."""
 _INSET_M = 0.03
+_JOINT_M = 5e-4
+"""Pieces of a rail do not touch: each is closed by itself."""
 _LEAST_RAIL_M = 0.5
 _COLUMN_M = 0.4
 _COLUMN_SIDE_M = 0.15
@@ -167,8 +169,9 @@ def _add_rail(
     here, there = np.array(edge.coords)
     frame = upright(here, (there - here) / edge.length, lower.storey.elevation_m)
     # Treads lie on the left of their edges, the frame's third axis is to the right.
+    first, last = _JOINT_M, edge.length - _JOINT_M
     rail = Polygon(
-        [(0, ends[0]), (edge.length, ends[1]), (edge.length, ends[1] + 0.05), (0, ends[0] + 0.05)]
+        [(first, ends[0]), (last, ends[1]), (last, ends[1] + 0.05), (first, ends[0] + 0.05)]
     )
     sculptor.prism(rail, -_INSET_M - RAIL_SIDE_M, -_INSET_M, frame, surface)
     count = max(1, round(edge.length / _BARS_M))

@@ -17,7 +17,7 @@ HEAD = 1.3
 """How far from the end of its shaft an arrow's head is looked for, in treads."""
 BESIDE = (0.15, 0.6)
 """Where its barbs are, from the shaft, in treads."""
-LEAST_BARB = 0.7
+LEAST_BARB = 0.5
 """Of the width that is looked at; a tread hides a part of the head."""
 LEAST_SHAFT = 0.45
 LEAST_DIFFERENCE = 1.5
