@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Text
@@ -17,10 +16,11 @@ from veduta.plan.drawn import (
     DrawnRoom,
     DrawnWall,
 )
-from veduta.plan.rooms.close import Space, closed_spaces, contains, wall_bodies, wall_body
+from veduta.plan.rooms.close import Space, closed_spaces, contains, curved_body, wall_bodies
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
-from veduta.plan.walls.graph import Edge, Graph, openings_on, wall_graph
+from veduta.plan.walls.graph import Edge, Graph, edge_line, openings_on, wall_graph
+from veduta.plan.walls.pieces import Piece
 
 MENDED_SCORE = 0.3
 """Of walls that nothing but the room behind them speaks for."""
@@ -44,9 +44,8 @@ def drawn_from(
     walls: list[DrawnWall] = []
     openings: list[DrawnOpening] = []
     for index, edge in enumerate(graph.edges):
-        start, end = graph.nodes[edge.first], graph.nodes[edge.second]
         name = f"w{index + 1}"
-        line = axes[edge.axis].line
+        line = edge_line(edge, graph, axes)
         walls.append(
             DrawnWall(
                 id=name,
@@ -54,13 +53,14 @@ def drawn_from(
                 end=f"j{edge.second + 1}",
                 thickness_px=line.thickness_px,
                 drawing=line.drawing,
-                outer=_is_outer(start, end, line.thickness_px, spaces),
+                outer=_is_outer(line, spaces),
                 score=0.9 if axes[edge.axis].origin == "measured" else MENDED_SCORE,
+                bulge=round(line.bulge, 6),
                 origin=axes[edge.axis].origin,
             )
         )
         for one in openings_on(edge, axes[edge.axis]):
-            opening = _opening(one, edge, graph, f"o{len(openings) + 1}", walls[-1])
+            opening = _opening(one, edge, line, f"o{len(openings) + 1}", walls[-1])
             if opening is not None:
                 openings.append(opening)
     return Drawn(
@@ -77,27 +77,19 @@ def drawn_from(
     )
 
 
-def _is_outer(
-    start: NDArray[np.float64],
-    end: NDArray[np.float64],
-    thickness_px: float,
-    spaces: Sequence[Space],
-) -> bool:
-    run = end - start
-    normal = np.array([-run[1], run[0]]) / max(float(np.hypot(*run)), 1e-9)
+def _is_outer(line: Piece, spaces: Sequence[Space]) -> bool:
     open_sides = 0
+    places = np.array([0.3, 0.7]) * line.length_px
     for side in (1, -1):
-        points = [
-            start + part * run + side * (thickness_px / 2 + 4) * normal for part in (0.3, 0.7)
-        ]
+        points = line.arc.at(places, side * (line.thickness_px / 2 + 4))
         open_sides += not any(contains(space, point) for space in spaces for point in points)
     return open_sides > 0
 
 
 def _opening(
-    one: OnAxis, edge: Edge, graph: Graph, name: str, wall: DrawnWall
+    one: OnAxis, edge: Edge, line: Piece, name: str, wall: DrawnWall
 ) -> DrawnOpening | None:
-    length = float(np.hypot(*(graph.nodes[edge.second] - graph.nodes[edge.first])))
+    length = line.length_px
     low, high = max(one.first, edge.low), min(one.last, edge.high)
     along = low - edge.low
     width = min(high - low, length - along)
@@ -163,9 +155,8 @@ def _holes(
     for one in openings:
         wall = of[one.wall]
         start, end = (graph.nodes[int(name[1:]) - 1] for name in (wall.start, wall.end))
-        way = (end - start) / max(float(np.hypot(*(end - start))), 1e-9)
-        low, high = start + one.along_px * way, start + (one.along_px + one.width_px) * way
-        found.append(wall_body(low, high, wall.thickness_px, (0.0, 0.0)))
+        line = Piece(start, end, wall.thickness_px, bulge=wall.bulge)
+        found.append(curved_body(line.part(one.along_px, one.along_px + one.width_px)))
     return found
 
 

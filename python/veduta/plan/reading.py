@@ -14,12 +14,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
-from veduta.plan.clean.sheet import TextReader, clean_sheet
+from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.leaf_pieces import leaf_pieces
@@ -29,7 +30,9 @@ from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
+from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
+from veduta.plan.walls.bows import with_bows
 from veduta.plan.walls.find import Found, find_walls
 
 
@@ -46,25 +49,21 @@ class KnownWalls:
 
 def read_storey(
     pixels: NDArray[np.uint8],
-    texts: Sequence[Text] | TextReader | None = None,
-    metres_per_px_hint: float | None = None,
+    texts: Sequence[Text] = (),
     subject: str = "the drawing",
 ) -> Drawn:
     """Walls, openings and rooms of one storey from (h, w, 3) sRGB pixels.
 
-    `texts` are in pixels of the given picture, or a function that reads them from a cleaned one.
-    `metres_per_px_hint` is of the given picture; without it, sizes count in wall thicknesses.
+    `texts` are in pixels of the given picture. Sizes count in wall thicknesses.
     Raises NotFoundError where the picture, which it calls `subject`, shows no plan.
     """
     cleaned = clean_sheet(pixels, subject)
-    found_texts = texts_of(cleaned, texts)
-    return read_cleaned(cleaned, found_texts, metres_per_px_hint)
+    return read_cleaned(cleaned, moved_texts(texts, cleaned.clean_from_scan))
 
 
 def read_cleaned(
     cleaned: Cleaned,
     texts: Sequence[Text] = (),
-    metres_per_px_hint: float | None = None,
     known: KnownWalls | None = None,
 ) -> Drawn:
     """As `read_storey`, of a cleaned sheet; texts are in its pixels.
@@ -77,13 +76,15 @@ def read_cleaned(
     flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
     found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
+    if known is None:
+        found = with_bows(found, sheet.faint)
     judged = judge_gaps(found, sheet)
     leaves = leaf_pieces(found.pieces, judged)
     if leaves:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)
         judged = judge_gaps(found, sheet)
-    axes = axes_of(found.pieces, judged)
+    axes = axes_of([*found.pieces, *found.curved], judged)
     whole = mended(axes, found, sheet, texts)
     sky = open_sky(whole.axes, found.thin_px, texts)
     # What a vector file says of its openings goes before what its picture looks like.
@@ -95,27 +96,18 @@ def read_cleaned(
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
     """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
-    gaps = [one for gap in find_gaps(found.pieces) if (one := trimmed(gap, found.solid))]
+    ahead = [
+        *find_gaps(found.pieces, found.curved),
+        *gaps_on_circles(found.pieces, found.curved),
+    ]
+    gaps = [one for gap in ahead if (one := trimmed(gap, found.solid))]
     seen = [look_at(gap, sheet) for gap in gaps]
     first = [judge(gap, view, found.thin_px, None) for gap, view in zip(gaps, seen, strict=True)]
     kept = [one.gap for one in first if one is not None]
-    outer = leads_outdoors(gaps, found.pieces, kept, sheet.ink.shape)
+    walls = [*found.pieces, *found.curved]
+    outer = leads_outdoors(gaps, walls, kept, sheet.ink.shape)
     second = [
         judge(gap, view, found.thin_px, out)
         for gap, view, out in zip(gaps, seen, outer, strict=True)
     ]
     return [one for one in second if one is not None]
-
-
-def texts_of(cleaned: Cleaned, texts: Sequence[Text] | TextReader | None) -> tuple[Text, ...]:
-    """Texts in cleaned pixels, moved there or read there."""
-    if texts is None:
-        return cleaned.texts or ()
-    if callable(texts):
-        return tuple(texts(cleaned.pixels))
-    linear, offset = cleaned.clean_from_scan[:2, :2], cleaned.clean_from_scan[:2, 2]
-    moved = []
-    for text in texts:
-        corners = np.array(text.box_px) @ linear.T + offset
-        moved.append(text.model_copy(update={"box_px": [(float(x), float(y)) for x, y in corners]}))
-    return tuple(moved)

@@ -1,4 +1,4 @@
-/** The guided tour: play and pause, how far one is, and the room that one is in. */
+/** The guided tours: which one, play and pause, how far one is, and the room that one is in. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { durationOf, stretchAt, type Tour, type TourState } from "../core/tour.ts";
 import { icons } from "./icons.ts";
@@ -9,10 +9,10 @@ const STEP_S = 0.1;
 
 export class TourPanel extends LitElement {
   static override properties = {
-    tour: { attribute: false },
+    tours: { attribute: false },
     at: { attribute: false },
   };
-  declare tour: Tour | null;
+  declare tours: readonly Tour[];
   /** Null before it was begun. */
   declare at: TourState | null;
 
@@ -47,6 +47,12 @@ export class TourPanel extends LitElement {
         font-variant-numeric: tabular-nums;
         white-space: nowrap;
       }
+      select {
+        flex: 0 1 130px;
+        min-width: 60px;
+        font: inherit;
+        color: inherit;
+      }
       input {
         flex: 1;
         min-width: 60px;
@@ -57,19 +63,21 @@ export class TourPanel extends LitElement {
 
   constructor() {
     super();
-    this.tour = null;
+    this.tours = [];
     this.at = null;
   }
 
   override render(): TemplateResult | typeof nothing {
-    const { tour, at } = this;
-    if (tour === null) return nothing;
+    const { tours, at } = this;
+    const tour = tours[at?.which ?? 0];
+    if (tour === undefined) return nothing;
     const playing = at?.playing ?? false;
     const time_s = at?.time_s ?? 0;
     const label = playing ? "Pause the tour (G)" : "Play the tour (G)";
     const name = at === null ? "Tour" : (stretchAt(tour, time_s)?.name ?? "Tour");
     return html`<button class="icon-button" aria-label=${label} title=${label} aria-pressed=${playing} data-field="play"
         @click=${() => this.#emit("play-tour", 0)}>${playing ? icons.pause : icons.play}</button>
+      ${tours.length > 1 ? this.#choice(at?.which ?? 0) : nothing}
       <div class="where"><strong data-field="room" title=${name}>${name}</strong>
         <span data-field="time">${clock(time_s)} of ${clock(durationOf(tour))}</span></div>
       <input type="range" aria-label="How far the tour is" min="0" max=${durationOf(tour)} step=${STEP_S}
@@ -77,7 +85,14 @@ export class TourPanel extends LitElement {
         @input=${(event: Event) => this.#emit("seek-tour", Number((event.target as HTMLInputElement).value))} />`;
   }
 
-  #emit(name: "play-tour" | "seek-tour", detail: number): void {
+  #choice(which: number): TemplateResult {
+    return html`<select aria-label="Which tour" data-field="which"
+      @change=${(event: Event) => this.#emit("choose-tour", (event.target as HTMLSelectElement).selectedIndex)}>
+      ${this.tours.map((tour, index) => html`<option .selected=${index === which}>${tour.name}</option>`)}
+    </select>`;
+  }
+
+  #emit(name: "choose-tour" | "play-tour" | "seek-tour", detail: number): void {
     this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
   }
 }

@@ -39,8 +39,8 @@ export interface Scenery {
   follow(camera: { readonly position: Vector3 }): void;
   /** Lets the sun's shadows fall around a place of the drawn frame. */
   shadeAround(centre: Vector3, radius_m: number): void;
-  /** Sets the sun, or the moon, and all colours. */
-  light(daylight: Daylight): void;
+  /** Sets the sun, or the moon, and all colours; what of a picture's light there is then. */
+  light(daylight: Daylight): Color;
 }
 
 /**
@@ -67,7 +67,7 @@ export function makeScenery(
   const shade = makeGroundShadow(bounds, height_m);
   const ground = makeGround(footprints, height_m, scaleKnown);
   group.add(sky, ground, shade, skyLight, sun, sun.target);
-  const light = (daylight: Daylight): void => {
+  const light = (daylight: Daylight): Color => {
     const look = skyLightAt(daylight);
     toSun.set(...drawnFromWorld(daylight.toLight));
     sun.color.copy(look.sun);
@@ -81,6 +81,7 @@ export function makeScenery(
     (sky.material.uniforms.glow as IUniform<Color>).value.copy(look.glow);
     (ground.material.uniforms.light as IUniform<Color>).value.copy(look.ground);
     aimSun(sun, toSun, shaded.centre, shaded.radius);
+    return look.picture;
   };
   light(daylightAt(DAY_HOUR));
   return {

@@ -76,6 +76,7 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
         ),
         (["rooms", 1, "openings"], ["gone"], "storeys[0].rooms[1].openings: there is no 'gone'"),
         (["junctions", 0, "at_m"], [1e9, 0.0], "storeys[0].junctions[0].at_m[0]: 1000000000.0 is"),
+        (["junctions", 0, "at_m"], [-700.0, 0.0], "storeys[0]: is 708 m from end to end; 500 m"),
         (["height_m"], 1.0, "storeys[0].height_m: 1 m, less than 2"),
         (["scale"], KeyError, "storeys[0].scale: Field required"),
         (

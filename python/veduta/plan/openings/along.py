@@ -76,7 +76,8 @@ def with_unbroken(
 
 
 def _own(axis: Axis, sheet: Sheet) -> NDArray[np.float64]:
-    return profile(cut_strip(axis.line.start, axis.line.end, axis.line.thickness_px, sheet))
+    line = axis.line
+    return profile(cut_strip(line.start, line.end, line.thickness_px, sheet, 0.0, line.bulge))
 
 
 def _without(axis: Axis, own: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -97,8 +98,8 @@ def _opening(
     taken = any(one.first - near < high and low < one.last + near for one in axis.openings)
     if taken or high - low < LEAST_WIDTH * thin_px or not leads_out(line, (low, high), sky):
         return None
-    start, end = line.start + low * line.direction, line.start + high * line.direction
-    gap = Gap(-1, True, -1, False, start, end, line.thickness_px, end)
+    part = line.part(low, high)
+    gap = Gap(-1, True, -1, False, part.start, part.end, line.thickness_px, part.end, part.bulge)
     seen = judge(gap, look_at(gap, sheet), thin_px, True)
     if seen is None or seen.kind == "gap":
         return None

@@ -132,8 +132,7 @@ def _swing(gap: Gap, good: list[Arc]) -> Judged | None:
 
 def _pocket(gap: Gap, low: float, high: float) -> Judged:
     """The leaf slides into the wall on the side where it is drawn, and that part is wall."""
-    run = gap.end - gap.start
-    free = replace(gap, start=gap.start + low * run, end=gap.start + high * run)
+    free = gap.part(low * gap.width_px, high * gap.width_px)
     return Judged(free, "door", "pocket", _hinge(low > 1 - high), "none", 0.8)
 
 

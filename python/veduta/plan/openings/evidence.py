@@ -57,7 +57,7 @@ class Evidence:
 def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     """Gather the evidence of one gap."""
     trim = min(0.2 * gap.width_px, 2.0 + 0.1 * gap.thickness_px)
-    strip = cut_strip(gap.start, gap.end, gap.thickness_px, sheet, trim)
+    strip = cut_strip(gap.start, gap.end, gap.thickness_px, sheet, trim, gap.bulge)
     middle = strip.ink[strip.within]
     arcs = find_arcs(gap, sheet)
     # A whole arc leaves no doubt: what takes longer to look for is not looked for.

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.pieces import Piece
 
 PARALLEL_RAD = np.radians(7.0)
@@ -17,6 +20,7 @@ BESIDE = 0.55
 FARTHEST = 60.0
 """Openings are at most so many wall thicknesses wide (a garage door in a thin wall)."""
 
+FACET_RAD = np.radians(10.0)
 LEAST_PX = 3
 """What is narrower is a flaw of the ink."""
 
@@ -38,21 +42,40 @@ class Gap:
     end: NDArray[np.float64]
     thickness_px: float
     far: NDArray[np.float64]
+    bulge: float = 0.0
+
+    @cached_property
+    def arc(self) -> Arc:
+        """Its centre line."""
+        return Arc(self.start, self.end, self.bulge)
 
     @property
     def width_px(self) -> float:
-        """From wall to wall."""
-        return float(np.hypot(*(self.end - self.start)))
+        """From wall to wall, on the centre line."""
+        return self.arc.length_px
+
+    def part(self, low: float, high: float) -> Gap:
+        """What of it lies between two places along it."""
+        start, end = self.arc.at(np.array([low, high]))
+        return replace(self, start=start, end=end, bulge=self.arc.bulge_of(low, high))
 
 
-def find_gaps(pieces: list[Piece]) -> list[Gap]:
-    """The nearest wall ahead of each end of each piece, where it is not touching already."""
+def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
+    """The nearest wall ahead of each end of each piece, where it is not touching already.
+
+    Straight gaps end at curved walls, too: these count as the pieces after the straight ones.
+    """
     found: dict[tuple[object, ...], Gap] = {}
+    facets = [(one, number) for number, arc in enumerate(curved) for one in arc.facets(FACET_RAD)]
+    targets = [*pieces, *(one for one, _ in facets)]
     for index in range(len(pieces)):
         for at_end in (False, True):
-            gap = _ahead(pieces, index, at_end)
+            gap = _ahead(targets, index, at_end)
             if gap is None:
                 continue
+            if gap.target >= len(pieces):
+                number = facets[gap.target - len(pieces)][1]
+                gap = replace(gap, target=len(pieces) + number, to_side=True)
             if gap.to_side:
                 found[(index, at_end)] = gap
             else:
@@ -90,35 +113,30 @@ def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:
 
     Stubs of wall beside a junction are shorter than any piece that is followed.
     """
-    along, empty = _empty(gap, solid)
+    empty = _empty(gap, solid)
     if len(empty) < LEAST_PX:
         return None
-    low, high = float(empty[0]), float(empty[-1] + 1)
-    return replace(gap, start=gap.start + low * along, end=gap.start + high * along)
+    return gap.part(float(empty[0]), float(empty[-1] + 1))
 
 
 def parted(gap: Gap, solid: NDArray[np.bool_]) -> tuple[Gap, ...]:
     """What of the gap is not solid, piece by piece, as two doors with a pillar between them."""
-    along, empty = _empty(gap, solid)
+    empty = _empty(gap, solid)
     runs = np.split(empty, np.flatnonzero(np.diff(empty) > LEAST_PX) + 1)
     return tuple(
-        replace(gap, start=gap.start + run[0] * along, end=gap.start + (run[-1] + 1) * along)
-        for run in runs
-        if len(run) >= LEAST_PX
+        gap.part(float(run[0]), float(run[-1] + 1)) for run in runs if len(run) >= LEAST_PX
     )
 
 
-def _empty(gap: Gap, solid: NDArray[np.bool_]) -> tuple[NDArray[np.float64], NDArray[np.intp]]:
-    """The way along the gap, and at which whole pixels along it there is no solid wall."""
-    along = (gap.end - gap.start) / max(gap.width_px, 1e-9)
-    normal = np.array([-along[1], along[0]])
+def _empty(gap: Gap, solid: NDArray[np.bool_]) -> NDArray[np.intp]:
+    """At which whole pixels along the gap there is no solid wall."""
     steps = np.arange(0.5, gap.width_px, 1.0)
     beside = np.linspace(-0.35, 0.35, 7) * gap.thickness_px
-    points = gap.start + steps[:, None, None] * along + beside[None, :, None] * normal
+    points = gap.arc.at(steps[:, None], beside[None, :])
     index = np.floor(points).astype(int)
     x = np.clip(index[..., 0], 0, solid.shape[1] - 1)
     y = np.clip(index[..., 1], 0, solid.shape[0] - 1)
-    return along, np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
+    return np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
 
 
 def _to_end(

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import Gap
+from veduta.plan.openings.gaps import FACET_RAD, Gap
 from veduta.plan.walls.pieces import Piece
 
 SHRINK = 2
@@ -22,11 +22,9 @@ def leads_outdoors(
     outside = outdoors(pieces, closed, shape)
     found = []
     for gap in gaps:
-        along = (gap.end - gap.start) / max(gap.width_px, 1e-9)
-        normal = np.array([-along[1], along[0]])
-        middle = (gap.start + gap.end) / 2
         away = gap.thickness_px * 0.5 + 6
-        found.append(any(_at(outside, middle + side * away * normal) for side in (1, -1)))
+        beside = gap.arc.at(gap.width_px / 2, np.array([away, -away]))
+        found.append(any(_at(outside, point) for point in beside))
     return found
 
 
@@ -37,7 +35,7 @@ def outdoors(
     height, width = shape[0] // SHRINK + 3, shape[1] // SHRINK + 3
     walls = np.zeros((height, width), np.uint8)
     strokes: list[Piece | Gap] = [*pieces, *closed]
-    for one in strokes:
+    for one in (facet for stroke in strokes for facet in _facets(stroke)):
         run = (one.end - one.start) / max(float(np.hypot(*(one.end - one.start))), 1e-9)
         more = 0.6 * one.thickness_px * run
         start, end = (one.start - more) / SHRINK + 1, (one.end + more) / SHRINK + 1
@@ -46,6 +44,12 @@ def outdoors(
     flood = cv2.copyMakeBorder(walls, 1, 1, 1, 1, cv2.BORDER_CONSTANT, value=0)
     cv2.floodFill(flood, None, (0, 0), 128)
     return np.asarray(flood[1:-1, 1:-1] == 128, dtype=np.bool_)
+
+
+def _facets(stroke: Piece | Gap) -> list[Piece]:
+    return Piece(stroke.start, stroke.end, stroke.thickness_px, bulge=stroke.bulge).facets(
+        FACET_RAD
+    )
 
 
 def _at(mask: NDArray[np.bool_], point: NDArray[np.float64]) -> bool:

@@ -180,8 +180,5 @@ def _moved(axis: Axis, one: OnAxis, judged: Judged) -> OnAxis:
     """The opening with its new judgement; its place follows where the gap was narrowed."""
     if judged.gap is one.judged.gap:
         return replace(one, judged=judged)
-    ends = [
-        float((at - axis.line.start) @ axis.line.direction)
-        for at in (judged.gap.start, judged.gap.end)
-    ]
-    return OnAxis(judged, min(ends), max(ends), along=ends[0] <= ends[1])
+    first, last = axis.line.arc.place(np.stack([judged.gap.start, judged.gap.end]))[0].tolist()
+    return OnAxis(judged, min(first, last), max(first, last), along=first <= last)

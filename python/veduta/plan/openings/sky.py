@@ -59,7 +59,6 @@ def _houses(bodies: Sequence[Polygon]) -> BaseGeometry:
 
 def leads_out(line: Piece, span: tuple[float, float], sky: BaseGeometry) -> bool:
     """Whether one side of a wall is outdoors in the middle of a span (pixels from its start)."""
-    middle = line.start + sum(span) / 2 * line.direction
-    normal = np.array([-line.direction[1], line.direction[0]])
     away = line.thickness_px / 2 + 5
-    return any(sky.contains(Point(*(middle + side * away * normal))) for side in (1, -1))
+    beside = line.arc.at(sum(span) / 2, np.array([away, -away]))
+    return any(sky.contains(Point(*point)) for point in beside)

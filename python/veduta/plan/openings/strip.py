@@ -13,6 +13,8 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import map_coordinates
 
+from veduta.plan.walls.arcs import Arc
+
 MARGIN = 0.6
 """Beside each face, in half thicknesses (AV3D: half a thickness in all)."""
 
@@ -61,18 +63,21 @@ def cut_strip(
     thickness_px: float,
     sheet: Sheet,
     trim_px: float = 0.0,
+    bulge: float = 0.0,
 ) -> Strip:
-    """The strip from `start` to `end` ((2,) pixels), shorter by `trim_px` at both ends."""
-    width = float(np.hypot(*(end - start)))
-    way = (end - start) / max(width, 1e-9)
-    normal = np.array([-way[1], way[0]])
+    """The strip from `start` to `end` ((2,) pixels), shorter by `trim_px` at both ends.
+
+    That of a curved wall is laid straight, too.
+    """
+    line = Arc(start, end, bulge)
+    width = line.length_px
     half = thickness_px / 2
     reach = (1 + MARGIN) * half + MARGIN_PX
     steps = np.arange(-reach, reach + 0.01, 1.0)
     along = np.arange(trim_px, width - trim_px + 1e-6, 1.0)
     if len(along) < 3:
         along = np.linspace(0.2, 0.8, 5) * width
-    points = start + along[None, :, None] * way + steps[:, None, None] * normal
+    points = line.at(along[None, :], steps[:, None])
     return Strip(steps, along, sample(sheet.ink, points, 1), sample(sheet.faint, points), half)
 
 

@@ -7,6 +7,7 @@ through walls.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,21 +37,23 @@ class RoomLamps:
     def add(
         self,
         group: Element,
-        region: Polygon,
+        regions: Sequence[Polygon],
         space: Space,
         height_m: float,
         chosen: NDArray[np.bool_],
     ) -> None:
         """The lamps of the room, their glass, and what switches them.
 
-        region: the room's floor, whose box turns them on. chosen: the polygons of the room.
+        regions: the pieces of the room's floor, whose boxes turn them on. chosen: the polygons of the room.
         """
         if not self._lamps:
             return
         scene, name = self._scene, self._room
         switch = scene.node(group, "BooleanToggle", f"{name} switch", toggle=False)
-        sensor = self._sensor(group, region, space.storey.elevation_m, height_m)
-        scene.route(sensor, "isActive", switch, "set_toggle")
+        for number, region in enumerate(regions, start=1):
+            inside = f"{name} inside" if len(regions) == 1 else f"{name} inside {number}"
+            sensor = self._sensor(group, inside, region, space.storey.elevation_m, height_m)
+            scene.route(sensor, "isActive", switch, "set_toggle")
         whole = sum(lamp.lumen for lamp in self._lamps)
         strength = BRIGHT * math.sqrt(len(self._lamps))
         for lamp in self._lamps:
@@ -64,7 +67,9 @@ class RoomLamps:
             scene.route(switch, "toggle_changed", light, "set_on")
         self._add_glass(group, switch, chosen & self.glass)
 
-    def _sensor(self, group: Element, region: Polygon, floor_m: float, height_m: float) -> Element:
+    def _sensor(
+        self, group: Element, name: str, region: Polygon, floor_m: float, height_m: float
+    ) -> Element:
         """Around the room: the smallest box, however it is turned."""
         box = region.minimum_rotated_rectangle
         corners = np.array(box.boundary.coords)
@@ -75,7 +80,7 @@ class RoomLamps:
             rotation=turn_of((0.0, 0.0, 1.0), math.atan2(along[1], along[0])),
         )  # fmt: skip
         size = (float(np.hypot(*along)), height_m, float(np.hypot(*across)))
-        return self._scene.node(turned, "ProximitySensor", f"{self._room} inside", size=size)
+        return self._scene.node(turned, "ProximitySensor", name, size=size)
 
     def _add_glass(self, group: Element, switch: Element, glass: NDArray[np.bool_]) -> None:
         """What glows twice, of which one is seen: as it is when it is on, and when it is off."""

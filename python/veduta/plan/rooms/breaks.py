@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, PARALLEL_RAD, Gap, parted
 from veduta.plan.walls.axes import Axis
-from veduta.plan.walls.graph import Edge, Graph
+from veduta.plan.walls.graph import Edge, Graph, with_facets
 from veduta.plan.walls.join import UPRIGHT_RAD
 
 GOES_ON_RAD = np.radians(30.0)
@@ -75,6 +75,7 @@ def find_breaks(
     graph: Graph, axes: Sequence[Axis], solid: NDArray[np.bool_], thin_px: float
 ) -> list[Break]:
     """All places where a wall of the graph may go on; most of them are none."""
+    graph = with_facets(graph, axes)
     walls = _Walls(graph, axes)
     rays = [*_from_nodes(graph, walls), *_from_stubs(graph, walls, solid, thin_px)]
     found = [one for ray in rays if (one := walls.ahead(ray, thin_px, solid))]

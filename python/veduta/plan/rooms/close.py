@@ -8,11 +8,16 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from shapely import affinity, set_precision, unary_union
-from shapely.geometry import Point, Polygon, box
+from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import LinearRing, orient
 
 from veduta.plan.walls.axes import Axis
-from veduta.plan.walls.graph import Graph
+from veduta.plan.walls.graph import Graph, edge_line
+from veduta.plan.walls.pieces import Piece
+
+ARC_STEP_RAD = np.radians(6.0)
+"""Outlines follow curved walls in pieces that turn by this, or less."""
 
 LEAST_WIDTH = 2.2
 """A room is at least so many (thin) wall thicknesses wide: shafts and slots are none."""
@@ -46,6 +51,24 @@ def wall_body(
     return affinity.translate(turned, float(start[0]), float(start[1]))
 
 
+def curved_body(line: Piece, more_px: tuple[float, float] = (0.0, 0.0)) -> Polygon:
+    """What a straight or curved wall covers, prolonged straight on at its start and end."""
+    points = line.arc.points(ARC_STEP_RAD)
+    first, last = line.arc.way(np.array([0.0, line.length_px]))
+    ends = [points[0] - more_px[0] * first, points[-1] + more_px[1] * last]
+    inner = points[1:-1] if len(points) > 2 else points
+    centre = LineString(
+        [
+            ends[0],
+            *([points[0]] if more_px[0] else []),
+            *inner,
+            *([points[-1]] if more_px[1] else []),
+            ends[1],
+        ]
+    )
+    return centre.buffer(line.thickness_px / 2, cap_style="flat", join_style="mitre")
+
+
 def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
     """Each edge's rectangle, prolonged to the far faces of the walls that it meets."""
     thick = [axes[edge.axis].line.thickness_px for edge in graph.edges]
@@ -59,8 +82,11 @@ def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
         for node in (edge.first, edge.second):
             others = [thick[other] for other in at[node] if other != index]
             more.append(min(others) / 2 if others else 0.0)
-        start, end = graph.nodes[edge.first], graph.nodes[edge.second]
-        bodies.append(wall_body(start, end, thick[index], (more[0], more[1])))
+        line = edge_line(edge, graph, axes)
+        if line.bulge:
+            bodies.append(curved_body(line, (more[0], more[1])))
+        else:
+            bodies.append(wall_body(line.start, line.end, thick[index], (more[0], more[1])))
     return bodies
 
 
@@ -94,18 +120,12 @@ def _rooms_of(free: BaseGeometry, thin_px: float) -> list[Space]:
         grown = polygon.buffer(0.6, join_style="mitre").simplify(0.4)
         if not isinstance(grown, Polygon) or grown.buffer(-LEAST_WIDTH / 2 * thin_px).is_empty:
             continue
-        rooms.append(Space(_ring(grown.exterior.coords, True), _holes(grown)))
+        # With y down, what goes clockwise by its sign goes counter-clockwise as one sees it.
+        seen = orient(grown, -1.0)
+        rooms.append(Space(_ring(seen.exterior), tuple(map(_ring, seen.interiors))))
     return rooms
 
 
-def _holes(polygon: Polygon) -> tuple[NDArray[np.float64], ...]:
-    return tuple(_ring(ring.coords, False) for ring in polygon.interiors)
-
-
-def _ring(coords: object, counter_clockwise: bool) -> NDArray[np.float64]:
-    """Open ring; counter-clockwise as one sees it, where y points down."""
-    ring = np.array(coords, dtype=float)[:-1]
-    x, y = ring.T
-    signed = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-    # With y down, a positive sum goes clockwise as seen.
-    return ring[::-1].copy() if (signed > 0) == counter_clockwise else ring
+def _ring(ring: LinearRing) -> NDArray[np.float64]:
+    """Open."""
+    return np.array(ring.coords)[:-1]

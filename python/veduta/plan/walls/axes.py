@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import reduce
 
 import numpy as np
@@ -43,7 +43,10 @@ class Axis:
 
 
 def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
-    """Pieces joined over their openings; one that ends at a crossing wall prolongs its own."""
+    """Pieces joined over their openings; one that ends at a crossing wall prolongs its own.
+
+    Gaps tell their pieces by the index in `pieces`.
+    """
     parent = list(range(len(pieces)))
     for one in judged:
         if not one.gap.to_side and _alike(pieces[one.gap.piece], pieces[one.gap.target]):
@@ -55,7 +58,7 @@ def axes_of(pieces: Sequence[Piece], judged: Sequence[Judged]) -> list[Axis]:
     for members in groups.values():
         inside = set(members)
         lines = sorted((pieces[index] for index in members), key=lambda one: -one.length_px)
-        line = reduce(merged, lines)
+        line = reduce(_on_circle if lines[0].bulge else merged, lines)
         mine = [one for one in judged if one.gap.piece in inside]
         for one in mine:
             line = _prolonged(line, one.gap.start, one.gap.far)
@@ -76,14 +79,16 @@ def _alike(first: Piece, second: Piece) -> bool:
 
 
 def _prolonged(line: Piece, *points: NDArray[np.float64]) -> Piece:
-    along = np.array([(point - line.start) @ line.direction for point in points])
+    along = line.arc.place(np.stack(points))[0]
     low, high = min(0.0, float(along.min())), max(line.length_px, float(along.max()))
-    return replace(
-        line, start=line.start + low * line.direction, end=line.start + high * line.direction
-    )
+    return line.part(low, high)
+
+
+def _on_circle(first: Piece, second: Piece) -> Piece:
+    """One piece over both, on the circle of the first."""
+    return _prolonged(first, second.start, second.end)
 
 
 def _placed(line: Piece, judged: Judged) -> OnAxis:
-    first = float((judged.gap.start - line.start) @ line.direction)
-    last = float((judged.gap.end - line.start) @ line.direction)
+    first, last = line.arc.place(np.stack([judged.gap.start, judged.gap.end]))[0].tolist()
     return OnAxis(judged, min(first, last), max(first, last), along=first <= last)

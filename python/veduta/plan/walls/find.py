@@ -1,9 +1,9 @@
-"""Walls of a cleaned sheet as straight pieces, whatever way they are drawn."""
+"""Walls of a cleaned sheet as straight and curved pieces, whatever way they are drawn."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import cv2
 import numpy as np
@@ -14,6 +14,7 @@ from veduta.plan.document import Text, WallDrawing
 from veduta.plan.drawn import Cleaned, DrawnStairs
 from veduta.plan.stairs.find import without_flights
 from veduta.plan.walls.cells import Cells, find_cells
+from veduta.plan.walls.curved import curved_pieces, lies_in
 from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.join import joined
@@ -79,12 +80,13 @@ PALE = 0.65
 
 @dataclass(frozen=True)
 class Found:
-    """Pieces of wall, the mask that they were found in, and how thick walls are."""
+    """Straight and curved pieces of wall, the mask of them, and how thick walls are."""
 
     pieces: list[Piece]
     solid: NDArray[np.bool_]
     thickness: Thickness
     thin_px: float
+    curved: list[Piece] = field(default_factory=list)
 
 
 def find_walls(
@@ -117,20 +119,24 @@ def find_walls(
             # The edges of lines are as pale as panes: without them all lines are thinner.
             thickness = wall_thickness(dark, cleaned.line_px) or thickness
         solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
-    pieces = straight_pieces(find_tracks(solid), 0.8 * thickness.least_px, drawing)
+    least_px = 0.8 * thickness.least_px
+    curved, tracks = curved_pieces(find_tracks(solid), solid, least_px, drawing)
+    pieces = straight_pieces(tracks, least_px, drawing)
     if len(pieces) > MOST_PIECES:
         pieces = sorted(pieces, key=lambda one: -one.length_px)[:MOST_PIECES]
     # What was filled in is as solid as ink.
     ink_of_walls = known.astype(np.float32) if known is not None else cleaned.ink
     soft = np.where(mask & ~ink, np.float32(1), ink_of_walls)
     whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    curved = [measured(one, soft) for one in curved]
+    whole = [one for one in whole if not any(lies_in(one, arc) for arc in curved)]
     if known is None:
         whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
     if drawing == "single-line":
         whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
-    if not whole:
+    if not whole and not curved:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
-    return Found(whole, solid, thickness, thin_thickness(whole))
+    return Found(whole, solid, thickness, thin_thickness([*whole, *curved]), curved)
 
 
 def choose_drawing(

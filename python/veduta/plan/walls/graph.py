@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,11 +11,10 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
 from veduta.plan.document import JunctionType
+from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
-
-MEET_RAD = np.radians(12)
-REACH = 0.45
-"""A wall ends at another one if so many of its thicknesses are missing, or less."""
+from veduta.plan.walls.meetings import MEET_RAD, meetings
+from veduta.plan.walls.pieces import Piece
 
 HOUSE_SHARE = 0.5
 """The walls of a house hang together: the largest group is so much of all their length."""
@@ -23,6 +22,9 @@ HOUSE_SHARE = 0.5
 ISLAND_SHARE = 0.08
 
 STRAIGHT_RAD = np.radians(15)
+FACET_RAD = np.radians(10.0)
+HALF_CIRCLE_RAD = np.radians(175.0)
+"""A curved wall that turns more is parted in the middle: a bulge is of less than half a circle."""
 
 
 @dataclass(frozen=True)
@@ -51,21 +53,21 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
     points: list[NDArray[np.float64]] = []
     for first in range(len(axes)):
         for second in range(first + 1, len(axes)):
-            meeting = _meeting(axes[first], axes[second])
-            if meeting is not None:
-                point, along_first, along_second = meeting
+            for point, along_first, along_second in meetings(axes[first].line, axes[second].line):
                 stops[first].append((along_first, len(points)))
                 stops[second].append((along_second, len(points)))
                 points.append(point)
     for index, axis in enumerate(axes):
         _with_ends(axis, stops[index], points)
+        _with_middles(axis, stops[index], points)
     nodes, alias = _clustered(points, axes, stops)
-    edges: dict[tuple[int, int], Edge] = {}
+    edges: dict[tuple[int, int, int], Edge] = {}
     for index in range(len(axes)):
         ordered = sorted(stops[index])
         for (low, one), (high, other) in zip(ordered, ordered[1:], strict=False):
             ends = (alias[one], alias[other])
-            key = (min(ends), max(ends))
+            # A curved wall and a straight one may part the same ends.
+            key = (min(ends), max(ends), round(4 * axes[index].line.arc.bulge_of(low, high)))
             if ends[0] != ends[1] and key not in edges:
                 line = axes[index].line
                 first, second = ((nodes[end] - line.start) @ line.direction for end in ends)
@@ -73,7 +75,8 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
                     low, high = float(first), float(second)
                 edges[key] = Edge(ends[0], ends[1], index, low, high)
     kept = _without_islands(tuple(edges.values()))
-    return Graph(nodes, kept, tuple(_type(node, nodes, kept) for node in range(len(nodes))))
+    types = tuple(_type(node, nodes, kept, axes) for node in range(len(nodes)))
+    return Graph(nodes, kept, types)
 
 
 def _without_islands(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
@@ -97,43 +100,38 @@ def _without_islands(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
     )
 
 
+def edge_line(edge: Edge, graph: Graph, axes: Sequence[Axis]) -> Piece:
+    """The wall of an edge from node to node; a curved one goes through the middle of its arc."""
+    start, end = graph.nodes[edge.first], graph.nodes[edge.second]
+    line = axes[edge.axis].line
+    bulge = 0.0
+    if line.bulge:
+        bulge = bulge_through(start, line.arc.at((edge.low + edge.high) / 2), end)
+    return replace(line, start=start, end=end, bulge=bulge)
+
+
+def with_facets(graph: Graph, axes: Sequence[Axis]) -> Graph:
+    """The graph with each curved wall as a chain of straight ones, for what knows no others."""
+    nodes, types, edges = [*graph.nodes], [*graph.types], list[Edge]()
+    for edge in graph.edges:
+        facets = edge_line(edge, graph, axes).facets(FACET_RAD)
+        step = (edge.high - edge.low) / len(facets)
+        first = edge.first
+        for place, facet in enumerate(facets):
+            last = edge.second
+            if place < len(facets) - 1:
+                last = len(nodes)
+                nodes.append(facet.end)
+                types.append("straight")
+            low = edge.low + place * step
+            edges.append(Edge(first, last, edge.axis, low, low + step))
+            first = last
+    return Graph(np.array(nodes).reshape(-1, 2), tuple(edges), tuple(types))
+
+
 def openings_on(edge: Edge, axis: Axis) -> list[OnAxis]:
     """The openings of the axis whose middle lies on this edge."""
     return [one for one in axis.openings if edge.low <= (one.first + one.last) / 2 < edge.high]
-
-
-def _meeting(first: Axis, second: Axis) -> tuple[NDArray[np.float64], float, float] | None:
-    """Where two axes cross or touch: the point, and how far along each."""
-    one, other = first.line, second.line
-    cross = one.direction[0] * other.direction[1] - one.direction[1] * other.direction[0]
-    if abs(cross) < np.sin(MEET_RAD):
-        return _end_to_end(first, second)
-    apart = other.start - one.start
-    along = float((apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross)
-    beyond = float((apart[0] * one.direction[1] - apart[1] * one.direction[0]) / cross)
-    reach = (other.thickness_px / 2 + REACH * one.thickness_px) / abs(cross) + 2
-    reach_other = (one.thickness_px / 2 + REACH * other.thickness_px) / abs(cross) + 2
-    if not -reach <= along <= one.length_px + reach:
-        return None
-    if not -reach_other <= beyond <= other.length_px + reach_other:
-        return None
-    return one.start + along * one.direction, along, beyond
-
-
-def _end_to_end(first: Axis, second: Axis) -> tuple[NDArray[np.float64], float, float] | None:
-    """Walls of different thickness or slightly different direction that touch with their ends."""
-    one, other = first.line, second.line
-    thick = max(one.thickness_px, other.thickness_px)
-    for mine, along in ((one.start, 0.0), (one.end, one.length_px)):
-        for its, beyond in ((other.start, 0.0), (other.end, other.length_px)):
-            away = its - mine
-            outward = -one.direction if along == 0.0 else one.direction
-            ahead = float(away @ outward)
-            beside = abs(float(away[0] * outward[1] - away[1] * outward[0]))
-            if -0.5 * thick <= ahead <= REACH * thick + 2 and beside <= 0.6 * thick:
-                longer = mine if one.length_px >= other.length_px else its
-                return np.asarray(longer, dtype=float), along, beyond
-    return None
 
 
 def _with_ends(
@@ -149,6 +147,19 @@ def _with_ends(
     if not any(along > length - near for along in at) or len(stops) < 2:
         stops.append((length, len(points)))
         points.append(axis.line.end)
+
+
+def _with_middles(
+    axis: Axis, stops: list[tuple[float, int]], points: list[NDArray[np.float64]]
+) -> None:
+    """Part an arc that is more than half a circle between two of its stops."""
+    if not axis.line.bulge:
+        return
+    ordered = sorted(along for along, _ in stops)
+    for low, high in zip(ordered, ordered[1:], strict=False):
+        if (high - low) / axis.line.arc.radius_px > HALF_CIRCLE_RAD:
+            stops.append(((low + high) / 2, len(points)))
+            points.append(axis.line.arc.at((low + high) / 2))
 
 
 def _clustered(
@@ -195,10 +206,13 @@ def _clustered(
 def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.float64]:
     """The node moved to where the two longest walls cross that meet there, so that none is bent.
 
-    Its cluster may have their crossing and, a little beside it, the end of one of them.
+    Its cluster may have their crossing and, a little beside it, the end of one of them. Where one
+    of all is an arc, the node stays: it was put there already.
     """
     ordered = sorted(axes, key=lambda one: -one.line.length_px)
     first = ordered[0].line
+    if any(one.line.bulge for one in ordered):
+        return node
     for other in ordered[1:]:
         line = other.line
         cross = first.direction[0] * line.direction[1] - first.direction[1] * line.direction[0]
@@ -212,12 +226,15 @@ def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.flo
     return node
 
 
-def _type(node: int, nodes: NDArray[np.float64], edges: Sequence[Edge]) -> JunctionType:
+def _type(
+    node: int, nodes: NDArray[np.float64], edges: tuple[Edge, ...], axes: Sequence[Axis]
+) -> JunctionType:
     away = []
     for edge in edges:
         if node in (edge.first, edge.second):
-            run = nodes[edge.second if edge.first == node else edge.first] - nodes[node]
-            away.append(run / max(float(np.hypot(*run)), 1e-9))
+            line = edge_line(edge, Graph(nodes, edges, ()), axes)
+            at_start = edge.first == node
+            away.append(line.arc.way(0.0) if at_start else -line.arc.way(line.length_px))
     if len(away) <= 1:
         return "end"
     if len(away) == 2:

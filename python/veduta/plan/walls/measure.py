@@ -29,9 +29,8 @@ def measured(piece: Piece, soft: NDArray[np.float32]) -> Piece:
     high = _face(profile, across, inside, half, reach)
     if low is None or high is None or low + high < 0.5 * piece.thickness_px:
         return piece
-    normal = np.array([-piece.direction[1], piece.direction[0]])
-    moved = (high - low) / 2 * normal
-    return replace(piece, start=piece.start + moved, end=piece.end + moved, thickness_px=high + low)
+    ends = piece.arc.at(np.array([0.0, piece.length_px]), (high - low) / 2)
+    return replace(piece, start=ends[0], end=ends[1], thickness_px=high + low)
 
 
 def _face(

@@ -1,14 +1,15 @@
-"""Bands become straight and curved pieces of wall: a centre line with a thickness."""
+"""Bands become straight pieces of wall: a centre line with a thickness. `curved` has the others."""
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import WallDrawing
+from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.tracks import Track
 
 LEAST_ASPECT = 0.6
@@ -20,7 +21,7 @@ MOST_TURN_PX = 1.5
 
 @dataclass(frozen=True)
 class Piece:
-    """A straight band from `start` to `end` ((2,) float64, pixels) of a thickness."""
+    """A band from `start` to `end` ((2,) float64, pixels) of a thickness; `bulge` as of `Arc`."""
 
     start: NDArray[np.float64]
     end: NDArray[np.float64]
@@ -29,14 +30,34 @@ class Piece:
     bulge: float = 0.0
 
     @cached_property
-    def length_px(self) -> float:
-        """From end to end, on the chord."""
-        return float(np.hypot(*(self.end - self.start)))
+    def arc(self) -> Arc:
+        """Its centre line."""
+        return Arc(self.start, self.end, self.bulge)
 
-    @cached_property
+    @property
+    def length_px(self) -> float:
+        """From end to end, on the centre line."""
+        return self.arc.length_px
+
+    @property
     def direction(self) -> NDArray[np.float64]:
-        """Unit vector from start to end."""
-        return np.asarray((self.end - self.start) / max(self.length_px, 1e-9))
+        """Unit vector from start to end, straight."""
+        return self.arc.direction
+
+    def part(self, low: float, high: float) -> Piece:
+        """What of it, or beyond its ends, lies between two places along it."""
+        ends = self.arc.at(np.array([low, high]))
+        return replace(self, start=ends[0], end=ends[1], bulge=self.arc.bulge_of(low, high))
+
+    def facets(self, step_rad: float) -> list[Piece]:
+        """Straight pieces that stand for it, itself where it is straight."""
+        if not self.bulge:
+            return [self]
+        points = self.arc.points(step_rad)
+        return [
+            replace(self, start=start, end=end, bulge=0.0)
+            for start, end in zip(points[:-1], points[1:], strict=True)
+        ]
 
 
 def straight_pieces(
@@ -48,14 +69,14 @@ def straight_pieces(
     """
     found = []
     for track in tracks:
-        for first, last in _parted(track):
+        for first, last in parted(track):
             piece = _fitted(track, first, last, drawing)
             if piece is not None and piece.thickness_px >= least_px:
                 found.append(piece)
     return found
 
 
-def _parted(track: Track) -> list[tuple[int, int]]:
+def parted(track: Track) -> list[tuple[int, int]]:
     """Index ranges of straight parts (Ramer 1972, Douglas and Peucker 1973)."""
     middle = (track.low + track.high) / 2
     tolerance = max(MOST_TURN_PX, 0.12 * track.breadth())

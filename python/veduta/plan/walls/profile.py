@@ -12,17 +12,14 @@ from veduta.plan.walls.pieces import Piece
 def profile_across(
     piece: Piece, ink: NDArray[np.float32], across_px: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """(n,) of the (h, w) ink at distances from the centre line, to the left of the piece.
+    """(n,) of the (h, w) ink at distances from the centre line, to the right of the piece.
 
     What touches the wall in some places does not count; its ends are left out.
     """
     trim = min(0.5 * piece.thickness_px, 0.2 * piece.length_px)
     count = int(np.clip(piece.length_px / 2, 5, 200))
     along = np.linspace(trim, piece.length_px - trim, count)
-    normal = np.array([-piece.direction[1], piece.direction[0]])
-    points = (
-        piece.start + along[:, None, None] * piece.direction + across_px[None, :, None] * normal
-    )
+    points = piece.arc.at(along[:, None], across_px[None, :])
     # The centre of the upper left pixel is (0.5, 0.5).
     flat = points.reshape(-1, 2).T[::-1] - 0.5
     values = map_coordinates(ink, flat, order=1, mode="nearest", prefilter=False)
