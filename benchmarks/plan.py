@@ -7,8 +7,8 @@ The synthetic plans are `veduta.synthetic.plans` (seeds 10000 to 10199 unless to
 document; with `--house` they go through the whole verb. The real ones are `plans/` of $VEDUTA_DATA
 (else ../shared/data) and always go through the whole verb, whose time is given. Only a run over all
 is kept, and one over all the real sets, as `plan-real`. `--pictures` writes sheets of overlays: of
-other people's pixels, so never into the repository. `--work` keeps the synthetic readings, from which a later call
-of the same code goes on.
+other people's pixels, so never into the repository. `--work` keeps the synthetic readings, from
+which a later call of the same code goes on.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ SLANTED_FARTHEST = 12.0
 """Nor between two ends of walls that do not lie in one line."""
 
 STUB = (0.5, 2.5)
-"""Stubs on the faces of walls are so broad, in (thin) wall thicknesses, or as the wall is thick."""
+"""Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
 
 LONG = 4.0
 """Slanted pieces of wall have a direction if so many times as long as thick."""
@@ -176,7 +176,7 @@ def _from_stubs(
             dark = np.diff(np.pad(_on(solid, points).astype(np.int8), 1))
             pairs = zip(np.flatnonzero(dark == 1), np.flatnonzero(dark == -1), strict=True)
             for low, high in pairs:
-                if not STUB[0] * thin_px <= high - low <= max(STUB[1] * thin_px, 1.1 * thick):
+                if not STUB[0] * thin_px <= high - low <= STUB[1] * thin_px:
                     continue
                 foot = walls.start[index] + float(low + high) / 2 * way
                 yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))

@@ -159,9 +159,10 @@ def _cut(
 ) -> tuple[int, NDArray[np.int32], NDArray[np.int32]]:
     """What is at least so wide, and then what is narrower, each connected by itself."""
     side = 2 * round(cut_px / 2) + 1
-    wide = cv2.morphologyEx(paper, cv2.MORPH_OPEN, np.ones((side, side), np.uint8))
-    rooms, labels, stats = _connected(np.asarray(wide, np.uint8))
-    count, rest, more = _connected(np.asarray(paper & (1 - wide), np.uint8))
+    opened = cv2.morphologyEx(paper, cv2.MORPH_OPEN, np.ones((side, side), np.uint8))
+    wide = np.asarray(opened, np.uint8)
+    rooms, labels, stats = _connected(wide)
+    count, rest, more = _connected(paper - wide)
     labels = np.where(rest > 0, rest + np.int32(rooms - 1), labels)
     return rooms + count - 1, labels, np.concatenate([stats, more[1:]])
 

@@ -64,7 +64,9 @@ MOSTLY = 0.3
 LEAST_HATCHING = 0.04
 """Strokes of hatching cover at least this part of what lies between the outlines of walls."""
 
-FINE = 2.0
+FINE = 2.5
+"""Walls that are thinner than so many lines are no thicker than letters."""
+
 THICK = 0.6
 """Thick walls are at least this part of the thickest common ones."""
 

@@ -13,7 +13,7 @@ from veduta.plan.walls.runs import run_lengths, run_lengths_down
 LEAST_SHARE = 0.25
 """The thickest walls are together at least this part of the drawing's half perimeter."""
 
-THINNEST_WALL = 0.25
+THINNEST_WALL = 0.3
 """The thinnest wall is at least this part of the thickest common one."""
 
 LEAST_OVER_LINE = 1.6
