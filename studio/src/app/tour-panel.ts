@@ -33,10 +33,15 @@ export class TourPanel extends LitElement {
         line-height: 1.25;
       }
       select {
-        flex: 0 1 130px;
+        flex: 0 1 150px;
         min-width: 60px;
+        padding: 5px 6px;
+        border: none;
+        border-radius: 8px;
+        background: var(--hover);
         font: inherit;
         color: inherit;
+        text-overflow: ellipsis;
       }
     `,
   ];
