@@ -10,10 +10,11 @@ import pytest
 from drawn_dxf import saved, two_rooms
 from PIL import Image
 from sample_plan import sample_plan
-from test_validators import validate_gltf
+from test_validators import validate_city, validate_gltf
 
 from veduta.cli.plan import _tell as tell
 from veduta.formats.place_json import read_place
+from veduta.formats.tiles import contents
 from veduta.plan import pipeline
 from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, SiteOptions
 from veduta.plan.pipeline import PlanResult, run_plan
@@ -21,9 +22,9 @@ from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 
 FILES = {
-    ".veduta", "garden.glb", "ground.glb", "house.glb", "house.ifc", "house.x3d", "overlay.png",
-    "place.json", "plan.dxf", "plan.json", "plan.svg", "report.html", "report.json", "sheet-1.png",
-    "tour.png",
+    ".veduta", "garden.glb", "ground.glb", "house.city.json", "house.glb", "house.ifc",
+    "house.x3d", "overlay.png", "place.json", "plan.dxf", "plan.json", "plan.svg", "report.html",
+    "report.json", "sheet-1.png", "tiles", "tileset.json", "tour.png",
 }  # fmt: skip
 
 
@@ -48,7 +49,10 @@ def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(
     assert {path.name for path in out.iterdir()} == FILES
     assert made.measures["rooms"] == 2
     assert read_place(out / "place.json").parts[0].model == "house.glb"
-    for name in ("house.glb", "ground.glb", "garden.glb"):
+    assert read_place(out / "place.json").parts[0].city_model == "house.city.json"
+    assert validate_city(out / "house.city.json")["valid"] is True
+    assert "tiles/house.glb" in contents(out)
+    for name in ("house.glb", "ground.glb", "garden.glb", *contents(out)[1:]):
         issues = validate_gltf(out / name)
         assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
     report = json.loads((out / "report.json").read_text())

@@ -33,10 +33,10 @@ Rings = Sequence[NDArray[np.float64]]
 
 @dataclass(frozen=True)
 class CityFace:
-    """A face: its rings, and a key of the surface that it is a piece of."""
+    """A face: its rings, and a (hashable) key of the surface that it is a piece of."""
 
     rings: Rings
-    surface: Hashable
+    surface: Any
 
 
 class CityDocument:
@@ -76,7 +76,7 @@ class CityDocument:
     def solid(
         self,
         shells: Sequence[Sequence[CityFace]],
-        surfaces: Mapping[Hashable, Mapping[str, Any]],
+        surfaces: Mapping[Any, Mapping[str, Any]],
     ) -> dict[str, Any]:
         """A Solid of one shell, a MultiSolid of several, a MultiSurface of what is not closed.
 

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
+from veduta.place.manifest import Place
 from veduta.place.part import Part
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
@@ -105,12 +106,12 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> list[st
     (folder / "house.ifc").write_bytes(house_ifc(result.house, options, result.site))
     city, notes = house_cityjson(result.house, options)
     (folder / CITY_MODEL).write_bytes(city)
-    write_tiles(result.house, raised_m(result.house, options), folder)
-    _write_place(result, folder, options)
+    place = _write_place(result, folder, options)
+    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
     return notes
 
 
-def _write_place(result: Result, folder: Path, options: HouseOptions) -> None:
+def _write_place(result: Result, folder: Path, options: HouseOptions) -> Place:
     """The models and the place: the house, what lies around it, and its tour."""
     tour = result.tour
     sun = sunlight_of(result.site)
@@ -139,7 +140,9 @@ def _write_place(result: Result, folder: Path, options: HouseOptions) -> None:
     )  # fmt: skip
     (folder / "house.x3d").write_bytes(x3d)
     place = place.model_copy(update={"sun": result.site.for_place()})
-    write_place(turned_north(place, result.site.turn_deg), folder / "place.json")
+    place = turned_north(place, result.site.turn_deg)
+    write_place(place, folder / "place.json")
+    return place
 
 
 def _backdrop(result: Result, options: HouseOptions) -> Part | None:

@@ -37,7 +37,7 @@ def house_cityjson(house: House, options: HouseOptions) -> tuple[bytes, list[str
     shells = [
         table.faces(marks.faces(body), outer_kind) for body in bodies(joined([filled, *roofs]))
     ]
-    shape = document.solid(shells, table.surfaces(shells, None))
+    shape = document.solid(shells, table.surfaces(shells))
     building = document.add(
         part.id, "Building", None, {**part.attributes, "roofType": options.roof}, [shape]
     )
@@ -67,7 +67,7 @@ def _add_room(
 ) -> list[str]:
     room = cavity.room
     shells = [table.faces(marks.faces(body), inner_kind) for body in cavity.air]
-    surfaces = table.surfaces(shells, room.id if room else "unnamed")
+    surfaces = table.surfaces(shells)
     shape = document.solid(shells, surfaces)
     told: dict[str, str | float] = {
         "area_m2": round(float(cavity.region.area), 2),

@@ -31,6 +31,7 @@ from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
+from veduta.plan.outputs.ifc_stairs import add_stairs, triangles_of
 from veduta.plan.surroundings.site import Site
 
 Entity = Any
@@ -58,6 +59,7 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
         coverings = finishes_of(model, house.part, space, place, rooms)
         model.contain(storeys[-1], coverings, "finishes")
     model.aggregate(model.building, storeys, "storeys")
+    add_stairs(model, house, storeys)
     roof = _roof(model, house)
     if roof is not None:
         model.contain(storeys[-1], [roof], "roof")
@@ -385,28 +387,17 @@ def _lamps(model: _Model, house: House, space: Space, storey: Entity) -> list[En
             "IfcLightFixture", name, storey.ObjectPlacement,
             ObjectType=light.kind, PredefinedType="POINTSOURCE",
         )  # fmt: skip
-        points, corners = _triangles(house, np.array([feature]))
+        points, corners = triangles_of(house.part, [feature])
         points = points - np.array([0.0, 0.0, space.storey.elevation_m])
         fixture.Representation = model.mesh(points, corners)
         found.append(fixture)
     return found
 
 
-def _triangles(
-    house: House, features: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """(n, 3) points and (m, 3) triangles of some features of the part."""
-    part = house.part
-    chosen = np.isin(part.polygon_feature, features)[part.triangles.polygon]
-    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
-    points: NDArray[np.float64] = part.positions_m[used].astype(np.float64)
-    return points, corners.reshape(-1, 3).astype(np.int64)
-
-
 def _roof(model: _Model, house: House) -> Entity | None:
     """The roof as it is in the part, its triangles about the building's origin."""
     is_roof = house.part.features.class_code == SemanticClass.ROOF.code
-    points, corners = _triangles(house, np.flatnonzero(is_roof))
+    points, corners = triangles_of(house.part, np.flatnonzero(is_roof).tolist())
     if not len(corners):
         return None
     roof = model.product("IfcRoof", "Roof", model.building.ObjectPlacement)

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.formats.part_tile import part_tile
 from veduta.formats.tiles import Tile, write_tileset
@@ -21,10 +22,10 @@ UNFURNISHED_M = 1.0
 """How much a house without furniture differs from one with it."""
 
 
-def write_tiles(house: House, raised_m: float, folder: Path) -> None:
+def write_tiles(house: House, world_from_part: NDArray[np.float64], folder: Path) -> None:
     """Write the tree and its tiles into a folder that is there.
 
-    raised_m: how much higher the house stands in its place than in the part's frame.
+    world_from_part: (4, 4) where the house stands in its place.
     """
     (folder / FOLDER).mkdir(exist_ok=True)
     children = []
@@ -41,16 +42,15 @@ def write_tiles(house: House, raised_m: float, folder: Path) -> None:
     shell = replace(with_polygons(part, ~in_rooms[part.polygon_feature]), instances=None)
     path = f"{FOLDER}/house.glb"
     write_bytes(folder / path, part_tile(shell, NAME))
-    moved = np.eye(4)
-    moved[2, 3] = raised_m
+    x, y, z = world_from_part[:3, 3].tolist()
     root = Tile(
-        part.bounds_m, UNFURNISHED_M if children else 0.0, path, tuple(children), moved,
-        (0.0, 0.0, raised_m), "ADD",
+        part.bounds_m, UNFURNISHED_M if children else 0.0, path, tuple(children), world_from_part,
+        (x, y, z), "ADD",
     )  # fmt: skip
     write_tileset(root, folder / TILESET)
 
 
-def _things(part: Part, space: Space) -> np.ndarray:
+def _things(part: Part, space: Space) -> NDArray[np.bool_]:
     """(f,) the features of a storey's furniture and lamps."""
     storey = space.storey
     names = {f"{storey.name} {thing.object} {thing.id}" for thing in storey.furniture or ()}

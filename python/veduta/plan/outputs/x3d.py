@@ -14,7 +14,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import STRtree
-from shapely.geometry import Polygon
+from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import X3dScene, look_from, place_of
@@ -105,8 +105,8 @@ def house_x3d(
         lamps = RoomLamps(scene, part, name)
         chosen = still & np.isin(seen_from.number, numbers)
         space = seen_from.rooms[numbers[0]][0]
-        regions = [seen_from.rooms[number][2] for number in numbers]
-        lamps.add(group, regions, space, ceilings[space.storey.name], chosen)
+        region = MultiPolygon([seen_from.rooms[number][2] for number in numbers])
+        lamps.add(group, region, space, ceilings[space.storey.name], chosen)
         scene.shapes(group, part, chosen & ~lamps.glass)
     outside = scene.node(whole, "Group", "outside")
     scene.shapes(outside, part, still & (seen_from.number < 0))

@@ -7,11 +7,10 @@ through walls.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import Element, X3dScene, place_of, turn_of
 from veduta.place.part import Part
@@ -37,23 +36,22 @@ class RoomLamps:
     def add(
         self,
         group: Element,
-        regions: Sequence[Polygon],
+        region: BaseGeometry,
         space: Space,
         height_m: float,
         chosen: NDArray[np.bool_],
     ) -> None:
         """The lamps of the room, their glass, and what switches them.
 
-        regions: the pieces of the room's floor, whose boxes turn them on. chosen: the polygons of the room.
+        region: the room's floor, the box around which turns them on; it may be in pieces, with one
+        box around all. chosen: the polygons of the room.
         """
         if not self._lamps:
             return
         scene, name = self._scene, self._room
         switch = scene.node(group, "BooleanToggle", f"{name} switch", toggle=False)
-        for number, region in enumerate(regions, start=1):
-            inside = f"{name} inside" if len(regions) == 1 else f"{name} inside {number}"
-            sensor = self._sensor(group, inside, region, space.storey.elevation_m, height_m)
-            scene.route(sensor, "isActive", switch, "set_toggle")
+        sensor = self._sensor(group, region, space.storey.elevation_m, height_m)
+        scene.route(sensor, "isActive", switch, "set_toggle")
         whole = sum(lamp.lumen for lamp in self._lamps)
         strength = BRIGHT * math.sqrt(len(self._lamps))
         for lamp in self._lamps:
@@ -68,7 +66,7 @@ class RoomLamps:
         self._add_glass(group, switch, chosen & self.glass)
 
     def _sensor(
-        self, group: Element, name: str, region: Polygon, floor_m: float, height_m: float
+        self, group: Element, region: BaseGeometry, floor_m: float, height_m: float
     ) -> Element:
         """Around the room: the smallest box, however it is turned."""
         box = region.minimum_rotated_rectangle
@@ -80,7 +78,7 @@ class RoomLamps:
             rotation=turn_of((0.0, 0.0, 1.0), math.atan2(along[1], along[0])),
         )  # fmt: skip
         size = (float(np.hypot(*along)), height_m, float(np.hypot(*across)))
-        return self._scene.node(turned, "ProximitySensor", name, size=size)
+        return self._scene.node(turned, "ProximitySensor", f"{self._room} inside", size=size)
 
     def _add_glass(self, group: Element, switch: Element, glass: NDArray[np.bool_]) -> None:
         """What glows twice, of which one is seen: as it is when it is on, and when it is off."""
