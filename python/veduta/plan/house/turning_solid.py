@@ -65,7 +65,7 @@ def add_turning_rails(flight: TurningFlight, lower: Space, sculptor: Sculptor) -
         line = LineString([edges[0][0][0], *(edge[1] for edge, _ in edges)])
         if line.length < _LEAST_RAIL_M or not is_free(line, lower.walls):
             continue
-        name = f"{lower.storey.name} stairs {flight.id} rail {count}"
+        name = f"{lower.storey.name} stairs {flight.id} side {count} rail"
         surface = rail_surface(sculptor, name)
         for edge, number in edges:
             ends = [_rail_height(at, number, flight) for at in edge]
