@@ -14,9 +14,9 @@ from sample_document import sample_document, sample_photo
 
 @pytest.fixture(scope="session")
 def photos(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """Six small photos of facades, drawn here."""
+    """Four small photos of facades, drawn here."""
     folder = tmp_path_factory.mktemp("photos")
-    paths = [folder / f"house{number}.png" for number in range(6)]
+    paths = [folder / f"house{number}.png" for number in range(4)]
     for seed, path in enumerate(paths):
         photo = Image.fromarray(sample_photo(sample_document(), seed=seed))
         photo.resize((260, 400), Image.Resampling.LANCZOS).save(path)

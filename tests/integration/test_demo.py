@@ -108,7 +108,7 @@ def test_an_edited_document_is_compared_as_it_is_now(
     assert veduta("demo", "-o", out, *SMALL).stdout == again.stdout
 
     path.write_text("{")
-    broken = veduta("demo", "-o", out, *SMALL)
+    broken = refused("demo", "-o", out, *SMALL)
     assert broken.returncode == 2
     assert f"{path}: line 1" in broken.stderr
     path.unlink()

@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, ScaleOptions
+from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, ScaleOptions, SiteOptions
 
 Drawings = Annotated[
     tyro.conf.Positional[tuple[Path, ...]],
@@ -54,10 +54,11 @@ class PlanCall:
     input: InputOptions = field(default_factory=InputOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     house: HouseOptions = field(default_factory=HouseOptions)
+    site: SiteOptions = field(default_factory=SiteOptions)
     photos: Photos = ()
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> PlanOptions:
         """What changes the result."""
-        return PlanOptions(input=self.input, scale=self.scale, house=self.house)
+        return PlanOptions(input=self.input, scale=self.scale, house=self.house, site=self.site)

@@ -9,7 +9,6 @@ up, metres.
 from __future__ import annotations
 
 import json
-import math
 from collections import Counter
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
@@ -19,20 +18,25 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta import _core
+
 GRID_M = 1e-3
+PLANE_M = 0.01
+"""Vertices may lie so far off the plane of their face, as validators have it."""
 LOD = "3"
 """The finest that CityJSON 2.0 has: interiors are in it, too (LoD4 is gone since CityGML 3)."""
 
+Vertex = tuple[int, int, int]
 Rings = Sequence[NDArray[np.float64]]
 """(n, 3) corners, the outline counter-clockwise seen from outside, holes clockwise."""
 
 
 @dataclass(frozen=True)
 class CityFace:
-    """A face: its rings, and a key of the surface that it is a piece of."""
+    """A face: its rings, and a (hashable) key of the surface that it is a piece of."""
 
     rings: Rings
-    surface: Hashable
+    surface: Any
 
 
 class CityDocument:
@@ -42,7 +46,7 @@ class CityDocument:
         """origin_m: (3,) where vertices count from, such as the lower corner of all."""
         self._title = title
         self._origin = np.floor(origin_m)
-        self._vertices: dict[tuple[int, int, int], int] = {}
+        self._vertices: dict[Vertex, int] = {}
         self._template_vertices: dict[tuple[float, float, float], int] = {}
         self._templates: list[dict[str, Any]] = []
         self.objects: dict[str, dict[str, Any]] = {}
@@ -72,27 +76,28 @@ class CityDocument:
     def solid(
         self,
         shells: Sequence[Sequence[CityFace]],
-        surfaces: Mapping[Hashable, Mapping[str, Any]],
+        surfaces: Mapping[Any, Mapping[str, Any]],
     ) -> dict[str, Any]:
         """A Solid of one shell, a MultiSolid of several, a MultiSurface of what is not closed.
 
         surfaces: what each surface is, by the keys of the faces; "parent" may name another key.
         """
         rows: dict[Hashable, int] = {}
+        closed = True
         boundaries: list[Any] = []
         values: list[Any] = []
         for shell in shells:
-            own: list[list[list[int]]] = []
+            own: list[list[list[Vertex]]] = []
             of: list[int] = []
             for face in shell:
-                rings = self._rings(face.rings)
+                rings = _gridded(face.rings, self._origin)
                 if rings:
                     own.append(rings)
                     of.append(rows.setdefault(face.surface, len(rows)))
-            boundaries.append(own)
+            closed = closed and is_sound(own)
+            boundaries.append([[self._numbers(ring) for ring in face] for face in own])
             values.append(of)
         told = _linked([dict(surfaces[key]) for key in rows], rows)
-        closed = all(is_closed(shell) for shell in boundaries)
         if not closed:
             shape: dict[str, Any] = {
                 "type": "MultiSurface",
@@ -154,35 +159,44 @@ class CityDocument:
             }
         return json.dumps(document, separators=(",", ":"), allow_nan=False).encode()
 
+    def _numbers(self, ring: Sequence[Vertex]) -> list[int]:
+        known = self._vertices
+        return [known.setdefault(vertex, len(known)) for vertex in ring]
+
     def _vertex(self, at_m: NDArray[np.float64]) -> int:
         steps = np.round((np.asarray(at_m) - self._origin) / GRID_M).astype(np.int64).tolist()
         return self._vertices.setdefault((steps[0], steps[1], steps[2]), len(self._vertices))
 
-    def _rings(self, rings: Rings) -> list[list[int]]:
-        """The vertices of a face; none where it is too thin for the grid."""
-        steps = [
-            np.round((ring - self._origin) / GRID_M).astype(np.int64).tolist() for ring in rings
-        ]
-        kept = _cleaned([[(x, y, z) for x, y, z in ring] for ring in steps])
-        known = self._vertices
-        return [[known.setdefault(vertex, len(known)) for vertex in ring] for ring in kept]
+
+def closes(faces: Sequence[Rings]) -> bool:
+    """Whether faces close a solid on the grid of the file: see `is_sound`."""
+    kept = [_gridded(rings, np.zeros(3)) for rings in faces]
+    return is_sound([rings for rings in kept if rings])
 
 
-def is_closed(shell: Sequence[Sequence[Sequence[int]]]) -> bool:
-    """Whether each edge of the faces is passed once each way."""
-    edges: Counter[tuple[int, int]] = Counter()
-    for face in shell:
-        for ring in face:
-            edges.update(pairwise([*ring, ring[0]]))
-    return bool(edges) and all(
-        count == 1 and edges[(end, start)] == 1 for (start, end), count in edges.items()
+def is_sound(shell: Sequence[Sequence[Sequence[Vertex]]]) -> bool:
+    """Whether each face is a flat polygon, and each of their edges is passed once each way."""
+    edges: Counter[tuple[Vertex, Vertex]] = Counter()
+    rings = [ring for face in shell for ring in face]
+    for ring in rings:
+        edges.update(pairwise([*ring, ring[0]]))
+    if not edges or any(
+        count != 1 or edges[(end, start)] != 1 for (start, end), count in edges.items()
+    ):
+        return False
+    sound = _core.sound_polygons(
+        np.concatenate([np.array(ring, dtype=np.float64) for ring in rings]) * GRID_M,
+        np.cumsum([0, *(len(ring) for ring in rings)]).astype(np.int64),
+        np.cumsum([0, *(len(face) for face in shell)]).astype(np.int64),
+        PLANE_M,
     )
+    return bool(sound.all())
 
 
-def sizes(width_m: float, height_m: float) -> dict[str, float]:
-    """Attributes of a surface that has a width and a height."""
-    given = {"width_m": width_m, "height_m": height_m}
-    return {name: round(size, 4) for name, size in given.items() if not math.isnan(size)}
+def _gridded(rings: Rings, origin_m: NDArray[np.float64]) -> list[list[Vertex]]:
+    """The rings of a face in steps of the grid; none where it is too thin for it."""
+    steps = [np.round((ring - origin_m) / GRID_M).astype(np.int64).tolist() for ring in rings]
+    return _cleaned([[(x, y, z) for x, y, z in ring] for ring in steps])
 
 
 def _cleaned(rings: Sequence[list[Any]]) -> list[list[Any]]:

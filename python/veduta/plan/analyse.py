@@ -22,7 +22,7 @@ from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
-from veduta.plan.remarks import remarks
+from veduta.plan.remarks import false_flights, remarks
 from veduta.plan.scale.estimate import (
     DrawnSizes,
     estimate_scale,
@@ -105,6 +105,7 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
         notes=[
             *read.notes,
             *remarks(drawn, read.sheet_px, metres_per_px),
+            *false_flights(read.drawn.stairs, drawn.stairs),
             *said,
             *_strays(drawn),
         ],

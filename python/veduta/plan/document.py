@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from veduta.plan.surroundings.sun import read_time
 
 Origin = Literal["measured", "inferred", "invented", "edited"]
 """Drawn on the plan; follows from what is drawn and a rule; on no record; written by a person."""
@@ -30,6 +32,9 @@ Score = Annotated[float, Field(ge=0.0, le=1.0)]
 Point = tuple[float, float]
 Channel = Annotated[int, Field(ge=0, le=255)]
 TileCount = Annotated[int, Field(ge=1, le=64)]
+Latitude = Annotated[float, Field(ge=-90.0, le=90.0)]
+Longitude = Annotated[float, Field(ge=-180.0, le=180.0)]
+Panorama = Literal["round", "directions"]
 
 
 class _Record(BaseModel):
@@ -284,10 +289,35 @@ class Storey(_Record):
     notes: list[str] = Field(default=[], description="what was assumed, mended or left out")
 
 
+def _checked_time(text: str) -> str:
+    read_time(text)
+    return text
+
+
 class PlanDocument(_Record):
     """Everything that was found in the drawings of one house."""
 
     schema_: Literal["veduta/plan"] = Field(default="veduta/plan", alias="schema")
     version: Literal[1] = 1
+    north_deg: Annotated[float, Field(ge=0.0, le=360.0)] | None = Field(
+        default=None,
+        description="where north is on the page, clockwise from up; null: not known, up is taken",
+    )
+    place_deg: tuple[Latitude, Longitude] | None = Field(
+        default=None, description="latitude and longitude, north and east positive (WGS 84)"
+    )
+    time: Annotated[str, AfterValidator(_checked_time)] | None = Field(
+        default=None,
+        description=(
+            "when it is looked at, ISO 8601; without an offset by the clock of the longitude's zone"
+        ),
+    )
+    panorama: Panorama | None = Field(
+        default=None,
+        description=(
+            "the picture around the house, beside this file. round: panorama.jpg, its middle is"
+            " north; directions: panorama-north.jpg, -east, -south and -west"
+        ),
+    )
     storeys: list[Storey]
     notes: list[str] = []

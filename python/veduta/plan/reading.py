@@ -32,6 +32,7 @@ from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
+from veduta.plan.walls.bows import with_bows
 from veduta.plan.walls.find import Found, find_walls
 
 
@@ -75,6 +76,8 @@ def read_cleaned(
     flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
     found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
+    if known is None:
+        found = with_bows(found, sheet.faint)
     judged = judge_gaps(found, sheet)
     leaves = leaf_pieces(found.pieces, judged)
     if leaves:

@@ -31,10 +31,14 @@ FILES = (
         "house.ifc",
         "the house for BIM software (IFC4): walls, doors, windows, spaces, furniture, lamps",
     ),
+    ("house.city.json", "the house as CityJSON 2.0: shell, storeys, rooms, stairs, furniture"),
     ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
     ("house.x3d", "the house as X3D 4.0: doors that open, lamps that switch on, views of rooms"),
+    ("tileset.json", "the house as 3D Tiles 1.1, its tiles in `tiles/`"),
     ("ground.glb", "the ground around it: lawn, paths, a drive to the garage"),
     ("garden.glb", "what grows there"),
+    ("panorama.glb", "what is seen around it, where a panorama was given"),
+    ("panorama.jpg", "its picture, for a rebuild; or panorama-north.jpg and so on"),
     ("place.json", "the house as a place with its tour, for `veduta view`"),
     ("tour.png", "the plan with the way of the tour"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
@@ -104,13 +108,13 @@ def plan_report(
         state="done",
         options=options.model_dump(mode="json"),
         steps=steps,
-        measures=found,
+        measures=found | result.site.measures(),
         notes=list(said),
     )
     page = Page(
         title=subject,
         summary=summary_line(found),
-        facts=_facts(document, found),
+        facts=_facts(result, found),
         pictures=_pictures(result),
         tables=[
             *(_rooms(storey) for storey in document.storeys),
@@ -141,12 +145,13 @@ def failure_report(
     return report, render(report, Page(title=subject, summary="Nothing was built."))
 
 
-def _facts(document: PlanDocument, found: dict[str, Any]) -> list[tuple[str, str]]:
+def _facts(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
     facts = [
         ("rooms", str(found["rooms"])),
         ("area", f"{found['area_m2']:.1f} m² without balconies and terraces"),
     ]
-    for storey in document.storeys:
+    facts += result.site.facts()
+    for storey in result.document.storeys:
         scale = storey.scale
         size = f"{1000 * scale.metres_per_px:.2f} mm/px ± {100 * scale.sigma:.1f} %"
         facts.append((f"scale, {storey.name}", f"{size}, {_BASIS[scale.basis]}"))

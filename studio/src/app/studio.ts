@@ -161,7 +161,7 @@ export class Studio extends LitElement {
         <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
       </header>
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
-        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour).day > 0.5}
+        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour, session.sunPath).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
       <div class="left" ?hidden=${!this.layersOpen}>${this.#layers(session)}</div>
@@ -197,6 +197,7 @@ export class Studio extends LitElement {
       <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
         <veduta-house ?hidden=${session.houses.length === 0} .state=${this.#store.value}
           .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${session.hasLamps}
+          .sunWords=${session.sunPath.words} .hasBackdrop=${session.place.parts.some(({ isBackdrop }) => isBackdrop)}
           @change-state=${(event: CustomEvent<Partial<StudioState>>) => this.#store.update(event.detail)}></veduta-house>
         <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
           @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
@@ -360,7 +361,7 @@ export class Studio extends LitElement {
 
   #changeHouse(command: HouseCommand): void {
     if (this.session === null || this.session.houses.length === 0) return;
-    const { change, words } = changeBy(command, this.#store.value);
+    const { change, words } = changeBy(command, this.#store.value, this.session.sunPath);
     this.#store.update(change);
     this.#say(words);
   }

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 import manifold3d
 from shapely.geometry import Point, Polygon
 from shapely.geometry.base import BaseGeometry
-from shapely.ops import substring
 
+from veduta.formats.cityjson_solids import closes
 from veduta.plan.city.marked import OPEN, Mark, Marks, bodies, joined
-from veduta.plan.city.matter import INTO_M
+from veduta.plan.city.matter import INTO_M, half_of
 from veduta.plan.document import Room
 from veduta.plan.house.floors import FINISH_M
 from veduta.plan.house.hole import Hole
@@ -25,7 +25,13 @@ BESIDE_M = 0.1
 """What lies so near to a room's floor, and is no wall's and no other room's, belongs to it."""
 LEAST_ROOM_M3 = 0.3
 _REACH_M = 0.02
+_SLITS_M = (0.004, 0.02, 0.05)
+_EDGES_M = (0.001, 0.004, 0.01)
+"""Slits between walls of twice this width are no air: they would fall shut on the grid of a file.
+Wider ones are left out, and longer edges collapsed, where a room is no sound solid with them.
+"""
 _STEP_M = 0.05
+_NEAR_M = 0.01
 
 
 @dataclass(frozen=True)
@@ -49,24 +55,38 @@ class Cavity:
 def cavities(
     spaces: Sequence[Space], matter: manifold3d.Manifold, slab_m: float, marks: Marks
 ) -> tuple[list[Cavity], manifold3d.Manifold]:
-    """The rooms of all storeys but for what is outdoors, and the house with its rooms filled."""
+    """The rooms of all storeys but for what is outdoors, and the matter with its rooms filled."""
     found, filled = [], [matter]
     for index, space in enumerate(spaces):
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         opening = Polygon() if above is None else above.well
-        for hollow in _hollows(space, opening, slab_m, marks):
+        narrow, *wider = (_hollows(space, opening, slab_m, slit, marks) for slit in _SLITS_M)
+        for tries in zip(narrow, *wider, strict=True):
+            hollow, air = _sound(tries, matter, marks)
             filled.append(hollow.solid(into_m=2.0 * _REACH_M))
-            air = bodies(hollow.solid(into_m=0.0) - matter)
-            kept = tuple(body for body in air if body.volume() > LEAST_ROOM_M3)
-            if kept:
-                found.append(Cavity(space, hollow.room, hollow.region, kept))
+            if air:
+                found.append(Cavity(space, hollow.room, hollow.region, air))
     return found, joined(filled)
 
 
-def _hollows(space: Space, opening: BaseGeometry, slab_m: float, marks: Marks) -> list[_Hollow]:
+def _sound(
+    tries: Sequence[_Hollow], matter: manifold3d.Manifold, marks: Marks
+) -> tuple[_Hollow, tuple[manifold3d.Manifold, ...]]:
+    """The first way to see a room in which no two edges fall together; else the last."""
+    for hollow, edge in zip(tries, _EDGES_M, strict=True):
+        every = bodies(hollow.solid(into_m=0.0) - matter, edge)
+        air = tuple(body for body in every if body.volume() > LEAST_ROOM_M3)
+        if all(closes([face.rings for face in marks.faces(body)]) for body in air):
+            break
+    return hollow, air
+
+
+def _hollows(
+    space: Space, opening: BaseGeometry, slab_m: float, slit_m: float, marks: Marks
+) -> list[_Hollow]:
     """The rooms of a storey; a floor goes on over the well in it."""
     floors = replace(space, well=Polygon()).floors
-    regions = _regions(space, [region for _, region in floors])
+    regions = _regions(space, [region for _, region in floors], slit_m)
     return [
         _Hollow(space, room, region, regions, opening, slab_m, marks)
         for (room, _), region in zip(floors, regions, strict=True)
@@ -74,16 +94,17 @@ def _hollows(space: Space, opening: BaseGeometry, slab_m: float, marks: Marks) -
     ]
 
 
-def _regions(space: Space, floors: Sequence[BaseGeometry]) -> list[BaseGeometry]:
+def _regions(space: Space, floors: Sequence[BaseGeometry], slit_m: float) -> list[BaseGeometry]:
     """The floors with what is left between them and the walls."""
     free = space.slab.difference(space.walls)
     for floor in floors:
         free = free.difference(floor)
-    found = []
+    found: list[BaseGeometry] = []
     for floor in floors:
         own = floor.union(floor.buffer(BESIDE_M, join_style="mitre").intersection(free))
         free = free.difference(own)
-        found.append(own.buffer(1e-6, join_style="mitre"))
+        clear = own.difference(space.walls).buffer(-slit_m, join_style="mitre")
+        found.append(clear.buffer(slit_m, join_style="mitre"))
     return found
 
 
@@ -143,7 +164,7 @@ class _Hollow:
                 if self._is_own(hole, side):
                     found.append(
                         self.marks.prism(
-                            _half(hole, side), low, floor + hole.high_m + INTO_M,
+                            half_of(hole, side, _REACH_M), low, floor + hole.high_m + INTO_M,
                             ground, OPEN, OPEN,
                         )
                     )  # fmt: skip
@@ -152,11 +173,4 @@ class _Hollow:
     def _is_own(self, hole: Hole, side: float) -> bool:
         """Whether an opening leads into the room on a side."""
         at = Point(hole.middle + side * hole.leftward * (hole.line.half_m + _STEP_M))
-        return bool(self.region.distance(at) < 1e-6)
-
-
-def _half(hole: Hole, side: float) -> BaseGeometry:
-    """From the middle of the wall to beyond its face. side: +1 to the left of the wall, -1 right."""
-    part = substring(hole.line.line, hole.start_m - INTO_M, hole.end_m + INTO_M)
-    reach = side * (hole.line.half_m + _REACH_M)
-    return part.buffer(reach, single_sided=True, cap_style="flat", join_style="mitre")
+        return bool(self.region.distance(at) < _NEAR_M)

@@ -106,8 +106,8 @@ class Marks:
 
     def _groups(self, mesh: manifold3d.Mesh64) -> tuple[list[Mark], NDArray[np.uint32]]:
         """The marks of a mesh, and the number of that of each triangle."""
-        runs = np.diff(np.asarray(mesh.run_index, dtype=np.int64)) // 3
-        owner = np.repeat(np.asarray(mesh.run_original_id, dtype=np.int64), runs)
+        ends = np.asarray(mesh.run_index, dtype=np.int64) // 3
+        owner = np.repeat(np.asarray(mesh.run_original_id, dtype=np.int64), np.diff(ends))
         plane = np.asarray(mesh.face_id, dtype=np.int64)
         numbers: dict[Mark, int] = {}
         keys, which = np.unique(np.stack([owner, plane]), axis=1, return_inverse=True)
@@ -131,9 +131,11 @@ def joined(solids: Sequence[manifold3d.Manifold]) -> manifold3d.Manifold:
     return manifold3d.Manifold.batch_boolean(list(solids), manifold3d.OpType.Add)
 
 
-def bodies(solid: manifold3d.Manifold) -> list[manifold3d.Manifold]:
+def bodies(
+    solid: manifold3d.Manifold, least_edge_m: float = LEAST_EDGE_M
+) -> list[manifold3d.Manifold]:
     """Each connected piece without the hollows in it, the largest first; crumbs are left out."""
-    simple = solid.simplify(LEAST_EDGE_M)
+    simple = solid.simplify(least_edge_m)
     pieces = [piece for piece in simple.decompose() if piece.volume() > LEAST_M3]
     return sorted(pieces, key=lambda piece: -piece.volume())
 

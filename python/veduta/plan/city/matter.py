@@ -11,24 +11,29 @@ from collections.abc import Sequence
 import manifold3d
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry.base import BaseGeometry
+from shapely.ops import substring
 
 from veduta.place.part import Part
-from veduta.place.semantics import SemanticClass
 from veduta.plan.city.marked import Mark, Marks, joined, one_mark
 from veduta.plan.house.build import GROUND_SLAB_M
 from veduta.plan.house.floors import FINISH_M, slab_over
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.roof import UNDER_M
+from veduta.plan.house.roof import UNDER_M, roof_body, roofs_over
 from veduta.plan.house.space import Space
-from veduta.plan.house.walls import WallNames, wall_solid
+from veduta.plan.house.walls import WallNames, extruded, wall_solid
+from veduta.plan.options import HouseOptions
 
 PANEL_M = 0.07
 _THIN = 0.8
 """A panel is thinner than its wall."""
-INTO_M = 0.002
+INTO_M = 0.01
 """How far what fills an opening reaches into the wall around it."""
-_JOINT_M = 0.001
-_EDGE_M = 0.005
+_RIM_M = 0.1
+_DEEP_M = 100.0
+_JOINT_M = 0.02
+_INTO_ROOF_M = 0.001
+"""Roofs are built a little above their slab: this joins the two, out of sight."""
 
 
 def is_shut(hole: Hole) -> bool:
@@ -43,11 +48,9 @@ def panel_half_m(hole: Hole) -> float:
     return min(PANEL_M / 2.0, _THIN * hole.line.half_m)
 
 
-def matter_of(
-    spaces: Sequence[Space], part: Part, slab_m: float, marks: Marks
-) -> tuple[manifold3d.Manifold, list[str]]:
-    """The solid of the whole house (the part's frame, m), and what could not be made part of it."""
-    first, last = spaces[0], spaces[-1]
+def matter_of(spaces: Sequence[Space], slab_m: float, marks: Marks) -> manifold3d.Manifold:
+    """The solid of the whole house but for its roof (the part's frame, m)."""
+    first = spaces[0]
     base = first.storey.elevation_m
     ground = Mark("slab", "ground slab")
     solids = [
@@ -58,14 +61,33 @@ def matter_of(
     for index, space in enumerate(spaces):
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         solids += _storey(space, above, slab_m, marks)
-    notes = []
-    for name, roof in _roofs(part).items():
-        if roof is None:
-            notes.append(f"{name} is no closed solid: house.city.json has no roof there")
-        else:
-            solids.append(marks.marked(roof, one_mark(Mark("roof", name))))
-            solids += _joints(last, roof, marks)
-    return joined(solids), notes
+    return joined(solids)
+
+
+def roofs_of(
+    last: Space, options: HouseOptions, marks: Marks
+) -> tuple[list[manifold3d.Manifold], list[str]]:
+    """The roofs over the highest storey, and which of them are no solids.
+
+    They reach a little into the walls and the slab below, and no further into the rooms.
+    """
+    top = last.storey.elevation_m + last.storey.height_m
+    inner = last.covered.buffer(-_RIM_M, join_style="mitre")
+    solids, notes = [], []
+    for roof in roofs_over(last.covered, options):
+        body = roof_body(roof, top, options)
+        if body is None:
+            notes.append(f"{roof.name} is no closed solid: house.city.json has no roof there")
+            continue
+        if not inner.is_empty:
+            body = body - extruded(inner, top - _DEEP_M, top - options.slab / 2.0)
+        solids.append(marks.marked(body, one_mark(Mark("roof", roof.name))))
+    under = last.covered.buffer(-_JOINT_M, join_style="mitre")
+    if solids and not under.is_empty:
+        slab = Mark("slab", f"{last.storey.name} slab")
+        ends = (top - _JOINT_M, top + UNDER_M + _INTO_ROOF_M)
+        solids.append(marks.prism(under, *ends, slab, slab, slab))
+    return solids, notes
 
 
 def _storey(
@@ -85,6 +107,7 @@ def _storey(
     for hole in space.holes:
         if is_shut(hole):
             solids.append(_panel(hole, space, marks))
+        solids += [_threshold(hole, side, space, marks) for side in _outdoor_sides(hole)]
     for room, region in space.floors:
         if room is not None and room.outdoors:
             mark = Mark("outer floor", f"{storey.name} {room.id} floor")
@@ -94,6 +117,30 @@ def _storey(
     if not over.is_empty:
         solids.append(marks.prism(over, top - slab_m, top, slab, slab, slab))
     return solids
+
+
+def _outdoor_sides(hole: Hole) -> list[float]:
+    """The sides of an opening to the floor on which one steps out."""
+    sides = ((1.0, hole.left), (-1.0, hole.right))
+    out = [side for side, room in sides if room is None or room.outdoors]
+    return out if hole.reaches_floor and len(out) == 1 else []
+
+
+def _threshold(hole: Hole, side: float, space: Space, marks: Marks) -> manifold3d.Manifold:
+    mark = Mark("outer floor", f"{space.storey.name} threshold {hole.opening.id}")
+    floor = space.storey.elevation_m
+    region = half_of(hole, side, 0.0)
+    return marks.prism(region, floor - INTO_M, floor + FINISH_M, mark, mark, mark)
+
+
+def half_of(hole: Hole, side: float, beyond_m: float) -> BaseGeometry:
+    """An opening from the middle of the wall to beyond its face.
+
+    side: +1 to the left of the wall, -1 to the right.
+    """
+    part = substring(hole.line.line, hole.start_m - INTO_M, hole.end_m + INTO_M)
+    reach = side * (hole.line.half_m + beyond_m)
+    return part.buffer(reach, single_sided=True, cap_style="flat", join_style="mitre")
 
 
 def _panel(hole: Hole, space: Space, marks: Marks) -> manifold3d.Manifold:
@@ -106,14 +153,6 @@ def _panel(hole: Hole, space: Space, marks: Marks) -> manifold3d.Manifold:
     return marks.prism(
         region, floor + hole.low_m - INTO_M, floor + hole.high_m + INTO_M, mark, mark, mark
     )
-
-
-def _roofs(part: Part) -> dict[str, manifold3d.Manifold | None]:
-    """The roofs of the part by their features; None where one is not closed."""
-    found: dict[str, manifold3d.Manifold | None] = {}
-    for feature in np.flatnonzero(part.features.class_code == SemanticClass.ROOF.code).tolist():
-        found[part.features.name[feature]] = solid_of(part, [feature])
-    return found
 
 
 def solid_of(part: Part, features: Sequence[int]) -> manifold3d.Manifold | None:
@@ -132,20 +171,3 @@ def solid_of(part: Part, features: Sequence[int]) -> manifold3d.Manifold | None:
     if solid.status() != manifold3d.Error.NoError or solid.is_empty():
         return None
     return joined(solid.decompose())
-
-
-def _joints(last: Space, roof: manifold3d.Manifold, marks: Marks) -> list[manifold3d.Manifold]:
-    """What fills the joints between a roof and what it lies on, in single precision, and beside."""
-    slab = Mark("slab", f"{last.storey.name} slab")
-    top = last.storey.elevation_m + last.storey.height_m
-    eaves = roof.bounding_box()[2]
-    inner = last.covered.buffer(-_JOINT_M, join_style="mitre")
-    edge = last.covered.buffer(_JOINT_M / 2.0, join_style="mitre").difference(
-        last.covered.buffer(-_EDGE_M, join_style="mitre")
-    )
-    ends = [(inner, top - _EDGE_M), (edge, eaves)] if eaves < top else [(inner, top - _EDGE_M)]
-    return [
-        marks.prism(region, low, top + UNDER_M - _JOINT_M, slab, slab, slab)
-        for region, low in ends
-        if not region.is_empty
-    ]

@@ -40,7 +40,7 @@ def add_stairs(house: House, document: CityDocument, table: SurfaceTable, marks:
     pieces += [(space, name, "rail", (row,)) for space, name, row in rails]
     for space, name, kind, features in pieces:
         faces = _faces(house.part, name, features, table, marks)
-        shape = document.solid([faces], table.surfaces([faces], None))
+        shape = document.solid([faces], table.surfaces([faces]))
         told = {"class": kind, "name": name}
         parent = _room_of(document, house, space, features)
         document.add(

@@ -23,7 +23,7 @@ from veduta.plan.house.furniture import Furnishing
 from veduta.plan.house.ground_level import ground_storey
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
-from veduta.plan.house.room_looks import Pictures, room_looks
+from veduta.plan.house.room_looks import TilePictures, room_looks
 from veduta.plan.house.sound import sound_part
 from veduta.plan.house.space import Space
 from veduta.plan.house.stairs import add_stairs
@@ -51,7 +51,7 @@ class House:
 
 
 def build_house(
-    document: PlanDocument, options: HouseOptions, pictures: Pictures | None = None
+    document: PlanDocument, options: HouseOptions, pictures: TilePictures | None = None
 ) -> House:
     """The house; the notes of the part say what was left out or is otherwise than asked.
 

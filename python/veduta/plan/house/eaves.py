@@ -1,4 +1,4 @@
-"""Roofs whose eaves hang lower than the walls' top: what of them would lie in the rooms is cut out."""
+"""Eaves hang lower than the walls' top: what of a roof would lie in the rooms is cut out."""
 
 from __future__ import annotations
 
@@ -24,14 +24,15 @@ def clear_of(faces: Sequence[Rings], region: BaseGeometry) -> list[Rings]:
 
     The faces as they are where they close no solid.
     """
-    solid = _solid(faces)
+    solid = solid_of_faces(faces)
     if solid is None:
         return list(faces)
     cut = solid - extruded(region, -_DEEP_M, -_LEFT_M)
     return [rings for _, rings in flat_faces(shell_of(cut))]
 
 
-def _solid(faces: Sequence[Rings]) -> manifold3d.Manifold | None:
+def solid_of_faces(faces: Sequence[Rings]) -> manifold3d.Manifold | None:
+    """The solid that faces close, corners equal to the last bit; None where they close none."""
     rings = [ring for face in faces for ring in face]
     corners = np.concatenate(rings)
     try:

@@ -123,7 +123,7 @@ def _stairwell(lower: Space, upper: Space, slab_m: float) -> Stairwell:
     for one in drawn:
         flight = turning_flight(one, rise) if one.steps_m else _flight(one, lower, rise)
         if flight is None:
-            where = f"stairs {one.id} of {lower.storey.name}"
+            where = f"stairs {one.id} of {(lower if own else upper).storey.name}"
             notes.append(f"{where} are left out: they are too small to walk on")
             continue
         flights.append(flight)

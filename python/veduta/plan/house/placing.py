@@ -28,6 +28,7 @@ def place_of(
     document: str | None,
     options: HouseOptions,
     tours: Sequence[Tour] = (),
+    city_model: str | None = None,
 ) -> Place:
     """The manifest; x and y are those of the plan, as no plan says where the house stands.
 
@@ -41,6 +42,7 @@ def place_of(
                 id=house.part.id,
                 name="House",
                 model=model,
+                city_model=city_model,
                 document=document,
                 transform=transform,
                 arrangement="single",

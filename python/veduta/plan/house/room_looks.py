@@ -12,13 +12,13 @@ from veduta.plan.document import PlanDocument, Tiling, WallColour
 from veduta.plan.house.finishes import paint_name, rooms_of, tiles_name
 from veduta.plan.house.looks import LOOKS, Look
 
-Pictures = Mapping[str, NDArray[np.uint8]]
+TilePictures = Mapping[str, NDArray[np.uint8]]
 """(h, w, 3) sRGB textures of tiles, by the file names that the document has for them."""
 _PAINT_ROUGHNESS = 0.9
 _TILE_ROUGHNESS = 0.4
 
 
-def room_looks(document: PlanDocument, pictures: Pictures) -> dict[str, Look]:
+def room_looks(document: PlanDocument, pictures: TilePictures) -> dict[str, Look]:
     """Of each paint and each tiling, by name; a picture that is missing leaves the usual look."""
     found: dict[str, Look] = {}
     textures = {name: _texture(pixels) for name, pixels in pictures.items()}

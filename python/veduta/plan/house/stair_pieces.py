@@ -1,4 +1,4 @@
-"""The stairs of a house as features of its part: what each consists of, for formats that name them."""
+"""The stairs of a house as features of its part: what each consists of, for its formats."""
 
 from __future__ import annotations
 

@@ -181,7 +181,7 @@ def middle_of(shell: Shell, plane: int) -> tuple[NDArray[np.float64], NDArray[np
     length = np.linalg.norm(normals, axis=1)
     largest = int(length.argmax())
     corners = shell.points_m[shell.faces[chosen[largest]]]
-    return corners.mean(axis=0), normals[largest] / length[largest]
+    return corners.mean(axis=0), normals[largest] / max(float(length[largest]), 1e-300)
 
 
 def flat_faces(shell: Shell) -> list[tuple[int, list[NDArray[np.float64]]]]:

@@ -12,8 +12,8 @@ import numpy as np
 
 from veduta.formats.cityjson_solids import CityDocument
 from veduta.plan.city.air import Cavity, cavities
-from veduta.plan.city.marked import Marks, bodies
-from veduta.plan.city.matter import matter_of
+from veduta.plan.city.marked import Marks, bodies, joined
+from veduta.plan.city.matter import matter_of, roofs_of
 from veduta.plan.city.surfaces import SurfaceTable, inner_kind, outer_kind
 from veduta.plan.city.things import add_furniture, add_lamps, add_stairs, storey_id
 from veduta.plan.document import Storey
@@ -28,13 +28,16 @@ def house_cityjson(house: House, options: HouseOptions) -> tuple[bytes, list[str
     """The file's content, in the frame of the part, and what is not in it as it should be."""
     part, spaces = house.part, house.spaces
     marks = Marks()
-    matter, notes = matter_of(spaces, part, options.slab, marks)
+    matter = matter_of(spaces, options.slab, marks)
+    roofs, notes = roofs_of(spaces[-1], options, marks)
     rooms, filled = cavities(spaces, matter, options.slab, marks)
     low, high = part.bounds_m
     document = CityDocument(TITLE, np.array(low))
     table = SurfaceTable(part, spaces)
-    shells = [table.faces(marks.faces(body), outer_kind) for body in bodies(filled)]
-    shape = document.solid(shells, table.surfaces(shells, None))
+    shells = [
+        table.faces(marks.faces(body), outer_kind) for body in bodies(joined([filled, *roofs]))
+    ]
+    shape = document.solid(shells, table.surfaces(shells))
     building = document.add(
         part.id, "Building", None, {**part.attributes, "roofType": options.roof}, [shape]
     )
@@ -64,7 +67,7 @@ def _add_room(
 ) -> list[str]:
     room = cavity.room
     shells = [table.faces(marks.faces(body), inner_kind) for body in cavity.air]
-    surfaces = table.surfaces(shells, room.id if room else "unnamed")
+    surfaces = table.surfaces(shells)
     shape = document.solid(shells, surfaces)
     told: dict[str, str | float] = {
         "area_m2": round(float(cavity.region.area), 2),

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
-from veduta.plan.walls.meetings import meetings
+from veduta.plan.walls.meetings import MEET_RAD, meetings
 from veduta.plan.walls.pieces import Piece
 
 HOUSE_SHARE = 0.5
@@ -206,10 +206,13 @@ def _clustered(
 def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.float64]:
     """The node moved to where the two longest walls cross that meet there, so that none is bent.
 
-    Its cluster may have their crossing and, a little beside it, the end of one of them.
+    Its cluster may have their crossing and, a little beside it, the end of one of them. Where one
+    of all is an arc, the node stays: it was put there already.
     """
     ordered = sorted(axes, key=lambda one: -one.line.length_px)
     first = ordered[0].line
+    if any(one.line.bulge for one in ordered):
+        return node
     for other in ordered[1:]:
         line = other.line
         cross = first.direction[0] * line.direction[1] - first.direction[1] * line.direction[0]
