@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 Pixels = NDArray[np.uint8]
 
-LEVELS = (1.6, 2.5, 4.0, 7.0, 12.0, 20.0, 34.0)
+LEVELS = (1.0, 1.6, 2.5, 4.0, 7.0, 12.0, 20.0, 34.0)
 """Strengths of contours (CIELAB steps per pixel, of 8-bit channels) that are tried."""
 SHORTEST_PX = 7.0
 """A side of a rectangle is no shorter."""
