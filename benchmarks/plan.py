@@ -6,8 +6,9 @@
 The synthetic plans are `veduta.synthetic.plans` (seeds 10000 to 10199 unless told), read to their
 document; with `--house` they go through the whole verb. The real ones are `plans/` of $VEDUTA_DATA
 (else ../shared/data) and always go through the whole verb, whose time is given. Only a run over all
-is kept. `--pictures` writes sheets of overlays: of other people's pixels, so never into the
-repository. `--work` keeps the synthetic readings, from which a later call of the same code goes on.
+is kept, and one over all the real sets, as `plan-real`. `--pictures` writes sheets of overlays: of
+other people's pixels, so never into the repository. `--work` keeps the synthetic readings, from
+which a later call of the same code goes on.
 """
 
 from __future__ import annotations
@@ -55,6 +56,13 @@ NOTES = (
     " (door, window, gap). A room is right with IoU 0.8 and the same use; hall and corridor are"
     " one use. A sheet that cannot be read has none of all.",
     "Unseen: its style or its damage is kept back from development.",
+)
+
+REAL_NOTES = (
+    "Asked for: mlstruct wall recall 0.90, and IoU 0.90 where the truth is complete (7db30954);"
+    " zind rooms F1 0.9, openings F1 0.80, areas within 3 %; uk-dimensions each size and the gross"
+    " area within 3 %; cubicasa counts of rooms within one on 3 of 4, adjacency F1 0.7.",
+    "The picture of the DXF file says nothing of its scale: it is assumed from doors.",
 )
 
 
@@ -183,7 +191,10 @@ def main() -> None:
         if name in chosen:
             rows += measure(arguments.jobs, arguments.pictures)
     whole = set(chosen) == set(every) and arguments.seeds == TEST_SEEDS
-    keep_or_print("plan", rows, NOTES, keep=whole)
+    if set(chosen) == set(REAL):
+        keep_or_print("plan-real", rows, REAL_NOTES, keep=True)
+    else:
+        keep_or_print("plan", rows, NOTES, keep=whole)
 
 
 if __name__ == "__main__":

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
@@ -39,9 +40,9 @@ def plan(document: Path, out: Path, *photos: str) -> PlanResult:
     return run_plan([document], out, QUICK, Progress(quiet=True), photos=room_photos(photos))
 
 
-def living(out: Path) -> dict[str, object]:
+def living(out: Path) -> dict[str, Any]:
     content = json.loads((out / "plan.json").read_text())
-    found: dict[str, object] = content["storeys"][0]["rooms"][0]
+    found: dict[str, Any] = content["storeys"][0]["rooms"][0]
     return found
 
 
@@ -49,10 +50,10 @@ def materials(out: Path) -> set[str]:
     return {one["name"] for one in gltf_of(out)["materials"]}
 
 
-def gltf_of(out: Path) -> dict[str, list[dict[str, object]]]:
+def gltf_of(out: Path) -> dict[str, list[dict[str, Any]]]:
     data = (out / "house.glb").read_bytes()
     length = int.from_bytes(data[12:16], "little")
-    found: dict[str, list[dict[str, object]]] = json.loads(data[20 : 20 + length])
+    found: dict[str, list[dict[str, Any]]] = json.loads(data[20 : 20 + length])
     return found
 
 

@@ -51,7 +51,8 @@ def room_photo(scene: RoomScene, width: int = 960, height: int = 720) -> NDArray
     fine = _traced(scene, 2 * width, 2 * height)
     mean = fine.reshape(height, 2, width, 2, 3).mean(axis=(1, 3))
     seen = mean + np.random.default_rng(scene.seed).normal(0.0, scene.noise, mean.shape)
-    return seen.round().clip(0, 255).astype(np.uint8)
+    photo: NDArray[np.uint8] = seen.round().clip(0, 255).astype(np.uint8)
+    return photo
 
 
 def _traced(scene: RoomScene, width: int, height: int) -> NDArray[np.float64]:
@@ -67,7 +68,8 @@ def _traced(scene: RoomScene, width: int, height: int) -> NDArray[np.float64]:
     for x0, y0, z0, x1, y1, z1, rgb in scene.boxes_m:
         _box(eye, rays, np.array([x0, y0, z0]), np.array([x1, y1, z1]), rgb, colour, nearest)
     falloff = 1.02 - 0.012 * np.minimum(nearest, 6.0)  # dimmer further away
-    return colour * falloff[..., None]
+    dimmed: NDArray[np.float64] = colour * falloff[..., None]
+    return dimmed
 
 
 def camera_rays(
@@ -86,7 +88,8 @@ def world_from_cam(scene: RoomScene) -> NDArray[np.float64]:
     tilt = np.array([[1, 0, 0], [0, c, s], [0, -s, c]])
     c, s = np.cos(scene.yaw_rad), np.sin(scene.yaw_rad)
     turn = np.array([[c, -s, 0], [s, c, 0], [0, 0, 1]])
-    return turn @ tilt
+    axes: NDArray[np.float64] = turn @ tilt
+    return axes
 
 
 def pixel_of(

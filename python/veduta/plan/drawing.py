@@ -10,7 +10,9 @@ from typing import Literal, get_args
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Polygon
+from shapely import get_coordinates, offset_curve
+from shapely.geometry import LineString, Polygon
+from shapely.ops import substring
 
 from veduta.plan.document import Furniture, Stairs, Storey
 from veduta.plan.house.hole import Hole
@@ -19,6 +21,7 @@ from veduta.plan.house.space import Space, pieces_of
 Layer = Literal["rooms", "furniture", "walls", "windows", "doors", "stairs", "names"]
 LAYERS: tuple[Layer, ...] = get_args(Layer)
 _ARC_STEPS = 12
+_BARB_M = 0.1
 
 
 @dataclass(frozen=True)
@@ -94,6 +97,8 @@ def _rings(shape: Polygon) -> tuple[NDArray[np.float64], ...]:
 
 def _stairs(stairs: Stairs) -> Shape:
     """A flight with its treads, and an arrow up where it is known."""
+    if stairs.steps_m:
+        return _turning(stairs)
     ring = np.array(stairs.outline_m)
     way = np.array(stairs.up)
     sides = np.roll(ring, -1, axis=0) - ring
@@ -120,6 +125,20 @@ def _stairs(stairs: Stairs) -> Shape:
     return Shape("stairs", (ring,), tuple(lines), name=stairs.id)
 
 
+def _turning(stairs: Stairs) -> Shape:
+    """As a straight flight; the arrow follows the walking line."""
+    lines = [np.array([*ring, ring[0]]) for ring in stairs.steps_m]
+    if np.hypot(*stairs.up) > 0.5:
+        path = LineString(stairs.path_m)
+        inset = 0.5 * path.length / stairs.treads
+        shaft = np.array(substring(path, inset, path.length - inset).coords)
+        tip, along = shaft[-1], (shaft[-1] - shaft[-2]) / np.hypot(*(shaft[-1] - shaft[-2]))
+        across = np.array([-along[1], along[0]])
+        heads = [tip - _BARB_M * (1.5 * along + side * across) for side in (-1.0, 1.0)]
+        lines += [shaft, np.array([heads[0], tip, heads[1]])]
+    return Shape("stairs", (np.array(stairs.outline_m),), tuple(lines), name=stairs.id)
+
+
 def _middle(region: Polygon) -> tuple[float, float]:
     """A point well inside."""
     point = region.centroid
@@ -143,10 +162,23 @@ def _opening(hole: Hole) -> Shape:
     ]
     opening = hole.opening
     if opening.kind == "window":
+        if hole.line.wall.bulge:
+            edges = [_beside(hole, offset) for offset in (-half, half)]
+            ends = [np.array(pair) for pair in zip(*(edge[[0, -1]] for edge in edges), strict=True)]
+            return Shape(
+                "windows", (), (*edges, *ends, _beside(hole, 0.0)), opening.id, opening.type
+            )
         middle = np.array([start, start + width * way])
         return Shape("windows", (), (*edges, *ends, middle), opening.id, opening.type)
     lines = [*ends, *_leaves(hole)]
     return Shape("doors", (), tuple(lines), opening.id, opening.type)
+
+
+def _beside(hole: Hole, offset_m: float) -> NDArray[np.float64]:
+    """(n, 2) points along an opening in a curved wall, to the left of its centre line."""
+    part = substring(hole.line.line, hole.start_m, hole.end_m)
+    line = offset_curve(part, offset_m, join_style="mitre") if offset_m else part
+    return np.asarray(get_coordinates(line))
 
 
 def _thing(thing: Furniture) -> Shape:

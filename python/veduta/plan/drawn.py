@@ -110,7 +110,9 @@ class DrawnRoom:
 class DrawnStairs:
     """A flight of stairs; `up_px` has length 1, or is (0, 0) where no arrow is drawn.
 
-    `across`: its treads are upright lines, so that it runs along x.
+    `across`: its treads are upright lines, so that it runs along x. Stairs that turn have their
+    treads, landings with them, as `steps_px` from the lowest up (in either order where no arrow is
+    drawn), and `path_px` (n, 2), the walking line over them.
     """
 
     id: str
@@ -119,6 +121,8 @@ class DrawnStairs:
     up_px: tuple[float, float]
     score: float
     across: bool = False
+    steps_px: tuple[NDArray[np.float64], ...] = ()
+    path_px: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)

@@ -2,6 +2,7 @@
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import { durationOf, stretchAt, type Tour, type TourState } from "../core/tour.ts";
 import { icons } from "./icons.ts";
+import { lineStyles } from "./line-styles.ts";
 import { theme } from "./theme.ts";
 
 /** Of the slider (s). */
@@ -18,6 +19,7 @@ export class TourPanel extends LitElement {
 
   static override styles = [
     theme,
+    lineStyles,
     css`
       :host {
         display: flex;
@@ -25,38 +27,21 @@ export class TourPanel extends LitElement {
         gap: 8px;
         padding: 5px 14px 5px 6px;
       }
-      .icon-button[aria-pressed="true"] {
-        background: var(--deep);
-        color: #fff;
-      }
       .where {
         flex: 0 0 96px;
         min-width: 0;
         line-height: 1.25;
       }
-      strong {
-        display: block;
-        font-weight: 600;
-        overflow: hidden;
-        text-overflow: ellipsis;
-        white-space: nowrap;
-      }
-      .where span {
-        color: var(--ink-soft);
-        font-size: 12.5px;
-        font-variant-numeric: tabular-nums;
-        white-space: nowrap;
-      }
       select {
-        flex: 0 1 130px;
+        flex: 0 1 150px;
         min-width: 60px;
+        padding: 5px 6px;
+        border: none;
+        border-radius: 8px;
+        background: var(--hover);
         font: inherit;
         color: inherit;
-      }
-      input {
-        flex: 1;
-        min-width: 60px;
-        accent-color: var(--deep);
+        text-overflow: ellipsis;
       }
     `,
   ];

@@ -207,6 +207,23 @@ export function cornersOfPlace(place: Place): Vec3[] {
   );
 }
 
+/** The ground of a town ends this far below the plane around it, into which it dips (grammar/ground_margin.py). */
+const DIPS_M = -0.3;
+
+/**
+ * The height of the lowest corner of the place's own ground, world frame; null where it has none, and 0
+ * where its end is meant to dip into the plane around it.
+ */
+export function lowestGround(place: Place): number | null {
+  const heights = place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }) =>
+    isGround || isBackdrop ? (bounds === null ? [0] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)[2])) : [],
+  );
+  if (heights.length === 0) return null;
+  const lowest = Math.min(...heights);
+  const joins = place.parts.some(({ isBackdrop }) => isBackdrop);
+  return joins || lowest < DIPS_M - 0.01 ? lowest : 0;
+}
+
 function list(value: unknown, most: number, what: string, broken: (fault: string) => Fault): unknown[] {
   if (!Array.isArray(value)) throw broken(`it has no list of ${what}`);
   if (value.length > most) throw broken(`it names more than ${most} ${what}`);

@@ -44,16 +44,16 @@ export interface Scenery {
 }
 
 /**
- * `footprints` are the boxes of the buildings in the drawn frame; `hasGround` says whether the place
- * has a ground of its own. `scaleKnown`: the ground gets lines a metre apart, which would say
- * something false of a place of unknown scale.
+ * `footprints` are the boxes of the buildings in the drawn frame; `lowest_m` is how low the place's own
+ * ground lies, null where it has none. `scaleKnown`: the ground gets lines a metre apart, which would
+ * say something false of a place of unknown scale.
  */
 export function makeScenery(
   bounds: Box,
   footprints: readonly Box3[],
-  { hasGround, scaleKnown }: { hasGround: boolean; scaleKnown: boolean },
+  { lowest_m, scaleKnown }: { lowest_m: number | null; scaleKnown: boolean },
 ): Scenery {
-  const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
+  const height_m = lowest_m === null ? GROUND_HEIGHT_M : Math.min(0, lowest_m) + UNDER_GROUND_M;
   const group = new Group();
   const { toLight } = daylightAt(DAY_HOUR);
   const toSun = new Vector3(...drawnFromWorld(toLight));

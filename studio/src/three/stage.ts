@@ -5,7 +5,7 @@ import { drawnFaces } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
-import { cornersOfPlace, type Place } from "../core/place.ts";
+import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
@@ -80,8 +80,7 @@ export class Stage {
     this.seen = boxOfPoints([...this.corners, ...told]);
     const buildings = parts.filter(({ part }) => !part.isGround && !part.isBackdrop);
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
-    const hasGround = place.parts.some(({ isGround }) => isGround);
-    this.#scenery = makeScenery(this.seen, footprints, { hasGround, scaleKnown: place.scaleKnown });
+    this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown });
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { DAY_HOUR, daylightAt, sunAt, sunPathOf } from "../../src/core/daylight.ts";
 import { changeBy } from "../../src/core/house-keys.ts";
-import { readPlace, type SunDay } from "../../src/core/place.ts";
+import { lowestGround, readPlace, type SunDay } from "../../src/core/place.ts";
 import { INITIAL_STATE } from "../../src/core/state.ts";
 import { sunVector } from "../../src/core/sun.ts";
 import type { Vec3 } from "../../src/core/vector.ts";
@@ -81,6 +81,18 @@ describe("the sun over a place", () => {
     ["no time at all", { ...SYDNEY, time: "noon" }],
   ])("is refused if it is %s", (_, sun) => {
     expect(() => readPlace(place(sun), "place.json")).toThrow(/"sun"/);
+  });
+
+  it("has its own ground, which may lie lower than its origin", () => {
+    const { parts, ...rest } = JSON.parse(place(null)) as { parts: Record<string, unknown>[] };
+    const lowestOf = (all: object[]): number | null => lowestGround(readPlace(JSON.stringify({ ...rest, parts: all }), "place.json"));
+    const ground = { ...parts[0], id: "ground", ground: true, bounds: { min: [0, 0, -2], max: [1, 1, 3] } };
+    expect(lowestOf([{ ...parts[0] }])).toBeNull();
+    expect(lowestOf([...parts, ground])).toBe(-2);
+    const town = { ...ground, bounds: { min: [0, 0, -0.3], max: [1, 1, 3] } };
+    expect(lowestOf([{ ...parts[0] }, town])).toBe(0);
+    expect(lowestOf([...parts, town])).toBe(-0.3);
+    expect(lowestOf([...parts, { ...ground, transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 5, 1] }])).toBe(0);
   });
 
   it("knows the picture around a place", () => {

@@ -13,7 +13,8 @@ from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Stairs
 from veduta.plan.house.build import build_house
-from veduta.plan.house.flights import HEADROOM_M, stairwells
+from veduta.plan.house.flights import stairwells
+from veduta.plan.house.headroom import HEADROOM_M
 from veduta.plan.house.space import space_of
 from veduta.plan.options import HouseOptions
 

@@ -14,12 +14,17 @@ from sample_plan import INNER_M, OUTER_M, opening, sample_plan, sample_storey, w
 from shapely.geometry import LineString, Polygon
 from shapely.ops import unary_union
 
+from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import Junction, Storey
 from veduta.plan.house.build import build_house
+from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.lines import arc_points, footprint, wall_lines
+from veduta.plan.house.looks import Looks
+from veduta.plan.house.roof import add_roof
 from veduta.plan.house.space import space_of
 from veduta.plan.house.walls import wall_solid
+from veduta.plan.house.windows import add_window
 from veduta.plan.options import HouseOptions
 
 HEIGHT_M = 2.55
@@ -122,3 +127,40 @@ def test_what_cannot_be_cut_is_left_out_and_said() -> None:
     assert [hole.opening.id for hole in space.holes] == ["front", "inner", "w1", "w2"]
     assert any("tiny" in note and "too short" in note for note in space.notes)
     assert any("double" in note and "w1" in note for note in space.notes)
+
+
+def test_a_window_in_a_curved_wall_follows_it() -> None:
+    junctions = [
+        Junction(id="a", at_m=(0.0, 0.0), type="end"),
+        Junction(id="b", at_m=(4.0, 0.0), type="end"),
+    ]
+    storey = sample_storey(
+        junctions=junctions,
+        walls=[wall("arc", "a", "b", bulge=0.6)],
+        openings=[window("w", "arc", 0.8, 3.0)],
+        rooms=[],
+    )
+    builder = PartBuilder("test")
+    space = space_of(storey, HEIGHT_M)
+    add_window(space.holes[0], space, Sculptor(builder, Looks(builder)), "surround")
+    points = builder.build().positions_m
+    # The circle through the wall's ends with a sagitta of 0.6 half chords, below the chord.
+    radius = 2.0 * (1.0 + 0.6**2) / (2.0 * 0.6)
+    away = np.hypot(points[:, 0] - 2.0, points[:, 1] + 1.2 - radius) - radius
+    # Sills reach farthest; the centre line is polygonal.
+    assert np.abs(away).max() < OUTER_M / 2 + 0.12 + 0.01
+    assert len(points) > 100
+
+
+def test_a_round_house_has_a_hip_roof_where_it_cannot_have_gables() -> None:
+    turn = np.linspace(0.0, 2 * np.pi, 24, endpoint=False)
+    round_house = Polygon(5.0 * np.column_stack([np.cos(turn), np.sin(turn)]))
+    builder = PartBuilder("test")
+    notes = add_roof(
+        round_house, 3.0, Sculptor(builder, Looks(builder)), HouseOptions(roof="gable")
+    )
+    assert notes == ["roof 1 is hipped: its outline allows no gable roof"]
+    top = builder.build().positions_m[:, 2].max()
+    slope = np.tan(np.radians(HouseOptions().roof_slope))
+    # A cone's height, but for the polygon's inner radius.
+    assert top == pytest.approx(3.0 + slope * 5.0, rel=0.02)

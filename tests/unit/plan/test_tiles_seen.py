@@ -7,6 +7,7 @@ import pytest
 from room_photo import RoomScene, Tiled, pixel_of, room_photo
 
 from veduta.geometry import homography
+from veduta.plan.photos.plane import plane_of
 from veduta.plan.photos.rectangles import find_rectangles
 from veduta.plan.photos.texture import evenly_lit
 from veduta.plan.photos.tiles import Looked, TilesSeen, find_tiles
@@ -40,6 +41,36 @@ def corners_off_joints(scene: RoomScene, tiles: TilesSeen, size_m: tuple[float, 
     )
     apart = np.linalg.norm(tiles.corners_px[:, None] - crossings, axis=2)
     return float(apart.min(axis=1).max())
+
+
+@pytest.mark.parametrize(
+    ("origin", "axes", "pitch", "surface", "away_m"),
+    [
+        ((2.0, 3.0, 0.0), ((1, 0, 0), (0, -1, 0)), 0.3, "floor", 1.5),
+        ((2.0, 2.0, 0.0), ((1, 0, 0), (0, -1, 0)), 1.0, "floor", 1.5),
+        ((2.0, 5.0, 1.5), ((1, 0, 0), (0, 0, -1)), 0.3, "wall", 4.6),
+        ((2.0, 5.0, 1.5), ((1, 0, 0), (0, 0, -1)), -0.4, "wall", 4.6),
+        ((0.0, 3.0, 1.5), ((0, 1, 0), (0, 0, -1)), 0.1, "wall", 2.2),
+        ((2.0, 3.0, 2.6), ((1, 0, 0), (0, 1, 0)), -0.3, "ceiling", 1.1),
+    ],
+)
+def test_a_plane_is_told_by_its_homography(
+    origin: tuple[float, ...],
+    axes: tuple[tuple[int, ...], ...],
+    pitch: float,
+    surface: str,
+    away_m: float,
+) -> None:
+    size = np.array([0.4, 0.2])
+    scene = RoomScene(pitch_rad=pitch, yaw_rad=0.25)
+    tiles = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+    points = np.array(origin) + (tiles * size) @ np.array(axes, dtype=float)
+    seen = np.array([pixel_of(scene, point, WIDTH, HEIGHT) for point in points])
+    matrix = homography.from_points(tiles, seen)
+    plane = plane_of(matrix, (WIDTH, HEIGHT), scene.focal * WIDTH)
+    assert plane.surface == surface
+    assert plane.shape == pytest.approx(2.0, rel=1e-6)
+    assert plane.distance * size[0] == pytest.approx(away_m, rel=1e-6)
 
 
 @pytest.mark.parametrize("size_m", [(0.30, 0.30), (0.60, 0.30)])

@@ -1,4 +1,8 @@
-"""The roof over the highest storey: by the straight skeleton, or flat."""
+"""The roof over the highest storey: by the straight skeleton, or flat.
+
+Over a curved wall the eaves are a polygonal line, whose sides are tangents of the arc to within
+some centimetres, so that its skeleton is that of AV3D's tangents ("3D generation", roofs).
+"""
 
 from __future__ import annotations
 
@@ -36,22 +40,31 @@ class Roof:
     name: str
     shape: Polygon
     asked: RoofKind
+    built: RoofKind
     faces: Solid | None
 
 
 def roofs_over(region: BaseGeometry, options: HouseOptions) -> list[Roof]:
-    """A roof for each piece of a region, as asked or else flat."""
+    """A roof for each piece of a region, as asked, or else hipped, or else flat."""
     if options.roof == "none":
         return []
     kind: RoofKind = "hip" if options.roof == "auto" else options.roof
     shapes = [(number, _smooth(piece)) for number, piece in enumerate(pieces_of(region), start=1)]
     return [
-        Roof(
-            f"roof {number}", shape, kind, None if kind == "flat" else _solid(shape, kind, options)
-        )
+        _roof(f"roof {number}", shape, kind, options)
         for number, shape in shapes
         if shape.area >= _LEAST_M2
     ]
+
+
+def _roof(name: str, shape: Polygon, asked: RoofKind, options: HouseOptions) -> Roof:
+    # A round house has no gables.
+    tried: tuple[RoofKind, ...] = () if asked == "flat" else (asked, "hip")
+    for kind in tried:
+        faces = _solid(shape, kind, options)
+        if faces is not None:
+            return Roof(name, shape, asked, kind, faces)
+    return Roof(name, shape, asked, "flat", None)
 
 
 def add_roof(
@@ -60,7 +73,9 @@ def add_roof(
     """A roof over each piece of a region; what could not be built as asked is noted."""
     notes: list[str] = []
     for roof in roofs_over(region, options):
-        if roof.faces is None and roof.asked != "flat":
+        if roof.built != roof.asked and roof.built == "hip":
+            notes.append(f"{roof.name} is hipped: its outline allows no {roof.asked} roof")
+        elif roof.built != roof.asked:
             notes.append(
                 f"{roof.name} is flat: a {roof.asked} roof cannot be built over its outline"
             )

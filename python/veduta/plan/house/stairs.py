@@ -7,6 +7,7 @@ and rails are invented.
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from itertools import pairwise
 
 import numpy as np
@@ -18,15 +19,24 @@ from shapely.ops import unary_union
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.flights import Flight, Stairwell
 from veduta.plan.house.frame import Sculptor, Surface, upright
-from veduta.plan.house.rails import RAIL_M, RAIL_SIDE_M, add_bar, is_free, rail_surface
+from veduta.plan.house.rails import (
+    RAIL_M,
+    RAIL_SIDE_M,
+    Edge,
+    add_bar,
+    is_free,
+    rail_surface,
+    smooth_runs,
+)
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.house.turning import TurningFlight
-from veduta.plan.house.turning_solid import add_turning, add_turning_rails
+from veduta.plan.house.turning_solid import add_column, add_turning, add_turning_rails
 
 _POST_M = 0.035
 _BARS_M = 0.12
 """No ball of that size passes between two bars."""
 _LEAST_GUARD_M = 0.3
+_LEAST_M = 1e-3
 _AT_HEAD_M = 0.05
 _WAIST = 1.2
 """The underside lies so many treads behind the steps."""
@@ -45,6 +55,7 @@ def add_stairs(well: Stairwell, lower: Space, upper: Space, sculptor: Sculptor) 
         if isinstance(flight, TurningFlight):
             add_turning(flight, lower, tread, white, sculptor)
             add_turning_rails(flight, lower, sculptor)
+            add_column(flight, lower, sculptor)
         else:
             _add_flight(flight, lower, tread, white, sculptor)
             _add_handrails(flight, lower, sculptor)
@@ -113,15 +124,28 @@ def _add_guard(well: Stairwell, upper: Space, sculptor: Sculptor) -> None:
     number = 0
     arrivals = unary_union([one.arrival.buffer(_AT_HEAD_M) for one in well.flights])
     for piece in pieces_of(well.opening):
-        for here, there in pairwise(piece.exterior.coords):
-            rest = LineString([here, there]).difference(arrivals)
-            for edge in getattr(rest, "geoms", [rest]):
-                if edge.length < _LEAST_GUARD_M or not is_free(edge, upper.walls):
-                    continue
-                number += 1
-                name = f"{upper.storey.name} stairwell rail {number}"
-                ends = np.array(edge.coords)
-                _guard(ends[0], ends[-1], upper, rail_surface(sculptor, name), sculptor)
+        edges: list[Edge] = [
+            (_corner(part.coords[0]), _corner(part.coords[-1]))
+            for edge in pairwise(piece.exterior.coords)
+            for part in _lines(LineString(edge).difference(arrivals))
+        ]
+        for run in smooth_runs(edges):
+            line = LineString([edges[run[0]][0], *(edges[one][1] for one in run)])
+            if line.length < _LEAST_GUARD_M or not is_free(line, upper.walls):
+                continue
+            number += 1
+            surface = rail_surface(sculptor, f"{upper.storey.name} stairwell rail {number}")
+            for here, there in pairwise(np.array(line.coords)):
+                _guard(here, there, upper, surface, sculptor)
+
+
+def _corner(at: Sequence[float]) -> tuple[float, float]:
+    return float(at[0]), float(at[1])
+
+
+def _lines(shape: BaseGeometry) -> list[LineString]:
+    parts = getattr(shape, "geoms", [shape])
+    return [part for part in parts if isinstance(part, LineString) and part.length > _LEAST_M]
 
 
 def _guard(
@@ -142,8 +166,9 @@ def _guard(
     sculptor.slab(
         (0.0, length), (RAIL_M, RAIL_M + 0.05), (offset - half, offset + half), frame, surface
     )
-    count = max(2, math.ceil(length / _BARS_M))
-    for at in np.linspace(_POST_M, length - _POST_M, count + 1):
+    count = max(1, math.ceil(length / _BARS_M))
+    inset = min(_POST_M, length / 4.0)
+    for at in np.linspace(inset, length - inset, count + 1):
         add_bar(float(at), (0.0, RAIL_M), offset, frame, surface, sculptor)
 
 

@@ -6,14 +6,15 @@ one would be a warped surface. Heights and rails are invented, as those of strai
 
 from __future__ import annotations
 
+import math
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry import LineString, MultiPoint, Point, Polygon
 
 from veduta.plan.house.frame import Sculptor, Surface, level, upright
-from veduta.plan.house.rails import RAIL_M, RAIL_SIDE_M, add_bar, is_free, rail_surface
+from veduta.plan.house.rails import RAIL_M, RAIL_SIDE_M, add_bar, is_free, rail_surface, smooth_runs
 from veduta.plan.house.space import Space
 from veduta.plan.house.turning import Corner, TurningFlight
 
@@ -22,7 +23,12 @@ WAIST_M = 0.12
 _BARS_M = 0.28
 """Between two bars of a handrail: about one on each tread."""
 _INSET_M = 0.03
-_LEAST_RAIL_M = 0.04
+_JOINT_M = 5e-4
+"""Pieces of a rail do not touch: each is closed by itself."""
+_LEAST_RAIL_M = 0.5
+_COLUMN_M = 0.4
+_COLUMN_SIDE_M = 0.15
+_COLUMN_CORNERS = 8
 _SAME_M = 5e-3
 
 Edge = tuple[Corner, Corner]
@@ -51,15 +57,40 @@ def add_turning(
 
 def add_turning_rails(flight: TurningFlight, lower: Space, sculptor: Sculptor) -> None:
     """Along each side without a wall: a rail at an even pitch, on bars from the treads."""
-    name = f"{lower.storey.name} stairs {flight.id} rail"
-    surface: Surface | None = None
-    for (here, there), number in flight.owners.items():
-        edge = LineString([here, there])
-        if not _is_side((here, there), number, flight) or not is_free(edge, lower.walls):
+    sides = [
+        (edge, number) for edge, number in flight.owners.items() if _is_side(edge, number, flight)
+    ]
+    for count, run in enumerate(smooth_runs([edge for edge, _ in sides]), start=1):
+        edges = [sides[one] for one in run]
+        line = LineString([edges[0][0][0], *(edge[1] for edge, _ in edges)])
+        if line.length < _LEAST_RAIL_M or not is_free(line, lower.walls):
             continue
-        surface = surface or rail_surface(sculptor, name)
-        ends = [_rail_height(at, number, flight) for at in (here, there)]
-        _add_rail(edge, ends, (number + 1) * flight.riser_m, lower, surface, sculptor)
+        name = f"{lower.storey.name} stairs {flight.id} rail {count}"
+        surface = rail_surface(sculptor, name)
+        for edge, number in edges:
+            ends = [_rail_height(at, number, flight) for at in edge]
+            tread = (number + 1) * flight.riser_m
+            _add_rail(LineString(edge), ends, tread, lower, surface, sculptor)
+
+
+def add_column(flight: TurningFlight, lower: Space, sculptor: Sculptor) -> None:
+    """The column of a spiral: what its treads leave free in the middle."""
+    inner = [
+        corner
+        for edge, number in flight.owners.items()
+        if _is_side(edge, number, flight) and math.dist(*edge) < _COLUMN_SIDE_M
+        for corner in edge
+    ]
+    hull = MultiPoint(inner).convex_hull
+    if len(inner) < _COLUMN_CORNERS or not isinstance(hull, Polygon):
+        return
+    if math.sqrt(hull.area) > _COLUMN_M or any(
+        hull.buffer(-_SAME_M).intersects(one) for one in flight.steps
+    ):
+        return
+    surface = rail_surface(sculptor, f"{lower.storey.name} stairs {flight.id} column")
+    top = flight.rise_m + RAIL_M
+    sculptor.prism(hull, 0.0, top, level(lower.storey.elevation_m), surface)
 
 
 def _spans(flight: TurningFlight) -> list[tuple[float, float]]:
@@ -105,7 +136,7 @@ def _is_side(edge: Edge, number: int, flight: TurningFlight) -> bool:
     line = LineString(edge)
     ends = [flight.foot] if number == 0 else []
     ends += [flight.arrival] if number == flight.treads - 1 else []
-    return line.length > _LEAST_RAIL_M and not any(one.buffer(_SAME_M).covers(line) for one in ends)
+    return not any(one.buffer(_SAME_M).covers(line) for one in ends)
 
 
 def _rail_height(corner: Corner, number: int, flight: TurningFlight) -> float:
@@ -138,8 +169,9 @@ def _add_rail(
     here, there = np.array(edge.coords)
     frame = upright(here, (there - here) / edge.length, lower.storey.elevation_m)
     # Treads lie on the left of their edges, the frame's third axis is to the right.
+    first, last = _JOINT_M, edge.length - _JOINT_M
     rail = Polygon(
-        [(0, ends[0]), (edge.length, ends[1]), (edge.length, ends[1] + 0.05), (0, ends[0] + 0.05)]
+        [(first, ends[0]), (last, ends[1]), (last, ends[1] + 0.05), (first, ends[0] + 0.05)]
     )
     sculptor.prism(rail, -_INSET_M - RAIL_SIDE_M, -_INSET_M, frame, surface)
     count = max(1, round(edge.length / _BARS_M))

@@ -10,19 +10,21 @@ import math
 from shapely.geometry import Polygon, box
 
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.curved_windows import fill_curved
 from veduta.plan.house.frame import Frame, Sculptor, Surface, ring_of, upright
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
+from veduta.plan.house.window_sizes import (
+    DEPTH_M,
+    FRAME_M,
+    GLASS_M,
+    SILL_BEYOND_M,
+    SILL_FROM_M,
+    SILL_M,
+)
 from veduta.plan.options import FrameKind
 
-FRAME_M = 0.06
-DEPTH_M = 0.07
-GLASS_M = 0.012
 WIDEST_PANE_M = 1.1
-SILL_FROM_M = 0.3
-_SILL_M = 0.03
-_OUT_M = 0.05
-_IN_M = 0.12
 
 
 def add_window(hole: Hole, space: Space, sculptor: Sculptor, kind: FrameKind) -> None:
@@ -37,6 +39,9 @@ def add_window(hole: Hole, space: Space, sculptor: Sculptor, kind: FrameKind) ->
         shell=sculptor.builder.new_shell(),
         size_m=(hole.width_m, hole.high_m - hole.low_m),
     )
+    if hole.line.wall.bulge:
+        fill_curved(hole, space, sculptor, feature, kind)
+        return
     opening = box(0.0, hole.low_m, hole.width_m, hole.high_m)
     panes = _panes(hole, kind)
     half = DEPTH_M / 2.0
@@ -77,12 +82,12 @@ def _add_sills(hole: Hole, frame: Frame, sculptor: Sculptor, feature: int) -> No
     half = hole.line.half_m
     for side, room in ((-1.0, hole.left), (1.0, hole.right)):
         is_inside = room is not None and not room.outdoors
-        beyond = _IN_M if is_inside else _OUT_M
+        beyond = SILL_BEYOND_M["inside" if is_inside else "outside"]
         ends = sorted((side * DEPTH_M / 2.0, side * (half + beyond)))
         wider = 0.04 if is_inside else 0.02
         sculptor.slab(
             (-wider, hole.width_m + wider),
-            (hole.low_m, hole.low_m + _SILL_M),
+            (hole.low_m, hole.low_m + SILL_M),
             (ends[0], ends[1]),
             frame,
             surface,

@@ -78,9 +78,9 @@ def _distance(arc: Arc, piece: Piece, other: Piece) -> tuple[float | None, bool]
         for one in _crossings(arc, facet, slack=other.thickness_px)
     ]
     half = [(along, other.thickness_px / 2 / sine) for along, sine in crossings]
-    ahead = [along - arc.length_px - thick for along, thick in half]
-    ahead = [one for one in ahead if one >= -other.thickness_px - 3]
-    return (min(ahead), True) if ahead else (None, True)
+    faces = [along - arc.length_px - thick for along, thick in half]
+    faces = [one for one in faces if one >= -other.thickness_px - 3]
+    return (min(faces), True) if faces else (None, True)
 
 
 def _crossings(arc: Arc, other: Piece, slack: float) -> list[tuple[float, float]]:

@@ -6,7 +6,7 @@ boards of squares are found for calibration. Every other row may be shifted by h
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import cv2
@@ -134,10 +134,27 @@ def _settled(lattice: Lattice, used: NDArray[np.int64]) -> tuple[Lattice | None,
     flat = homography.apply(tiles_from_photo, lattice.corners_px.reshape(-1, 2))
     off = np.linalg.norm(flat.reshape(-1, 4, 2) - expected, axis=2).max(axis=1)
     kept = off <= max(_STRAY * float(np.median(off)), _NO_STRAY)
-    if kept.all():
-        return lattice, used
     fitted = _fitted(lattice.corners_px[kept], lattice.cells[kept], lattice.bond, lattice.joint)
-    return fitted, used[kept]
+    return None if fitted is None else _by_middles(fitted), used[kept]
+
+
+def _by_middles(lattice: Lattice) -> Lattice:
+    """With the homography of the tiles' middles, where their diagonals meet.
+
+    A contour is as wide far away as near, so that joints seem wider there: corners lie further in,
+    on all sides alike. The middles stay where they are.
+    """
+    if not lattice.is_tiling:
+        return lattice
+    quads = np.concatenate([lattice.corners_px, np.ones((len(lattice), 4, 1))], axis=2)
+    diagonals = np.cross(quads[:, [0, 1]], quads[:, [2, 3]])
+    met = np.cross(diagonals[:, 0], diagonals[:, 1])
+    middles = met[:, :2] / met[:, 2:]
+    model = origins(lattice.cells, lattice.bond) + 0.5
+    found, _ = cv2.findHomography(model, middles)
+    if found is None or abs(np.linalg.det(found)) < _DEGENERATE:
+        return lattice
+    return replace(lattice, photo_from_tiles=np.asarray(found, dtype=np.float64))
 
 
 @dataclass(frozen=True)

@@ -23,8 +23,12 @@ USUAL_FOCAL = 0.75
 """Of a camera that does not say it, in longer sides of the photo: 27 mm for a frame of 36 mm."""
 _FOCALS = (0.45, 1.8)
 """Those that a lattice may give; of a plane seen nearly head-on it is no more than noise."""
-HEAD_ON = math.cos(math.radians(20.0))
-_LEVEL = math.cos(math.radians(45.0))
+HEAD_ON = math.cos(math.radians(30.0))
+_FLOOR, _CEILING = math.sin(math.radians(30.0)), -math.sin(math.radians(40.0))
+"""How far down the way to a plane leads at least (the sine, as the camera is held), or up.
+
+One looks down at a floor by up to 60 degrees; who looks up at a wall does so by less than 30.
+"""
 EYE_M = 1.5
 """How high a camera is held."""
 _DOUBT = {"floor": 0.15, "wall": 0.4}
@@ -35,8 +39,9 @@ _SHAPE = 0.06
 """How exactly the ratio of the sides is known (a logarithm)."""
 TYPICAL_M: dict[Literal["floor", "wall"], tuple[Size, ...]] = {
     "floor": (
-        (0.10, 0.10), (0.20, 0.20), (0.30, 0.30), (0.45, 0.45), (0.60, 0.60), (0.80, 0.80),
-        (0.60, 0.30), (0.20, 0.10), (0.80, 0.40), (0.90, 0.15), (1.20, 0.20), (0.45, 0.30),
+        (0.10, 0.10), (0.20, 0.20), (0.30, 0.30), (0.33, 0.33), (0.45, 0.45), (0.60, 0.60),
+        (0.80, 0.80), (0.60, 0.30), (0.20, 0.10), (0.80, 0.40), (0.90, 0.15), (1.20, 0.20),
+        (0.45, 0.30),
     ),
     "wall": (
         (0.10, 0.10), (0.15, 0.15), (0.20, 0.20), (0.30, 0.30), (0.15, 0.075), (0.20, 0.10),
@@ -70,7 +75,7 @@ def plane_of(photo_from_tiles: Matrix, size_px: tuple[int, int], focal_px: float
     away = normal * np.sign(depth)  # from the camera to the plane
     head_on = bool(abs(away[2]) > HEAD_ON)
     surface: Seen = "wall"
-    if not head_on and abs(away[1]) > _LEVEL:
+    if away[1] > _FLOOR or away[1] < _CEILING:
         surface = "floor" if away[1] > 0 else "ceiling"
     width, height = float(np.linalg.norm(right)), float(np.linalg.norm(down))
     return Plane(surface, head_on, width / height, abs(depth) / width)

@@ -25,6 +25,9 @@ LARGEST = 0.2
 FILLED = 0.86
 """An area that is a rectangle fills its four corners at least this far."""
 _EDGE_PX = 1.5
+_WIDER = 1.6
+_MOVED = 0.1
+"""A rectangle within sharper contours is at most so much larger, and its middle stays."""
 _CORNER = 0.035
 """How far a side may bend, as a share of the way round."""
 
@@ -56,15 +59,21 @@ def contour_strength(pixels: Pixels) -> NDArray[np.float32]:
 
 
 def find_rectangles(pixels: Pixels) -> Rectangles:
-    """All of them in (h, w, 3) sRGB, each once: of the weakest contours that close it."""
+    """All of them in (h, w, 3) sRGB, each once: of the strongest contours that still close it.
+
+    Weak contours are wide, and what they enclose is smaller.
+    """
     strength = contour_strength(pixels)
     found: list[NDArray[np.float64]] = []
-    taken = np.zeros(strength.shape, dtype=np.uint8)
+    taken = np.zeros(strength.shape, dtype=np.int32)
     for level in LEVELS:
-        new = [corners for corners in _of_level(strength < level) if not _is_in(taken, corners)]
-        for corners in new:
-            cv2.fillConvexPoly(taken, corners.round().astype(np.int32), 1)
-        found += new
+        for corners in _of_level(strength < level):
+            number = _taken_by(taken, corners)
+            if number is None:
+                found.append(corners)
+                cv2.fillConvexPoly(taken, corners.round().astype(np.int32), len(found))
+            elif _is_same(found[number], corners):
+                found[number] = corners
     quads = np.array([one for one in found if _is_whole(one, strength.shape)]).reshape(-1, 4, 2)
     return Rectangles(quads, np.array([abs(_area(corners)) for corners in quads]))
 
@@ -137,7 +146,14 @@ def _is_whole(corners: NDArray[np.float64], shape: tuple[int, ...]) -> bool:
     return bool((corners > _EDGE_PX).all() and (corners < size - _EDGE_PX).all())
 
 
-def _is_in(taken: NDArray[np.uint8], corners: NDArray[np.float64]) -> bool:
-    """Whether the middle lies in a rectangle that was found before."""
+def _taken_by(taken: NDArray[np.int32], corners: NDArray[np.float64]) -> int | None:
+    """The rectangle found before in which the middle lies."""
     x, y = corners.mean(axis=0).astype(int).clip(0, np.array(taken.shape)[::-1] - 1)
-    return bool(taken[y, x])
+    return int(taken[y, x]) - 1 if taken[y, x] else None
+
+
+def _is_same(before: NDArray[np.float64], after: NDArray[np.float64]) -> bool:
+    """Whether it is that rectangle, seen within sharper contours; not one with its neighbour."""
+    old, new = abs(_area(before)), abs(_area(after))
+    moved = float(np.linalg.norm(after.mean(axis=0) - before.mean(axis=0)))
+    return old <= new <= _WIDER * old and moved <= _MOVED * old**0.5

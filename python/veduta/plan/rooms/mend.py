@@ -1,8 +1,9 @@
 """Rooms do not leak: where a wall is broken the space is closed, and that is said.
 
 A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
-drawn there, both faces of the wall drawn on, solid ink, a name or size of a room on either side, or a room that is open to the
-outdoors. The best one is closed first, as it changes what the others part.
+drawn there, both faces of the wall drawn on, solid ink, a name or size of a room on either side, or
+a room that is open to the outdoors. The best one is closed first, as it changes what the others
+part.
 """
 
 from __future__ import annotations

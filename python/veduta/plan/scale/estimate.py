@@ -60,7 +60,15 @@ def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
     doors = door_voter(sizes.doors)
     if not voters:
         return _assumed(doors, sizes)
-    return _voted([*voters, doors] if doors else voters)
+    told = _voted([*voters, doors] if doors else voters)
+    if any(one.agrees and one.kind != "door" for one in told.evidence):
+        return told
+    # Doors outvote a lone number that means something else; but they are an assumption.
+    assumed = _assumed(doors, sizes)
+    others = [
+        one.model_copy(update={"agrees": False}) for one in told.evidence if one.kind != "door"
+    ]
+    return assumed.model_copy(update={"evidence": [*assumed.evidence, *others]})
 
 
 def find_voters(sizes: DrawnSizes) -> list[Voter]:

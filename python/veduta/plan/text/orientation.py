@@ -24,6 +24,7 @@ _FIRST = 5  # so many are read as they stand; where they make sense, that is all
 _SENSE = 3.0  # how much more a word or a size counts than letters that are none
 _SYMMETRIC = frozenset("AHIMOTUVWXY8010o|-")  # the same in a mirror
 _MARGIN = 1.5  # another position must read so much better than the one that the sheet is in
+_LEAST = 4.0  # and say so much by itself: a short word that makes sense, not a line read as an l
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ def find_position(
     }
     own = scores[False, 0]
     best = max(scores, key=lambda position: scores[position])
-    if scores[best] < _MARGIN * own:
+    if scores[best] < max(_MARGIN * own, _LEAST):
         best = (False, 0)
     return Position(best[0], best[1], scores[best], own)
 

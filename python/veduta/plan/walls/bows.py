@@ -182,6 +182,13 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     near = _away(arc, along, one.thickness_px / 2, ink) <= NEAR_PX
     if before.mean() < LEAST_BEFORE or near[before].mean() < COVERED or near.mean() < COVERED:
         return None
+    # Nor does solid wall, which is broad, say how it bends: lines in a window do.
+    free = _look(ink.solid, arc.at(along), 0.0) < 0.5
+    edges = np.flatnonzero(np.diff(np.pad(free.astype(np.int8), 1)))
+    low, high = max(zip(edges[::2], edges[1::2], strict=True), key=np.ptp, default=(0, 0))
+    bend = (high - low) ** 2 / 8.0 / arc.radius_px
+    if bend < 2 * NEAR_PX or near[low:high].mean() < COVERED:
+        return None
     return Piece(arc.start, arc.end, one.thickness_px, bulge=arc.bulge)
 
 

@@ -40,6 +40,9 @@ SHARPEST = 0.75
 LEAST_LENGTH = 3.0
 """And is so many of them long: what is shorter is a rounded corner of a blob."""
 
+DEEP = 0.6
+"""And bows by so many of them: what does not lies within a straight wall."""
+
 MOST_SEEDS = 60
 
 
@@ -84,6 +87,8 @@ def curved_pieces(
         if seed is None or thickness is None or thickness < least_px:
             continue
         if seed.radius_px < SHARPEST * thickness or len(points) < LEAST_LENGTH * thickness:
+            continue
+        if _depth(points) < DEEP * thickness:
             continue
         whole, more = _grown(seed, thickness, members, stretches, taken)
         made = _runs(whole, thickness, [stretches[index] for index in more], solid, drawing)
@@ -159,6 +164,14 @@ def _off_line(points: NDArray[np.float64]) -> float:
     """Sum of squared distances from the best line."""
     own = points - points.mean(axis=0)
     return float(np.linalg.svd(own, compute_uv=False)[-1] ** 2)
+
+
+def _depth(points: NDArray[np.float64]) -> float:
+    """How far points of a band stray from the line between its ends."""
+    run = points[-1] - points[0]
+    away = points - points[0]
+    across = run[0] * away[:, 1] - run[1] * away[:, 0]
+    return float(np.abs(across).max() / max(float(np.hypot(*run)), 1e-9))
 
 
 def _thickness(

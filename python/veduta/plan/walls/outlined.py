@@ -118,8 +118,7 @@ class _Sorting:
         """Whether a cell is a wall between many small spaces: even, far-reaching, not straight."""
         cells = self.cells
         breadth = float(cells.breadth[cell])
-        reaches = max(cells.boxes[cell, 2:]) >= WEB_REACH * breadth
-        if breadth < WEB_LEAST_PX or not reaches or self.even[cell][1] < EVEN:
+        if breadth < WEB_LEAST_PX or not self._reaches(cell) or self.even[cell][1] < EVEN:
             return False
         beside = cells.beside.get(cell, [])
         wide = [
@@ -146,7 +145,15 @@ class _Sorting:
         return len(rooms) > 1
 
     def _is_spacious(self, other: int, cell: int) -> bool:
-        return bool(self.cells.breadth[other] >= SPACIOUS * self.cells.breadth[cell])
+        """Whether a cell that is no room by the sheet's size is one beside this wall.
+
+        Beside the rim of a bathtub, which does not reach far, it is the inside of the tub.
+        """
+        broad = self.cells.breadth[other] >= SPACIOUS * self.cells.breadth[cell]
+        return bool(broad and self._reaches(cell))
+
+    def _reaches(self, cell: int) -> bool:
+        return bool(max(self.cells.boxes[cell, 2:]) >= WEB_REACH * self.cells.breadth[cell])
 
     def _turns(self, cell: int) -> bool:
         """Whether a cell that is as broad as a wall goes around a corner."""

@@ -7,7 +7,7 @@ side end before it, others leave a way along them.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -99,11 +99,11 @@ def stairs_in(area: Polygon, plan: StairPlan) -> Stairs:
 
 
 def _stairs(steps: Sequence[Polygon], path: tuple[Point, ...], kind: StairsKind) -> Stairs:
-    outline = unary_union([step.buffer(1e-6, join_style="mitre") for step in steps])
+    outline = unary_union([step.buffer(1e-4, join_style="mitre") for step in steps])
     way = np.array(path[1]) - np.array(path[0])
     way /= np.hypot(*way)
     up = (round(float(way[0]), 6), round(float(way[1]), 6))
-    ring = outline.simplify(1e-4).exterior.coords[:-1]
+    ring = outline.buffer(-1e-4, join_style="mitre").simplify(1e-3).boundary.coords[:-1]
     if kind == "straight":
         return Stairs(_rounded(ring), len(steps), up)
     rings = tuple(_rounded(step.exterior.coords[:-1]) for step in steps)
@@ -180,9 +180,9 @@ def _fan(newel: Point, within: Polygon, start: float, end: float, count: int) ->
     """A region cut into equal angles about a newel."""
     angles = np.linspace(start, end, count + 1)
     far = _arc_at(newel, 10.0, angles)
-    return [
-        Polygon([newel, far[index], far[index + 1]]).intersection(within) for index in range(count)
-    ]
+    wedges = [Polygon([newel, far[index], far[index + 1]]) for index in range(count)]
+    cut = [wedge.intersection(within) for wedge in wedges]
+    return [piece for piece in cut if isinstance(piece, Polygon)]
 
 
 def _arc(middle: Point, radius: float, start: float, end: float) -> Path:
@@ -197,5 +197,5 @@ def _arc_at(middle: Point, radius: float, angles: Sequence[float] | np.ndarray) 
     ]
 
 
-def _rounded(points: Sequence[Point]) -> tuple[Point, ...]:
-    return tuple((round(float(x), 4), round(float(y), 4)) for x, y in points)
+def _rounded(points: Iterable[Sequence[float]]) -> tuple[Point, ...]:
+    return tuple((round(float(one[0]), 4), round(float(one[1]), 4)) for one in points)

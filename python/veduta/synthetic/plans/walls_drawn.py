@@ -73,6 +73,7 @@ def draw_stairs(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None
             [(at[0], low[1]), (at[0], high[1])] if along_x else [(low[0], at[1]), (high[0], at[1])]
         )
         canvas.line(line, style.pen_px * 0.8, style.ink)
+    canvas.line([*stairs.outline_m, stairs.outline_m[0]], style.pen_px * 0.8, style.ink)
     middle, up = (low + high) / 2, np.array(stairs.up)
     reach = (high - low)[0 if along_x else 1] * 0.42
     tip, tail = middle + up * reach, middle - up * reach
