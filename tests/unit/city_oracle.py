@@ -30,7 +30,9 @@ def solids_of(geometry: dict[str, Any]) -> Iterator[Faces]:
 
 def points_of(city: dict[str, Any]) -> np.ndarray:
     """(n, 3) the vertices in metres."""
-    return np.array(city["vertices"]) * city["transform"]["scale"] + city["transform"]["translate"]
+    scale, move = (np.array(city["transform"][name]) for name in ("scale", "translate"))
+    points: np.ndarray = np.array(city["vertices"]) * scale + move
+    return points
 
 
 def faults(faces: Faces, points: np.ndarray) -> list[str]:

@@ -131,7 +131,8 @@ def test_a_gap_is_closed_by_one_surface_for_both_rooms() -> None:
     points = points_of(city)
     found = []
     for name in ("living", "bath"):
-        shell, kinds = (f(city, f"house/ground-floor/{name}") for f in (shell_of, kinds_of))
+        shell = shell_of(city, f"house/ground-floor/{name}")
+        kinds = kinds_of(city, f"house/ground-floor/{name}")
         (face,) = [
             face for face, kind in zip(shell, kinds, strict=True) if kind == "ClosureSurface"
         ]

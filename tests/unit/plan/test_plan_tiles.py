@@ -66,7 +66,7 @@ def test_the_tree_names_its_tiles_and_adds_what_stands_in_the_house(folder: Path
 
 def test_tiles_tell_class_and_provenance_of_each_surface(house: House, folder: Path) -> None:
     features = house.part.features
-    seen: set[int] = set()
+    seen: set[float] = set()
     for name in ("house", "storey-1"):
         root, content = opened(folder / "tiles" / f"{name}.glb")
         assert (column(root, content, "class", "u1") == features.class_code).all()

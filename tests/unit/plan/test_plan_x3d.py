@@ -15,6 +15,7 @@ from veduta.formats.x3d import look_from, place_of
 from veduta.place.manifest import Tour
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of as house_place
+from veduta.plan.house.space import pieces_of
 from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.x3d import View, house_x3d, room_of_polygons
@@ -167,4 +168,4 @@ def test_a_room_in_two_pieces_has_its_lamps_once() -> None:
     groups = [node.get("DEF") for node in root.iter("Group")]
     assert groups.count("ground-floor-living") == 1
     (pieces,) = [region for room, region in house.spaces[0].floors if room and room.id == "living"]
-    assert len(pieces.geoms) == 2
+    assert len(pieces_of(pieces)) == 2
