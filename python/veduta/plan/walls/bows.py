@@ -198,7 +198,7 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     edges = np.flatnonzero(np.diff(np.pad(free.astype(np.int8), 1)))
     low, high = max(zip(edges[::2], edges[1::2], strict=True), key=np.ptp, default=(0, 0))
     bend = (high - low) ** 2 / 8.0 / arc.radius_px
-    if bend < 2 * NEAR_PX or near[low:high].mean() < COVERED:
+    if bend < 3 * NEAR_PX or near[low:high].mean() < COVERED:
         return None
     return Piece(arc.start, arc.end, one.thickness_px, bulge=arc.bulge)
 
