@@ -59,6 +59,12 @@ COVERED = 0.9
 STRAIGHT = 0.6
 """No arc is looked for where this part of the straight line is."""
 
+STRAY = 0.01
+"""So much of what lies before a bow may be marks as thick as walls."""
+
+PIER = 0.12
+"""Of a bow's windows only what is longer, as a part of it, parts two."""
+
 BESIDE_FACES = np.array([1.3, 1.5, 1.7, 1.9, 2.1])
 """In half thicknesses: there is paper beside a wall."""
 
@@ -147,7 +153,12 @@ def _sees_out(
     away = np.arange(2.0, sum(solid.shape), 2.0)
     middle = line.chord_px * np.linspace(0.33, 0.67, 9)
     places = line.at(middle[:, None], side * away[None, :])
-    return not bool(_look(solid, places, 0.0).any())
+    if bool(_look(solid, places, 0.0).any()):
+        return False
+    # A door may lie before a window; beyond the bow nothing is built over all of its breadth.
+    beyond = away[away > 0.6 * line.chord_px]
+    places = line.at(np.linspace(0.0, line.chord_px, 25)[:, None], side * beyond[None, :])
+    return float(_look(solid, places, 0.0).mean()) < STRAY
 
 
 def _squares(way: NDArray[np.float64], node: int, edges: Sequence[Edge], graph: Graph) -> bool:
@@ -187,7 +198,7 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     edges = np.flatnonzero(np.diff(np.pad(free.astype(np.int8), 1)))
     low, high = max(zip(edges[::2], edges[1::2], strict=True), key=np.ptp, default=(0, 0))
     bend = (high - low) ** 2 / 8.0 / arc.radius_px
-    if bend < 2 * NEAR_PX or near[low:high].mean() < COVERED:
+    if bend < 3 * NEAR_PX or near[low:high].mean() < COVERED:
         return None
     return Piece(arc.start, arc.end, one.thickness_px, bulge=arc.bulge)
 
@@ -298,7 +309,7 @@ def _stubs(bow: Piece, found: Found) -> list[Piece]:
     return [
         bow.part(float(low), float(high))
         for low, high in zip(edges[::2], edges[1::2], strict=True)
-        if high - low >= 3
+        if low == 0 or high == len(filled) or high - low >= PIER * len(filled)
     ]
 
 
