@@ -102,7 +102,7 @@ def test_photos_may_come_later_and_an_edited_document_stays(inputs: Path, tmp_pa
     told = plan(out / "plan.json", out, photo)
     assert "paint-0ac81e" not in materials(out)
     assert (out / "plan.json").read_text() == edited
-    assert any("give --photos again" in note for note in told.notes)
+    assert any("was edited and stays as it is" in note for note in told.notes)
 
 
 def test_an_unknown_room_is_refused_and_leaves_nothing(inputs: Path, tmp_path: Path) -> None:
