@@ -23,6 +23,10 @@ STUDIO_SOURCES := $(shell find studio/src studio/public -type f) \
 # PyO3 asks this interpreter what to build for, the same in every target: nothing is built twice.
 export PYO3_PYTHON := $(CURDIR)/$(PY)
 
+# Where this is set, as in some containers, each start of Python compiles all that it imports again:
+# the tests start a thousand.
+unexport PYTHONDONTWRITEBYTECODE
+
 .PHONY: help setup demo test lint lint-python lint-rust lint-studio test-python test-rust \
 	test-studio test-browser bench studio stubs pictures lock clean
 
@@ -78,7 +82,9 @@ $(CJVAL):
 test: setup lint test-rust test-python test-studio test-browser ## all checks and all tests
 	@printf '\nAll tests passed.\n'
 
-lint: lint-python lint-rust lint-studio ## style and types of the three languages
+# Two at a time: mypy and eslint use one core each.
+lint: $(EXTENSION) $(NODE_PACKAGES) ## style and types of the three languages
+	@$(MAKE) --no-print-directory --jobs=2 --output-sync=target lint-python lint-rust lint-studio
 
 lint-python: $(EXTENSION)
 	@$(STAGE) "ruff" $(PY) -m ruff check .

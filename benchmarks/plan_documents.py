@@ -74,7 +74,8 @@ def storey_of(storey: true.Storey) -> Storey:
         stairs=[
             Stairs(
                 id=f"s{number}", outline_m=list(flight.outline_m), treads=flight.treads,
-                up=flight.up, score=1.0,
+                up=flight.up, score=1.0, steps_m=[list(ring) for ring in flight.steps_m],
+                path_m=list(flight.path_m),
             )
             for number, flight in enumerate(storey.stairs)
         ],

@@ -8,6 +8,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from pydantic import TypeAdapter
+
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import PlanDocument, Storey
 from veduta.plan.options import PlanOptions
@@ -27,6 +29,9 @@ class Reading:
     storey: Storey | None
     seconds: float
     reason: str = ""
+
+
+READING = TypeAdapter(Reading)
 
 
 def read_alone(path: Path) -> Reading:
@@ -55,13 +60,35 @@ def read_with_house(path: Path) -> Reading:
     return Reading(PlanDocument.model_validate_json(text).storeys[0], seconds)
 
 
-def read_plans(paths: Sequence[Path], jobs: int = 2, house: bool = True) -> list[Reading]:
-    """Drawings in `jobs` spawned processes; a crash is raised, with the drawing's name."""
-    done: dict[str, Reading] = {}
+def read_plans(
+    paths: Sequence[Path], jobs: int = 2, house: bool = True, kept: Path | None = None
+) -> list[Reading]:
+    """Drawings in `jobs` spawned processes; a crash is raised, with the drawing's name.
+
+    Readings are left in `kept`, by the names of the drawings, and taken from there.
+    """
+    done = {} if kept is None else _kept(kept, paths)
     work = read_with_house if house else read_alone
-    for outcome in run_tasks(work, [Task(str(p), p, MEMORY) for p in paths], jobs=jobs):
+    tasks = [Task(str(path), path, MEMORY) for path in paths if str(path) not in done]
+    for outcome in run_tasks(work, tasks, jobs=jobs):
         if outcome.value is None:
             fault = outcome.crash or outcome.traceback or str(outcome.error)
             raise RuntimeError(f"{outcome.task.name}: {fault}")
         done[outcome.task.name] = outcome.value
+        if kept is not None:
+            _file_of(kept, outcome.task.argument).write_bytes(READING.dump_json(outcome.value))
     return [done[str(path)] for path in paths]
+
+
+def _kept(folder: Path, paths: Sequence[Path]) -> dict[str, Reading]:
+    folder.mkdir(parents=True, exist_ok=True)
+    files = {str(path): _file_of(folder, path) for path in paths}
+    return {
+        name: READING.validate_json(file.read_bytes())
+        for name, file in files.items()
+        if file.exists()
+    }
+
+
+def _file_of(folder: Path, path: Path) -> Path:
+    return folder / f"{path.stem}.json"

@@ -45,8 +45,8 @@ NOTES = (
     "Clearance: from the middle of the visitor to the nearest surface of house.glb (doors open), or"
     " to the nearest piece of furniture; the visitor is planned with a radius of 0.2 m, or 0.14 m"
     " where that leads to more rooms.",
-    "The flights of the drawn houses end at a wall: nobody comes to their upper storeys, and the"
-    " tour says so. The rooms of ground floors are counted apart.",
+    "Houses of two storeys have one of six kinds of stairs, which the tour climbs. The rooms of"
+    " ground floors are counted apart.",
 )
 
 

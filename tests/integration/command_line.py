@@ -2,15 +2,26 @@
 
 from __future__ import annotations
 
+import io
 import json
 import os
+import signal
 import subprocess
 import sys
 import time
 from collections.abc import Callable, Iterator
-from contextlib import AbstractContextManager, contextmanager
+from contextlib import (
+    AbstractContextManager,
+    ExitStack,
+    contextmanager,
+    redirect_stderr,
+    redirect_stdout,
+)
 from pathlib import Path
 from typing import Any
+from unittest.mock import patch
+
+from veduta.cli.main import main
 
 TIMEOUT_S = 300
 DEADLINE_S = 120
@@ -39,6 +50,26 @@ def veduta(*arguments: object) -> subprocess.CompletedProcess[str]:
     return subprocess.run(
         command(*arguments), capture_output=True, text=True, timeout=TIMEOUT_S, check=False
     )
+
+
+def refused(*arguments: object) -> subprocess.CompletedProcess[str]:
+    """What `veduta` says to these arguments, in this process: for calls that it refuses.
+
+    In one of its own, most of their time would be the start of Python and its imports.
+    """
+    words = list(map(str, arguments))
+    output, errors = io.StringIO(), io.StringIO()
+    at_term = signal.getsignal(signal.SIGTERM)
+    with ExitStack() as stack:
+        stack.callback(signal.signal, signal.SIGTERM, at_term)
+        stack.enter_context(patch.dict(os.environ))
+        stack.enter_context(redirect_stdout(output))
+        stack.enter_context(redirect_stderr(errors))
+        try:
+            code = main(words)
+        except SystemExit as end:
+            code = end.code if isinstance(end.code, int) else 1
+    return subprocess.CompletedProcess(words, code, output.getvalue(), errors.getvalue())
 
 
 def facade(*arguments: object) -> subprocess.CompletedProcess[str]:

@@ -1,4 +1,4 @@
-"""The real command line, and photos for it that need no outside data."""
+"""Photos for the real command line that need no outside data, and what it makes of them."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import facade
+from photo_scene import write_photos
 from PIL import Image
 from sample_document import sample_document, sample_photo
 
 
 @pytest.fixture(scope="session")
 def photos(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
-    """Six small photos of facades, drawn here."""
+    """Four small photos of facades, drawn here."""
     folder = tmp_path_factory.mktemp("photos")
-    paths = [folder / f"house{number}.png" for number in range(6)]
+    paths = [folder / f"house{number}.png" for number in range(4)]
     for seed, path in enumerate(paths):
         photo = Image.fromarray(sample_photo(sample_document(), seed=seed))
         photo.resize((260, 400), Image.Resampling.LANCZOS).save(path)
@@ -25,6 +27,38 @@ def photos(tmp_path_factory: pytest.TempPathFactory) -> list[Path]:
 def photo(photos: list[Path]) -> Path:
     """One of them."""
     return photos[0]
+
+
+def _made(folder: Path, photos: list[Path]) -> Path:
+    done = facade(*photos, "-o", folder)
+    assert done.returncode == 0, done.stderr
+    return folder
+
+
+@pytest.fixture(scope="session")
+def one_house(tmp_path_factory: pytest.TempPathFactory, photo: Path) -> Path:
+    """The result of the one photo, which no test may change."""
+    return _made(tmp_path_factory.mktemp("one") / "out", [photo])
+
+
+@pytest.fixture(scope="session")
+def two_houses(tmp_path_factory: pytest.TempPathFactory, photos: list[Path]) -> Path:
+    """The result of the first two photos, which no test may change."""
+    return _made(tmp_path_factory.mktemp("two") / "out", photos[:2])
+
+
+@pytest.fixture(scope="session")
+def all_houses(tmp_path_factory: pytest.TempPathFactory, photos: list[Path]) -> Path:
+    """The result of all photos, which no test may change."""
+    return _made(tmp_path_factory.mktemp("all") / "out", photos)
+
+
+@pytest.fixture(scope="session")
+def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A folder of the photos of `photo_scene.ARC`, which no test may change."""
+    folder = tmp_path_factory.mktemp("scene") / "corner with spaces"
+    write_photos(folder)
+    return folder
 
 
 @pytest.fixture(scope="session")

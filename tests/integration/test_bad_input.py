@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import command, facade, read_json, veduta
+from command_line import command, facade, read_json, refused, veduta
 from PIL import Image
 
 
@@ -58,7 +58,7 @@ def bad_file(kind: str, folder: Path, photo: Path) -> Path:
 )
 def test_unreadable(tmp_path: Path, photo: Path, kind: str, fault: str) -> None:
     path = bad_file(kind, tmp_path, photo)
-    done = facade(path, "-o", tmp_path / "out")
+    done = refused("facade", "--rectified", path, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert f"error: {path}: " in done.stderr
     assert fault in done.stderr
@@ -70,16 +70,17 @@ def test_unreadable(tmp_path: Path, photo: Path, kind: str, fault: str) -> None:
     assert fault in failure["reason"]
 
 
-@pytest.mark.parametrize("kind", ["truncated", "other-format", "huge-header"])
-def test_the_others_of_a_call_are_done(tmp_path: Path, photo: Path, kind: str) -> None:
-    bad = bad_file(kind, tmp_path, photo)
-    done = facade(bad, photo, "-o", tmp_path / "out")
+def test_the_others_of_a_call_are_done(tmp_path: Path, photo: Path) -> None:
+    kinds = ("truncated", "other-format", "huge-header")
+    bad = [bad_file(kind, tmp_path, photo) for kind in kinds]
+    done = facade(*bad, photo, "-o", tmp_path / "out")
     assert done.returncode == 3
-    assert f"error: {bad}: " in done.stderr
-    assert "1 of 2" in done.stdout
+    for path in bad:
+        assert f"error: {path}: " in done.stderr
+    assert "1 of 4" in done.stdout
     place = read_json(tmp_path / "out" / "place.json")
     assert [part["id"] for part in place["parts"]] == [photo.stem]
-    again = facade(bad, photo, "-o", tmp_path / "out")
+    again = facade(*bad, photo, "-o", tmp_path / "out")
     assert again.returncode == 3
     assert "up to date" in again.stdout
 
@@ -90,7 +91,7 @@ def test_no_facade(
     tmp_path: Path, name: str, mode: list[str], request: pytest.FixtureRequest
 ) -> None:
     path = request.getfixturevalue(name)
-    done = veduta("facade", path, *mode, "-o", tmp_path / "out")
+    done = refused("facade", path, *mode, "-o", tmp_path / "out")
     assert done.returncode == 3, done.stdout
     assert f"error: {path}: " in done.stderr
     assert "not found" in done.stderr
@@ -105,14 +106,14 @@ def test_a_strip_of_a_picture(tmp_path: Path) -> None:
     path = tmp_path / "panorama.png"
     pixels = np.random.default_rng(3).integers(0, 256, (11, 667, 3), dtype=np.uint8)
     Image.fromarray(pixels).resize((4000, 66), Image.Resampling.NEAREST).save(path)
-    done = facade(path, "-o", tmp_path / "out")
+    done = refused("facade", "--rectified", path, "-o", tmp_path / "out")
     assert done.returncode == 3, done.stderr
     assert "not found" in done.stderr
 
 
 def test_nothing_there(tmp_path: Path) -> None:
     for path in (tmp_path / "none.jpg", tmp_path):
-        done = facade(path, "-o", tmp_path / "out")
+        done = refused("facade", "--rectified", path, "-o", tmp_path / "out")
         assert done.returncode == 2
         assert done.stderr.startswith(f"error: {path}: ")
         assert not (tmp_path / "out").exists()
@@ -146,7 +147,14 @@ def test_two_images_of_one_name(tmp_path: Path, photo: Path) -> None:
     for folder in ("a", "b"):
         (tmp_path / folder).mkdir()
         (tmp_path / folder / "x.png").write_bytes(photo.read_bytes())
-    done = facade(tmp_path / "a" / "x.png", tmp_path / "b" / "x.png", "-o", tmp_path / "out")
+    done = refused(
+        "facade",
+        "--rectified",
+        tmp_path / "a" / "x.png",
+        tmp_path / "b" / "x.png",
+        "-o",
+        tmp_path / "out",
+    )
     assert done.returncode == 2
     assert str(tmp_path / "a" / "x.png") in done.stderr
     assert str(tmp_path / "b" / "x.png") in done.stderr
@@ -156,7 +164,7 @@ def test_two_images_of_one_name(tmp_path: Path, photo: Path) -> None:
 def test_names_that_cannot_be_a_folder(tmp_path: Path, photo: Path, name: str) -> None:
     path = tmp_path / name
     path.write_bytes(photo.read_bytes())
-    done = facade(path, "-o", tmp_path / "out")
+    done = refused("facade", "--rectified", path, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert "Rename" in done.stderr
 
@@ -177,7 +185,7 @@ def test_names_that_cannot_be_a_folder(tmp_path: Path, photo: Path, name: str) -
     ],
 )
 def test_bad_use(tmp_path: Path, photo: Path, arguments: list[str]) -> None:
-    done = facade(photo, "-o", tmp_path / "out", *arguments)
+    done = refused("facade", "--rectified", photo, "-o", tmp_path / "out", *arguments)
     assert done.returncode == 2
     assert arguments[0] in done.stderr
     assert "Traceback" not in done.stderr
@@ -198,7 +206,7 @@ def test_bad_verbs() -> None:
 def test_out_that_cannot_be_written(tmp_path: Path, photo: Path) -> None:
     (tmp_path / "file").write_text("in the way")
     for out in (tmp_path / "file", tmp_path / "file" / "out", Path("/proc/veduta/out")):
-        done = facade(photo, "-o", out)
+        done = refused("facade", "--rectified", photo, "-o", out)
         assert done.returncode == 2
         assert done.stderr.startswith(f"error: {out}: ")
     assert (tmp_path / "file").read_text() == "in the way"
@@ -208,7 +216,7 @@ def test_corners_of_one_facade_for_two_photos(tmp_path: Path, photo: Path) -> No
     other = tmp_path / "other.png"
     other.write_bytes(photo.read_bytes())
     corners = ["--corners", 10, 10, 200, 10, 200, 300, 10, 300]
-    done = veduta("facade", photo, other, *corners, "-o", tmp_path / "out")
+    done = refused("facade", photo, other, *corners, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert "--corners: are those of one facade, but 2 photos are named" in done.stderr
     assert not (tmp_path / "out").exists()

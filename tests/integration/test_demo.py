@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from command_line import read_json, tree, veduta
+from command_line import read_json, refused, tree, veduta
 from PIL import Image
 
 SMALL = ("--long-side-px", 560, "--samples", 1, "--corners")
@@ -108,7 +108,7 @@ def test_an_edited_document_is_compared_as_it_is_now(
     assert veduta("demo", "-o", out, *SMALL).stdout == again.stdout
 
     path.write_text("{")
-    broken = veduta("demo", "-o", out, *SMALL)
+    broken = refused("demo", "-o", out, *SMALL)
     assert broken.returncode == 2
     assert f"{path}: line 1" in broken.stderr
     path.unlink()
@@ -120,6 +120,6 @@ def test_an_edited_document_is_compared_as_it_is_now(
 
 
 def test_bad_use_is_refused(tmp_path: Path) -> None:
-    wrong = veduta("demo", "-o", tmp_path / "x", "--style", "baroque")
+    wrong = refused("demo", "-o", tmp_path / "x", "--style", "baroque")
     assert wrong.returncode == 2
     assert not (tmp_path / "x").exists()

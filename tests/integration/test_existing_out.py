@@ -9,16 +9,9 @@ import pytest
 from command_line import facade, read_json, tree
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory, photo: Path) -> Path:
-    folder = tmp_path_factory.mktemp("made") / "out"
-    assert facade(photo, "-o", folder).returncode == 0
-    return folder
-
-
 @pytest.fixture
-def out(tmp_path: Path, made: Path) -> Path:
-    return Path(shutil.copytree(made, tmp_path / "out"))
+def out(tmp_path: Path, one_house: Path) -> Path:
+    return Path(shutil.copytree(one_house, tmp_path / "out"))
 
 
 def test_finished_and_same_is_up_to_date(out: Path, photo: Path) -> None:

@@ -9,23 +9,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from closed_shells import assert_closed
-from command_line import facade, read_json, veduta
+from command_line import read_json, veduta
 from test_validators import validate_gltf
 
 from veduta.formats.gltf import read_glb
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory, photo: Path) -> Path:
-    folder = tmp_path_factory.mktemp("made") / "out"
-    assert facade(photo, "-o", folder).returncode == 0
-    return folder
-
-
 @pytest.fixture
-def house(tmp_path: Path, made: Path) -> Path:
+def house(tmp_path: Path, one_house: Path) -> Path:
     """The results of the photo, moved away from where they were made."""
-    return Path(shutil.copytree(made / "house0", tmp_path / "moved"))
+    return Path(shutil.copytree(one_house / "house0", tmp_path / "moved"))
 
 
 def derive(house: Path, out: Path, *more: object) -> Path:
@@ -90,9 +83,9 @@ def test_another_picture_is_another_building(house: Path, tmp_path: Path) -> Non
     assert derive(house, out, "--force").read_bytes() != before
 
 
-def test_edited_rules_are_kept_and_told(made: Path, tmp_path: Path) -> None:
+def test_edited_rules_are_kept_and_told(one_house: Path, tmp_path: Path) -> None:
     """The document is what the verb rebuilds from; rules that somebody edited are theirs."""
-    out = Path(shutil.copytree(made, tmp_path / "out"))
+    out = Path(shutil.copytree(one_house, tmp_path / "out"))
     rules, document = out / "house0" / "rules.cga", out / "house0" / "facade.json"
     rules.write_text(rules.read_text() + "// mine\n")
     content = read_json(document)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from command_line import command, items_done, read_json, tree, veduta
+from command_line import command, items_done, read_json, refused, tree, veduta
 from test_validators import validate_city, validate_gltf
 
 from veduta.formats.tiles import contents
@@ -189,7 +189,7 @@ def bad_calls(folder: Path) -> dict[str, tuple[list[object], str]]:
 
 def test_bad_use_is_told_with_a_remedy(tmp_path: Path) -> None:
     for name, (arguments, remedy) in bad_calls(tmp_path).items():
-        done = veduta("grammar", *arguments)
+        done = refused("grammar", *arguments)
         assert done.returncode == 2, (name, done.stderr)
         assert remedy in done.stderr, (name, done.stderr)
         assert "Traceback" not in done.stderr
@@ -219,13 +219,33 @@ def test_format_prints_and_rewrites(tmp_path: Path) -> None:
     assert veduta("grammar", "format", path, "--write").returncode == 2
 
 
+@pytest.fixture(scope="module")
+def long_call(tmp_path_factory: pytest.TempPathFactory) -> list[object]:
+    """What works for some seconds, but for its OUT."""
+    lots = tmp_path_factory.mktemp("long") / "lots.geojson"
+    lots.write_text(json.dumps(lots_json(96)))
+    return ["grammar", "derive", "haussmann", "--lots", lots, "--separate", "-o"]
+
+
+@pytest.fixture(scope="module")
+def unbroken(tmp_path_factory: pytest.TempPathFactory, long_call: list[object]) -> dict[str, bytes]:
+    """What it makes where nobody stops it."""
+    out = tmp_path_factory.mktemp("unbroken") / "out"
+    assert veduta(*long_call, out).returncode == 0
+    return tree(out)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize(("number", "code"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
-def test_killed_in_the_middle(tmp_path: Path, number: signal.Signals, code: int) -> None:
-    lots, out = tmp_path / "lots.geojson", tmp_path / "out"
-    lots.write_text(json.dumps(lots_json(96)))
-    call = ["grammar", "derive", "haussmann", "--lots", lots, "--separate", "-o"]
-    run = subprocess.Popen(command(*call, out), stderr=subprocess.PIPE, text=True)
+def test_killed_in_the_middle(
+    tmp_path: Path,
+    long_call: list[object],
+    unbroken: dict[str, bytes],
+    number: signal.Signals,
+    code: int,
+) -> None:
+    out = tmp_path / "out"
+    run = subprocess.Popen(command(*long_call, out), stderr=subprocess.PIPE, text=True)
     try:
         deadline = time.monotonic() + 120
         while not items_done(out):
@@ -246,9 +266,8 @@ def test_killed_in_the_middle(tmp_path: Path, number: signal.Signals, code: int)
     recorded = {out / name for name in items_done(out)}
     done = {path: stamp for path, stamp in there.items() if path.parent in recorded}
     assert done
-    again = veduta(*call, out)
+    again = veduta(*long_call, out)
     assert again.returncode == 0, again.stderr
     assert done.items() <= {p: p.stat().st_mtime_ns for p in out.glob("parts/*/*.glb")}.items()
-    assert veduta(*call, tmp_path / "fresh").returncode == 0
-    assert tree(out) == tree(tmp_path / "fresh")
+    assert tree(out) == unbroken
     assert set(os.listdir(out / ".veduta")) == {"run.json", "lock"}

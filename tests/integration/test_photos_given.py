@@ -9,8 +9,8 @@ import cv2
 import numpy as np
 import pycolmap
 import pytest
-from command_line import read_json, veduta
-from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX, Pose, take_photo, write_photos
+from command_line import read_json, refused, veduta
+from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX, Pose, take_photo
 from photos_truth import centre_errors
 from PIL import Image
 from PIL.ExifTags import GPS, IFD, Base
@@ -21,13 +21,6 @@ from veduta.run.errors import InputError
 
 QUICK = ("--lens", "pinhole", "--principal-point", "middle", "--max-features", "1500")
 TRUTH = {f"view{number}.png": np.array(pose.eye) for number, pose in enumerate(ARC)}
-
-
-@pytest.fixture(scope="module")
-def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("scene") / "corner"
-    write_photos(folder)
-    return folder
 
 
 def write_true_model(folder: Path) -> Path:
@@ -100,7 +93,7 @@ def test_bad_use_of_a_model(tmp_path: Path, scene: Path) -> None:
         with pytest.raises(InputError, match=words):
             plan_call(folder, given)
     (model / "points3D.bin").unlink()
-    done = veduta("photos", scene, "--from-colmap", model, "-o", tmp_path / "out")
+    done = refused("photos", scene, "--from-colmap", model, "-o", tmp_path / "out")
     assert done.returncode == 2, done.stdout
     assert "points3D.bin: is missing. Copy it to where the others lie" in done.stderr
     assert not (tmp_path / "out").exists()
@@ -109,7 +102,7 @@ def test_bad_use_of_a_model(tmp_path: Path, scene: Path) -> None:
 def test_a_mask_of_another_size(tmp_path: Path, scene: Path) -> None:
     (tmp_path / "masks").mkdir()
     Image.new("L", (99, 77), 255).save(tmp_path / "masks" / "view2.png")
-    done = veduta("photos", scene, "--masks", tmp_path / "masks", "-o", tmp_path / "out")
+    done = refused("photos", scene, "--masks", tmp_path / "masks", "-o", tmp_path / "out")
     assert done.returncode == 2
     assert "view2.png: is 99 x 77 px, and its photo view2.png 480 x 360 px" in done.stderr
     assert "Save the mask in the size" in done.stderr
@@ -121,7 +114,7 @@ def test_all_the_same_photo(tmp_path: Path) -> None:
     for quality in (60, 75, 90):
         path = tmp_path / "photos" / f"{quality}.jpg"
         Image.fromarray(take_photo(ARC[0])).save(path, quality=quality)
-    done = veduta("photos", tmp_path / "photos", "-o", tmp_path / "out")
+    done = refused("photos", tmp_path / "photos", "-o", tmp_path / "out")
     assert done.returncode == 2
     assert "holds 1 photo that can be used, of 3" in done.stderr
     assert "shows the same picture as 60.jpg" in done.stderr
@@ -179,9 +172,9 @@ def test_a_city_model_that_is_refused_is_said(tmp_path: Path, scene: Path) -> No
     lots = tmp_path / "lots.geojson"
     lots.write_text(json.dumps({"type": "FeatureCollection", "features": [house]}))
     world = ("--model", lots, "--crs", "EPSG:25832", "-o", tmp_path / "out")
-    refused = veduta("photos", scene, "--from-colmap", model, *world, "--no-walls")
-    assert refused.returncode == 2
-    assert "--no-walls: leaves nothing to lay onto the facades of --model" in refused.stderr
+    no_walls = refused("photos", scene, "--from-colmap", model, *world, "--no-walls")
+    assert no_walls.returncode == 2
+    assert "--no-walls: leaves nothing to lay onto the facades of --model" in no_walls.stderr
     assert not (tmp_path / "out").exists()
     done = veduta("photos", scene, "--from-colmap", model, *world)
     assert (done.returncode, done.stderr) == (0, "")

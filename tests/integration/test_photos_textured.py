@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from command_line import read_json, veduta
-from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX, write_photos
+from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX
 
 from veduta.formats.place_json import read_place
 
@@ -43,14 +43,13 @@ def write_control(path: Path) -> None:
 
 
 @pytest.mark.slow
-def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path) -> None:
-    write_photos(tmp_path / "corner")
+def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path, scene: Path) -> None:
     write_model(tmp_path / "lots.geojson")
     write_control(tmp_path / "gcp.txt")
     out = tmp_path / "out"
     model = ("--model", tmp_path / "lots.geojson", "--crs", "EPSG:25832")
     told = (*QUICK, *model, "--gcp", tmp_path / "gcp.txt")
-    done = veduta("photos", tmp_path / "corner", "-o", out, *told)
+    done = veduta("photos", scene, "-o", out, *told)
     assert (done.returncode, done.stderr) == (0, "")
     measures = read_json(out / "report.json")["measures"]
     assert measures["faces_textured"] >= 2
@@ -66,7 +65,7 @@ def test_a_model_that_photos_lie_in_is_textured(tmp_path: Path) -> None:
     )
     shutil.copytree(out / "sparse", tmp_path / "sparse")
     told = ("--from-colmap", tmp_path / "sparse", "--no-texture", *model)
-    done = veduta("photos", tmp_path / "corner", "-o", out, *told, "--force")
+    done = veduta("photos", scene, "-o", out, *told, "--force")
     assert (done.returncode, done.stderr) == (0, "")
     left = {path.name for path in out.iterdir()}
     assert not left & {"textures", "parts", "model.city.json", "tileset.json", "frames"}

@@ -9,7 +9,16 @@ from pathlib import Path
 import numpy as np
 import pycolmap
 import pytest
-from command_line import DEADLINE_S, is_running, read_json, running, started_by, veduta, wait_for
+from command_line import (
+    DEADLINE_S,
+    is_running,
+    read_json,
+    refused,
+    running,
+    started_by,
+    veduta,
+    wait_for,
+)
 from photo_scene import ARC, Pose, write_photos
 from photos_truth import centre_errors
 from PIL import Image
@@ -24,13 +33,6 @@ FILES = {
     ".veduta", "sparse", "pictures", "walls", "points.ply", "points.laz", "walls.json",
     "georef.json", "place.json", "report.json", "report.html",
 }  # fmt: skip
-
-
-@pytest.fixture(scope="module")
-def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("scene") / "corner with spaces"
-    write_photos(folder)
-    return folder
 
 
 @pytest.fixture(scope="module")
@@ -164,7 +166,7 @@ def test_too_few(tmp_path: Path, scene: Path, files: dict[str, int], words: str)
     folder.mkdir()
     for name, number in files.items():
         (folder / name).write_bytes((scene / f"view{number}.png").read_bytes())
-    done = veduta("photos", folder, "-o", tmp_path / "out")
+    done = refused("photos", folder, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert words in done.stderr
     assert "Traceback" not in done.stderr
@@ -190,7 +192,7 @@ def test_killed_in_the_middle(
 ) -> None:
     out = tmp_path / "out"
     stages = out / ".veduta" / "photos"
-    with running("photos", scene, "-o", out, *QUICK, "--jobs", "2") as run:
+    with running("photos", scene, "-o", out, *CAMERAS, "--jobs", "2") as run:
         wait_for(lambda: len(list(stages.glob("features-*.npz"))) >= 2)
         children = started_by(run.pid)
         run.send_signal(number)
@@ -204,7 +206,7 @@ def test_killed_in_the_middle(
     stamps = {path.name: path.stat().st_mtime_ns for path in stages.glob("features-*.npz")}
     assert stamps
 
-    with running("photos", scene, "-o", out, *QUICK, "--jobs", "2") as run:
+    with running("photos", scene, "-o", out, *CAMERAS, "--jobs", "2") as run:
         wait_for(lambda: len(list(stages.glob("features-*.npz"))) == len(ARC))
         kept = {name: (stages / name).stat().st_mtime_ns for name in stamps}
         run.communicate(timeout=DEADLINE_S)
@@ -218,13 +220,13 @@ def test_killed_while_it_maps(tmp_path: Path, scene: Path) -> None:
     """What was matched is kept, and the next run ends with all photos."""
     out = tmp_path / "out"
     stages = out / ".veduta" / "photos"
-    with running("photos", scene, "-o", out, *QUICK) as run:
+    with running("photos", scene, "-o", out, *CAMERAS) as run:
         wait_for(lambda: any(stages.glob("*.mapping/round-0/growing-*/[0-9]*")))
         run.send_signal(signal.SIGKILL)
         run.communicate(timeout=DEADLINE_S)
     assert run.returncode == -signal.SIGKILL
     assert len(list(stages.glob("matches-*.db"))) == 1
-    done = veduta("photos", scene, "-o", out, *QUICK)
+    done = veduta("photos", scene, "-o", out, *CAMERAS)
     assert done.returncode == 0, done.stderr
     assert "6 of 6 photos calibrated" in done.stdout
     assert centre_errors_mm(out).mean() < 20.0

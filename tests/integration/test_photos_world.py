@@ -8,8 +8,8 @@ from pathlib import Path
 import laspy
 import numpy as np
 import pytest
-from command_line import read_json, veduta
-from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX, write_photos
+from command_line import read_json, refused, veduta
+from photo_scene import ARC, FOCAL_PX, HEIGHT_PX, WIDTH_PX
 
 from veduta.formats.place_json import read_place
 
@@ -17,13 +17,6 @@ ORIGIN = np.array([500_000.0, 5_500_000.0, 100.0])
 QUICK = ("--lens", "pinhole", "--cameras", "shared", "--principal-point", "middle",
     "--max-features", "1500")  # fmt: skip
 PLACES = np.array([[0, 1, 0.5], [0, 2, 2.4], [1.5, 0, 0.4], [2.2, 0, 2.2], [1, 1, 0]], dtype=float)
-
-
-@pytest.fixture(scope="module")
-def scene(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    folder = tmp_path_factory.mktemp("world") / "corner"
-    write_photos(folder)
-    return folder
 
 
 def control(path: Path) -> Path:
@@ -79,7 +72,7 @@ def test_references_that_cannot_be_used(tmp_path: Path, scene: Path) -> None:
         (("--georef", "gcp"), "Add --gcp FILE"),
         (("--crs", "EPSG:25832"), "Give --model, too"),
     ):
-        done = veduta("photos", scene, "-o", tmp_path / "out", *arguments)
+        done = refused("photos", scene, "-o", tmp_path / "out", *arguments)
         assert done.returncode == 2
         assert told in done.stderr
         assert not (tmp_path / "out").exists()

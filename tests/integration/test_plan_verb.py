@@ -10,24 +10,27 @@ import pytest
 from drawn_dxf import saved, two_rooms
 from PIL import Image
 from sample_plan import sample_plan
-from test_validators import validate_gltf
+from test_validators import validate_city, validate_gltf
 
+from veduta.cli.plan import _tell as tell
 from veduta.formats.place_json import read_place
+from veduta.formats.tiles import contents
 from veduta.plan import pipeline
-from veduta.plan.options import InputOptions, PlanOptions
+from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, SiteOptions
 from veduta.plan.pipeline import PlanResult, run_plan
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 
 FILES = {
-    ".veduta", "garden.glb", "ground.glb", "house.glb", "house.ifc", "house.x3d", "overlay.png",
-    "place.json", "plan.dxf", "plan.json", "plan.svg", "report.html", "report.json", "sheet-1.png",
-    "tour.png",
+    ".veduta", "garden.glb", "ground.glb", "house.city.json", "house.glb", "house.ifc",
+    "house.x3d", "overlay.png", "place.json", "plan.dxf", "plan.json", "plan.svg", "report.html",
+    "report.json", "sheet-1.png", "tiles", "tileset.json", "tour.png",
 }  # fmt: skip
 
 
-def plan(document: Path, out: Path, *, force: bool = False) -> PlanResult:
-    return run_plan([document], out, PlanOptions(), Progress(quiet=True), force=force)
+def plan(document: Path, out: Path, *, force: bool = False, seed: int = 0) -> PlanResult:
+    options = PlanOptions(house=HouseOptions(seed=seed))
+    return run_plan([document], out, options, Progress(quiet=True), force=force)
 
 
 @pytest.fixture
@@ -37,14 +40,19 @@ def document(tmp_path: Path) -> Path:
     return path
 
 
-def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, document: Path) -> None:
+def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(
+    tmp_path: Path, document: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     out = tmp_path / "out"
     made = plan(document, out)
     assert (made.exit_code, made.outdated, made.up_to_date) == (0, False, False)
     assert {path.name for path in out.iterdir()} == FILES
     assert made.measures["rooms"] == 2
     assert read_place(out / "place.json").parts[0].model == "house.glb"
-    for name in ("house.glb", "ground.glb", "garden.glb"):
+    assert read_place(out / "place.json").parts[0].city_model == "house.city.json"
+    assert validate_city(out / "house.city.json")["valid"] is True
+    assert "tiles/house.glb" in contents(out)
+    for name in ("house.glb", "ground.glb", "garden.glb", *contents(out)[1:]):
         issues = validate_gltf(out / name)
         assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
     report = json.loads((out / "report.json").read_text())
@@ -61,11 +69,53 @@ def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(tmp_path: Path, docum
     assert (again.up_to_date, again.outdated) == (True, True)
     assert (out / "house.glb").read_bytes() == before
 
-    rebuilt = plan(out / "plan.json", out)
+    rebuilt = plan(out / "plan.json", out, seed=3)
     assert (rebuilt.up_to_date, rebuilt.outdated) == (False, False)
+    assert [note.split()[0] for note in rebuilt.notes] == ["--seed"]
+    assert rebuilt.notes[0] in json.loads((out / "report.json").read_text())["notes"]
+    capsys.readouterr()
+    tell(rebuilt)
+    assert f"note: {rebuilt.notes[0]}" in capsys.readouterr().out
     assert (out / "plan.json").read_text() == edited
     assert (out / "house.glb").read_bytes() != before
-    assert plan(out / "plan.json", out).up_to_date
+    assert plan(out / "plan.json", out, seed=3).up_to_date
+
+
+def test_north_sun_and_panorama_survive_a_rebuild(tmp_path: Path, document: Path) -> None:
+    """They are kept in plan.json, the picture beside it; an option goes before what is kept."""
+    out, given = tmp_path / "out", tmp_path / "mine.png"
+    Image.linear_gradient("L").resize((512, 256)).convert("RGB").save(given)
+    plain = HouseOptions(no_furniture=True, no_tour=True)
+    where = {"north": 30.0, "place": (51.5, -0.12), "time": "2026-06-21T16:00+01:00"}
+
+    def made(path: Path, **site: object) -> PlanResult:
+        options = PlanOptions(house=plain, site=SiteOptions(**site))
+        return run_plan([path], out, options, Progress(quiet=True))
+
+    assert made(document, **where, panorama=str(given)).exit_code == 0
+    names = ("panorama.glb", "panorama.jpg", "house.glb", "place.json")
+    first = {name: (out / name).read_bytes() for name in names}
+    issues = validate_gltf(out / "panorama.glb")
+    assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]
+    place = read_place(out / "place.json")
+    assert place.sun is not None
+    assert (place.sun.time, place.sun.assumed) == ("2026-06-21T16:00:00+01:00", [])
+    assert [part.id for part in place.parts if part.backdrop] == ["panorama"]
+
+    given.unlink()
+    made(out / "plan.json")
+    assert {name: (out / name).read_bytes() for name in names} == first
+    made(out / "plan.json", north=90.0)
+    content = json.loads((out / "plan.json").read_text())
+    assert (content["north_deg"], content["place_deg"]) == (90.0, [51.5, -0.12])
+    assert (out / "place.json").read_bytes() != first["place.json"]
+
+    (out / "panorama.jpg").write_bytes(first["panorama.jpg"][:600])
+    with pytest.raises(InputError, match=r"panorama.jpg"):
+        made(out / "plan.json")
+    (out / "panorama.jpg").unlink()
+    with pytest.raises(InputError, match=r"panorama.jpg: is missing"):
+        made(out / "plan.json")
 
 
 def test_a_faulty_document_leaves_nothing_behind(tmp_path: Path, document: Path) -> None:

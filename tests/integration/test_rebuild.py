@@ -10,22 +10,15 @@ from typing import Any
 
 import numpy as np
 import pytest
-from command_line import FILES, facade, read_json, tree, veduta
+from command_line import FILES, facade, read_json, refused, tree, veduta
 from PIL import Image
 
 from veduta.facade.document import CLASSES
 
 
-@pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory, photos: list[Path]) -> Path:
-    folder = tmp_path_factory.mktemp("made") / "out"
-    assert facade(*photos[:2], "-o", folder).returncode == 0
-    return folder
-
-
 @pytest.fixture
-def out(tmp_path: Path, made: Path) -> Path:
-    return Path(shutil.copytree(made, tmp_path / "out"))
+def out(tmp_path: Path, two_houses: Path) -> Path:
+    return Path(shutil.copytree(two_houses, tmp_path / "out"))
 
 
 def edit(path: Path, change: Callable[[Any], None]) -> None:
@@ -278,7 +271,7 @@ def test_a_broken_document_says_where(out: Path, change: Callable[[Any], None], 
     before = tree(out)
     document = out / "house0" / "facade.json"
     edit(document, change)
-    done = veduta("facade", document, "-o", out)
+    done = refused("facade", document, "-o", out)
     assert done.returncode == 2, done.stdout
     assert place in done.stderr
     assert done.stderr.startswith(f"error: {document.parent}")
@@ -289,7 +282,7 @@ def test_a_broken_document_says_where(out: Path, change: Callable[[Any], None], 
 def test_not_json(out: Path) -> None:
     document = out / "house0" / "facade.json"
     document.write_text('{\n "schema": "veduta/facade",\n "version" 1\n}')
-    done = veduta("facade", document, "-o", out)
+    done = refused("facade", document, "-o", out)
     assert done.returncode == 2
     assert "line 3" in done.stderr
 
@@ -297,21 +290,21 @@ def test_not_json(out: Path) -> None:
 def test_a_number_of_too_many_digits(out: Path) -> None:
     path = out / "house0" / "facade.json"
     path.write_text(path.read_text().replace('"version": 1', '"version": ' + 5000 * "9"))
-    done = veduta("facade", path, "-o", out)
+    done = refused("facade", path, "-o", out)
     assert done.returncode == 2
     assert f"error: {path}: is not usable JSON" in done.stderr
 
 
 def test_photo_is_missing(out: Path, tmp_path: Path) -> None:
     (out / "house0" / "rectified.jpg").unlink()
-    done = veduta("facade", out / "house0" / "facade.json", "-o", tmp_path / "new")
+    done = refused("facade", out / "house0" / "facade.json", "-o", tmp_path / "new")
     assert done.returncode == 2
     assert "rectified.jpg: does not exist" in done.stderr
 
 
 def test_options_of_photos_are_refused(out: Path, tmp_path: Path) -> None:
     document = out / "house0" / "facade.json"
-    done = veduta("facade", document, "-o", tmp_path / "new", "--height-m", "20")
+    done = refused("facade", document, "-o", tmp_path / "new", "--height-m", "20")
     assert done.returncode == 2
     assert "--height-m" in done.stderr
     assert veduta("facade", document, "-o", tmp_path / "new", "--depth-m", "7").returncode == 0

@@ -14,7 +14,6 @@ from veduta.imaging.read import read_image
 from veduta.plan.names.vocabulary import meanings
 from veduta.plan.reading import read_storey
 from veduta.plan.scale.estimate import DrawnSizes, find_voters
-from veduta.plan.scale.options import VoteOptions
 from veduta.plan.scale.quantities import read_quantities
 from veduta.plan.scale.vote import take_vote
 from veduta.plan.text.sheet_text import SheetText, read_sheet
@@ -68,7 +67,7 @@ def test_each_size_agrees_with_the_scale_of_the_others(veduta_data: Path, name: 
         ink=drawn.cleaned.ink,
         texts=drawn.texts,
     )
-    voters = [one for one in find_voters(sizes, VoteOptions()) if one.kind == "dimension"]
+    voters = [one for one in find_voters(sizes) if one.kind == "dimension"]
     places = sorted({voter.place for voter in voters})
     assert len(places) == len(METRES[name])
     errors = []

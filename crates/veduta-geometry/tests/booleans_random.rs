@@ -7,8 +7,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-#[path = "support/draw.rs"]
-mod draw;
+use crate::draw;
 
 use std::f64::consts::TAU;
 use std::fmt::Write;

@@ -4,9 +4,7 @@ use proptest::prelude::*;
 use veduta_geometry::skeleton::tolerance::CleanTolerance;
 use veduta_geometry::skeleton::{clean, roof, Cleaned, SkeletonError};
 
-#[cfg(test)]
-#[path = "support/footprints.rs"]
-mod footprints;
+use crate::footprints;
 
 type Rings = Vec<Vec<[f64; 2]>>;
 

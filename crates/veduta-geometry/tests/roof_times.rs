@@ -1,10 +1,8 @@
 //! The time that hip roofs take over real buildings; nothing is asserted of times.
 //!
-//! `cargo test --release -p veduta-geometry --test roof_times -- --ignored --nocapture`
+//! `cargo test --release -p veduta-geometry roof_times -- --ignored --nocapture`
 
-#[cfg(test)]
-#[path = "support/footprints.rs"]
-mod footprints;
+use crate::footprints;
 
 use std::time::Instant;
 

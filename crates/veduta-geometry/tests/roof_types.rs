@@ -2,7 +2,7 @@
 //! is measured here anew.
 //!
 //! Each type takes every fourth building, beginning with another one; all of them take
-//! `cargo test --release -p veduta-geometry --test roof_types -- --ignored`, and in Python
+//! `cargo test --release -p veduta-geometry roof_types -- --ignored`, and in Python
 //! `tests/regression/test_roofs.py` goes over all.
 
 #![allow(clippy::unwrap_used)] // helpers of tests
@@ -10,13 +10,9 @@
 use veduta_geometry::skeleton::SkeletonError;
 use veduta_geometry::solid::{roofed_over, Overhang, RoofKind};
 
-#[cfg(test)]
-#[path = "support/footprints.rs"]
-mod footprints;
+use crate::footprints;
 
-#[cfg(test)]
-#[path = "support/roof_kinds.rs"]
-mod roof_kinds;
+use crate::roof_kinds;
 
 use footprints::hard_footprints;
 use roof_kinds::{fault, kinds, sheet};

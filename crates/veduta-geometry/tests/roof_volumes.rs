@@ -9,9 +9,7 @@ use proptest::prelude::*;
 use veduta_geometry::skeleton::SkeletonError;
 use veduta_geometry::solid::{roofed, roofed_over, Along, Gables, Mesh, Overhang, RoofKind};
 
-#[cfg(test)]
-#[path = "support/roof_kinds.rs"]
-mod roof_kinds;
+use crate::roof_kinds;
 
 use roof_kinds::{fault, kinds, sheet};
 

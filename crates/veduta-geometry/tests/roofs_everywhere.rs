@@ -5,9 +5,7 @@
 use proptest::prelude::*;
 use veduta_geometry::skeleton::{check, roof, Eaves, Roof, RoofFault, SkeletonError};
 
-#[cfg(test)]
-#[path = "support/shapes.rs"]
-mod shapes;
+use crate::shapes;
 
 use shapes::{convex, height_m, moved, rectilinear, regular, star, Rings};
 

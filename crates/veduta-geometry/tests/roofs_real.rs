@@ -5,9 +5,7 @@ use std::collections::HashMap;
 
 use veduta_geometry::skeleton::{roof, Eaves, FaceOrigin, Roof, SkeletonError};
 
-#[cfg(test)]
-#[path = "support/footprints.rs"]
-mod footprints;
+use crate::footprints;
 
 use footprints::hard_footprints;
 

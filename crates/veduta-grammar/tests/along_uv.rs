@@ -2,14 +2,12 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use crate::support::{code, fault, lot, lot_of, solid};
 use glam::DVec3;
 use proptest::prelude::*;
-use support::{code, fault, lot, lot_of, solid};
 use veduta_geometry::solid::{cube, Mesh};
 use veduta_grammar::engine::{asset_names, derive, Fault, Options, State, Tree};
 use veduta_grammar::shape::Asset;

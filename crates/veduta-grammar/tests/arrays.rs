@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
-use support::{fault, said};
+use crate::support::{fault, said};
 
 fn shown(values: &str) -> Vec<String> {
     said(&format!(

@@ -2,13 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
 use std::collections::HashMap;
 use std::sync::Arc;
 
+use crate::support::{code, lot};
 use glam::DVec3;
-use support::{code, lot};
 use veduta_geometry::solid::{cube, Mesh};
 use veduta_grammar::engine::{
     asset_names, derive, pack, surfaces, to_place, Code, Fault, Options, Packed, State, Tree,

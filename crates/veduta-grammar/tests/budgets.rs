@@ -2,9 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
+use crate::support;
 
-use support::{code, lot, lot_of};
+use crate::support::{code, lot, lot_of};
 use veduta_grammar::engine::{derive, rederive, Limits, Options, State};
 
 /// Little work, and much time: what the clock stops depends on the machine.

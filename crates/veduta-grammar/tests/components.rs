@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
-use support::said;
+use crate::support::said;
 
 #[test]
 fn a_component_is_counted_among_those_of_its_selector() {

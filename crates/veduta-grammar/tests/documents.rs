@@ -6,7 +6,7 @@ use veduta_grammar::builtins::operations::OPERATIONS;
 use veduta_grammar::engine::operation_names;
 use veduta_grammar::{check, format, limits, Program, Source};
 
-mod support;
+use crate::support;
 
 /// The pages on operations.
 const PAGES: &[&str] = &[

@@ -1,7 +1,7 @@
 //! Trees that are made at random: what is printed parses to the same tree, and formatting changes
 //! neither the tree nor the comments, and nothing the second time.
 
-mod trees;
+use crate::trees;
 
 use proptest::prelude::*;
 use veduta_grammar::ast::File;

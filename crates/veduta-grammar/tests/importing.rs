@@ -2,9 +2,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
-use support::lot;
+use crate::support::lot;
 use veduta_grammar::engine::{derive, lower, lower_in_style, Code, Options, Tree, Value};
 use veduta_grammar::{check, Program, Source};
 

@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{fault, said, solid, tree};
 use proptest::prelude::*;
-use support::{fault, said, solid, tree};
 
 /// The lot is 10 m by 6 m; a cube of so many metres at a place.
 fn cube(x: f64, y: f64, z: f64, size: f64) -> String {

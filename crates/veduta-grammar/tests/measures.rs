@@ -2,11 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
+use crate::support;
 
 use std::collections::BTreeSet;
 
-use support::{fault, lot_of, said};
+use crate::support::{fault, lot_of, said};
 use veduta_grammar::builtins::{attributes, functions, operations};
 use veduta_grammar::engine::{attribute_names, function_names, operation_names};
 

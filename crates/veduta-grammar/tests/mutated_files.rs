@@ -6,8 +6,7 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-#[path = "../../veduta-geometry/tests/support/draw.rs"]
-mod draw;
+use crate::draw;
 
 use std::path::Path;
 

@@ -2,13 +2,11 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
 use std::sync::Arc;
 
+use crate::support::{code, said, tree};
 use glam::DVec3;
 use proptest::prelude::*;
-use support::{code, said, tree};
 use veduta_grammar::engine::{derive, occluders, Neighbour, Options, State};
 use veduta_grammar::shape::{box_distance, Form, Geometry, Scope};
 

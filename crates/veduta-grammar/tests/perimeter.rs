@@ -3,10 +3,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 
 /// The areas of the strips `A` and `C`, and of what remains.
 fn found(operation: &str, cells: &str) -> [Vec<f64>; 3] {

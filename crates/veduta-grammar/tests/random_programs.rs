@@ -3,17 +3,14 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
 
-#[path = "../../veduta-geometry/tests/support/draw.rs"]
-mod draw;
-mod programs;
-mod support;
+use crate::support;
 
 use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicU64, Ordering};
 use std::sync::Mutex;
 use std::time::{Instant, SystemTime, UNIX_EPOCH};
 
-use programs::{Case, Words};
+use crate::programs::{Case, Words};
 use veduta_grammar::engine::{
     derive, operation_names, pack, rederive, Fault, Limits, Options, Packed, Tree,
 };

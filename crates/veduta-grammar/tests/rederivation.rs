@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used, clippy::panic)] // helpers of tests
 
-mod support;
-
+use crate::support::{code, lot};
 use proptest::prelude::*;
-use support::{code, lot};
 use veduta_grammar::engine::{derive, rederive, Code, Edit, Options, Overrides, Tree, Value};
 
 const HOUSE: &str = "attr tall = 40% : 3 else : 5

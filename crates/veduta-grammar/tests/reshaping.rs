@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, mesh_of, said, tree};
 
 fn print(operations: &str, values: &[&str]) -> Vec<String> {
     let all: String = values

@@ -2,10 +2,10 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
+use crate::support;
 
+use crate::support::{areas, derived, fault, lot_of, solid, tree};
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, solid, tree};
 
 fn volume(text: &str) -> f64 {
     let (_, volume) = solid(&tree(&format!("Lot --> {text}")));

@@ -2,11 +2,9 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{areas, derived, fault, lot_of, mesh_of, said, solid, tree};
 use glam::DVec3;
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, mesh_of, said, solid, tree};
 
 fn volumes(text: &str, name: &str) -> Vec<f64> {
     let meshes = mesh_of(&tree(text), name);

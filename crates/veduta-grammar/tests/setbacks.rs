@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{areas, derived, fault, lot_of, mesh_of, tree};
 use proptest::prelude::*;
-use support::{areas, derived, fault, lot_of, mesh_of, tree};
 
 #[test]
 fn strips_along_the_chosen_edges() {

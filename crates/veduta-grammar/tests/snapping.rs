@@ -2,10 +2,8 @@
 
 #![allow(clippy::unwrap_used)] // helpers of tests
 
-mod support;
-
+use crate::support::{fault, said, tree};
 use proptest::prelude::*;
-use support::{fault, said, tree};
 
 /// A line at x = 3, and then cells of 2.5 m.
 fn cells(snap: &str) -> Vec<String> {

@@ -16,12 +16,16 @@ def run(arguments: list[str]) -> int:
     """Parse the arguments, do the work, say what was found and where it is."""
     from veduta.cli.arguments import parse
     from veduta.cli.plan_call import PlanCall
+    from veduta.plan.photos.given import room_photos
     from veduta.plan.pipeline import run_plan
     from veduta.run.progress import Progress
 
     call = parse(PlanCall, "veduta plan", arguments)
+    photos = room_photos(call.photos)
     progress = Progress(quiet=call.quiet)
-    result = run_plan(call.drawings, call.out, call.options(), progress, force=call.force)
+    result = run_plan(
+        call.drawings, call.out, call.options(), progress, photos=photos, force=call.force
+    )
     if result.failure:
         print(f"error: {result.failure.subject}: {result.failure.reason}", file=sys.stderr)
     if not call.quiet:
@@ -40,6 +44,8 @@ def _tell(result: PlanResult) -> None:
     if result.outdated:
         command = shlex.join(["veduta", "plan", str(out / DOCUMENT), "-o", str(out)])
         print(f"{out / DOCUMENT}: was edited; to rebuild from it: {command}")
+    for note in result.notes:
+        print(f"note: {note}")
     if result.failure is None and result.measures:
         print(summary_line(result.measures))
         print(f"Walk in it: {shlex.join(['veduta', 'view', str(out)])}")

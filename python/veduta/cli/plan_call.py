@@ -9,7 +9,7 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, ScaleOptions
+from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, ScaleOptions, SiteOptions
 
 Drawings = Annotated[
     tyro.conf.Positional[tuple[Path, ...]],
@@ -19,6 +19,18 @@ Drawings = Annotated[
         help=(
             "drawings of the storeys, the lowest first: pictures, DXF files, or PDFs with a storey"
             " on each page; or a plan.json to rebuild from"
+        ),
+    ),
+]
+
+Photos = Annotated[
+    tyro.conf.UseAppendAction[tuple[str, ...]],
+    tyro.conf.arg(
+        metavar="ROOM=FILE",
+        help_behavior_hint="",
+        help=(
+            "a photo of a room, by its id or name: its walls get the colour, its floor and walls"
+            " the tiles that it shows; may be given several times"
         ),
     ),
 ]
@@ -42,9 +54,11 @@ class PlanCall:
     input: InputOptions = field(default_factory=InputOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     house: HouseOptions = field(default_factory=HouseOptions)
+    site: SiteOptions = field(default_factory=SiteOptions)
+    photos: Photos = ()
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> PlanOptions:
         """What changes the result."""
-        return PlanOptions(input=self.input, scale=self.scale, house=self.house)
+        return PlanOptions(input=self.input, scale=self.scale, house=self.house, site=self.site)

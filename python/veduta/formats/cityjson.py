@@ -93,7 +93,7 @@ def _solid(
         key = (feature, kind)
         if key not in number_of:
             number_of[key] = len(surfaces)
-            surfaces.append(_surface(part, feature, kind))
+            surfaces.append(surface_entry(part, feature, kind))
         values.append(number_of[key])
         boundaries.append(_rings(part, polygon, vertex_of))
     if on_building:
@@ -118,7 +118,8 @@ def _rings(part: Part, polygon: int, vertex_of: NDArray[np.int64]) -> list[list[
     return [vertex_of[offsets[ring] : offsets[ring + 1]].tolist() for ring in range(first, last)]
 
 
-def _surface(part: Part, feature: int, kind: str) -> dict[str, Any]:
+def surface_entry(part: Part, feature: int, kind: str) -> dict[str, Any]:
+    """What is said of a semantic surface of a feature; kind: CityJSON's word for it."""
     features = part.features
     surface: dict[str, Any] = {
         "type": kind,

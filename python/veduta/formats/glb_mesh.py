@@ -5,9 +5,9 @@ from __future__ import annotations
 import io
 import struct
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
-import trimesh
 
 from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, ReadMesh
 from veduta.imaging.srgb import srgb_of_linear
@@ -15,11 +15,17 @@ from veduta.place.material import Colour
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
+if TYPE_CHECKING:
+    import trimesh
+
 _REMEDY = "Export it again as binary glTF 2.0 (.glb), with everything in one file."
 
 
 def read_glb_mesh(path: Path) -> ReadMesh:
     """All triangles of the file's scene, y up. InputError says what is wrong."""
+    # Here, as trimesh takes longer to import than all else that most calls need.
+    import trimesh
+
     try:
         require_file(path, LARGEST_BYTES)
         data = path.read_bytes()

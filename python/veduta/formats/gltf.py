@@ -5,7 +5,7 @@ material; faces have flat normals; no vertex is shared between features. The fea
 `scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
 of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
 Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
-(`gltf_movers`) and lamps (`gltf_lights`). Tours are cameras that move (`gltf_camera`).
+(`gltf_movers`), lamps and the sun (`gltf_lights`). Tours are cameras that move (`gltf_camera`).
 """
 
 from __future__ import annotations
@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import add_instances
-from veduta.formats.gltf_lights import add_lights
+from veduta.formats.gltf_lights import add_lights, add_sun
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
 from veduta.imaging.encode import jpeg_bytes, mask_bytes
@@ -32,23 +32,27 @@ from veduta.place.camera_path import CameraPath
 from veduta.place.material import Texture
 from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
+from veduta.place.sunlight import Sunlight
 from veduta.run.atomic import write_bytes
 
 __all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 
 JPEG_QUALITY = 90
+UNLIT = "KHR_materials_unlit"
 _LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
 _BESIDE_UV = 1e-3
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 
 
-def write_glb(part: Part, path: Path, tours: Sequence[CameraPath] = ()) -> None:
-    """Write the part and the tours through it; the file appears whole or not at all."""
-    write_bytes(path, glb_bytes(part, tours))
+def write_glb(
+    part: Part, path: Path, tours: Sequence[CameraPath] = (), sun: Sunlight | None = None
+) -> None:
+    """Write the part, tours through it and the sun; the file appears whole or not at all."""
+    write_bytes(path, glb_bytes(part, tours, sun))
 
 
-def glb_bytes(part: Part, tours: Sequence[CameraPath] = ()) -> bytes:
-    """The part, and the tours through it, as a GLB file's content."""
+def glb_bytes(part: Part, tours: Sequence[CameraPath] = (), sun: Sunlight | None = None) -> bytes:
+    """The part, the tours through it and the sun that shines on it, as a GLB file's content."""
     binary = GltfBin()
     root: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "veduta"},
@@ -80,6 +84,8 @@ def glb_bytes(part: Part, tours: Sequence[CameraPath] = ()) -> bytes:
         root["meshes"].append({"primitives": primitives_of(still, (0.0, 0.0, 0.0))})
     add_movers(root, part, primitives_of, binary)
     add_lights(root, part)
+    if sun is not None:
+        add_sun(root, sun)
     if part.instances is not None:
         add_instances(root, part.instances, materials.number, binary)
     for tour in tours:
@@ -165,6 +171,10 @@ class _Materials:
             image, invented = self._pictures(material.texture)
             shading["baseColorTexture"] = {"index": self._texture(image, _wrap(self._part, row))}
             entry["extras"] = {"veduta": {"invented_mask": invented}}
+        if material.unlit:
+            entry["extensions"] = {UNLIT: {}}
+            if UNLIT not in self._root.setdefault("extensionsUsed", []):
+                self._root["extensionsUsed"].append(UNLIT)
         return entry
 
     def _pictures(self, texture: Texture) -> tuple[int, int]:

@@ -9,7 +9,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.place.camera_path import CameraPath
@@ -56,6 +55,8 @@ def add_camera(root: dict[str, Any], path: CameraPath, binary: GltfBin) -> None:
 
 def _turns(directions: NDArray[np.float64]) -> NDArray[np.float32]:
     """(n, 4) quaternions (x, y, z, w) of upright cameras; neighbours on the shorter way."""
+    from scipy.spatial.transform import Rotation  # here: most calls need none, and it is slow
+
     back = -y_up(directions.astype(np.float32)).astype(np.float64)
     back /= np.linalg.norm(back, axis=1)[:, None]
     right = np.cross([0.0, 1.0, 0.0], back)

@@ -11,7 +11,6 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.spatial.transform import Rotation
 
 from veduta.formats.gltf_bin import GltfBin, y_up
 from veduta.place.mover import Mover, Vector
@@ -73,6 +72,8 @@ def _poses(
     mover: Mover, share: NDArray[np.float64]
 ) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
     """(n, 4) turns as quaternions (x, y, z, w) and (n, 3) places of the pivot, y up."""
+    from scipy.spatial.transform import Rotation  # here: most calls need none, and it is slow
+
     axis = y_up(np.array([mover.axis], dtype=np.float32))[0].astype(np.float64)
     turn = Rotation.from_rotvec(share[:, None] * mover.turn_rad * axis).as_quat()
     place = np.array(mover.pivot_m) + share[:, None] * np.array(mover.shift_m)

@@ -220,13 +220,15 @@ def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
         texture,
         shading["baseColorFactor"][3],
         _glow(entry),
+        "KHR_materials_unlit" in entry.get("extensions", {}),
     )
 
 
 def _glow(entry: dict[str, Any]) -> float:
-    """The share of its colour that a material gives off."""
+    """The share of its colour that a material gives off; none of a black one's can be told."""
     given, own = entry.get("emissiveFactor", [0.0]), entry["pbrMetallicRoughness"]
-    return round(max(given) / max(own["baseColorFactor"][:3]), 5) if max(given) > 0.0 else 0.0
+    brightest = max(own["baseColorFactor"][:3])
+    return round(max(given) / brightest, 5) if max(given) > 0.0 and brightest > 0.0 else 0.0
 
 
 def _pixels(glb: _Glb, number: int, mode: str) -> NDArray[np.uint8]:

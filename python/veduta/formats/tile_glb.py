@@ -16,7 +16,7 @@ import json
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Protocol
 
 from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
@@ -44,6 +44,16 @@ class BuildingRow:
 
     id: str
     name: str
+
+
+class Views(Protocol):
+    """Where columns of tables are put."""
+
+    def view(self, data: bytes) -> int:
+        """Bytes with a view of their own; returns a number for `number`."""
+
+    def number(self, own: int) -> int:
+        """The number in the file of a view."""
 
 
 class Binary:
@@ -346,7 +356,7 @@ def _metadata(
     return {"schema": schema(buffers.rules), "propertyTables": tables}
 
 
-def buildings_table(buildings: Sequence[BuildingRow], binary: Binary) -> dict[str, Any]:
+def buildings_table(buildings: Sequence[BuildingRow], binary: Views) -> dict[str, Any]:
     """The table of buildings: identifier and name."""
     columns = {"id": [row.id for row in buildings], "name": [row.name for row in buildings]}
     properties = {}

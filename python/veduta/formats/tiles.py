@@ -14,7 +14,7 @@ import struct
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,7 +30,8 @@ class Tile:
     """A tile of the tree.
 
     transform: (4, 4) parent_from_tile. world_m: where the tile's frame begins in the flat frame of
-    the place; kept beside the transform, which may follow the curvature of the Earth.
+    the place; kept beside the transform, which may follow the curvature of the Earth. refine:
+    whether its children are shown beside its content or instead of it; None: as its parent's.
     """
 
     box: Box
@@ -39,6 +40,7 @@ class Tile:
     children: tuple[Tile, ...] = ()
     transform: NDArray[np.float64] | None = field(default=None, compare=False)
     world_m: tuple[float, float, float] | None = None
+    refine: Literal["ADD", "REPLACE"] | None = None
 
 
 def union(boxes: Iterable[Box]) -> Box:
@@ -59,7 +61,7 @@ def tileset(root: Tile) -> dict[str, Any]:
     return {
         "asset": {"version": "1.1"},
         "geometricError": max(root.error_m, 1.0),
-        "root": _tile(root) | {"refine": "REPLACE"},
+        "root": _tile(root) | {"refine": root.refine or "REPLACE"},
     }
 
 
@@ -72,6 +74,8 @@ def _tile(tile: Tile) -> dict[str, Any]:
         made["transform"] = column_major(tile.transform)
     if tile.content is not None:
         made["content"] = {"uri": tile.content}
+    if tile.refine is not None:
+        made["refine"] = tile.refine
     if tile.children:
         made["children"] = [_tile(child) for child in tile.children]
     if tile.world_m is not None:

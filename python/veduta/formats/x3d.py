@@ -110,16 +110,19 @@ class X3dScene:
         colour = (1.0, 1.0, 1.0) if texture is not None else material.colour
         glow = material.glow if glows else 0.0
         shine = 1.0 - material.roughness
-        self.node(
-            look,
-            "Material",
-            ambientIntensity=1.0,
-            diffuseColor=colour,
-            emissiveColor=[glow * channel for channel in material.colour],
-            specularColor=[0.5 * shine * shine] * 3,
-            shininess=round(0.1 + 0.6 * shine, 3),
-            transparency=round(1.0 - material.opacity, 4),
-        )
+        if not material.unlit:
+            self.node(
+                look,
+                "Material",
+                ambientIntensity=1.0,
+                diffuseColor=colour,
+                emissiveColor=[glow * channel for channel in material.colour],
+                specularColor=[0.5 * shine * shine] * 3,
+                shininess=round(0.1 + 0.6 * shine, 3),
+                transparency=round(1.0 - material.opacity, 4),
+            )
+        elif texture is None:
+            self.node(look, "UnlitMaterial", emissiveColor=colour)
         if texture is not None:
             image = self.node(look, "ImageTexture", url=[_address(texture, material.colour)])
             self.node(

@@ -86,6 +86,7 @@ def find_components(
         grown = [structure_of(model, names) for model in mapped.models]
         components, left = finish_components(grown, read.photos, options, progress)
         told.left += left
+        told.notes += [note for component in components for note in component.notes]
         step.rejected.extend(f"{name}: {reason}" for name, reason in left)
         step.counts["kinds tried"] = sum(len(component.lens.tried) for component in components)
     return components

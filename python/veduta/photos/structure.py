@@ -119,6 +119,17 @@ class Structure:
         )
         return found.with_points(np.bincount(found.point_of, minlength=len(self.points)) >= 2)
 
+    def without_doubtful(self, doubtful: NDArray[np.bool_]) -> tuple[Structure, tuple[str, ...]]:
+        """The same without doubtful photos (by row), and the names of those that stay all the same.
+
+        Where fewer than two would be left, all stay.
+        """
+        if not doubtful.any():
+            return self, ()
+        if np.count_nonzero(~doubtful) < 2:
+            return self, tuple(self.names[row] for row in np.flatnonzero(doubtful))
+        return self.without_photos(doubtful), ()
+
     def with_points(self, kept: NDArray[np.bool_]) -> Structure:
         """The same with some of the points, and their observations."""
         number = np.cumsum(kept) - 1

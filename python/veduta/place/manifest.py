@@ -60,6 +60,9 @@ class PlacePart(_Record):
     ground: bool = Field(
         default=False, description="whether it is the ground between the others, on which one walks"
     )
+    backdrop: bool = Field(
+        default=False, description="whether it is a picture around the others: nobody bumps into it"
+    )
 
     @model_validator(mode="after")
     def _is_affine(self) -> Self:
@@ -132,6 +135,19 @@ class Tour(_Record):
         return self
 
 
+class PlaceSun(_Record):
+    """Where the place is on the earth and when it is looked at: by these the sun stands."""
+
+    latitude_deg: Annotated[Finite, Field(ge=-90, le=90)] | None = None
+    longitude_deg: Annotated[Finite, Field(ge=-180, le=180)] | None = None
+    time: Annotated[str, Field(max_length=64)] | None = Field(
+        default=None, description="ISO 8601 with an offset; null where the place is not known"
+    )
+    assumed: list[Literal["north", "place", "time"]] = Field(
+        default=[], max_length=3, description="what of it nobody has said; north: that it is +y"
+    )
+
+
 class Start(_Record):
     """Where a visitor begins (m, world frame)."""
 
@@ -157,6 +173,7 @@ class Place(_Record):
     scale: Literal["metres", "unknown"] = Field(
         default="metres", description="unknown: the unit of length is not the metre, but any"
     )
+    sun: PlaceSun | None = Field(default=None, description="null: nothing is known of it")
     start: Start
 
     @model_validator(mode="after")
@@ -183,7 +200,7 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
     cameras and tours of the second move by the difference of the origins, and their files are
     looked for below `second_folder`. One that both have under one id is kept once if it is the same
     in all that it says, and refused otherwise: an id names one thing. They keep their order, the
-    first place's before the second's; the start is the first's.
+    first place's before the second's; the start and the sun are the first's.
     """
     if first.crs != second.crs:
         raise InputError(

@@ -37,6 +37,7 @@ class Material:
     roughness, metalness: glTF's, 0..1.
     opacity: 0..1; below 1 one sees through it (glass).
     glow: 0..1; the share of its colour that it gives off by itself (a lamp's glass).
+    unlit: whether it is seen as it is, whatever light falls on it (a picture of far away).
     """
 
     name: str
@@ -46,3 +47,4 @@ class Material:
     texture: Texture | None = None
     opacity: float = 1.0
     glow: float = 0.0
+    unlit: bool = False

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.compose import Named, compose_storey
-from veduta.plan.document import PlanDocument, Scale, Storey
+from veduta.plan.document import PlanDocument, Scale, Sheet, Storey
 from veduta.plan.drawn import Drawn, DrawnRoom
+from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
 from veduta.plan.names.strays import stray_names
@@ -21,16 +22,22 @@ from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
 from veduta.plan.registering import registered
-from veduta.plan.remarks import remarks
-from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
+from veduta.plan.remarks import false_flights, remarks
+from veduta.plan.scale.estimate import (
+    DrawnSizes,
+    estimate_scale,
+    judged_by,
+    scale_notes,
+)
 from veduta.plan.sheets import Pixels
 from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.vector.read import VectorPlan, read_vectors
-from veduta.run.errors import NotFoundError
+from veduta.plan.vector.units import text_notes
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import StepProgress
-from veduta.run.report import StepRecord, timed_step
+from veduta.run.report import Count, StepRecord, timed_step
 
 _NAMES = ("ground floor", "first floor", "second floor", "third floor")
 
@@ -43,6 +50,23 @@ class ReadPlan:
     sheets: list[Pixels]
 
 
+@dataclass(frozen=True)
+class _Read:
+    """What a drawing shows, before its scale is known.
+
+    sheet_px: height and width of a sheet whose edges may cut the plan off; None of vectors.
+    scale: finds the scale of a pixel of `drawn`, with what is to be said of it. of_file: leads the
+    frame of the cleaned sheet back to the file's own.
+    """
+
+    drawn: Drawn
+    sha256: str
+    notes: Sequence[str]
+    sheet_px: tuple[int, int] | None
+    scale: Callable[[], tuple[Scale, list[str]]]
+    of_file: Callable[[Sheet], Sheet]
+
+
 def read_drawings(
     drawings: Sequence[Drawing],
     options: PlanOptions,
@@ -53,23 +77,48 @@ def read_drawings(
     storeys: list[Storey] = []
     sheets: list[Pixels] = []
     for index, drawing in enumerate(drawings):
-        name = _NAMES[index] if index < len(_NAMES) else f"floor {index}"
-        elevation = index * options.house.storey_height
-        read = _read_vectors if is_dxf(drawing.path) else _read_one
-        storey, pixels = read(drawing, name, elevation, options, steps, progress)
-        storeys.append(storey)
-        sheets.append(pixels)
+        read = _read_vectors if is_dxf(drawing.path) else _read_picture
+        shown = read(drawing, options, steps, progress)
+        progress("scale and names", 0.0)
+        with timed_step(steps, "scale and names") as step:
+            storeys.append(_storey(index, drawing, shown, options))
+            step.counts["evidence"] = len(storeys[-1].scale.evidence)
+        sheets.append(shown.drawn.cleaned.pixels)
     return ReadPlan(PlanDocument(storeys=registered(storeys)), sheets)
 
 
-def _read_one(
-    drawing: Drawing,
-    name: str,
-    elevation_m: float,
-    options: PlanOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> tuple[Storey, Pixels]:
+def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> Storey:
+    """The storey of a drawing, the index-th from below; InputError where it is no house's."""
+    scale, said = read.scale()
+    metres_per_px = scale.metres_per_px
+    drawn = replace(read.drawn, stairs=true_flights(read.drawn, metres_per_px))
+    storey = compose_storey(
+        drawn,
+        scale,
+        file=drawing.path.name,
+        sha256=read.sha256,
+        page=drawing.page,
+        name=_NAMES[index] if index < len(_NAMES) else f"floor {index}",
+        elevation_m=index * options.house.storey_height,
+        height_m=options.house.storey_height,
+        named=_names(drawn, metres_per_px),
+        notes=[
+            *read.notes,
+            *remarks(drawn, read.sheet_px, metres_per_px),
+            *false_flights(read.drawn.stairs, drawn.stairs),
+            *said,
+            *_strays(drawn),
+        ],
+    )
+    if size_of(storey) > LARGEST_M:
+        fault = f"is {size_of(storey):.0f} m from end to end; {LARGEST_M:.0f} m are the most"
+        raise InputError(drawing.label, fault, "Give another scale with --scale.")
+    return storey.model_copy(update={"sheet": read.of_file(storey.sheet)})
+
+
+def _read_picture(
+    drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
+) -> _Read:
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
         scan = read_drawing(drawing)
@@ -83,80 +132,42 @@ def _read_one(
         drawn = read_storey(sheet.pixels, sheet.texts, subject=drawing.label)
         if not drawn.walls:
             raise NotFoundError("a floor plan", f"{drawing.label} shows no walls", _remedy(drawing))
-        step.counts |= {
-            "walls": len(drawn.walls),
-            "openings": len(drawn.openings),
-            "rooms": len(drawn.rooms),
-        }
-    progress("scale and names", 0.0)
-    with timed_step(steps, "scale and names") as step:
-        scale = _scale(drawn, options, scan)
-        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
-        named = _names(drawn, scale.metres_per_px)
-        step.counts["evidence"] = len(scale.evidence)
-    storey = compose_storey(
+        step.counts |= _counts(drawn)
+    height, width = sheet.pixels.shape[:2]
+    return _Read(
         drawn,
-        scale,
-        file=drawing.path.name,
-        sha256=scan.sha256,
-        page=drawing.page,
-        name=name,
-        elevation_m=elevation_m,
-        height_m=options.house.storey_height,
-        named=named,
-        notes=[
-            *scan.notes,
-            *_position_notes(sheet),
-            *remarks(drawn, sheet.pixels.shape[:2], scale.metres_per_px),
-            *scale_notes(scale),
-            *_strays(drawn),
-        ],
+        scan.sha256,
+        [*scan.notes, *_position_notes(sheet)],
+        (height, width),
+        lambda: _picture_scale(drawn, options, scan),
+        lambda own: sheet_of_file(own, sheet),
     )
-    of_file = sheet_of_file(storey.sheet, sheet)
-    return storey.model_copy(update={"sheet": of_file}), drawn.cleaned.pixels
 
 
 def _read_vectors(
-    drawing: Drawing,
-    name: str,
-    elevation_m: float,
-    options: PlanOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> tuple[Storey, Pixels]:
-    """As `_read_one`, of a DXF file: the frame of its sheet's file is that of drawing units."""
+    drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
+) -> _Read:
+    """As `_read_picture`, of a DXF file: its sheet is in the frame of drawing units already."""
     given = options.scale.scale
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
         plan = read_vectors(drawing.path, None if given is None else given / 1000.0)
-        drawn = plan.drawn
-        step.counts |= plan.counts | {
-            "walls": len(drawn.walls),
-            "openings": len(drawn.openings),
-            "rooms": len(drawn.rooms),
-        }
-    progress("scale and names", 0.0)
-    with timed_step(steps, "scale and names") as step:
-        scale = _vector_scale(plan)
-        drawn = replace(drawn, stairs=true_flights(drawn, scale.metres_per_px))
-        named = _names(drawn, scale.metres_per_px)
-        step.counts["evidence"] = len(scale.evidence)
-    storey = compose_storey(
-        drawn,
-        scale,
-        file=drawing.path.name,
-        sha256=plan.sha256,
-        name=name,
-        elevation_m=elevation_m,
-        height_m=options.house.storey_height,
-        named=named,
-        notes=[*plan.notes, *remarks(drawn, None, scale.metres_per_px), *_strays(drawn)],
+        step.counts |= plan.counts | _counts(plan.drawn)
+    return _Read(
+        plan.drawn, plan.sha256, plan.notes, None, lambda: _vector_scale(plan), lambda own: own
     )
-    return storey, drawn.cleaned.pixels
 
 
-def _vector_scale(plan: VectorPlan) -> Scale:
-    """Of a pixel: the unit's, with what the texts say beside it; they are rounded."""
+def _counts(drawn: Drawn) -> dict[str, Count]:
+    return {
+        "walls": len(drawn.walls),
+        "openings": len(drawn.openings),
+        "rooms": len(drawn.rooms),
+    }
+
+
+def _vector_scale(plan: VectorPlan) -> tuple[Scale, list[str]]:
+    """Of a pixel: the unit's, with what the texts say beside it; and notes where they differ."""
     drawn, unit = plan.drawn, plan.unit
     metres_per_px = unit.metres_per_px / plan.px_per_unit
     sizes = DrawnSizes(
@@ -170,8 +181,10 @@ def _vector_scale(plan: VectorPlan) -> Scale:
         one.model_copy(update={"metres_per_px": one.metres_per_px / plan.px_per_unit})
         for one in unit.evidence
     ]
-    told = [one for one in estimate_scale(sizes, metres_per_px).evidence if one.kind != "given"]
-    return unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
+    said = estimate_scale(sizes)
+    told = judged_by(metres_per_px, said.evidence) if said.basis == "evidence" else []
+    scale = unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
+    return scale, text_notes(scale, said)
 
 
 def _remedy(drawing: Drawing) -> str:
@@ -180,8 +193,8 @@ def _remedy(drawing: Drawing) -> str:
     return "Give the picture of a drawn plan."
 
 
-def _scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> Scale:
-    """Of a pixel of the cleaned drawing; the option is of a pixel of the file."""
+def _picture_scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> tuple[Scale, list[str]]:
+    """Of a pixel of the cleaned drawing, with notes; the option is of a pixel of the file."""
     cleaned = drawn.cleaned
     finer = math.sqrt(abs(float(np.linalg.det(cleaned.clean_from_scan[:2, :2]))))
     given = options.scale.scale
@@ -194,7 +207,8 @@ def _scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> Scale:
         on_paper=scan.on_paper,
         texts=drawn.texts,
     )
-    return estimate_scale(sizes, None if given is None else given / 1000.0 / finer)
+    scale = estimate_scale(sizes, None if given is None else given / 1000.0 / finer)
+    return scale, scale_notes(scale)
 
 
 def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:

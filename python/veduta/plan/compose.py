@@ -108,6 +108,8 @@ def compose_storey(
                 treads=one.treads,
                 up=(one.up_px[0], -one.up_px[1]),
                 score=one.score,
+                steps_m=[frame.ring(step) for step in one.steps_px],
+                path_m=[] if one.path_px is None else frame.ring(one.path_px),
             )
             for one in drawn.stairs
         ],

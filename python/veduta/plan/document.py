@@ -9,7 +9,9 @@ from __future__ import annotations
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field
+
+from veduta.plan.surroundings.sun import read_time
 
 Origin = Literal["measured", "inferred", "invented", "edited"]
 """Drawn on the plan; follows from what is drawn and a rule; on no record; written by a person."""
@@ -28,6 +30,11 @@ RoomUse = Literal[
 Metres = Annotated[float, Field(ge=0.0, le=10_000.0)]
 Score = Annotated[float, Field(ge=0.0, le=1.0)]
 Point = tuple[float, float]
+Channel = Annotated[int, Field(ge=0, le=255)]
+TileCount = Annotated[int, Field(ge=1, le=64)]
+Latitude = Annotated[float, Field(ge=-90.0, le=90.0)]
+Longitude = Annotated[float, Field(ge=-180.0, le=180.0)]
+Panorama = Literal["round", "directions"]
 
 
 class _Record(BaseModel):
@@ -131,6 +138,46 @@ class Opening(_Record):
     origin: Origin = "measured"
 
 
+class PhotoFile(_Record):
+    """A photo of a room, as it was when it was looked at."""
+
+    file: str = Field(description="file name of the photo")
+    sha256: str
+
+
+class WallColour(_Record):
+    """What the walls of a room are painted with."""
+
+    srgb: tuple[Channel, Channel, Channel]
+    share: Score = Field(
+        default=0.0, description="of the photo's pixels, those within 3 steps of the colour"
+    )
+    photo: PhotoFile | None = None
+    origin: Origin = Field(default="edited", description="measured: by a photo")
+
+
+class Tiling(_Record):
+    """Tiles on the floor or the walls of a room; their texture is a picture beside the document."""
+
+    surface: Literal["floor", "wall"]
+    picture: Annotated[str, Field(pattern=r"^tiles-[A-Za-z0-9_-]{1,60}\.png$")] = Field(
+        description="file beside the document: whole tiles, which continue when it is repeated"
+    )
+    tiles: tuple[TileCount, TileCount] = Field(
+        description="how many the picture shows, to the right and down"
+    )
+    size_m: tuple[Metres, Metres] = Field(description="width and height of one tile with its joint")
+    size_origin: Origin = Field(
+        default="edited", description="invented: the likeliest of the sizes that are sold"
+    )
+    laid: bool = Field(default=True, description="whether the whole surface has them")
+    photo: PhotoFile | None = None
+    corners_px: list[Point] = Field(
+        default=[], description="what the picture shows, in the photo: clockwise from upper left"
+    )
+    origin: Origin = Field(default="edited", description="measured: by a photo")
+
+
 class Room(_Record):
     """A closed space. Outlines are inner faces of walls, counter-clockwise, not closed twice."""
 
@@ -146,17 +193,34 @@ class Room(_Record):
     walls: list[str] = []
     openings: list[str] = Field(default=[], description="those that lead in or let in light")
     mended: bool = Field(default=False, description="whether a gap was closed to make it a room")
+    wall_colour: WallColour | None = Field(default=None, description="null: no photo shows it")
+    tilings: list[Tiling] = Field(default=[], description="at most one of each surface")
     score: Score
     origin: Origin = "measured"
 
 
 class Stairs(_Record):
-    """A flight of stairs, as drawn."""
+    """Stairs, as drawn: a straight flight, or treads that turn or share landings."""
 
     id: str
     outline_m: list[Point]
-    treads: Annotated[int, Field(ge=1, le=100)]
-    up: Point = Field(description="direction in which it rises, of length 1; (0, 0) if not drawn")
+    treads: Annotated[int, Field(ge=1, le=100)] = Field(description="a landing is one")
+    up: Point = Field(
+        description="direction in which it rises at its foot, of length 1; (0, 0) if not drawn"
+    )
+    steps_m: list[list[Point]] = Field(
+        default=[],
+        description=(
+            "outlines of its treads and landings, from the lowest up; empty: a straight flight,"
+            " whose outline is cut into `treads` equal parts across `up`"
+        ),
+    )
+    path_m: list[Point] = Field(
+        default=[],
+        description=(
+            "walking line over `steps_m`, from the edge of the lowest to that of the upper floor"
+        ),
+    )
     score: Score
     origin: Origin = "measured"
 
@@ -188,6 +252,9 @@ class Light(_Record):
     at_m: Point
     above_m: Metres = Field(description="from the floor to where it shines from")
     lumen: Annotated[float, Field(gt=0.0, le=100_000.0)]
+    thing: str | None = Field(
+        default=None, description="id of the furniture that is this lamp: it shines from there"
+    )
     origin: Origin = "invented"
 
 
@@ -222,10 +289,35 @@ class Storey(_Record):
     notes: list[str] = Field(default=[], description="what was assumed, mended or left out")
 
 
+def _checked_time(text: str) -> str:
+    read_time(text)
+    return text
+
+
 class PlanDocument(_Record):
     """Everything that was found in the drawings of one house."""
 
     schema_: Literal["veduta/plan"] = Field(default="veduta/plan", alias="schema")
     version: Literal[1] = 1
+    north_deg: Annotated[float, Field(ge=0.0, le=360.0)] | None = Field(
+        default=None,
+        description="where north is on the page, clockwise from up; null: not known, up is taken",
+    )
+    place_deg: tuple[Latitude, Longitude] | None = Field(
+        default=None, description="latitude and longitude, north and east positive (WGS 84)"
+    )
+    time: Annotated[str, AfterValidator(_checked_time)] | None = Field(
+        default=None,
+        description=(
+            "when it is looked at, ISO 8601; without an offset by the clock of the longitude's zone"
+        ),
+    )
+    panorama: Panorama | None = Field(
+        default=None,
+        description=(
+            "the picture around the house, beside this file. round: panorama.jpg, its middle is"
+            " north; directions: panorama-north.jpg, -east, -south and -west"
+        ),
+    )
     storeys: list[Storey]
     notes: list[str] = []

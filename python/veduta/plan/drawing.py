@@ -11,7 +11,7 @@ from typing import Literal, get_args
 import numpy as np
 from numpy.typing import NDArray
 from shapely import get_coordinates, offset_curve
-from shapely.geometry import Polygon
+from shapely.geometry import LineString, Polygon
 from shapely.ops import substring
 
 from veduta.plan.document import Furniture, Stairs, Storey
@@ -21,6 +21,7 @@ from veduta.plan.house.space import Space, pieces_of
 Layer = Literal["rooms", "furniture", "walls", "windows", "doors", "stairs", "names"]
 LAYERS: tuple[Layer, ...] = get_args(Layer)
 _ARC_STEPS = 12
+_BARB_M = 0.1
 
 
 @dataclass(frozen=True)
@@ -96,6 +97,8 @@ def _rings(shape: Polygon) -> tuple[NDArray[np.float64], ...]:
 
 def _stairs(stairs: Stairs) -> Shape:
     """A flight with its treads, and an arrow up where it is known."""
+    if stairs.steps_m:
+        return _turning(stairs)
     ring = np.array(stairs.outline_m)
     way = np.array(stairs.up)
     sides = np.roll(ring, -1, axis=0) - ring
@@ -120,6 +123,20 @@ def _stairs(stairs: Stairs) -> Shape:
         heads = [point(tip - 1.5 * barb, middle + side * barb) for side in (-1.0, 1.0)]
         lines.append(np.array([heads[0], point(tip, middle), heads[1]]))
     return Shape("stairs", (ring,), tuple(lines), name=stairs.id)
+
+
+def _turning(stairs: Stairs) -> Shape:
+    """As a straight flight; the arrow follows the walking line."""
+    lines = [np.array([*ring, ring[0]]) for ring in stairs.steps_m]
+    if np.hypot(*stairs.up) > 0.5:
+        path = LineString(stairs.path_m)
+        inset = 0.5 * path.length / stairs.treads
+        shaft = np.array(substring(path, inset, path.length - inset).coords)
+        tip, along = shaft[-1], (shaft[-1] - shaft[-2]) / np.hypot(*(shaft[-1] - shaft[-2]))
+        across = np.array([-along[1], along[0]])
+        heads = [tip - _BARB_M * (1.5 * along + side * across) for side in (-1.0, 1.0)]
+        lines += [shaft, np.array([heads[0], tip, heads[1]])]
+    return Shape("stairs", (np.array(stairs.outline_m),), tuple(lines), name=stairs.id)
 
 
 def _middle(region: Polygon) -> tuple[float, float]:

@@ -8,12 +8,12 @@ The fields are those of `document`, whose metres are `_px` here.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry import Polygon
 
 from veduta.plan.document import (
     JunctionType,
@@ -31,7 +31,7 @@ class Cleaned:
     `pixels` (h, w, 3) uint8 sRGB; `ink` (h, w) float32, 0 paper to 1 ink, after the light was made
     even; `clean_from_scan` (3, 3) takes pixel coordinates of the scan to those of `pixels`.
     `rotation_rad` is by how much the scan was turned, counter-clockwise as one sees it.
-    `line_px` is the width of the thin lines. `texts` are in cleaned pixels, if they were read.
+    `line_px` is the width of the thin lines.
     """
 
     pixels: NDArray[np.uint8]
@@ -40,7 +40,6 @@ class Cleaned:
     mirrored: bool
     rotation_rad: float
     line_px: float
-    texts: tuple[Text, ...] | None = None
     notes: tuple[str, ...] = ()
 
 
@@ -104,14 +103,16 @@ class DrawnRoom:
     @property
     def area_px2(self) -> float:
         """Its area without its holes."""
-        return _area(self.outline_px) - sum(_area(hole) for hole in self.holes_px)
+        return float(Polygon(self.outline_px, self.holes_px).area)
 
 
 @dataclass(frozen=True)
 class DrawnStairs:
     """A flight of stairs; `up_px` has length 1, or is (0, 0) where no arrow is drawn.
 
-    `across`: its treads are upright lines, so that it runs along x.
+    `across`: its treads are upright lines, so that it runs along x. Stairs that turn have their
+    treads, landings with them, as `steps_px` from the lowest up (in either order where no arrow is
+    drawn), and `path_px` (n, 2), the walking line over them.
     """
 
     id: str
@@ -120,6 +121,8 @@ class DrawnStairs:
     up_px: tuple[float, float]
     score: float
     across: bool = False
+    steps_px: tuple[NDArray[np.float64], ...] = ()
+    path_px: NDArray[np.float64] | None = None
 
 
 @dataclass(frozen=True)
@@ -148,8 +151,3 @@ class Drawn:
     def wall_ends(self, wall: DrawnWall) -> NDArray[np.float64]:
         """The centre line's two ends, (2, 2)."""
         return np.array([self.junction(wall.start).at_px, self.junction(wall.end).at_px])
-
-
-def _area(ring: Sequence[tuple[float, float]] | NDArray[np.float64]) -> float:
-    x, y = np.asarray(ring, dtype=float).T
-    return float(abs(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1))) / 2)

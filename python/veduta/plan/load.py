@@ -6,7 +6,8 @@ import math
 from collections.abc import Iterable, Mapping
 from pathlib import Path
 
-from shapely.geometry import Polygon
+import numpy as np
+from shapely.geometry import LineString, Polygon
 
 from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
 from veduta.plan.house.lines import wall_lines
@@ -26,8 +27,12 @@ MAX_BULGE = 1.0
 LEAST_STOREY_M = 2.0
 TALLEST_M = 100.0
 """Nothing that stands in a house reaches higher."""
+LARGEST_M = 500.0
+"""From one end of a storey to the other: what is larger is no house."""
 _SHORTEST_M = 0.01
 _LEAST_FLIGHT_M2 = 0.05
+_LEAST_STEP_M2 = 0.01
+_LEAST_GOING_M = 0.02
 _UNIT_SLACK = 0.01
 _BEYOND_M = 0.02
 _REMEDY = "Mend it there; docs/plan.md says what each field means."
@@ -64,6 +69,9 @@ def _faults(document: PlanDocument) -> list[str]:
         place = f"storeys[{index}]"
         # Geometry is looked at only where the ids hold together.
         found += _id_faults(storey, place) or _storey_faults(storey, place)
+        if size_of(storey) > LARGEST_M:
+            size = f"{size_of(storey):.0f} m from end to end"
+            found.append(f"{place}: is {size}; {LARGEST_M:.0f} m are the most")
         if not storey.walls and not storey.rooms:
             found.append(f"{place}: has neither walls nor rooms")
     elevations = [storey.elevation_m for storey in document.storeys]
@@ -73,6 +81,14 @@ def _faults(document: PlanDocument) -> list[str]:
                 f"storeys[{index}].elevation_m: another storey lies at {elevation:g} m, too"
             )
     return found
+
+
+def size_of(storey: Storey) -> float:
+    """From one end of its walls, rooms and stairs to the other, along x or y (m)."""
+    points = [junction.at_m for junction in storey.junctions]
+    points += [point for room in storey.rooms for point in room.outline_m]
+    points += [point for flight in storey.stairs for point in flight.outline_m]
+    return float(np.ptp(points, axis=0).max()) if points else 0.0
 
 
 def _id_faults(storey: Storey, place: str) -> list[str]:
@@ -195,9 +211,22 @@ def _room_faults(room: Room, place: str) -> list[str]:
             return [f"{place}.{name}: {len(ring)} points, not between 3 and {MAX_POINTS}"]
         if not Polygon(ring).is_valid:
             return [f"{place}.{name}: its line crosses or touches itself"]
+    if room.tilings and (faults := _tiling_faults(room, place)):
+        return faults
     if len(rings) > 1 and not Polygon(room.outline_m, room.holes_m).is_valid:
         return [f"{place}.holes_m: they cross or touch the outline, or each other"]
     return []
+
+
+def _tiling_faults(room: Room, place: str) -> list[str]:
+    found = []
+    for index, tiling in enumerate(room.tilings):
+        at = f"{place}.tilings[{index}]"
+        if min(tiling.size_m) < _SHORTEST_M:
+            found.append(f"{at}.size_m: a side is less than {_SHORTEST_M:g} m")
+        if any(other.surface == tiling.surface for other in room.tilings[:index]):
+            found.append(f"{at}.surface: the {tiling.surface} has tiles already")
+    return found
 
 
 def _stairs_faults(flight: Stairs, place: str) -> list[str]:
@@ -209,6 +238,27 @@ def _stairs_faults(flight: Stairs, place: str) -> list[str]:
         return [f"{place}.outline_m: its line crosses itself, or encloses nothing"]
     if length > 0.0 and abs(length - 1.0) > _UNIT_SLACK:
         return [f"{place}.up: is {length:g} long, not 1 (or 0 where it is not known)"]
+    return _steps_faults(flight, place)
+
+
+def _steps_faults(flight: Stairs, place: str) -> list[str]:
+    """Of stairs that turn: as many outlines as treads, and a walking line over all of them."""
+    if not flight.steps_m:
+        return [f"{place}.path_m: there are no steps_m that it leads over"] if flight.path_m else []
+    if len(flight.steps_m) != flight.treads:
+        return [f"{place}.steps_m: {len(flight.steps_m)} outlines, but {flight.treads} treads"]
+    for index, ring in enumerate(flight.steps_m):
+        if not 3 <= len(ring) <= MAX_POINTS:
+            return [f"{place}.steps_m[{index}]: {len(ring)} points, not between 3 and {MAX_POINTS}"]
+        step = Polygon(ring)
+        if not step.is_valid or step.area < _LEAST_STEP_M2:
+            return [f"{place}.steps_m[{index}]: its line crosses itself, or encloses nothing"]
+    if not 2 <= len(flight.path_m) <= MAX_POINTS:
+        return [f"{place}.path_m: {len(flight.path_m)} points, not between 2 and {MAX_POINTS}"]
+    path = LineString(flight.path_m)
+    for index, ring in enumerate(flight.steps_m):
+        if path.intersection(Polygon(ring)).length < _LEAST_GOING_M:
+            return [f"{place}.path_m: does not lead over steps_m[{index}]"]
     return []
 
 

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
+from veduta.plan.surroundings.sun import read_time
 from veduta.run.options import Options
 
 RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]
@@ -124,9 +125,58 @@ class HouseOptions(Options):
     )
 
 
+class SiteOptions(Options):
+    """Where the house stands, when it is looked at, and what is seen around it."""
+
+    north: Annotated[float, Field(ge=-360.0, le=360.0)] | None = Field(
+        default=None,
+        description="where north is on the page, clockwise from up (degrees); up if nobody knows",
+    )
+    place: tuple[float, float] | None = Field(
+        default=None,
+        description="where the house stands, for the sun: latitude and longitude (degrees)",
+    )
+    time: Annotated[str, Field(max_length=64)] | None = Field(
+        default=None,
+        description=(
+            "when it is looked at, for the sun, such as 2026-06-21T15:00 (by the clock of the"
+            " longitude's zone) or 2026-06-21T15:00+02:00"
+        ),
+    )
+    panorama: Annotated[str, Field(min_length=1, max_length=8192)] | None = Field(
+        default=None,
+        description=(
+            "picture around the house: a file that shows all of it, with north in its middle, or"
+            " four such as N=a.jpg,E=b.jpg,S=c.jpg,W=d.jpg"
+        ),
+    )
+
+    @field_validator("place")
+    @classmethod
+    def _on_earth(cls, place: tuple[float, float] | None) -> tuple[float, float] | None:
+        if place is None:
+            return None
+        latitude, longitude = place
+        if not -90.0 <= latitude <= 90.0:
+            raise ValueError(
+                f"{latitude:g} is no latitude: it goes from -90 to 90, and comes first"
+            )
+        if not -180.0 <= longitude <= 180.0:
+            raise ValueError(f"{longitude:g} is no longitude: it goes from -180 to 180")
+        return place
+
+    @field_validator("time")
+    @classmethod
+    def _is_time(cls, text: str | None) -> str | None:
+        if text is not None:
+            read_time(text)
+        return text
+
+
 class PlanOptions(Options):
     """All options of the verb that change its result."""
 
     input: InputOptions = InputOptions()
     scale: ScaleOptions = ScaleOptions()
     house: HouseOptions = HouseOptions()
+    site: SiteOptions = SiteOptions()

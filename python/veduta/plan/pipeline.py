@@ -10,6 +10,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from pydantic import JsonValue
+
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
@@ -18,12 +20,17 @@ from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.furnish.furnish import furnish
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
+from veduta.plan.idle_options import idle_notes
 from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import HouseOptions, PlanOptions
+from veduta.plan.options import HouseOptions, PlanOptions, SiteOptions
 from veduta.plan.pages import Drawing, find_drawings
+from veduta.plan.photos.finish import Finished, load_pictures, picture_digests, with_photos
+from veduta.plan.photos.given import RoomPhoto, place_of
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
+from veduta.plan.surroundings.site import check_site, with_site
 from veduta.plan.tour.find import Tour, find_tour
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
@@ -35,11 +42,15 @@ from veduta.run.progress import Progress, StepProgress
 from veduta.run.record import CALL
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "4"
+VERSION = "6"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
+_UNWRITTEN = (
+    f"{DOCUMENT} was edited and stays as it is: it does not say what --north, --place, --time,"
+    " --panorama and --photos do. Give them again at the next rebuild, or write them there."
+)
 
 
 @dataclass
@@ -52,6 +63,8 @@ class PlanResult:
     failure: Failure | None = None
     outdated: bool = False
     """Whether plan.json was changed since the house was made from it."""
+    notes: list[str] = field(default_factory=list)
+    """Options that changed nothing, and why."""
     edited: list[str] = field(default_factory=list)
     foreign: list[str] = field(default_factory=list)
 
@@ -61,32 +74,52 @@ class PlanResult:
         return 3 if self.failure else 0
 
 
+@dataclass(frozen=True)
+class _Given:
+    """What a house is made of: a document or drawings, photos of rooms, furniture, a panorama."""
+
+    plan: PlanDocument | list[Drawing]
+    photos: Sequence[RoomPhoto]
+    catalogue: Catalogue
+    panorama: Pictures | None
+
+
 def run_plan(
     paths: Sequence[Path],
     out: Path,
     options: PlanOptions,
     progress: Progress,
     *,
+    photos: Sequence[RoomPhoto] = (),
     force: bool = False,
 ) -> PlanResult:
-    """Make a house of drawings or of a document in OUT, by the rules of `run.outputs`."""
+    """Make a house of drawings or of a document in OUT, by the rules of `run.outputs`.
+
+    photos: of rooms, whose paint and tiles they show.
+    """
     call = plan_call(paths)
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
     checked = load_document(call.paths[0]) if call.kind == "document" else None
+    check_site(checked, options.site)
     catalogue = catalogue_of(options.house.catalogue)
-    digests = catalogue_digests(options.house.catalogue, catalogue)
     if checked is not None:
         check_objects(checked, catalogue, call.paths[0])
+        for photo in photos:
+            place_of(checked, photo.room)
+    panorama = _panorama(call, checked, options)
     drawings = _drawings(call, options)
-    used: Options = options if call.kind == "drawings" else options.house
-    key = result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *digests])
+    given = _Given(checked or drawings, photos, catalogue, panorama)
+    key = _key(call, given, checked, options)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
+        result.notes = [] if checked is None else idle_notes(checked, options)
+        if _stays(opened) and (photos or options.site != SiteOptions()):
+            result.notes.append(_UNWRITTEN)
         if not result.up_to_date and not _is_left(opened, call):
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, checked or drawings, catalogue, options, opened, key, progress.step)
+                _make(call, given, options, opened, key, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
@@ -99,6 +132,44 @@ def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:
     if options.input.pages is not None:
         raise InputError("--pages", "is for PDFs, and a document is given", "Leave it out.")
     return []
+
+
+def _panorama(call: Call, checked: PlanDocument | None, options: PlanOptions) -> Pictures | None:
+    """The pictures around the house: those that are asked for, else the document's."""
+    if options.site.panorama is not None:
+        return given_pictures(options.site.panorama)
+    if checked is None or checked.panorama is None:
+        return None
+    return kept_pictures(checked.panorama, call.paths[0].parent)
+
+
+def _key(call: Call, given: _Given, checked: PlanDocument | None, options: PlanOptions) -> str:
+    """All that the result depends on."""
+    digests: list[JsonValue] = [*catalogue_digests(options.house.catalogue, given.catalogue)]
+    if checked is not None:
+        digests += picture_digests(call.paths[0].parent, checked)
+    if given.panorama is not None:
+        digests.append(given.panorama.digest)
+    digests += [photo.identity for photo in given.photos]
+    return result_key_of(call, options, digests)
+
+
+def result_key_of(call: Call, options: PlanOptions, others: Sequence[JsonValue]) -> str:
+    """The key of a result: of the files that options name their content, wherever they lie.
+
+    others: the digests of those files, and what takes part besides what is read or rebuilt.
+    """
+    house = options.house.model_copy(update={"catalogue": None})
+    site = options.site.model_copy(update={"panorama": None})
+    used = _used(call, options.model_copy(update={"house": house, "site": site}))
+    return result_key(COMMAND[call.kind], VERSION, used, [*call.identity, *others])
+
+
+def _used(call: Call, options: PlanOptions) -> Options:
+    """The options that count: a house that is rebuilt has its drawings and scale."""
+    if call.kind == "drawings":
+        return options
+    return PlanOptions(house=options.house, site=options.site)
 
 
 def _is_made(opened: OutFolder, call: Call, key: str, *, force: bool) -> bool:
@@ -120,10 +191,14 @@ def _is_left(opened: OutFolder, call: Call) -> bool:
     return True
 
 
+def _stays(opened: OutFolder) -> bool:
+    """Whether the house is made from the document in OUT, and that was edited: it is kept."""
+    return opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
+
+
 def _make(
     call: Call,
-    given: PlanDocument | list[Drawing],
-    catalogue: Catalogue,
+    given: _Given,
     options: PlanOptions,
     opened: OutFolder,
     key: str,
@@ -131,14 +206,22 @@ def _make(
 ) -> None:
     """All steps; drawings in which there is no plan end in a report that says why."""
     steps: list[StepRecord] = []
-    used: Options = options if call.kind == "drawings" else options.house
+    used = _used(call, options)
+    stays = _stays(opened)
     work = opened.work_folder(CALL)
     try:
-        document, sheets, notes = _document(call, given, options, steps, progress)
+        read, sheets, notes = _document(call, given.plan, options, steps, progress)
+        finished = _finishes(call, read, given.photos, steps, progress)
+        notes = [*notes, *finished.notes]
+        kind = None if given.panorama is None else given.panorama.kind
+        document = with_site(finished.document, options.site)
+        document = document.model_copy(update={"panorama": kind})
+        if stays and document != read:
+            notes = [*notes, _UNWRITTEN]
         if not options.house.no_furniture:
-            document = _furnish(document, catalogue, options.house, steps, progress)
+            document = _furnish(document, given.catalogue, options.house, steps, progress)
         lit = _lights(document, options, steps, progress)
-        result = _house(lit.document, sheets, options, steps, progress)
+        result = _house(lit.document, finished, given, sheets, options, steps, progress)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -148,14 +231,12 @@ def _make(
         opened.publish(CALL, key, work, {}, failure)
     else:
         progress("write", 0.0)
-        with writing_to(opened.path), timed_step(steps, "write"):
-            write_result(result, work, options.house)
+        with writing_to(opened.path), timed_step(steps, "write") as step:
+            step.rejected.extend(write_result(result, work, options.house))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
-        # An edited document in OUT stays as it is.
-        stays = opened.standing is Standing.AMENDED and DOCUMENT in opened.edited()
         made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
         opened.publish(CALL, key, work, {**measures(result.document), MADE_FROM: made_from})
     if opened.standing is not Standing.AMENDED:
@@ -177,7 +258,30 @@ def _document(
     with timed_step(steps, "load") as step:
         sheets, notes = load_sheets(call.paths[0].parent, given)
         step.counts["storeys"] = len(given.storeys)
-    return given, sheets, notes
+    return given, sheets, [*idle_notes(given, options), *notes]
+
+
+def _finishes(
+    call: Call,
+    document: PlanDocument,
+    photos: Sequence[RoomPhoto],
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> Finished:
+    """The document with the paint and the tiles that photos show, and the pictures of tiles."""
+    before = load_pictures(call.paths[0].parent, document)
+    if not photos:
+        return before
+    progress("photos", 0.0)
+    with timed_step(steps, "photos") as step:
+        finished = with_photos(before, photos)
+        step.counts |= {
+            "photos": len(photos),
+            "colours": sum(look.colour is not None for look in finished.looks),
+            "tiles": sum(len(look.tiles) for look in finished.looks),
+        }
+        step.rejected.extend(finished.notes)
+    return finished
 
 
 def _furnish(
@@ -198,6 +302,9 @@ def _furnish(
             f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
             for room in rooms
             if room.missing
+        )
+        step.rejected.extend(
+            f"{room.room.id} ({room.room.use}): {note}" for room in rooms for note in room.notes
         )
     return done
 
@@ -223,6 +330,8 @@ def _lights(
 
 def _house(
     document: PlanDocument,
+    finished: Finished,
+    given: _Given,
     sheets: list[Pixels],
     options: PlanOptions,
     steps: list[StepRecord],
@@ -230,7 +339,7 @@ def _house(
 ) -> Result:
     progress("house", 0.0)
     with timed_step(steps, "house") as step:
-        house = build_house(document, options.house)
+        house = build_house(document, options.house, finished.pictures)
         part = house.part
         step.counts |= {
             "features": len(part.features),
@@ -241,7 +350,7 @@ def _house(
     tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
     progress("drawings", 0.0)
     with timed_step(steps, "drawings"):
-        return result_of(document, house, tour, sheets)
+        return result_of(document, house, tour, sheets, finished, given.panorama)
 
 
 def _tour(

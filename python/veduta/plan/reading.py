@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
-from veduta.plan.clean.sheet import TextReader, clean_sheet
+from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
@@ -30,6 +30,7 @@ from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
+from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.bows import with_bows
 from veduta.plan.walls.find import Found, find_walls
@@ -48,25 +49,21 @@ class KnownWalls:
 
 def read_storey(
     pixels: NDArray[np.uint8],
-    texts: Sequence[Text] | TextReader | None = None,
-    metres_per_px_hint: float | None = None,
+    texts: Sequence[Text] = (),
     subject: str = "the drawing",
 ) -> Drawn:
     """Walls, openings and rooms of one storey from (h, w, 3) sRGB pixels.
 
-    `texts` are in pixels of the given picture, or a function that reads them from a cleaned one.
-    `metres_per_px_hint` is of the given picture; without it, sizes count in wall thicknesses.
+    `texts` are in pixels of the given picture. Sizes count in wall thicknesses.
     Raises NotFoundError where the picture, which it calls `subject`, shows no plan.
     """
     cleaned = clean_sheet(pixels, subject)
-    found_texts = texts_of(cleaned, texts)
-    return read_cleaned(cleaned, found_texts, metres_per_px_hint)
+    return read_cleaned(cleaned, moved_texts(texts, cleaned.clean_from_scan))
 
 
 def read_cleaned(
     cleaned: Cleaned,
     texts: Sequence[Text] = (),
-    metres_per_px_hint: float | None = None,
     known: KnownWalls | None = None,
 ) -> Drawn:
     """As `read_storey`, of a cleaned sheet; texts are in its pixels.
@@ -114,17 +111,3 @@ def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
         for gap, view, out in zip(gaps, seen, outer, strict=True)
     ]
     return [one for one in second if one is not None]
-
-
-def texts_of(cleaned: Cleaned, texts: Sequence[Text] | TextReader | None) -> tuple[Text, ...]:
-    """Texts in cleaned pixels, moved there or read there."""
-    if texts is None:
-        return cleaned.texts or ()
-    if callable(texts):
-        return tuple(texts(cleaned.pixels))
-    linear, offset = cleaned.clean_from_scan[:2, :2], cleaned.clean_from_scan[:2, 2]
-    moved = []
-    for text in texts:
-        corners = np.array(text.box_px) @ linear.T + offset
-        moved.append(text.model_copy(update={"box_px": [(float(x), float(y)) for x, y in corners]}))
-    return tuple(moved)

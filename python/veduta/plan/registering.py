@@ -57,7 +57,13 @@ def moved(storey: Storey, by_m: Point) -> Storey:
         "junctions": [one.model_copy(update={"at_m": at(one.at_m)}) for one in storey.junctions],
         "rooms": rooms,
         "stairs": [
-            one.model_copy(update={"outline_m": [at(point) for point in one.outline_m]})
+            one.model_copy(
+                update={
+                    "outline_m": [at(point) for point in one.outline_m],
+                    "steps_m": [[at(point) for point in step] for step in one.steps_m],
+                    "path_m": [at(point) for point in one.path_m],
+                }
+            )
             for one in storey.stairs
         ],
     }

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from shapely.geometry import LineString, Polygon
 from shapely.ops import unary_union
 
-from veduta.plan.drawn import Drawn
+from veduta.plan.drawn import Drawn, DrawnStairs
 
 BORDER = 0.012
 """A wall that ends within this share of the sheet's long side before its edge may go on there."""
@@ -39,6 +39,25 @@ def remarks(drawn: Drawn, scan_size_px: Sequence[int] | None, metres_per_px: flo
         *_apart(drawn, metres_per_px),
         *_closed_in(drawn, metres_per_px),
     ]
+
+
+def false_flights(found: Sequence[DrawnStairs], true: Sequence[DrawnStairs]) -> list[str]:
+    """What looked like stairs and is none: its lines were taken out of the ink of walls before."""
+    kept = {id(one.outline_px) for one in true}
+    left = [one for one in found if id(one.outline_px) not in kept]
+    if not left:
+        return []
+    shown = ", ".join(_place(one) for one in left[:_SHOWN])
+    more = f" and {len(left) - _SHOWN} more" if len(left) > _SHOWN else ""
+    return [
+        f"lines at pixel {shown}{more} of the cleaned drawing look like treads, but have not the"
+        " size of stairs or lie in no room: they are taken neither for stairs nor for walls."
+    ]
+
+
+def _place(flight: DrawnStairs) -> str:
+    x, y = flight.outline_px.mean(axis=0)
+    return f"({x:.0f}, {y:.0f})"
 
 
 def _cut(drawn: Drawn, scan_size_px: Sequence[int]) -> list[str]:

@@ -11,8 +11,10 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.imaging.encode import jpeg_bytes
-from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.document import PlanDocument, Storey, Tiling, WallColour
+from veduta.plan.house.finishes import hex_of
 from veduta.plan.pages import drawing_label
+from veduta.plan.photos.picture import look_picture
 from veduta.plan.sheets import sheet_name
 from veduta.plan.writing import TOUR_PICTURE, Result
 from veduta.run.options import Options
@@ -21,6 +23,7 @@ from veduta.run.report import Failure, Report, StepRecord, counted
 
 FILES = (
     ("plan.json", "everything that was found, in metres; edit it and rebuild"),
+    ("tiles-1.png", "the first texture of tiles by a photo of a room, and so on"),
     ("overlay.png", "what was found, over the cleaned drawing, with the ids of the openings"),
     ("plan.svg", "the plan as a drawing"),
     ("plan.dxf", "the plan for CAD software, a layer for walls, doors, windows, rooms, furniture"),
@@ -28,10 +31,14 @@ FILES = (
         "house.ifc",
         "the house for BIM software (IFC4): walls, doors, windows, spaces, furniture, lamps",
     ),
+    ("house.city.json", "the house as CityJSON 2.0: shell, storeys, rooms, stairs, furniture"),
     ("house.glb", "the house as glTF 2.0, an animation for each leaf of a door and for the tour"),
     ("house.x3d", "the house as X3D 4.0: doors that open, lamps that switch on, views of rooms"),
+    ("tileset.json", "the house as 3D Tiles 1.1, its tiles in `tiles/`"),
     ("ground.glb", "the ground around it: lawn, paths, a drive to the garage"),
     ("garden.glb", "what grows there"),
+    ("panorama.glb", "what is seen around it, where a panorama was given"),
+    ("panorama.jpg", "its picture, for a rebuild; or panorama-north.jpg and so on"),
     ("place.json", "the house as a place with its tour, for `veduta view`"),
     ("tour.png", "the plan with the way of the tour"),
     ("sheet-1.png", "the cleaned drawing of the first storey, and so on"),
@@ -61,6 +68,8 @@ def measures(document: PlanDocument) -> dict[str, Any]:
         "windows": sum(opening.kind == "window" for opening in openings),
         "gaps": sum(opening.kind == "gap" for opening in openings),
         "stairs": sum(len(storey.stairs) for storey in storeys),
+        "painted_rooms": sum(room.wall_colour is not None for room in rooms),
+        "tilings": sum(len(room.tilings) for room in rooms),
         "furniture": sum(len(storey.furniture or ()) for storey in storeys),
         "doubtful_openings": doubtful,
         "mended_rooms": sum(room.mended for room in rooms),
@@ -99,16 +108,17 @@ def plan_report(
         state="done",
         options=options.model_dump(mode="json"),
         steps=steps,
-        measures=found,
+        measures=found | result.site.measures(),
         notes=list(said),
     )
     page = Page(
         title=subject,
         summary=summary_line(found),
-        facts=_facts(document, found),
+        facts=_facts(result, found),
         pictures=_pictures(result),
         tables=[
             *(_rooms(storey) for storey in document.storeys),
+            *(table for storey in document.storeys for table in _finishes(storey)),
             *(_openings(storey) for storey in document.storeys),
             *(table for storey in document.storeys for table in _furniture(storey)),
             *(table for storey in document.storeys for table in _evidence(storey)),
@@ -135,12 +145,13 @@ def failure_report(
     return report, render(report, Page(title=subject, summary="Nothing was built."))
 
 
-def _facts(document: PlanDocument, found: dict[str, Any]) -> list[tuple[str, str]]:
+def _facts(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
     facts = [
         ("rooms", str(found["rooms"])),
         ("area", f"{found['area_m2']:.1f} m² without balconies and terraces"),
     ]
-    for storey in document.storeys:
+    facts += result.site.facts()
+    for storey in result.document.storeys:
         scale = storey.scale
         size = f"{1000 * scale.metres_per_px:.2f} mm/px ± {100 * scale.sigma:.1f} %"
         facts.append((f"scale, {storey.name}", f"{size}, {_BASIS[scale.basis]}"))
@@ -153,6 +164,15 @@ def _pictures(result: Result) -> list[Picture]:
     if result.tour_picture is not None:
         way = "From blue to red. Thin lines: where one looks. Numbers: the order of the rooms."
         pictures.append(_picture("Tour", way, result.tour_picture, TOUR_PICTURE))
+    for look in result.looks:
+        pictures.append(
+            Picture(
+                f"Photo of {look.photo.room}",
+                f"{look.photo.path.name}: red: tiles that were found; yellow: their texture",
+                jpeg_bytes(look_picture(look), 88),
+                "image/jpeg",
+            )
+        )
     for index, (storey, pixels) in enumerate(
         zip(result.document.storeys, result.sheets, strict=True)
     ):
@@ -190,6 +210,27 @@ def _openings(storey: Storey) -> Table:
     ]  # fmt: skip
     columns = ("id", "kind", "type", "wall", "width m", "hinge", "swing", "score", "origin")
     return Table(f"Openings of {storey.name}", columns, rows)
+
+
+def _finishes(storey: Storey) -> list[Table]:
+    """What photos, or who edited the document, say of walls and floors."""
+    rows: list[tuple[str, ...]] = []
+    for room in storey.rooms:
+        name, colour = room.name or room.use, room.wall_colour
+        if colour is not None:
+            told = f"#{hex_of(colour)}"
+            rows.append((room.id, name, "wall", f"paint {told}", colour.origin, _file_of(colour)))
+        for tiling in room.tilings:
+            width, height = tiling.size_m
+            told = f"tiles {100 * width:g} x {100 * height:g} cm ({tiling.size_origin})"
+            told += "" if tiling.laid else ", not laid"
+            rows.append((room.id, name, tiling.surface, told, tiling.origin, _file_of(tiling)))
+    columns = ("room", "name", "surface", "finish", "origin", "photo")
+    return [Table(f"Finishes of {storey.name}", columns, rows)] if rows else []
+
+
+def _file_of(finish: WallColour | Tiling) -> str:
+    return "" if finish.photo is None else finish.photo.file
 
 
 def _furniture(storey: Storey) -> list[Table]:

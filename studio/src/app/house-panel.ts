@@ -1,7 +1,7 @@
 /** Day and night, lamps, doors and the map of a house. */
 import { css, html, LitElement, type TemplateResult } from "lit";
 import { hourText } from "../core/daylight.ts";
-import type { LightHabit, StudioState } from "../core/state.ts";
+import { type Layer, type LightHabit, type StudioState, withLayer } from "../core/state.ts";
 import { rowStyles } from "./row-styles.ts";
 import { theme } from "./theme.ts";
 
@@ -11,15 +11,22 @@ const HABITS: readonly { readonly value: LightHabit; readonly label: string; rea
   { value: "off", label: "Off", title: "All lamps are off" },
 ];
 
+const NOTHING_OFF: ReadonlySet<Layer> = new Set();
+
 export class HousePanel extends LitElement {
   static override properties = {
     state: { attribute: false },
     hasLamps: { type: Boolean },
     hasDoors: { type: Boolean },
+    hasBackdrop: { type: Boolean },
+    sunWords: { type: String },
   };
-  declare state: Pick<StudioState, "hour" | "lights" | "doors" | "map"> | null;
+  declare state: Pick<StudioState, "hour" | "lights" | "doors" | "map" | "off"> | null;
   declare hasLamps: boolean;
   declare hasDoors: boolean;
+  declare hasBackdrop: boolean;
+  /** Of which day and place the sun is. */
+  declare sunWords: string;
 
   static override styles = [
     theme,
@@ -42,6 +49,12 @@ export class HousePanel extends LitElement {
         font-variant-numeric: tabular-nums;
         color: var(--ink);
       }
+      .sun {
+        margin: -2px 8px 6px;
+        font-size: 12.5px;
+        line-height: 1.35;
+        color: var(--ink-soft);
+      }
       .lamps {
         color: var(--ink-soft);
       }
@@ -57,15 +70,18 @@ export class HousePanel extends LitElement {
     this.state = null;
     this.hasLamps = false;
     this.hasDoors = false;
+    this.hasBackdrop = false;
+    this.sunWords = "";
   }
 
   override render(): TemplateResult {
-    const { hour = 0, lights = "auto", doors = "approach", map = true } = this.state ?? {};
+    const { hour = 0, lights = "auto", doors = "approach", map = true, off = NOTHING_OFF } = this.state ?? {};
     return html`
       <h2 class="eyebrow" id="house">House</h2>
       <label class="row">Time <input type="range" aria-label="Time of the day" min="0" max="23.75" step="0.25"
         .value=${String(hour)} @input=${(event: Event) => this.#change({ hour: Number((event.target as HTMLInputElement).value) })} />
         <output>${hourText(hour)}</output></label>
+      <p class="sun">${this.sunWords}</p>
       ${this.hasLamps
         ? html`<div class="row"><span class="lamps">Lamps</span>
             <div class="segments" role="radiogroup" aria-label="Lamps">${HABITS.map(
@@ -77,6 +93,11 @@ export class HousePanel extends LitElement {
       ${this.hasDoors
         ? this.#switch("Doors stand open", "All doors stand open; else they open as you come (O)", doors === "open", {
             doors: doors === "open" ? "approach" : "open",
+          })
+        : ""}
+      ${this.hasBackdrop
+        ? this.#switch("Panorama", "The picture around the garden", !off.has("backdrop"), {
+            off: withLayer(off, "backdrop", off.has("backdrop")),
           })
         : ""}
       ${this.#switch("Map while walking", "A map of the storey on which you walk (K)", map, { map: !map })}

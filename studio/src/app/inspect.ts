@@ -108,7 +108,7 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     photoUnder: (x, y) => place.shots[viewer.picker.shotAt(x, y) ?? -1]?.id ?? null,
     tour: () => {
       const { tour: at } = store.value;
-      const [tour] = place.tours;
+      const tour = place.tours[at?.which ?? 0];
       return at === null || tour === undefined
         ? null
         : { ...at, room: stretchAt(tour, at.time_s)?.name ?? "" };

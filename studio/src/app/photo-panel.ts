@@ -2,6 +2,7 @@
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
 import type { Shot } from "../core/place.ts";
 import { icons } from "./icons.ts";
+import { lineStyles } from "./line-styles.ts";
 import { theme } from "./theme.ts";
 
 export class PhotoPanel extends LitElement {
@@ -24,6 +25,7 @@ export class PhotoPanel extends LitElement {
 
   static override styles = [
     theme,
+    lineStyles,
     css`
       :host {
         display: block;
@@ -47,19 +49,6 @@ export class PhotoPanel extends LitElement {
       button.name:hover {
         background: var(--hover);
       }
-      strong {
-        display: block;
-        font-weight: 600;
-        overflow: hidden;
-        text-overflow: ellipsis;
-        white-space: nowrap;
-      }
-      .name span {
-        color: var(--ink-soft);
-        font-size: 13px;
-        font-variant-numeric: tabular-nums;
-        white-space: nowrap;
-      }
       .back svg {
         transform: scaleX(-1);
       }
@@ -70,11 +59,6 @@ export class PhotoPanel extends LitElement {
         padding: 4px 10px 2px;
         font-size: 13px;
         color: var(--ink-soft);
-      }
-      input {
-        flex: 1;
-        min-width: 60px;
-        accent-color: var(--deep);
       }
     `,
   ];

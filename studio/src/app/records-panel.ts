@@ -10,6 +10,7 @@ const NAMES: Readonly<Record<Layer, string>> = {
   walls: "Walls found",
   points: "Points",
   cameras: "Cameras",
+  backdrop: "Panorama",
 };
 const SMALLEST_PX = 1;
 const LARGEST_PX = 8;

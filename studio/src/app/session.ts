@@ -1,5 +1,6 @@
 /** Opens the place that the page's address asks for. */
 import type { FeatureTable } from "../core/features.ts";
+import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
 import type { House } from "../core/house.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
@@ -13,6 +14,8 @@ export interface Session {
   readonly tables: readonly FeatureTable[];
   /** Those that one can walk in; empty where the place has none. */
   readonly houses: readonly House[];
+  /** The sun over the place through its day. */
+  readonly sunPath: SunPath;
   /** Whether there are lamps in them. */
   readonly hasLamps: boolean;
   readonly viewer: Viewer;
@@ -69,7 +72,8 @@ export async function openPlace(
   const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
-  store.update({ off: firstOff(place) });
+  const sunPath = sunPathOf(place.sun);
+  store.update({ off: firstOff(place), hour: sunPath.firstHour });
   viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses }, store);
   await viewer.prepare();
   onProgress(1, "");
@@ -77,6 +81,7 @@ export async function openPlace(
     place,
     tables: town?.tables ?? parts.map(({ table }) => table),
     town,
+    sunPath,
     houses: houses.map(({ house }) => house),
     hasLamps: houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0)),
     records: recordsOf(place, town !== null),
@@ -108,6 +113,7 @@ function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
     walls: !hasTown && parts.some(({ layer }) => layer === "walls"),
     points: clouds.length > 0,
     cameras: shots.length > 0,
+    backdrop: false, // a switch of the house's own panel
   };
   return (["model", "walls", "points", "cameras"] as const).filter((layer) => has[layer]);
 }

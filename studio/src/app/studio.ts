@@ -9,7 +9,7 @@ import { Store } from "../core/store.ts";
 import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
-import { durationOf } from "../core/tour.ts";
+import { durationOf, NOT_BEGUN, type TourState } from "../core/tour.ts";
 import "./feature-panel.ts";
 import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
@@ -161,7 +161,7 @@ export class Studio extends LitElement {
         <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
       </header>
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
-        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour).day > 0.5}
+        .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour, session.sunPath).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
       <div class="left" ?hidden=${!this.layersOpen}>${this.#layers(session)}</div>
@@ -197,6 +197,7 @@ export class Studio extends LitElement {
       <div class="sheet" ?hidden=${session.tables.length + records.length === 0}>
         <veduta-house ?hidden=${session.houses.length === 0} .state=${this.#store.value}
           .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${session.hasLamps}
+          .sunWords=${session.sunPath.words} .hasBackdrop=${session.place.parts.some(({ isBackdrop }) => isBackdrop)}
           @change-state=${(event: CustomEvent<Partial<StudioState>>) => this.#store.update(event.detail)}></veduta-house>
         <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
           @record=${(event: CustomEvent<{ layer: Layer; visible: boolean }>) => this.#record(event.detail)}
@@ -225,26 +226,25 @@ export class Studio extends LitElement {
   }
 
   #tourPanel({ place }: Session): TemplateResult | typeof nothing {
-    const [tour] = place.tours;
-    if (tour === undefined) return nothing;
+    if (place.tours.length === 0) return nothing;
     const { tour: at } = this.#store.value;
-    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tour=${tour} .at=${at}
+    return html`<veduta-tour-panel class="sheet" role="group" aria-label="The guided tour" .tours=${place.tours} .at=${at}
+      @choose-tour=${(event: CustomEvent<number>) => this.#goInTour({ which: event.detail, time_s: 0 })}
       @play-tour=${() => this.#toggleTour()}
-      @seek-tour=${(event: CustomEvent<number>) => this.#seekTour(event.detail)}></veduta-tour-panel>`;
+      @seek-tour=${(event: CustomEvent<number>) => this.#goInTour({ time_s: event.detail })}></veduta-tour-panel>`;
   }
 
   /** Plays on from where it was left, from its beginning after its end. */
   #toggleTour(): void {
-    const tour = this.session?.place.tours[0];
+    const at = this.#store.value.tour ?? NOT_BEGUN;
+    const tour = this.session?.place.tours[at.which];
     if (tour === undefined) return;
-    const at = this.#store.value.tour ?? { time_s: 0, playing: false };
     const time_s = at.time_s >= durationOf(tour) ? 0 : at.time_s;
-    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { time_s, playing: !at.playing } });
+    this.#store.update({ mode: "walk", shot: null, selected: null, tour: { ...at, time_s, playing: !at.playing } });
   }
 
-  #seekTour(time_s: number): void {
-    const playing = this.#store.value.tour?.playing ?? false;
-    this.#store.update({ mode: "walk", shot: null, tour: { time_s, playing } });
+  #goInTour(change: Partial<TourState>): void {
+    this.#store.update({ mode: "walk", shot: null, tour: { ...(this.#store.value.tour ?? NOT_BEGUN), ...change } });
   }
 
   /** What of a streamed place is drawn now, as the panel counts it. */
@@ -361,7 +361,7 @@ export class Studio extends LitElement {
 
   #changeHouse(command: HouseCommand): void {
     if (this.session === null || this.session.houses.length === 0) return;
-    const { change, words } = changeBy(command, this.#store.value);
+    const { change, words } = changeBy(command, this.#store.value, this.session.sunPath);
     this.#store.update(change);
     this.#say(words);
   }

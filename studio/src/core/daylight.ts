@@ -1,4 +1,6 @@
 /** The sun through a day, and how light it is. World frame, y north. */
+import type { Place } from "./place.ts";
+import { sunVector } from "./sun.ts";
 import { dot, length, scale, type Vec3 } from "./vector.ts";
 
 /** To the sun on a spring afternoon, from the street's side (facades look south): the usual light. */
@@ -10,6 +12,18 @@ const POLE: Vec3 = [0, Math.cos(LATITUDE_RAD), Math.sin(LATITUDE_RAD)];
 /** When the sun is where the usual light comes from; solar time. */
 export const DAY_HOUR = hourOf(AFTERNOON);
 export const NIGHT_HOUR = 22;
+
+/** The sun through one day of a place. */
+export interface SunPath {
+  /** Unit vector to the sun; hours from 0 to 24 by the clock of `zone`. */
+  readonly sunAt: (hour: number) => Vec3;
+  /** When the place is looked at first, and one hour each of day and night. */
+  readonly firstHour: number;
+  readonly dayHour: number;
+  readonly nightHour: number;
+  /** What is known of it, in words. */
+  readonly words: string;
+}
 
 export interface Daylight {
   /** Unit vector to the sun, or to the moon where the sun is down. */
@@ -27,8 +41,8 @@ const DUSK_SINE = 0.22;
 /** Where the moon stands by night: high, and from the side from which facades are seen. */
 const TO_MOON: Vec3 = [0.45, -0.55, 0.7];
 
-export function daylightAt(hour: number): Daylight {
-  const toSun = sunAt(hour);
+export function daylightAt(hour: number, path: SunPath = USUAL_PATH): Daylight {
+  const toSun = path.sunAt(hour);
   const height = toSun[2];
   const share = (height - NIGHT_SINE) / (DAY_SINE - NIGHT_SINE);
   const day = Math.min(1, Math.max(0, share));
@@ -57,6 +71,44 @@ function hourOf(toSun: Vec3): number {
 
 function cross(a: Vec3, b: Vec3): Vec3 {
   return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
+}
+
+const ASSUMED_NORTH = "north is taken to be up on the plan";
+
+/** Where nothing is known of a place. */
+export const USUAL_PATH: SunPath = {
+  sunAt,
+  firstHour: DAY_HOUR,
+  dayHour: DAY_HOUR,
+  nightHour: NIGHT_HOUR,
+  words: `The sun of a spring day at 45° north; ${ASSUMED_NORTH}`,
+};
+
+const STEP_HOURS = 0.25;
+
+/** The sun over a place on the day on which it is looked at; the usual one where nobody knows where it is. */
+export function sunPathOf(sun: Place["sun"]): SunPath {
+  if (sun === null) return USUAL_PATH;
+  const north = sun.northKnown ? "" : `; ${ASSUMED_NORTH}`;
+  if (sun.day === null) return { ...USUAL_PATH, words: `The sun of a spring day at 45° north${north}` };
+  const { latitude_deg, longitude_deg, midnight_ms, hour, date, zone, timeKnown } = sun.day;
+  const at = (hour: number): Vec3 => sunVector(latitude_deg, longitude_deg, midnight_ms + hour * 3_600_000);
+  const hours = Array.from({ length: 24 / STEP_HOURS }, (_, step) => step * STEP_HOURS);
+  const byHeight = hours.toSorted((a, b) => at(a)[2] - at(b)[2]);
+  const [lowest, highest] = [byHeight[0] ?? 0, byHeight.at(-1) ?? 12];
+  const given = daylightAt(hour, { ...USUAL_PATH, sunAt: at }).day > 0.5;
+  const day = timeKnown ? date : `${date} (assumed)`;
+  return {
+    sunAt: at,
+    firstHour: hour,
+    dayHour: given ? hour : highest,
+    nightHour: lowest,
+    words: `The sun of ${day} at ${degrees(latitude_deg, "N", "S")} ${degrees(longitude_deg, "E", "W")}, ${zone}${north}`,
+  };
+}
+
+function degrees(angle_deg: number, positive: string, negative: string): string {
+  return `${Math.abs(angle_deg).toFixed(1)}° ${angle_deg < 0 ? negative : positive}`;
 }
 
 export function hourText(hour: number): string {

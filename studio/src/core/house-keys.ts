@@ -1,5 +1,5 @@
 /** What the keys for houses change, and what is said of it. */
-import { DAY_HOUR, daylightAt, hourText, NIGHT_HOUR } from "./daylight.ts";
+import { daylightAt, hourText, type SunPath, USUAL_PATH } from "./daylight.ts";
 import type { Command } from "./input.ts";
 import type { LightHabit, StudioState } from "./state.ts";
 
@@ -13,10 +13,10 @@ const LIGHTS_WORDS: Readonly<Record<LightHabit, string>> = {
   off: "All lamps are off",
 };
 
-export function changeBy(command: HouseCommand, state: StudioState): { change: Change; words: string } {
+export function changeBy(command: HouseCommand, state: StudioState, path: SunPath = USUAL_PATH): { change: Change; words: string } {
   if (command === "daylight") {
-    const hour = daylightAt(state.hour).day > 0.5 ? NIGHT_HOUR : DAY_HOUR;
-    return { change: { hour }, words: `${hourText(hour)}, ${hour === NIGHT_HOUR ? "night" : "day"}` };
+    const hour = daylightAt(state.hour, path).day > 0.5 ? path.nightHour : path.dayHour;
+    return { change: { hour }, words: `${hourText(hour)}, ${hour === path.nightHour ? "night" : "day"}` };
   }
   if (command === "lights") {
     const lights = NEXT_LIGHTS[state.lights];

@@ -1,5 +1,5 @@
 /** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
-import type { Place as Manifest, PlaceCamera, PlacePart, PlacePoints } from "../generated/place.ts";
+import type { Place as Manifest, PlaceCamera, PlacePart, PlacePoints, PlaceSun } from "../generated/place.ts";
 import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
@@ -23,6 +23,22 @@ export interface Part {
   readonly isGround: boolean;
   /** With what it is shown and hidden; null for the ground, which is with its class alone. */
   readonly layer: Layer | null;
+  /** A picture around the others: nobody bumps into it, and it is not what one comes to see. */
+  readonly isBackdrop: boolean;
+}
+
+/** Where a place is on the earth, and the day on which it is looked at. */
+export interface SunDay {
+  readonly latitude_deg: number;
+  readonly longitude_deg: number;
+  /** When the day begins by the clock of `zone`, in milliseconds as `Date` counts them. */
+  readonly midnight_ms: number;
+  /** When it is looked at; 0 to 24. */
+  readonly hour: number;
+  /** As 2026-06-21 and UTC+01:00. */
+  readonly date: string;
+  readonly zone: string;
+  readonly timeKnown: boolean;
 }
 
 /** A cloud of points. */
@@ -56,6 +72,8 @@ export interface Place {
   readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
   readonly tileset: string | null;
+  /** What is known of its sun; `day` is null where nobody knows where it is. */
+  readonly sun: { readonly northKnown: boolean; readonly day: SunDay | null } | null;
   readonly start: { readonly eye: Vec3; readonly target: Vec3 };
 }
 
@@ -93,11 +111,34 @@ export function readPlace(text: string, file: string): Place {
     shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
     tours: tours.map((tour, index) => readTour(tour, `tour ${index + 1}`, broken)),
     scaleKnown: manifest.scale !== "unknown",
+    sun: readSun(manifest.sun, broken),
     start: {
       eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),
       target: readVec3(start.target, () => broken('"start.target" is not a point')),
     },
   };
+}
+
+/** As Python's `datetime.isoformat` writes it: a date, a time, and an offset from UTC. */
+const TIME = /^(\d{4}-\d\d-\d\d)T(\d\d):(\d\d)(?::(\d\d)(?:\.\d+)?)?([+-]\d\d:\d\d)$/;
+
+function readSun(value: unknown, broken: (fault: string) => Fault): Place["sun"] {
+  if (value === null || value === undefined) return null;
+  if (typeof value !== "object") throw broken('"sun" is not a record');
+  const { latitude_deg, longitude_deg, time, assumed } = value as Fields<PlaceSun>;
+  const isAssumed = (what: string): boolean => Array.isArray(assumed) && assumed.includes(what);
+  const northKnown = !isAssumed("north");
+  if (typeof latitude_deg !== "number" || typeof longitude_deg !== "number" || typeof time !== "string") {
+    return { northKnown, day: null };
+  }
+  const [, date = "", hours, minutes, seconds, offset = ""] = TIME.exec(time) ?? [];
+  const midnight_ms = Date.parse(`${date}T00:00:00${offset}`);
+  if (Math.abs(latitude_deg) > 90 || Math.abs(longitude_deg) > 180 || !Number.isFinite(midnight_ms)) {
+    throw broken('"sun" is at no place or time');
+  }
+  const hour = Number(hours) + Number(minutes) / 60 + Number(seconds ?? 0) / 3600;
+  const timeKnown = !isAssumed("time");
+  return { northKnown, day: { latitude_deg, longitude_deg, midnight_ms, hour, date, zone: `UTC${offset}`, timeKnown } };
 }
 
 function readTileset(value: unknown, broken: (fault: string) => Fault): string | null {
@@ -137,6 +178,7 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
   if (!isInside(part.model)) throw bad("model");
   const id = text("id");
   const isGround = part.ground === true;
+  const isBackdrop = part.backdrop === true;
   return {
     id,
     name: text("name"),
@@ -147,7 +189,8 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
     arrangement: part.arrangement,
     bounds: readBounds(part.bounds),
     isGround,
-    layer: isGround ? null : id === WALLS ? "walls" : "model",
+    isBackdrop,
+    layer: isBackdrop ? "backdrop" : isGround ? null : id === WALLS ? "walls" : "model",
   };
 }
 
@@ -157,11 +200,28 @@ function readBounds(value: unknown): Box | null {
   return isPoint(min) && isPoint(max) ? { min, max } : null;
 }
 
-/** The corners of the boxes of all parts but the ground, world frame: what one comes to see. */
+/** The corners of the boxes of all parts but the ground and what is around it, world frame: what one comes to see. */
 export function cornersOfPlace(place: Place): Vec3[] {
-  return place.parts.flatMap(({ bounds, isGround, worldFromPart }) =>
-    bounds === null || isGround ? [] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
+  return place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }) =>
+    bounds === null || isGround || isBackdrop ? [] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
   );
+}
+
+/** The ground of a town ends this far below the plane around it, into which it dips (grammar/ground_margin.py). */
+const DIPS_M = -0.3;
+
+/**
+ * The height of the lowest corner of the place's own ground, world frame; null where it has none, and 0
+ * where its end is meant to dip into the plane around it.
+ */
+export function lowestGround(place: Place): number | null {
+  const heights = place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }) =>
+    isGround || isBackdrop ? (bounds === null ? [0] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)[2])) : [],
+  );
+  if (heights.length === 0) return null;
+  const lowest = Math.min(...heights);
+  const joins = place.parts.some(({ isBackdrop }) => isBackdrop);
+  return joins || lowest < DIPS_M - 0.01 ? lowest : 0;
 }
 
 function list(value: unknown, most: number, what: string, broken: (fault: string) => Fault): unknown[] {

@@ -9,14 +9,14 @@ export interface RoomMap {
   readonly columns: number;
   readonly rows: number;
   /** 0 where there is none, else the room's number over all storeys plus one; storey by storey. */
-  readonly cells: Uint8Array;
+  readonly cells: Uint16Array;
 }
 
 /** Finer than half a thin wall, so that no room reaches through to the other side. */
 const LEAST_CELL_M = 0.05;
 const MOST_CELLS = 1_500_000;
-/** What a byte holds beside 0; rooms beyond get no light of their own. */
-export const MOST_ROOMS = 255;
+/** What two bytes hold beside 0: more rooms than a document may have in three storeys. */
+const MOST_ROOMS = 65_535;
 
 /** The rooms of a house, the lowest storey's first, each with its storey. */
 export function roomsOf(house: House): { readonly room: Room; readonly storey: number }[] {
@@ -34,7 +34,7 @@ export function roomMapOf(house: House): RoomMap {
   const corner: Point = [x0 - 2 * cell_m, y0 - 2 * cell_m];
   const columns = Math.ceil((x1 - x0) / cell_m) + 4;
   const rows = Math.ceil((y1 - y0) / cell_m) + 4;
-  const cells = new Uint8Array(columns * rows * house.storeys.length);
+  const cells = new Uint16Array(columns * rows * house.storeys.length);
   const map = { corner, cell_m, columns, rows, cells };
   for (const [index, { room, storey }] of rooms.entries()) {
     if (index < MOST_ROOMS) fill(map, room, storey * rows, index + 1);
@@ -73,7 +73,7 @@ function cutsOf(ring: readonly Point[], y: number): number[] {
 }
 
 /** Each room takes the free cells beside it: faces of walls lie on its very edge. */
-function grown({ columns, rows, cells }: RoomMap): Uint8Array {
+function grown({ columns, rows, cells }: RoomMap): Uint16Array {
   const wider = cells.slice();
   for (let at = 0; at < cells.length; at += 1) {
     if (cells[at] !== 0) continue;

@@ -23,11 +23,16 @@ export interface Tour {
   readonly stretches: readonly Stretch[];
 }
 
-/** Where the person is in the tour. */
+/** Where the person is in which of the tours. */
 export interface TourState {
+  /** Its number in the place. */
+  readonly which: number;
   readonly time_s: number;
   readonly playing: boolean;
 }
+
+/** Before a tour was begun. */
+export const NOT_BEGUN: TourState = { which: 0, time_s: 0, playing: false };
 
 export interface TourView {
   readonly eye: Vec3;

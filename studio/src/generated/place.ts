@@ -69,6 +69,10 @@ export interface Place {
    * unknown: the unit of length is not the metre, but any
    */
   scale?: "metres" | "unknown";
+  /**
+   * null: nothing is known of it
+   */
+  sun?: PlaceSun | null;
   start: Start;
 }
 /**
@@ -129,6 +133,10 @@ export interface PlacePart {
    * whether it is the ground between the others, on which one walks
    */
   ground?: boolean;
+  /**
+   * whether it is a picture around the others: nobody bumps into it
+   */
+  backdrop?: boolean;
 }
 /**
  * Axis-parallel box in the part's own frame (m).
@@ -295,6 +303,27 @@ export interface TourStretch {
   name: string;
   start_s: number;
   end_s: number;
+}
+/**
+ * Where the place is on the earth and when it is looked at: by these the sun stands.
+ */
+export interface PlaceSun {
+  latitude_deg?: number | null;
+  longitude_deg?: number | null;
+  /**
+   * ISO 8601 with an offset; null where the place is not known
+   */
+  time?: string | null;
+  /**
+   * what of it nobody has said; north: that it is +y
+   *
+   * @maxItems 3
+   */
+  assumed?:
+    | []
+    | ["north" | "place" | "time"]
+    | ["north" | "place" | "time", "north" | "place" | "time"]
+    | ["north" | "place" | "time", "north" | "place" | "time", "north" | "place" | "time"];
 }
 /**
  * Where a visitor begins (m, world frame).

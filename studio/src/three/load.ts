@@ -67,6 +67,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
     if (node instanceof InstancedMesh) instanced.push(instancedFeatures(node as InstancedMesh, table, part.model));
     else if (node instanceof Mesh) meshes.push(featureMesh(node as Mesh, table, part.model));
   });
+  if (part.isBackdrop) for (const { mesh } of meshes) setApart(mesh);
   const drawn = [...meshes, ...instanced].map(({ mesh }) => mesh);
   if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const mesh of drawn) sharpenTextures(mesh);
@@ -114,6 +115,13 @@ function removeLights(scene: Group): void {
     if (node instanceof Light) lights.push(node);
   });
   for (const light of lights) light.removeFromParent();
+}
+
+/** A picture of far away throws no shadow on the place, and none falls on it. */
+function setApart(mesh: Mesh): void {
+  mesh.castShadow = false;
+  mesh.receiveShadow = false;
+  mesh.renderOrder = -1;
 }
 
 function sharpenTextures(mesh: Mesh): void {

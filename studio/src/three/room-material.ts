@@ -13,17 +13,18 @@ import {
   type Material,
   MeshStandardMaterial,
   NearestFilter,
-  RedFormat,
+  RGFormat,
   RGBAFormat,
   UnsignedByteType,
   Vector3,
   Vector4,
 } from "three";
 import type { House } from "../core/house.ts";
-import { MOST_ROOMS, roomMapOf } from "../core/room-map.ts";
+import { roomMapOf, roomsOf } from "../core/room-map.ts";
 
 /** Lamps whose places are drawn as such at the same time; the light of others is that of their rooms. */
 export const MOST_LAMPS = 8;
+const LEVELS_WIDE = 256;
 /** A lamp is seen as a globe, and nothing is nearer to it than its shade. */
 const LEAST_SQUARED_M2 = 0.09;
 /** 3000 K as an eye sees it that has been among such lamps for a while. */
@@ -41,8 +42,14 @@ export interface RoomUniforms {
 
 export function roomUniforms(house: House): RoomUniforms {
   const { corner, cell_m, columns, rows, cells } = roomMapOf(house);
-  const map = new DataTexture(cells, columns, rows * house.storeys.length, RedFormat, UnsignedByteType);
-  const levels = new DataTexture(new Float32Array(4 * (MOST_ROOMS + 1)), MOST_ROOMS + 1, 1, RGBAFormat, FloatType);
+  // The number's lower byte in red, its higher one in green.
+  const bytes = new Uint8Array(2 * cells.length);
+  for (const [at, number] of cells.entries()) bytes.set([number & 255, number >> 8], 2 * at);
+  const map = new DataTexture(bytes, columns, rows * house.storeys.length, RGFormat, UnsignedByteType);
+  // A place for each room's number from 1 on, in rows: textures may not be as wide as there are rooms.
+  const levelRows = Math.ceil((roomsOf(house).length + 1) / LEVELS_WIDE);
+  const values = new Float32Array(4 * LEVELS_WIDE * levelRows);
+  const levels = new DataTexture(values, LEVELS_WIDE, levelRows, RGBAFormat, FloatType);
   for (const texture of [map, levels]) {
     texture.minFilter = NearestFilter;
     texture.magFilter = NearestFilter;
@@ -102,7 +109,8 @@ const HEAD = `
     if (cell.x < 0.0 || cell.y < 0.0 || cell.x >= float(size.x) || cell.y >= roomRows) return 0;
     for (int i = 0; i < STOREYS; i++) {
       if (p.y < storeyEnds[2 * i] || p.y >= storeyEnds[2 * i + 1]) continue;
-      return int(texelFetch(roomMap, ivec2(cell) + ivec2(0, i * int(roomRows)), 0).r * 255.0 + 0.5);
+      vec2 bytes = texelFetch(roomMap, ivec2(cell) + ivec2(0, i * int(roomRows)), 0).rg;
+      return int(bytes.r * 255.0 + 0.5) + 256 * int(bytes.g * 255.0 + 0.5);
     }
     return 0;
   }
@@ -114,7 +122,7 @@ const HEAD = `
     if (room == 0) room = roomAt(p + 0.3 * toEye);
     within = room == 0 ? 0.0 : 1.0;
     if (room == 0) return vec3(0.0);
-    float lamps = texelFetch(roomLevels, ivec2(room, 0), 0).r;
+    float lamps = texelFetch(roomLevels, ivec2(room % ${LEVELS_WIDE}, room / ${LEVELS_WIDE}), 0).r;
     for (int i = 0; i < ${MOST_LAMPS}; i++) {
       if (int(lampRoom[i]) + 1 != room) continue;
       vec3 way = lampAt[i].xyz - p;

@@ -39,21 +39,21 @@ export interface Scenery {
   follow(camera: { readonly position: Vector3 }): void;
   /** Lets the sun's shadows fall around a place of the drawn frame. */
   shadeAround(centre: Vector3, radius_m: number): void;
-  /** Sets the sun, or the moon, and all colours. */
-  light(daylight: Daylight): void;
+  /** Sets the sun, or the moon, and all colours; what of a picture's light there is then. */
+  light(daylight: Daylight): Color;
 }
 
 /**
- * `footprints` are the boxes of the buildings in the drawn frame; `hasGround` says whether the place
- * has a ground of its own. `scaleKnown`: the ground gets lines a metre apart, which would say
- * something false of a place of unknown scale.
+ * `footprints` are the boxes of the buildings in the drawn frame; `lowest_m` is how low the place's own
+ * ground lies, null where it has none. `scaleKnown`: the ground gets lines a metre apart, which would
+ * say something false of a place of unknown scale.
  */
 export function makeScenery(
   bounds: Box,
   footprints: readonly Box3[],
-  { hasGround, scaleKnown }: { hasGround: boolean; scaleKnown: boolean },
+  { lowest_m, scaleKnown }: { lowest_m: number | null; scaleKnown: boolean },
 ): Scenery {
-  const height_m = hasGround ? UNDER_GROUND_M : GROUND_HEIGHT_M;
+  const height_m = lowest_m === null ? GROUND_HEIGHT_M : Math.min(0, lowest_m) + UNDER_GROUND_M;
   const group = new Group();
   const { toLight } = daylightAt(DAY_HOUR);
   const toSun = new Vector3(...drawnFromWorld(toLight));
@@ -67,7 +67,7 @@ export function makeScenery(
   const shade = makeGroundShadow(bounds, height_m);
   const ground = makeGround(footprints, height_m, scaleKnown);
   group.add(sky, ground, shade, skyLight, sun, sun.target);
-  const light = (daylight: Daylight): void => {
+  const light = (daylight: Daylight): Color => {
     const look = skyLightAt(daylight);
     toSun.set(...drawnFromWorld(daylight.toLight));
     sun.color.copy(look.sun);
@@ -81,6 +81,7 @@ export function makeScenery(
     (sky.material.uniforms.glow as IUniform<Color>).value.copy(look.glow);
     (ground.material.uniforms.light as IUniform<Color>).value.copy(look.ground);
     aimSun(sun, toSun, shaded.centre, shaded.radius);
+    return look.picture;
   };
   light(daylightAt(DAY_HOUR));
   return {

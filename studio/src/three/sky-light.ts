@@ -13,6 +13,8 @@ export interface SkyLight {
   readonly glow: Color;
   /** By what the colours of the unlit ground are multiplied. */
   readonly ground: Color;
+  /** By what a picture of the surroundings is multiplied, which was taken by day. */
+  readonly picture: Color;
   /** How dark the sun's or the moon's shadows are, as a share of those by day. */
   readonly shade: number;
 }
@@ -24,17 +26,17 @@ type Look = Readonly<Record<Colours, string> & Record<Strengths, number>>;
 /** Calm daylight that leaves the photos' colours as they are. */
 const DAY: Look = {
   sun: "#fff6ea", sunStrength: 3.1, above: "#e3edf7", below: "#d8d0c2", strength: 2.05,
-  zenith: "#7ea6c9", horizon: "#e4eaee", glow: "#fff3dc", ground: "#ffffff", shade: 1,
+  zenith: "#7ea6c9", horizon: "#e4eaee", glow: "#fff3dc", ground: "#ffffff", picture: "#ffffff", shade: 1,
 };
 /** The sun on the horizon: mixed in by how near it is. */
 const DUSK: Look = {
   sun: "#ff9d5c", sunStrength: 1.5, above: "#b9b6c8", below: "#8f7f78", strength: 1.0,
-  zenith: "#5f7ba6", horizon: "#e9b48f", glow: "#ffb26b", ground: "#c9a899", shade: 0.7,
+  zenith: "#5f7ba6", horizon: "#e9b48f", glow: "#ffb26b", ground: "#c9a899", picture: "#c9a899", shade: 0.7,
 };
 /** A clear night with a moon: one still finds one's way. */
 const NIGHT: Look = {
   sun: "#b4c6e8", sunStrength: 0.55, above: "#8b99b6", below: "#6a7484", strength: 1.35,
-  zenith: "#101a2e", horizon: "#2c3a52", glow: "#3f547c", ground: "#566279", shade: 0.7,
+  zenith: "#101a2e", horizon: "#2c3a52", glow: "#3f547c", ground: "#566279", picture: "#384257", shade: 0.7,
 };
 
 export function skyLightAt({ day, dusk }: Daylight): SkyLight {
@@ -52,6 +54,7 @@ export function skyLightAt({ day, dusk }: Daylight): SkyLight {
     horizon: colour("horizon"),
     glow: colour("glow"),
     ground: colour("ground"),
+    picture: colour("picture"),
     shade: strength("shade"),
   };
 }

@@ -1,15 +1,16 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
-import { daylightAt } from "../core/daylight.ts";
+import { daylightAt, type SunPath, sunPathOf } from "../core/daylight.ts";
 import { drawnFaces } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
-import { cornersOfPlace, type Place } from "../core/place.ts";
+import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
 import { boundsOfShots } from "../core/shots.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
+import { Backdrop } from "./backdrop.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
 import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
@@ -58,6 +59,8 @@ export class Stage {
   readonly #surfaces = new Scene();
   readonly #town: Town | null;
   readonly #scenery: Scenery;
+  readonly #backdrop: Backdrop;
+  readonly #sunPath: SunPath;
   #changes = 0;
   #shaded = { centre: new Vector3(Infinity, 0, 0), tiles: -1 };
 
@@ -67,16 +70,17 @@ export class Stage {
     this.#content = content;
     this.#town = town;
     const ground = parts.filter(({ part }) => part.isGround);
+    this.#backdrop = new Backdrop(parts);
+    this.#sunPath = sunPathOf(place.sun);
     this.solid = town ?? solidOf(place, parts, ground);
     const told = cornersOfPlace(place);
     // A city model may go far beyond what the photos show.
     const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
     this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
     this.seen = boxOfPoints([...this.corners, ...told]);
-    const buildings = parts.filter(({ part }) => !part.isGround);
+    const buildings = parts.filter(({ part }) => !part.isGround && !part.isBackdrop);
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
-    const hasGround = place.parts.some(({ isGround }) => isGround);
-    this.#scenery = makeScenery(this.seen, footprints, { hasGround, scaleKnown: place.scaleKnown });
+    this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown });
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);
@@ -95,7 +99,7 @@ export class Stage {
   get canvas(): "model" | "walls" | "nothing" {
     const { parts } = this.#content;
     const shown = parts.filter(({ group }) => group.visible);
-    if (this.#town?.group.visible === true || shown.some(({ part }) => part.layer !== "walls")) return "model";
+    if (this.#town?.group.visible === true || shown.some(({ part }) => part.layer !== "walls" && !part.isBackdrop)) return "model";
     return shown.length > 0 ? "walls" : "nothing";
   }
 
@@ -148,8 +152,8 @@ export class Stage {
 
   /** Sets the time of the day; 0 to 24. */
   light(hour: number): void {
-    const daylight = daylightAt(hour);
-    this.#scenery.light(daylight);
+    const daylight = daylightAt(hour, this.#sunPath);
+    this.#backdrop.light(this.#scenery.light(daylight));
     this.household.daylight = daylight;
   }
 
@@ -191,7 +195,8 @@ function solidOf(
   ground: readonly LoadedPart[],
 ): Solid | SolidWithDoors | OpenSpace {
   if (parts.length === 0) return new OpenSpace(boundsOfShots(place.clouds, place.shots));
-  const still = parts.map(({ meshes, instanced, movers }) => {
+  const still = parts.map(({ part, meshes, instanced, movers }) => {
+    if (part.isBackdrop) return { meshes: [], instanced: [] };
     const moving = new Set(movers.flatMap((mover) => mover.meshes));
     return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
   });

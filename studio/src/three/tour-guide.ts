@@ -1,4 +1,4 @@
-/** Takes the walker along a tour, until he goes his own way. */
+/** Takes the walker along the tour that was chosen, until he goes his own way. */
 import type { StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
 import { durationOf, type Tour, type TourState, type TourView, viewAt } from "../core/tour.ts";
@@ -9,15 +9,23 @@ const LONGEST_FRAME_S = 0.5;
 const TELL_S = 0.25;
 
 export class TourGuide {
-  readonly #tour: Tour;
+  readonly #tours: readonly Tour[];
   readonly #store: Store<StudioState>;
+  #which = 0;
   #time_s = 0;
   /** What the guide itself told the page last: anything else there is the person's wish. */
   #told: TourState | null = null;
 
-  constructor(tour: Tour, store: Store<StudioState>) {
-    this.#tour = tour;
+  /** There is one tour at least. */
+  constructor(tours: readonly Tour[], store: Store<StudioState>) {
+    this.#tours = tours;
     this.#store = store;
+  }
+
+  get #tour(): Tour {
+    const tour = this.#tours[this.#which];
+    if (tour === undefined) throw new RangeError(`no tour ${this.#which}`);
+    return tour;
   }
 
   get isPlaying(): boolean {
@@ -28,7 +36,8 @@ export class TourGuide {
   wished(asked: TourState | null): TourView | null {
     if (asked === null || asked === this.#told) return null;
     // Play and pause go on from between the times that the page was told.
-    if (asked.time_s !== this.#told?.time_s) this.#time_s = asked.time_s;
+    if (asked.time_s !== this.#told?.time_s || asked.which !== this.#which) this.#time_s = asked.time_s;
+    this.#which = asked.which;
     return viewAt(this.#tour, this.#time_s);
   }
 
@@ -48,7 +57,7 @@ export class TourGuide {
   }
 
   #tell(playing: boolean): void {
-    this.#told = { time_s: this.#time_s, playing };
+    this.#told = { which: this.#which, time_s: this.#time_s, playing };
     this.#store.update({ tour: this.#told });
   }
 }

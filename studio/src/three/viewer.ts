@@ -76,8 +76,7 @@ export class Viewer {
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
     this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
-    const tour = place.tours[0];
-    this.#guide = tour === undefined ? null : new TourGuide(tour, store);
+    this.#guide = place.tours.length === 0 ? null : new TourGuide(place.tours, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),

@@ -1,10 +1,10 @@
-import type { Browser, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
+import { describe, expect } from "vitest";
 import { DEFAULT_WALK } from "../../src/core/walking.ts";
 import { HOUSE, openings, PARTLY_SEEN } from "../fixture/house.mjs";
 import { launch, MISSING } from "./chromium.ts";
 import { around, look, open, picked, project, settled, stateOf, walkState } from "./page.ts";
-import { makeSite, type Site } from "./site.ts";
+import { makeSite } from "./site.ts";
+import { visits } from "./visits.ts";
 
 const RADIUS = DEFAULT_WALK.body.radius_m;
 const WINDOW = openings().find(({ name }) => name === "Window 3, floor 2");
@@ -15,29 +15,10 @@ function paneCentre(): readonly [number, number, number] {
   return [WINDOW.x + 0.3 * WINDOW.width, WINDOW.recess, WINDOW.z + 0.4 * WINDOW.height];
 }
 
+const it = visits();
+
 describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
-  let browser: Browser;
-  let site: Site;
-  let page: Page;
-  let complaints: string[];
-
-  beforeAll(async () => {
-    site = await makeSite();
-    browser = await launch();
-  });
-  afterAll(async () => {
-    await browser.close();
-    await site.close();
-  });
-  beforeEach(async () => {
-    ({ page, complaints } = await open(browser, `${site.origin}/`));
-  });
-  afterEach(async () => {
-    expect(complaints).toEqual([]);
-    await page.context().close();
-  });
-
-  it("loads and draws something", async () => {
+  it("loads and draws something", async ({ page }) => {
     expect(await stateOf(page)).toBe("ready");
     expect(await page.title()).toContain("Rue Exemple 1");
     const middle = await look(page, { x: 420, y: 120, width: 500, height: 440 });
@@ -47,7 +28,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(sky.mean[2]).toBeGreaterThan(sky.mean[0]);
   });
 
-  it("picks a window and tells what is known about it", async () => {
+  it("picks a window and tells what is known about it", async ({ page }) => {
     const at = await project(page, paneCentre());
     await page.mouse.click(at.x, at.y);
     expect(await picked(page)).toMatchObject({ class: "window", name: WINDOW?.name, part: "house-1" });
@@ -70,7 +51,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await picked(page)).toBeNull();
   });
 
-  it("tells measured from guessed where a window goes on behind a railing", async () => {
+  it("tells measured from guessed where a window goes on behind a railing", async ({ page }) => {
     const partly = openings().find(({ name }) => name === PARTLY_SEEN.name);
     if (partly === undefined) throw new Error("the fixture has no such window");
     const at = await project(page, [partly.x + 0.3, partly.recess, partly.z + 0.7]);
@@ -82,7 +63,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await panel.locator(".provenance p").textContent()).toContain("shows its upper part");
   });
 
-  it("hides the windows with their layer and brings them back", async () => {
+  it("hides the windows with their layer and brings them back", async ({ page }) => {
     await settled(page);
     const at = await project(page, paneCentre());
     const before = await look(page, around(at));
@@ -99,7 +80,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     for (const k of [0, 1, 2] as const) expect(after.mean[k]).toBeCloseTo(before.mean[k], 0);
   });
 
-  it("colours by provenance: the measured wall blue, the invented side red", async () => {
+  it("colours by provenance: the measured wall blue, the invented side red", async ({ page }) => {
     await page.keyboard.press("p");
     await page.keyboard.press("p");
     await settled(page);
@@ -112,7 +93,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await page.locator("veduta-layers .legend").textContent()).toContain("Invented");
   });
 
-  it("walks into the doorway and is stopped by the door", async () => {
+  it("walks into the doorway and is stopped by the door", async ({ page }) => {
     await page.keyboard.press("2");
     await settled(page);
     const eye = await page.evaluate(() => window.veduta?.camera().eye[2]);
@@ -127,7 +108,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(feet[2]).toBeCloseTo(0, 3);
   });
 
-  it("is stopped by the wall beside it and slides along", async () => {
+  it("is stopped by the wall beside it and slides along", async ({ page }) => {
     await page.keyboard.press("2");
     await settled(page);
     await page.keyboard.down("d");
@@ -145,7 +126,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect((await walkState(page)).feet[1]).toBeCloseTo(-RADIUS, 2);
   });
 
-  it("turns with a drag while walking, and does not pick", async () => {
+  it("turns with a drag while walking, and does not pick", async ({ page }) => {
     await page.keyboard.press("2");
     await settled(page);
     const before = await page.evaluate(() => window.veduta?.camera().direction[0] ?? 0);
@@ -159,7 +140,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     expect(await picked(page)).toBeNull();
   });
 
-  it("goes back to the first view", async () => {
+  it("goes back to the first view", async ({ page }) => {
     await settled(page);
     const first = await page.evaluate(() => window.veduta?.camera().eye);
     await page.mouse.move(640, 300);
@@ -176,7 +157,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     for (const k of [0, 1, 2] as const) expect(back?.[k]).toBeCloseTo(first?.[k] ?? Number.NaN, 1);
   });
 
-  it("opens and closes the help from the keyboard, and names every button", async () => {
+  it("opens and closes the help from the keyboard, and names every button", async ({ page }) => {
     await page.keyboard.press("?");
     const help = page.getByRole("dialog", { name: "Looking and walking" });
     await help.waitFor();
@@ -189,7 +170,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     }
   });
 
-  it("is operable without a mouse", async () => {
+  it("is operable without a mouse", async ({ page }) => {
     const reached = new Set<string>();
     for (let i = 0; i < 25; i += 1) {
       await page.keyboard.press("Tab");
@@ -202,7 +183,7 @@ describe.skipIf(MISSING !== null)("the studio in Chromium", () => {
     for (const name of ["Walk", "Reset the view", "Layers and colours", "Help"]) expect(reached).toContain(name);
   });
 
-  it("saves a picture of the place", async () => {
+  it("saves a picture of the place", async ({ page }) => {
     const download = page.waitForEvent("download");
     await page.getByRole("button", { name: "Save a picture" }).click();
     expect((await download).suggestedFilename()).toBe("house-1.png");

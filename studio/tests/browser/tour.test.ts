@@ -1,10 +1,10 @@
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
-import type { Browser, Page } from "playwright-core";
-import { afterAll, afterEach, beforeAll, beforeEach, describe, expect, it } from "vitest";
-import { launch, MISSING } from "./chromium.ts";
-import { type Inspection, open, settled, walkState } from "./page.ts";
-import { makeSite, type Site } from "./site.ts";
+import type { Page } from "playwright-core";
+import { describe, expect } from "vitest";
+import { MISSING } from "./chromium.ts";
+import { type Inspection, settled, walkState } from "./page.ts";
+import { visits } from "./visits.ts";
 
 /** Along the street before the house of the fixture, looking at it; then a turn to the east. */
 const TOUR = {
@@ -19,49 +19,41 @@ const TOUR = {
   ],
 };
 
+/** The same street the other way. */
+const BACK = {
+  id: "back",
+  name: "Back again",
+  times_s: [0, 10],
+  eyes: [[6, -9, 1.7], [-4, -9, 1.7]],
+  directions: [[0, 1, 0], [0, 1, 0]],
+  stretches: [{ room: null, name: "Back", start_s: 0, end_s: 10 }],
+};
+
+const it = visits((folder) => {
+  const file = join(folder, "place.json");
+  const place = JSON.parse(readFileSync(file, "utf8")) as object;
+  writeFileSync(file, JSON.stringify({ ...place, tours: [TOUR, BACK] }));
+});
+
 describe.skipIf(MISSING !== null)("a guided tour", () => {
-  let browser: Browser;
-  let site: Site;
-  let page: Page;
-  let complaints: string[];
-
-  beforeAll(async () => {
-    site = await makeSite();
-    const file = join(site.folder, "place.json");
-    const place = JSON.parse(readFileSync(file, "utf8")) as object;
-    writeFileSync(file, JSON.stringify({ ...place, tours: [TOUR] }));
-    browser = await launch();
-  });
-  afterAll(async () => {
-    await browser.close();
-    await site.close();
-  });
-  beforeEach(async () => {
-    ({ page, complaints } = await open(browser, `${site.origin}/`));
-  });
-  afterEach(async () => {
-    expect(complaints).toEqual([]);
-    await page.context().close();
-  });
-
-  const tourState = async (): Promise<ReturnType<Inspection["tour"]>> =>
+  const tourState = async (page: Page): Promise<ReturnType<Inspection["tour"]>> =>
     await page.evaluate(() => window.veduta?.tour() ?? null);
-  const camera = async (): Promise<ReturnType<Inspection["camera"]>> => {
+  const camera = async (page: Page): Promise<ReturnType<Inspection["camera"]>> => {
     const state = await page.evaluate(() => window.veduta?.camera());
     if (state === undefined) throw new Error("window.veduta is not there");
     return state;
   };
-  const playing = async (): Promise<void> => {
+  const playing = async (page: Page): Promise<void> => {
     await page.waitForFunction(() => (window.veduta?.tour()?.time_s ?? 0) > 0.2);
   };
 
-  it("plays from the panel, takes the eye along, and pauses", async () => {
-    expect(await tourState()).toBeNull();
+  it("plays from the panel, takes the eye along, and pauses", async ({ page }) => {
+    expect(await tourState(page)).toBeNull();
     await page.getByRole("button", { name: "Play the tour" }).click();
-    await playing();
+    await playing(page);
     await page.getByRole("button", { name: "Pause the tour" }).click();
     await settled(page);
-    const [state, { eye, direction }] = [await tourState(), await camera()];
+    const [state, { eye, direction }] = [await tourState(page), await camera(page)];
     expect(state?.playing).toBe(false);
     expect(state?.room).toBe("The street");
     // Half a metre a second; the page knows the time to a quarter of a second.
@@ -70,31 +62,41 @@ describe.skipIf(MISSING !== null)("a guided tour", () => {
     expect(direction[1]).toBeCloseTo(1, 3);
   });
 
-  it("goes where the slider says and names the room", async () => {
+  it("goes where the slider says and names the room", async ({ page }) => {
     const slider = page.getByRole("slider", { name: "How far the tour is" });
     await slider.fill("21");
     await settled(page);
-    const { eye, direction } = await camera();
+    const { eye, direction } = await camera(page);
     expect(eye[0]).toBeCloseTo(6, 3);
     expect(direction[0]).toBeCloseTo(Math.SQRT1_2, 3);
     expect(await page.locator("veduta-tour-panel [data-field=room]").textContent()).toBe("The corner");
     expect(await page.locator("veduta-tour-panel [data-field=time]").textContent()).toBe("0:21 of 0:22");
   });
 
-  it("stops for a visitor who walks on, and goes on where it was left", async () => {
+  it("takes the tour that one chooses", async ({ page }) => {
+    await page.getByRole("combobox", { name: "Which tour" }).selectOption("Back again");
+    await settled(page);
+    expect((await camera(page)).eye[0]).toBeCloseTo(6, 3);
+    await page.getByRole("slider", { name: "How far the tour is" }).fill("10");
+    await settled(page);
+    expect((await camera(page)).eye[0]).toBeCloseTo(-4, 3);
+    expect((await tourState(page))?.room).toBe("Back");
+  });
+
+  it("stops for a visitor who walks on, and goes on where it was left", async ({ page }) => {
     await page.keyboard.press("KeyG");
-    await playing();
+    await playing(page);
     await page.keyboard.down("KeyW");
     await page.waitForFunction(() => window.veduta?.tour()?.playing === false);
     await page.waitForFunction(() => (window.veduta?.walk().feet[1] ?? -9) > -8.7);
     await page.keyboard.up("KeyW");
-    const left = await tourState();
+    const left = await tourState(page);
     expect((await walkState(page)).feet[1]).toBeGreaterThan(-8.7);
     await page.keyboard.press("KeyG");
     await page.waitForFunction((time) => (window.veduta?.tour()?.time_s ?? 0) > time, left?.time_s ?? 0);
-    const { eye } = await camera();
+    const { eye } = await camera(page);
     expect(eye[1]).toBeCloseTo(-9, 3);
     await page.keyboard.press("Digit1");
-    expect((await tourState())?.playing).toBe(false);
+    expect((await tourState(page))?.playing).toBe(false);
   });
 });

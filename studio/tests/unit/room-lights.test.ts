@@ -42,6 +42,23 @@ describe("the grid of rooms", () => {
   });
 });
 
+describe("a house of many rooms", () => {
+  it("has each of them on its map, those beyond the two hundred and fifty-fifth, too", () => {
+    const cells = Array.from({ length: 600 }, (_, i) => {
+      const [x, y] = [(i % 30) / 2, Math.floor(i / 30) / 2];
+      return room(`r${i}`, [[x, y], [x + 0.4, y], [x + 0.4, y + 0.4], [x, y + 0.4]]);
+    });
+    const storeys = [{ name: "0", floor_m: 0, height_m: 2.5, rooms: cells, walls: [], openings: [], lamps: [] }];
+    const map = roomMapOf({ storeys });
+    const found = cells.map((_, i) => {
+      const [x, y] = [(i % 30) / 2 + 0.2, Math.floor(i / 30) / 2 + 0.2];
+      const [column, row] = [x - map.corner[0], y - map.corner[1]].map((away) => Math.floor(away / map.cell_m));
+      return map.cells[(row ?? 0) * map.columns + (column ?? 0)];
+    });
+    expect(found).toEqual(cells.map((_, i) => i + 1));
+  });
+});
+
 describe("lamps", () => {
   const now = { habit: "auto", mode: "walk", isNight: true, here: null, now_s: 0 } as const;
 

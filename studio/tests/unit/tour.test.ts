@@ -18,6 +18,15 @@ const RECORD = {
   ],
 };
 
+const OTHER: Tour = {
+  id: "other",
+  name: "Other",
+  times_s: [0, 4],
+  eyes: [[0, 5, 1.7], [0, 9, 1.7]],
+  directions: [[0, 1, 0], [0, 1, 0]],
+  stretches: [],
+};
+
 function tour(change: Record<string, unknown> = {}): Tour {
   return readTour({ ...RECORD, ...change }, "tour 1", (fault) => new Fault("place.json", fault, ""));
 }
@@ -76,12 +85,12 @@ describe("the view at a time", () => {
 describe("the guide", () => {
   function guided(): { guide: TourGuide; store: Store<StudioState> } {
     const store = new Store<StudioState>(INITIAL_STATE);
-    return { guide: new TourGuide(tour(), store), store };
+    return { guide: new TourGuide([tour(), OTHER], store), store };
   }
 
   it("goes on while it plays and tells the page now and then", () => {
     const { guide, store } = guided();
-    store.update({ tour: { time_s: 0, playing: true } });
+    store.update({ tour: { which: 0, time_s: 0, playing: true } });
     expect(guide.wished(store.value.tour)?.eye).toEqual([0, 0, 1.7]);
     expect(guide.advance(0.1).eye[0]).toBeCloseTo(0.1, 12);
     expect(store.value.tour?.time_s).toBe(0);
@@ -92,28 +101,40 @@ describe("the guide", () => {
 
   it("ends at its end", () => {
     const { guide, store } = guided();
-    store.update({ tour: { time_s: 4.8, playing: true } });
+    store.update({ tour: { which: 0, time_s: 4.8, playing: true } });
     guide.wished(store.value.tour);
     guide.advance(0.4);
-    expect(store.value.tour).toEqual({ time_s: 5, playing: false });
+    expect(store.value.tour).toEqual({ which: 0, time_s: 5, playing: false });
   });
 
   it("waits where the visitor left it, to the moment", () => {
     const { guide, store } = guided();
-    store.update({ tour: { time_s: 0, playing: true } });
+    store.update({ tour: { which: 0, time_s: 0, playing: true } });
     guide.wished(store.value.tour);
     guide.advance(0.3);
     guide.advance(0.1);
     guide.stop();
     expect(store.value.tour?.playing).toBe(false);
     expect(store.value.tour?.time_s).toBeCloseTo(0.4, 12);
-    store.update({ tour: { time_s: store.value.tour?.time_s ?? 0, playing: true } });
+    store.update({ tour: { which: 0, time_s: store.value.tour?.time_s ?? 0, playing: true } });
     expect(guide.wished(store.value.tour)?.eye[0]).toBeCloseTo(0.4, 12);
+  });
+
+  it("goes over to another tour, and goes on in that", () => {
+    const { guide, store } = guided();
+    store.update({ tour: { which: 0, time_s: 0, playing: true } });
+    guide.wished(store.value.tour);
+    guide.advance(0.3);
+    store.update({ tour: { which: 1, time_s: store.value.tour?.time_s ?? 0, playing: true } });
+    expect(guide.wished(store.value.tour)?.eye[1]).toBeCloseTo(5.3, 12);
+    guide.advance(0.3);
+    expect(store.value.tour?.which).toBe(1);
+    expect(guide.wished(store.value.tour)).toBeNull();
   });
 
   it("follows the slider", () => {
     const { guide, store } = guided();
-    store.update({ tour: { time_s: 3, playing: false } });
+    store.update({ tour: { which: 0, time_s: 3, playing: false } });
     expect(guide.wished(store.value.tour)?.direction[0]).toBeCloseTo(Math.SQRT1_2, 9);
     expect(guide.isPlaying).toBe(false);
   });

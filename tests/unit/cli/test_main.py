@@ -28,6 +28,13 @@ def test_help_imports_nothing_heavy() -> None:
         assert any(line.startswith(f"  {verb} ") for line in text)
 
 
+def test_a_facade_imports_no_library_that_it_does_not_need() -> None:
+    """Each takes longer to import than all of Veduta, in each process of a call."""
+    code = "import sys, veduta.facade.batch, veduta.cli.facade_call; print(*sys.modules)"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert {"scipy", "trimesh", "pycolmap", "fastapi"} & set(done.stdout.split()) == set()
+
+
 @pytest.mark.parametrize("verb", cli.VERBS)
 def test_summaries_are_of_one_style(verb: str) -> None:
     """An imperative with a capital, short enough for a line, without a full stop."""

@@ -15,7 +15,7 @@ from veduta.facade.boxes import Box
 from veduta.facade.columns import Columns
 from veduta.facade.compose import Parse, compose
 from veduta.facade.document import CLASSES, FacadeDocument, Source
-from veduta.facade.evidence import gather
+from veduta.facade.evidence import Evidence, gather
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
 from veduta.facade.options import FacadeOptions, ScaleOptions
@@ -41,13 +41,14 @@ def _document(
     size: tuple[int, int] = (160, 300),
     doubts: tuple[str, ...] = (),
     no_sky: str = "",
+    evidence: Evidence | None = None,
 ) -> FacadeDocument:
     """A document of hand-made finds; all but the skyline count from the left side."""
     width, height = size
     rectified = rectified_of(np.zeros((height, width, 3), np.uint8))
     cut = skyline[sides.left : sides.right]
     parse = Parse(
-        evidence=gather(rectified.pixels, rectified.valid),
+        evidence=evidence or gather(rectified.pixels, rectified.valid),
         sky=Skyline(skyline, int(np.median(skyline))),
         skyline=Skyline(cut, int(np.median(cut)), no_sky),
         sides=sides,
@@ -109,7 +110,8 @@ def test_the_edges_of_the_picture_are_reached(long: int, ratio: float, upright: 
     short = round(long * ratio)
     width, height = size = (short, long) if upright else (long, short)
     whole = gather(np.zeros((height, width, 3), np.uint8), np.ones((height, width), bool))
-    document = _document(np.full(whole.width, 20), Sides(0, whole.width, whole.height), size=size)
+    sides = Sides(0, whole.width, whole.height)
+    document = _document(np.full(whole.width, 20), sides, size=size, evidence=whole)
     facade = document.facade
     assert (facade.x_px, facade.x_px + facade.width_px) == (0, pytest.approx(width))
     assert facade.y_px + facade.height_px == pytest.approx(height)

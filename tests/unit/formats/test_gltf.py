@@ -14,7 +14,10 @@ from sample_document import sample_document, sample_photo
 
 from veduta.facade.model import build_part
 from veduta.formats.gltf import glb_bytes, read_glb, write_glb
+from veduta.place.builder import PartBuilder
+from veduta.place.material import Material
 from veduta.place.part import Part
+from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
 
 
@@ -124,3 +127,24 @@ def test_a_file_of_another_program_is_refused(part: Part, tmp_path: Path) -> Non
     path.write_bytes(glb_bytes(part).replace(b'"generator":"veduta"', b'"generator":"venice"'))
     with pytest.raises(InputError, match="another program"):
         read_glb(path)
+
+
+@pytest.mark.parametrize(("colour", "glow"), [((0.0, 0.0, 0.0), 0.0), ((0.5, 0.25, 0.0), 0.4)])
+def test_black_that_gives_off_light_is_read(
+    tmp_path: Path, colour: tuple[float, float, float], glow: float
+) -> None:
+    """Another program may have written a black material with light of its own."""
+    builder = PartBuilder("lamp")
+    material = builder.material(Material("glass", (0.5, 0.25, 0.0), glow=0.4))
+    feature = builder.feature(SemanticClass.OTHER, Provenance.INVENTED, "lamp")
+    builder.polygon([[(0, 0, 0), (1, 0, 0), (0, 1, 0)]], feature, material)
+    data = glb_bytes(builder.build())
+    (size,) = struct.unpack_from("<I", data, 12)
+    root = json.loads(data[20 : 20 + size])
+    shading = root["materials"][0]["pbrMetallicRoughness"]
+    if not any(colour):
+        shading["baseColorFactor"][:3] = colour
+    text = json.dumps(root, separators=(",", ":")).encode().ljust(size)[:size]
+    path = tmp_path / "lamp.glb"
+    path.write_bytes(data[:20] + text + data[20 + size :])
+    assert read_glb(path).materials[0].glow == pytest.approx(glow, abs=1e-4)

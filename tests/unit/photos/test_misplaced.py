@@ -44,7 +44,7 @@ def test_honest_photos_stay() -> None:
     for seed in (1, 2):
         _, _, street = simulated_street(seed)
         assert empty_shares(street).max() < MISPLACED
-        assert without_misplaced(street) is street
+        assert without_misplaced(street)[0] is street
 
 
 def test_a_photo_that_agrees_in_a_strip_alone_goes() -> None:
@@ -53,8 +53,21 @@ def test_a_photo_that_agrees_in_a_strip_alone_goes() -> None:
     shares = empty_shares(torn)
     assert shares[MOVED] >= MISPLACED
     assert np.delete(shares, MOVED).max() < MISPLACED
-    kept = without_misplaced(torn)
+    kept, unsure = without_misplaced(torn)
+    assert unsure == ()
     assert kept.names == tuple(np.delete(np.array(torn.names), MOVED))
+
+
+def test_where_fewer_than_two_would_be_left_the_misplaced_are_named() -> None:
+    _, _, street = simulated_street(1)
+    doubtful = np.ones(len(street.names), dtype=bool)
+    doubtful[TO] = False
+    found, kept = street.without_doubtful(doubtful)
+    assert found is street
+    assert kept == tuple(np.delete(np.array(street.names), TO))
+    doubtful[MOVED] = False
+    found, kept = street.without_doubtful(doubtful)
+    assert (found.names, kept) == ((street.names[MOVED], street.names[TO]), ())
 
 
 def test_two_photos_are_left_as_they_are() -> None:
@@ -62,7 +75,7 @@ def test_two_photos_are_left_as_they_are() -> None:
     away = np.ones(len(street.names), dtype=bool)
     away[[MOVED, TO]] = False
     two = misplaced(street).without_photos(away)
-    assert without_misplaced(two) is two
+    assert without_misplaced(two)[0] is two
 
 
 def test_what_is_expected_is_what_others_see_alike() -> None:

@@ -14,14 +14,17 @@ from scipy.spatial.transform import Rotation
 from veduta.photos.city.facades import facades_of
 from veduta.photos.city.model import CityBuilding, CityModel
 from veduta.photos.laying import walls_in_the_world
+from veduta.photos.world import register as register_step
 from veduta.photos.world.believed import Standing, believed
 from veduta.photos.world.columns import plane_fit
 from veduta.photos.world.evidence import Matches
 from veduta.photos.world.free_space import sight_lines, violations
 from veduta.photos.world.gauss_newton import Pose
 from veduta.photos.world.georeference import Georeference, Similarity
+from veduta.photos.world.georeferencing import Georeferenced
 from veduta.photos.world.refine import PLANE, Refined
 from veduta.photos.world.register import register, residuals_of
+from veduta.photos.world.report import georef_notes
 
 
 @pytest.fixture(scope="module", params=[2, 1], ids=["both sides", "one side"])
@@ -57,6 +60,7 @@ def test_a_street_in_the_model_is_laid_where_it_is(
         found.best.world_from_model.rotation, again.best.world_from_model.rotation
     )
     assert again.why == found.why
+    assert found.notes == ()
 
 
 def test_walls_come_to_stand_before_their_facades(
@@ -133,6 +137,21 @@ def test_a_terrace_of_equal_houses_is_refused(monkeypatch: pytest.MonkeyPatch) -
     monkeypatch.setattr(registration_streets, "_town", terrace)
     street = simulated_street(1, streets=2)
     assert not laid(street, street.model).accepted
+
+
+def test_a_refinement_that_runs_away_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    def away(refined: Refined, *_: object) -> Refined:
+        world = refined.world_from_model
+        moved = replace(world, shift=world.shift + 10.0)
+        return replace(refined, pose=replace(refined.pose, similarity=moved))
+
+    monkeypatch.setattr(register_step, "refine_by_points", away)
+    street = simulated_street(4, streets=1)
+    found = laid(street, street.model)
+    assert found.best is not None
+    assert errors(street, found)[0] < 1.0
+    notes = georef_notes([Georeferenced((found,))])
+    assert sum("leads away from the walls' placement" in note for note in notes) == 1
 
 
 def test_too_few_walls_are_refused(street: SimulatedStreet) -> None:

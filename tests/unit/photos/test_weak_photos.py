@@ -41,7 +41,8 @@ def errors_of(structure: Structure) -> dict[tuple[str, int], float]:
 
 def test_a_weak_photo_goes_and_the_others_stay_as_they_are(street: Structure) -> None:
     structure = weakened(street, 4, FEWEST_POINTS - 1)
-    found = without_weak(structure)
+    found, kept = without_weak(structure)
+    assert kept == ()
     assert found.names == tuple(name for name in structure.names if name != "0005.jpg")
     assert np.array_equal(found.centres(), np.delete(structure.centres(), 4, axis=0))
     assert set(found.camera_of) == set(found.image_ids)
@@ -55,14 +56,16 @@ def test_a_weak_photo_goes_and_the_others_stay_as_they_are(street: Structure) ->
 
 def test_enough_points_hold_a_photo(street: Structure) -> None:
     structure = weakened(street, 4, FEWEST_POINTS)
-    assert without_weak(structure) is structure
+    assert without_weak(structure) == (structure, ())
 
 
 def test_where_all_are_weak_nothing_goes(street: Structure) -> None:
     few = street
     for row in range(len(street.names)):
         few = weakened(few, row, 10)
-    assert without_weak(few) is few
+    found, kept = without_weak(few)
+    assert found is few
+    assert kept == few.names
 
 
 PINHOLE = PhotosOptions(
@@ -76,6 +79,17 @@ PHOTOS = [
     )
     for number in range(1, 6)
 ]  # fmt: skip
+
+
+def test_weak_photos_that_stay_are_told() -> None:
+    few = known_structure(photos=5, points=FEWEST_POINTS - 5)
+    (component,), left = finish_components([few], PHOTOS, PINHOLE)
+    assert left == []
+    (note,) = component.notes
+    assert note.startswith(", ".join(few.names))
+    assert "kept, as fewer than two photos would be left" in note
+    (sound,), _ = finish_components([known_structure(photos=5, points=120)], PHOTOS, PINHOLE)
+    assert sound.notes == ()
 
 
 def test_a_component_without_a_solution_is_left_out_and_the_others_go_on() -> None:

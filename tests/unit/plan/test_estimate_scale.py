@@ -125,3 +125,17 @@ def test_doors_settle_what_a_lone_number_means() -> None:
     far = estimate_scale(_sheet(text, ink=ink, doors=[850.0] * 3))
     assert near.metres_per_px == pytest.approx(0.01, rel=0.01)
     assert far.metres_per_px == pytest.approx(0.001, rel=0.01)
+
+
+def test_a_number_that_doors_outvote_leaves_the_scale_assumed() -> None:
+    """`88` on a line of 345 px fits doors of 85 px in no unit: it means something else."""
+    ink = BLANK.copy()
+    ink[200, 100:446] = 1.0
+    ink[190:211, 100] = ink[190:211, 445] = 1.0
+    text = _text("88", 272, 188, 24).model_copy(update={"score": 0.2})
+    scale = estimate_scale(_sheet(text, ink=ink, doors=[85.0] * 3))
+    assert scale.basis == "assumed"
+    assert scale.metres_per_px == pytest.approx(0.01)
+    assert [(one.kind, one.agrees) for one in scale.evidence] == [("door", True), ("line", False)]
+    notes = scale_notes(scale)
+    assert any("assumed" in note or "Nothing on the sheet says" in note for note in notes)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import cv2
 import numpy as np
 import pytest
@@ -10,6 +12,7 @@ from numpy.typing import NDArray
 from veduta.plan.document import Text
 from veduta.plan.drawn import DrawnStairs
 from veduta.plan.reading import read_storey
+from veduta.plan.remarks import false_flights
 from veduta.plan.stairs.find import find_flights, true_flights, without_flights
 
 Ink = NDArray[np.bool_]
@@ -144,4 +147,10 @@ def test_stairs_have_the_size_of_stairs_and_lie_in_the_house() -> None:
     kept = true_flights(drawn, 0.01 / scale)
     assert [one.treads for one in kept] == [TREADS]
     assert true_flights(drawn, 0.05 / scale) == ()
+    assert false_flights(drawn.stairs, kept) == []
+    (said,) = false_flights(drawn.stairs, ())
+    x, y = np.array([LEFT + WIDTH / 2, TOP + TREADS * STEP / 2]) * scale
+    told = [float(one) for one in re.findall(r"\d+", said)[:2]]
+    assert told == pytest.approx([x, y], abs=5)
+    assert "neither for stairs nor for walls" in said
     assert true_flights(drawn, 0.004 / scale) == ()

@@ -13,7 +13,8 @@ from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Stairs
 from veduta.plan.house.build import build_house
-from veduta.plan.house.flights import HEADROOM_M, stairwells
+from veduta.plan.house.flights import stairwells
+from veduta.plan.house.headroom import HEADROOM_M
 from veduta.plan.house.space import space_of
 from veduta.plan.options import HouseOptions
 
@@ -133,6 +134,18 @@ def test_a_flight_that_only_the_upper_storey_shows_comes_up_from_below() -> None
     part = house(below=False)
     assert "ground floor stairs s1" in part.features.name
     assert any("drawn in the upper storey only" in note for note in part.notes)
+
+
+@pytest.mark.parametrize("drawn_in", ["ground floor", "first floor"])
+def test_stairs_that_are_too_small_are_told_where_they_are_drawn(drawn_in: str) -> None:
+    small = flight().model_copy(update={"outline_m": rectangle(1.0, 1.0, 1.3, 1.5)})
+    storeys = [
+        sample_storey(name=name, elevation_m=up, stairs=[small] if name == drawn_in else [])
+        for name, up in (("ground floor", 0.0), ("first floor", HEIGHT_M))
+    ]
+    wells = stairwells([space_of(one, HEIGHT_M - SLAB_M) for one in storeys], SLAB_M)
+    (note,) = wells[0].notes
+    assert note.startswith(f"stairs s1 of {drawn_in} are left out")
 
 
 def test_without_an_arrow_the_foot_is_at_the_free_end() -> None:

@@ -6,6 +6,7 @@ import math
 
 import numpy as np
 import pytest
+import trimesh
 from sample_plan import HEIGHT_M, opening, rectangle, room, sample_plan, sample_storey, wall
 from shapely.geometry import MultiPoint, Polygon
 
@@ -220,3 +221,20 @@ def test_a_space_whose_walls_have_a_gap_is_floored_and_roofed() -> None:
     assert "ground floor unnamed floor" in house.part.features.name
     roof = points_of(house.part, "roof 1")
     assert roof[:, 0].max() > 8.0
+
+
+@pytest.mark.parametrize("overhang", [0.0, 0.45, 1.5])
+def test_eaves_hang_outside_and_nothing_of_the_roof_is_in_rooms(overhang: float) -> None:
+    part = built(overhang=overhang).part
+    row = part.features.name.index("roof 1")
+    triangles = part.triangles.indices[part.polygon_feature[part.triangles.polygon] == row]
+    mesh = trimesh.Trimesh(part.positions_m.astype(float), triangles, process=False)
+    mesh.merge_vertices()
+    assert mesh.is_watertight
+    # The eaves hang down by the slope.
+    drop = overhang * math.tan(math.radians(32.0))
+    assert mesh.bounds[0][2] == pytest.approx(HEIGHT_M + 0.005 - drop, abs=1e-5)
+    x, y = np.meshgrid(np.linspace(0.1, 7.9, 9), np.linspace(0.1, 4.9, 7))
+    origins = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, 0.1)])
+    hits, *_ = mesh.ray.intersects_location(origins, np.tile([0.0, 0.0, 1.0], (x.size, 1)))
+    assert hits[:, 2].min() >= HEIGHT_M

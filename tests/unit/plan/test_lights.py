@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -15,16 +16,19 @@ from shapely.geometry import Point, Polygon, box
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture
+from veduta.plan.furnish.catalogue.read import builtin_catalogue
 from veduta.plan.house.furniture import footprint
 from veduta.plan.house.space import space_of
 from veduta.plan.lights.ceiling import ceiling_lamps, wall_angles
+from veduta.plan.lights.furnished import furniture_lamps
 from veduta.plan.lights.lighting import darkness, light_house
 from veduta.plan.lights.needs import LUX, UTILISATION
-from veduta.plan.lights.sight import CORNER
+from veduta.plan.lights.sight import CORNER, Field
 from veduta.plan.lights.walls import FROM_WALL_M, outline_of, wall_lamps
 from veduta.plan.options import HouseOptions
 
 EDGE = 1e-6
+OPTIONS = HouseOptions()
 
 
 def sees(region: Polygon, first: NDArray[np.float64], second: NDArray[np.float64]) -> bool:
@@ -174,7 +178,9 @@ def test_what_a_document_has_is_left() -> None:
 
 
 def test_a_seat_gets_a_lamp_beside_it_and_lamps_of_the_furniture_shine() -> None:
-    sofa = Furniture(id="f1", object="sofa", room="living", at_m=(3.0, 4.3), size_m=(1.8, 0.9, 0.8))
+    sofa = Furniture(
+        id="f1", object="sofa-slim", room="living", at_m=(3.0, 4.3), size_m=(1.8, 0.9, 0.8)
+    )
     storey = sample_storey(furniture=[sofa])
     lit = light_house(sample_plan(storey), HouseOptions()).document.storeys[0]
     standing = [light for light in lit.lights or [] if light.kind == "floor"]
@@ -182,12 +188,88 @@ def test_a_seat_gets_a_lamp_beside_it_and_lamps_of_the_furniture_shine() -> None
     at = Point(standing[0].at_m)
     assert 0.0 < footprint(sofa).distance(at) < 0.5
     lamp = Furniture(
-        id="f2", object="table-lamp", room="bath", at_m=(6.0, 2.0), size_m=(0.3, 0.3, 0.4),
+        id="f2", object="table-lamp-vase", room="bath", at_m=(6.0, 2.0), size_m=(0.3, 0.3, 0.4),
         above_m=0.5, on="f3",
     )  # fmt: skip
     lit = light_house(sample_plan(sample_storey(furniture=[lamp])), HouseOptions())
     found = [light for light in lit.document.storeys[0].lights or [] if light.kind == "table"]
     assert [(light.at_m, light.above_m) for light in found] == [((6.0, 2.0), pytest.approx(0.84))]
+
+
+def lamp_at(name: str, at_m: tuple[float, float], **more: object) -> Furniture:
+    values = {"object": "floor-lamp-stem", "room": "living", "size_m": (0.4, 0.4, 1.6)} | more
+    return Furniture.model_validate({"id": name, "at_m": at_m, **values})
+
+
+def test_the_light_of_a_lamp_goes_where_the_lamp_goes() -> None:
+    lit = light_house(sample_plan(sample_storey(furniture=[lamp_at("f1", (1.0, 1.0))])), OPTIONS)
+    storey = lit.document.storeys[0]
+    before = {light.id: light for light in storey.lights or []}
+    dimmed = [light.model_copy(update={"lumen": 123.0}) for light in storey.lights or []]
+    changed = {"furniture": [lamp_at("f1", (6.5, 3.0), room="bath")], "lights": dimmed}
+    for kind in ("ceiling", "none"):
+        again = light_house(
+            sample_plan(storey.model_copy(update=changed)), HouseOptions(lights=kind)
+        )
+        after = {light.id: light for light in again.document.storeys[0].lights or []}
+        assert set(after) == set(before)
+        moved = after.pop("f1-light")
+        assert (moved.room, moved.at_m, moved.lumen) == ("bath", (6.5, 3.0), 123.0)
+        assert all(light.at_m == before[name].at_m for name, light in after.items())
+        assert "ground floor: light f1-light goes with its lamp f1" in again.notes
+
+
+def test_the_light_of_a_lamp_goes_away_with_it() -> None:
+    lit = light_house(sample_plan(sample_storey(furniture=[lamp_at("f1", (1.0, 1.0))])), OPTIONS)
+    storey = lit.document.storeys[0].model_copy(update={"furniture": []})
+    again = light_house(sample_plan(storey), OPTIONS)
+    assert len(storey.lights or []) - len(again.document.storeys[0].lights or []) == 1
+    assert not [one for one in again.document.storeys[0].lights or [] if one.thing]
+    assert [note for note in again.notes if "no lamp 'f1'" in note]
+
+
+def test_lamps_and_seats_are_told_by_the_catalogue() -> None:
+    """Of names, neither says it: wing-chair is an armchair, and a poster may be of a lamp."""
+    chair = lamp_at("f1", (3.0, 4.2), object="wing-chair", size_m=(0.8, 0.8, 1.1))
+    catalogue = builtin_catalogue()
+    poster = replace(catalogue.entries["wing-chair"], name="lamp-poster", kind="decoration")
+    known = replace(catalogue, entries={**catalogue.entries, "lamp-poster": poster})
+    shown = lamp_at("f2", (1.0, 1.0), object="lamp-poster")
+    assert furniture_lamps("living", [chair, shown], known) == []
+    assert furniture_lamps("living", [lamp_at("f3", (1.0, 1.0))], known)[0].kind == "floor"
+    lit = light_house(sample_plan(sample_storey(furniture=[chair])), OPTIONS).document.storeys[0]
+    assert [light.room for light in lit.lights or [] if light.kind == "floor"] == ["living"]
+
+
+def test_each_seat_has_its_lamp_where_a_room_is_in_two_pieces() -> None:
+    """The wall between parts the living room; ids that clash would take a lamp away."""
+    whole = rectangle(0.15, 0.15, 7.85, 4.85)
+    storey = sample_storey(rooms=[room("living", whole), room("z", rectangle(0.2, -4, 7, -0.2))])
+    seats = [
+        lamp_at(f"f{number}", at, object="wing-chair", size_m=(0.8, 0.8, 1.1), room=where)
+        for number, (at, where) in enumerate(
+            [((1.0, 4.2), "living"), ((6.8, 4.2), "living"), ((2.0, -2.0), "z")]
+        )
+    ]
+    lamps = [lamp_at("f9", (4.0, -2.0), room="z"), lamp_at("f10", (4.5, 0.5), room="living")]
+    lit = light_house(
+        sample_plan(storey.model_copy(update={"furniture": [*lamps, *seats]})), OPTIONS
+    )
+    lights = lit.document.storeys[0].lights or []
+    assert len({light.id for light in lights}) == len(lights)
+    standing = [light for light in lights if light.kind == "floor"]
+    for seat in seats:
+        assert min(math.dist(seat.at_m, light.at_m) for light in standing) <= 2.0
+
+
+def test_a_lamp_elsewhere_lights_no_room() -> None:
+    """A convex room, and one with a niche; the lamp hangs behind the wall."""
+    square = box(0.0, 0.0, 4.0, 3.0)
+    for shape in (square, square.difference(box(3.0, 2.0, 4.0, 3.0))):
+        lamps = np.array([[2.0, 1.5], [4.3, 1.0]])
+        lit = Field(shape).lit_by(lamps, 3.0)
+        assert lit[:, 0].all()
+        assert not lit[:, 1].any()
 
 
 def test_balconies_have_lamps_on_the_house() -> None:

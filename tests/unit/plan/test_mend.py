@@ -104,6 +104,27 @@ def test_two_names_in_one_space_close_it_and_that_is_said() -> None:
     assert "two rooms are named in one space" in drawn.notes[0]
 
 
+def leafless(both: bool) -> Image:
+    """As `without_arc`, with lines over the way on both faces of the inner wall, or on one."""
+    image = without_arc()
+    for x in (396, 403) if both else (396,):
+        cv2.line(image, (x, 400), (x, 484), BLACK, 1)
+    return image
+
+
+def test_faces_drawn_on_beside_a_corner_are_a_door() -> None:
+    drawn = read_storey(leafless(True), [])
+    assert areas(drawn) == pytest.approx([280 * 84, 280 * 276, 280 * 368], rel=0.03)
+    (door,) = [one for one in drawn.openings if one.kind == "door"]
+    assert door.width_px / finer(drawn) == pytest.approx(84, abs=4)
+    assert door.origin == "measured"
+    assert any("both faces are drawn on there" in note for note in drawn.notes)
+
+
+def test_one_line_over_a_way_is_a_counter() -> None:
+    assert len(read_storey(leafless(False), []).rooms) == 2
+
+
 def test_a_room_that_is_open_to_the_outdoors_is_closed() -> None:
     image = house()
     cv2.rectangle(image, (396, 400), (403, 484), BLACK, -1)

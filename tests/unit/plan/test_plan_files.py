@@ -12,10 +12,10 @@ import ifcopenshell
 import ifcopenshell.validate
 import numpy as np
 import pytest
-from sample_plan import MARGIN_PX, PIXEL_M, opening, sample_plan, sample_storey
+from sample_plan import MARGIN_PX, PIXEL_M, opening, rectangle, sample_plan, sample_storey
 from shapely.geometry import Polygon
 
-from veduta.plan.document import PlanDocument
+from veduta.plan.document import PlanDocument, Stairs
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import build_house
 from veduta.plan.house.space import space_of
@@ -108,6 +108,37 @@ def test_ifc_is_valid_and_has_everything() -> None:
     living = areas["Living"].RelatingPropertyDefinition.Quantities[0].AreaValue
     assert living == pytest.approx(4.79 * 4.7, abs=1e-3)
     assert house_ifc(house, HouseOptions()) == content
+
+
+def test_stairs_of_the_building_model_are_flights_with_railings() -> None:
+    flight = Stairs(
+        id="s1", outline_m=rectangle(1.0, 3.85, 4.5, 4.85), treads=14, up=(1.0, 0.0), score=0.9
+    )
+    upper = sample_storey(name="upper floor", elevation_m=2.8)
+    house = build_house(sample_plan(sample_storey(stairs=[flight]), upper), HouseOptions())
+    model = ifcopenshell.file.from_string(house_ifc(house, HouseOptions()).decode())
+    logger = ifcopenshell.validate.json_logger()
+    logging.disable(logging.CRITICAL)
+    ifcopenshell.validate.validate(model, logger)
+    logging.disable(logging.NOTSET)
+    assert logger.statements == []
+    (stair,) = model.by_type("IfcStair")
+    (parts,) = stair.IsDecomposedBy
+    kinds = sorted(part.is_a() for part in parts.RelatedObjects)
+    assert kinds == ["IfcRailing", "IfcStairFlight"]  # a wall stands on the other side
+    (own,) = model.by_type("IfcStairFlight")
+    assert (own.NumberOfRisers, own.NumberOfTreads) == (15, 14)
+    assert own.RiserHeight == pytest.approx(2.8 / 15)
+    (mesh,) = own.Representation.Representations[0].Items
+    points = np.array(mesh.Coordinates.CoordList)
+    assert points.min(axis=0) == pytest.approx([1.0, 3.855, 0.0], abs=1e-4)
+    assert points.max(axis=0) == pytest.approx([4.5, 4.845, 14 * 2.8 / 15], abs=1e-4)
+    guards = [one for one in model.by_type("IfcRailing") if one.PredefinedType == "GUARDRAIL"]
+    assert len(guards) == 2
+    for guard in guards:
+        assert guard.ContainedInStructure[0].RelatingStructure.Name == "upper floor"
+        (shape,) = guard.Representation.Representations[0].Items
+        assert np.array(shape.Coordinates.CoordList)[:, 2].min() == pytest.approx(0.0, abs=1e-4)
 
 
 def test_walls_of_the_building_model_share_the_footprint() -> None:

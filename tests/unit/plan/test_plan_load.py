@@ -41,10 +41,23 @@ def flight(**changes: Any) -> dict[str, Any]:
     return good | changes
 
 
+TWO_STEPS = [[[1, 1], [2, 1], [2, 2], [1, 2]], [[1, 2], [2, 2], [2, 3.5], [1, 3.5]]]
+
+
+def turning(**changes: Any) -> dict[str, Any]:
+    """Stairs with their treads."""
+    return flight(treads=2, steps_m=TWO_STEPS, path_m=[[1.5, 1.0], [1.5, 3.5]]) | changes
+
+
 def lamp(**changes: Any) -> dict[str, Any]:
     """A lamp as it stands in a file."""
     good = {"id": "l1", "kind": "floor", "room": "living", "at_m": [1.0, 1.0], "lumen": 800.0}
     return good | {"above_m": 1.5} | changes
+
+
+def test_stairs_with_their_treads_pass(tmp_path: Path) -> None:
+    (one,) = load_document(written(tmp_path, (["stairs"], [turning()]))).storeys[0].stairs
+    assert len(one.steps_m) == one.treads == 2
 
 
 def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
@@ -76,6 +89,7 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
         ),
         (["rooms", 1, "openings"], ["gone"], "storeys[0].rooms[1].openings: there is no 'gone'"),
         (["junctions", 0, "at_m"], [1e9, 0.0], "storeys[0].junctions[0].at_m[0]: 1000000000.0 is"),
+        (["junctions", 0, "at_m"], [-700.0, 0.0], "storeys[0]: is 708 m from end to end; 500 m"),
         (["height_m"], 1.0, "storeys[0].height_m: 1 m, less than 2"),
         (["scale"], KeyError, "storeys[0].scale: Field required"),
         (
@@ -91,6 +105,23 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
             "storeys[0].stairs[0].outline_m: its line crosses itself, or encloses nothing",
         ),
         (["stairs"], [flight(up=[100.0, 0.0])], "storeys[0].stairs[0].up: is 100 long"),
+        (["stairs"], [turning(treads=3)], "storeys[0].stairs[0].steps_m: 2 outlines, but 3 treads"),
+        (["stairs"], [turning(path_m=[])], "storeys[0].stairs[0].path_m: 0 points"),
+        (
+            ["stairs"],
+            [turning(path_m=[[1.5, 1.0], [1.5, 1.9]])],
+            "storeys[0].stairs[0].path_m: does not lead over steps_m[1]",
+        ),
+        (
+            ["stairs"],
+            [turning(steps_m=[TWO_STEPS[0], [[1, 2], [2, 3], [2, 2], [1, 3]]])],
+            "storeys[0].stairs[0].steps_m[1]: its line crosses itself, or encloses nothing",
+        ),
+        (
+            ["stairs"],
+            [flight(path_m=[[1.0, 1.0], [1.0, 2.0]])],
+            "storeys[0].stairs[0].path_m: there are no steps_m",
+        ),
         (["lights"], [lamp(above_m=50.0)], "storeys[0].lights[0].above_m: 50 m is not between"),
         (["colour"], "red", "storeys[0].colour: Extra inputs are not permitted"),
     ],

@@ -162,6 +162,25 @@ def test_a_window_in_a_wall_without_a_gap_differs_from_the_wall() -> None:
     assert (low + 40, high + 40) == pytest.approx((140, 240), abs=4)
 
 
+@pytest.mark.parametrize("pierced", [False, True])
+def test_a_filled_wall_is_pierced_by_a_window_and_not_by_a_bench_beside_it(pierced: bool) -> None:
+    sheet = np.zeros((300, 400), np.uint8)
+    cv2.rectangle(sheet, (20, Y - HALF), (380, Y + HALF), 255, -1)
+    bare = profile(cut_strip(*ends(), 2 * HALF, as_sheet(sheet)))
+    for y in range(Y + HALF, Y + 3 * HALF, 3):
+        cv2.line(sheet, (140, y), (240, y), 255, 1)
+    if pierced:
+        cv2.rectangle(sheet, (140, Y - HALF + 2), (240, Y + HALF - 2), 0, -1)
+    found = changed_stretches(
+        profile(cut_strip(*ends(), 2 * HALF, as_sheet(sheet))), usual_profile([bare]), 30
+    )
+    if pierced:
+        ((low, high),) = found
+        assert (low + 40, high + 40) == pytest.approx((140, 240), abs=4)
+    else:
+        assert found == []
+
+
 def test_av3d_pairs_the_edges_of_a_window() -> None:
     sheet = as_sheet(hollow((140, 240)))
     edges = [one.at + 40 for one in side_edges(cut_strip(*ends(), 2 * HALF, sheet))]

@@ -144,3 +144,27 @@ def test_the_same_house_gives_the_same_file(house: House, content: bytes) -> Non
     start = house_place(house, "house.glb", None, OPTIONS).start
     view = View("Stop <1> & more", (1.0, 2.0, 1.7), (3.0, 2.0, 1.7))
     assert house_x3d(house, OPTIONS, start, [view]) == content
+
+
+def test_a_room_in_two_pieces_has_its_lamps_once() -> None:
+    """A wall that parts the floor of a room of the document, which stays one room."""
+    storey = sample_storey()
+    junctions = [*storey.junctions]
+    junctions += [
+        junctions[0].model_copy(update={"id": "p", "at_m": (2.2, 0.0)}),
+        junctions[0].model_copy(update={"id": "q", "at_m": (2.2, 5.0)}),
+    ]
+    walls = [
+        *storey.walls,
+        storey.walls[-1].model_copy(update={"id": "x", "start": "p", "end": "q"}),
+    ]
+    parted = sample_storey(junctions=junctions, walls=walls)
+    house = build_house(light_house(sample_plan(parted), OPTIONS).document, OPTIONS)
+    start = house_place(house, "house.glb", None, OPTIONS).start
+    root = ElementTree.fromstring(house_x3d(house, OPTIONS, start))
+    lights = [node.get("DEF") for node in root.iter("PointLight")]
+    assert len(lights) == len(house.part.lamps)
+    groups = [node.get("DEF") for node in root.iter("Group")]
+    assert groups.count("ground-floor-living") == 1
+    (pieces,) = [region for room, region in house.spaces[0].floors if room and room.id == "living"]
+    assert len(pieces.geoms) == 2

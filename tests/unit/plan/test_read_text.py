@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from veduta.plan.clean.straighten import laid_straight
 from veduta.plan.document import Sheet, Text
-from veduta.plan.text.options import TextOptions
+from veduta.plan.text import regions
 from veduta.plan.text.orientation import Position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
 from veduta.plan.text.regions import without_duplicates
@@ -118,11 +118,13 @@ def test_a_region_in_another_is_the_same_text() -> None:
     assert np.array_equal(kept, [large, beside])
 
 
-def test_small_text_of_a_large_sheet_is_found_in_tiles() -> None:
+def test_small_text_of_a_large_sheet_is_found_in_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
     large = np.full((1500, 2400, 3), 255, dtype=np.uint8)
     large[1000:1400, 1700:2260] = _sheet()
-    options = TextOptions(overview_px=420, tile_px=640)
-    in_tiles = read_texts(large, options)
-    at_once = read_texts(large, options.model_copy(update={"tiles": 0}))
+    monkeypatch.setattr(regions, "OVERVIEW_PX", 420)
+    monkeypatch.setattr(regions, "TILE_PX", 640)
+    in_tiles = read_texts(large)
+    monkeypatch.setattr(regions, "MOST_TILES", 0)
+    at_once = read_texts(large)
     assert "Bedroom" in {_plain(text) for text in in_tiles}
     assert "Bedroom" not in {_plain(text) for text in at_once}

@@ -13,6 +13,7 @@ from sample_plan import sample_storey
 from shapely.affinity import affine_transform, translate
 from shapely.geometry import Polygon, box
 
+from veduta.plan import analyse
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import Storey
 from veduta.plan.drawing import draw
@@ -30,6 +31,7 @@ from veduta.plan.vector.units import unit_notes, unit_scale
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import no_progress
 
+PLAN = Path("plan.dxf")
 SOLID = box(0, 0, 8, 5).difference(box(0.3, 0.3, 7.7, 4.7)).union(box(3.95, 0.3, 4.05, 4.7))
 HOLES = box(1.2, 0, 2.7, 0.3).union(box(3.95, 1.0, 4.05, 1.9))
 
@@ -107,6 +109,57 @@ def test_what_the_verb_draws_it_reads_again(tmp_path: Path) -> None:
         ]
         assert widths[0] == widths[1]
     assert {room.name.split()[0] for room in after.rooms} == {"Living", "Bath"}
+
+
+def test_blocks_of_nothing_but_blocks_come_to_an_end() -> None:
+    """Ten in each of ten, eleven deep, and an array of 10^9 copies: none of them shows anything."""
+    document = ezdxf.new("R2010")
+    document.blocks.new("nothing")
+    for depth in range(11):
+        block = document.blocks.new(f"b{depth}")
+        for _ in range(10):
+            block.add_blockref("nothing" if depth == 0 else f"b{depth - 1}", (0, 0))
+    array = {"row_count": 32_000, "column_count": 32_000, "row_spacing": 1, "column_spacing": 1}
+    space = document.modelspace()
+    space.add_line((0, 0), (1, 0))
+    space.add_blockref("b10", (0, 0))
+    found = entities_of(document, most=400)
+    assert (len(found.strokes), found.more) == (1, True)
+    space.add_blockref("nothing", (0, 0), dxfattribs=array)
+    space.delete_entity(space[1])
+    found = entities_of(document, most=400)
+    assert (len(found.strokes), found.more) == (1, True)
+
+
+@pytest.mark.parametrize(("times", "told"), [(1.0, False), (2.0, True)])
+def test_sizes_that_contradict_the_unit_are_told(tmp_path: Path, times: float, told: bool) -> None:
+    """Each room is 3.65 m by 4.40 m."""
+    document = two_rooms(0.001)
+    size = f"{3.65 * times:.2f} x {4.4 * times:.2f}"
+    for x in (1200, 5200):
+        text = document.modelspace().add_text(size, height=250, dxfattribs={"layer": "A-ANNO"})
+        text.set_placement((x, 1500))
+    found = storey_of(saved(document, tmp_path / "house.dxf"))
+    assert found.scale.metres_per_px == pytest.approx(found.sheet.metres_per_px)
+    said = [note for note in found.notes if "written in the drawing" in note]
+    assert [f"2 of 2 sizes written in the drawing ({size}" in note for note in said] == [
+        True
+    ] * told
+    assert all("2 times as large" in note for note in said)
+
+
+def test_a_drawing_that_is_no_house_in_any_unit_is_named(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match=r"tiny\.dxf: is 0\.0008 units wide"):
+        storey_of(saved(two_rooms(10_000.0), tmp_path / "tiny.dxf"))
+
+
+def test_a_drawing_of_more_than_a_house_is_refused(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The house is 7.7 m long between centre lines."""
+    monkeypatch.setattr(analyse, "LARGEST_M", 5.0)
+    with pytest.raises(InputError, match=r"large\.dxf: is 8 m from end to end; 5 m are the most"):
+        storey_of(saved(two_rooms(), tmp_path / "large.dxf"))
 
 
 def test_faces_between_lines_are_the_walls() -> None:
@@ -191,7 +244,7 @@ def test_names_of_layers(name: str, role: Role) -> None:
 def test_units(unit_m: float, insunits: int, expected: float) -> None:
     document = two_rooms(unit_m, insunits=insunits)
     found = entities_of(document)
-    assert unit_scale(document, found, extent_of(found)).metres_per_px == expected
+    assert unit_scale(PLAN, document, found, extent_of(found)).metres_per_px == expected
 
 
 def test_units_that_nothing_tells_are_assumed_and_said() -> None:
@@ -201,7 +254,7 @@ def test_units_that_nothing_tells_are_assumed_and_said() -> None:
     for line in WALLS:
         space.add_lwpolyline([(1000 * x, 1000 * y) for x, y in line], dxfattribs={"layer": "wall"})
     found = entities_of(document)
-    scale = unit_scale(document, found, extent_of(found))
+    scale = unit_scale(PLAN, document, found, extent_of(found))
     assert (scale.basis, scale.metres_per_px) == ("assumed", 0.001)
     assert "Nothing in the drawing says its units" in unit_notes(scale, extent_of(found))[0]
 
@@ -209,10 +262,10 @@ def test_units_that_nothing_tells_are_assumed_and_said() -> None:
 def test_a_scale_that_is_given_goes_first() -> None:
     document = two_rooms(0.001)
     found = entities_of(document)
-    scale = unit_scale(document, found, extent_of(found), given_m=0.002)
+    scale = unit_scale(PLAN, document, found, extent_of(found), given_m=0.002)
     assert (scale.basis, scale.metres_per_px) == ("given", 0.002)
-    with pytest.raises(InputError, match=r"--scale: makes the drawing 8e\+04 m wide"):
-        unit_scale(document, found, extent_of(found), given_m=10.0)
+    with pytest.raises(InputError, match=r"--scale: makes plan\.dxf 8e\+04 m wide"):
+        unit_scale(PLAN, document, found, extent_of(found), given_m=10.0)
 
 
 def test_a_stray_far_away_does_not_shrink_the_house() -> None:

@@ -98,6 +98,43 @@ def test_without_long_cells_there_are_no_hollow_walls() -> None:
     assert not wall_cells(cells).any()
 
 
+def _corridor(ends_drawn: bool) -> tuple[Mask, Mask]:
+    """A comb of hollow walls of 10 px: a corridor's wall and partitions between eight small rooms.
+
+    The rooms are open downwards; without `ends_drawn` so are the insides of the partitions.
+    """
+    ink, inside = np.zeros((500, 3000), np.bool_), np.zeros((500, 3000), np.bool_)
+    xs = [100 + 140 * index for index in range(9)]
+    inside[100:110, 100 : xs[-1] + 10] = True
+    for x in xs:
+        inside[100:220, x : x + 10] = True
+    grown = cv2.dilate(inside.astype(np.uint8), np.ones((2 * LINE + 1, 2 * LINE + 1), np.uint8))
+    ink[:] = (grown > 0) & ~inside
+    if not ends_drawn:
+        ink[220:222, [column for x in xs for column in range(x, x + 10)]] = False
+    # Far walls make the sheet large beside the rooms; the frame is what is outdoors.
+    _box(ink, 2900, 20, 2902 + LINE, 480)
+    return ink, inside
+
+
+@pytest.mark.parametrize("ends_drawn", [True, False])
+def test_walls_between_many_small_rooms_are_walls(ends_drawn: bool) -> None:
+    ink, inside = _corridor(ends_drawn)
+    cells = find_cells(ink, LINE, cut_px=None if ends_drawn else 25.0)
+    found = wall_cells(cells)[cells.labels]
+    assert (found & inside).sum() > 0.95 * inside.sum()
+    assert (found & ~inside).sum() < 0.05 * inside.sum()
+
+
+def test_cut_cells_are_those_of_opening_the_paper() -> None:
+    ink, inside = _corridor(False)
+    cells = find_cells(ink, LINE, cut_px=25.0)
+    numbers = np.unique(cells.labels[inside])
+    assert len(numbers) == 1
+    assert numbers[0] != 0
+    assert (cells.labels == numbers[0]).sum() == pytest.approx(inside.sum(), rel=0.02)
+
+
 def _hatched() -> tuple[Mask, Mask]:
     ink, inside = _house()
     y, x = np.indices(ink.shape)

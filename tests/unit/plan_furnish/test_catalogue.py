@@ -12,6 +12,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from sample_plan import sample_plan
 
+from veduta.plan.call import plan_call
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.entry import Entry, Size
 from veduta.plan.furnish.catalogue.read import builtin_catalogue, catalogue_of
@@ -20,7 +21,8 @@ from veduta.plan.furnish.models.build import BUILDERS
 from veduta.plan.furnish.shapes import asset_of
 from veduta.plan.furnish.upon import UPON
 from veduta.plan.house.build import build_house
-from veduta.plan.options import HouseOptions
+from veduta.plan.options import HouseOptions, PlanOptions
+from veduta.plan.pipeline import result_key_of
 from veduta.run.errors import InputError
 
 CATALOGUE = builtin_catalogue()
@@ -86,6 +88,7 @@ def top_at(corners: np.ndarray, at: np.ndarray) -> float:
 
 def own_catalogue(folder: Path, file: str = "seat.glb") -> Path:
     """A catalogue with one sofa, a box of 2 x 1 x 1 m as GLB."""
+    folder.mkdir(exist_ok=True)
     trimesh.creation.box((2.0, 1.0, 1.0)).export(folder / "seat.glb")
     schema = Path(str(builtin_schema())).read_text(encoding="utf-8")
     path = folder / "mine.sqlite"
@@ -125,6 +128,26 @@ def test_objects_of_a_users_own_are_used_at_their_size(tmp_path: Path) -> None:
     assert "my-sofa" in {mesh.name for mesh in part.instances.meshes}
     with pytest.raises(KeyError):
         build_house(document, HouseOptions())
+
+
+def test_a_result_depends_on_what_a_catalogue_holds_and_not_on_where_it_lies(
+    tmp_path: Path,
+) -> None:
+    document = tmp_path / "plan.json"
+    document.write_text(sample_plan().model_dump_json(by_alias=True))
+    call = plan_call([document])
+
+    def key(folder: str, mesh: bytes = b"") -> str:
+        path = own_catalogue(tmp_path / folder)
+        seat = path.with_name("seat.glb")
+        seat.write_bytes(seat.read_bytes() + mesh)
+        options = PlanOptions(house=HouseOptions(catalogue=path))
+        return result_key_of(call, options, catalogue_digests(path, catalogue_of(path)))
+
+    here = key("here")
+    assert here == key("there")
+    assert here != key("elsewhere", b"\0")
+    assert here != result_key_of(call, PlanOptions(), [])
 
 
 def test_a_bad_catalogue_is_refused_with_its_fault(tmp_path: Path) -> None:

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 from plan_documents import document_of
 from plan_furnish_checks import doors_shut, overlaps
 from sample_plan import opening, rectangle, room, sample_plan, sample_storey
 
 from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.furnish import furnish as recipe
+from veduta.plan.furnish.catalogue.entry import Wanted
 from veduta.plan.furnish.catalogue.read import builtin_catalogue
 from veduta.plan.furnish.furnish import furnish
 from veduta.synthetic.plans.layout import make_house
@@ -113,3 +117,25 @@ def test_a_garage_for_one_car_has_one_and_the_other_is_told() -> None:
     storey = sample_storey(rooms=rooms, openings=[opening("gate", "west", 1.0, 3.0, type="garage")])
     done = furnished(sample_plan(storey)).storeys[0]
     assert sum("car" in one for one in things(done, "garage")) == 1
+
+
+def test_a_room_as_large_as_a_park_is_left_empty_and_that_is_told() -> None:
+    """Its grid would have 64 million cells."""
+    park = rectangle(0.0, 0.0, 400.0, 400.0)
+    storey = sample_storey(walls=[], openings=[], junctions=[], rooms=[room("park", park)])
+    document, rooms = furnish(sample_plan(storey), builtin_catalogue(), 0, SLAB_M)
+    assert document.storeys[0].furniture == []
+    assert [one.notes for one in rooms] == [("is left empty: it is too large",)]
+
+
+def test_wishes_beyond_what_a_room_may_have_are_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Ten stools are asked for, and six things are the most."""
+    monkeypatch.setattr(recipe, "MOST_THINGS", 6)
+    stools = Wanted("living", "stool", 10, 10, 0.0, 1000.0, 1.0, critical=False, place=1)
+    asked = replace(builtin_catalogue(), wanted=(stools,))
+    document, rooms = furnish(sample_plan(), asked, 0, SLAB_M)
+    assert len(document.storeys[0].furniture or []) == 6
+    assert [one.notes for one in rooms] == [
+        ("has 6 things, which are the most; 4 wishes were not looked at",),
+        (),
+    ]

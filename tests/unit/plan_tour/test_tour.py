@@ -12,6 +12,8 @@ from sample_plan import opening, room, sample_plan, sample_storey
 
 from veduta.plan.document import PlanDocument, Stairs, Storey
 from veduta.plan.house.build import House, build_house
+from veduta.plan.house.entrance import entrances
+from veduta.plan.house.placing import place_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.tour.find import EYE_M, INDOORS, Tour, find_tour
 from veduta.plan.tour.pace import TURN_RAD_S, travelled
@@ -155,3 +157,29 @@ def test_the_place_has_the_tour_in_its_own_frame() -> None:
     assert placed.eyes[0][2] == pytest.approx(EYE_M + 0.25)
     assert placed.stretches[0].room is None
     assert placed.stretches[-1].end_s == pytest.approx(placed.times_s[-1], abs=1e-3)
+
+
+def test_a_house_over_a_basement_is_entered_above_it() -> None:
+    """The doors of a basement lead into the earth; one goes down by the stairs."""
+    above, below = two_storeys().storeys[::-1]
+    cellar = below.model_copy(update={"name": "Keller", "elevation_m": -2.8})
+    ground = above.model_copy(
+        update={
+            "elevation_m": 0.0,
+            "name": "Erdgeschoss",
+            "openings": [one.model_copy(update={"along_m": 0.4}) if one.id == "front" else one
+                         for one in sample_storey().openings],
+        }
+    )  # fmt: skip
+    house, tour = toured(sample_plan(cellar, ground))
+    assert house.part.attributes["storeysAboveGround"] == 1
+    assert house.part.attributes["storeysBelowGround"] == 1
+    eyes = tour.path.eyes_m
+    assert eyes[0, 2] == eyes[-1, 2] == EYE_M
+    assert tour.stretches[0].title == "Outside"
+    assert eyes[:, 2].min() == pytest.approx(EYE_M - 2.8)
+    place = place_of(house, "house.glb", None, HouseOptions())
+    # The floor at ground level lies on the plinth, and one begins before its door.
+    assert place.parts[0].transform[14] == pytest.approx(HouseOptions().plinth)
+    assert place.start is not None
+    assert place.start.target[:2] == pytest.approx(entrances(house.spaces[1])[0].middle)

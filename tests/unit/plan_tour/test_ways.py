@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import math
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -17,8 +18,9 @@ from shapely.geometry import LineString, Point, Polygon, box
 
 from veduta.plan.document import Furniture
 from veduta.plan.house.space import space_of
+from veduta.plan.tour.find import coarse_notes
 from veduta.plan.tour.free import BODY_M, Ground, footprint, ground_of
-from veduta.plan.tour.grid import SHY_COST, SHY_M, Cells, Grid, cells_of
+from veduta.plan.tour.grid import MOST_CELLS, MOST_IN_ALL, SHY_COST, SHY_M, Cells, Grid, cells_of
 from veduta.plan.tour.leaves import OpenLeaf
 from veduta.plan.tour.smooth import resampled, smoothed
 from veduta.plan.tour.stops import short_order
@@ -47,6 +49,21 @@ def test_one_walks_through_doors_and_not_through_windows() -> None:
     free = ground().free
     assert free.covers(LineString([(4.0, 1.45), (6.0, 1.45)]))  # the inner door: 1.0 to 1.9 m
     assert not free.intersects(LineString([(3.5, 0.0), (3.5, 0.1)]))  # the window w1
+
+
+def test_squares_of_a_house_are_bounded_and_coarse_ones_are_told() -> None:
+    """A hall of 300 m by 300 m, alone and on forty storeys: squares of 6 cm were 25 million."""
+    hall = replace(ground(), floor=box(0.0, 0.0, 300.0, 300.0), solid=Polygon())
+    one, many = cells_of(hall), cells_of(hall, 40)
+    # But for the squares that begin at the edges.
+    assert len(one.places_m) <= 1.01 * MOST_CELLS
+    assert 40 * len(many.places_m) <= 1.01 * MOST_IN_ALL
+    assert one.side_m == pytest.approx(math.sqrt(300.0**2 / MOST_CELLS))
+    assert many.side_m > one.side_m
+    small = cells_of(ground())
+    said = coarse_notes([hall, ground()], [one, small])
+    assert len(said) == 1
+    assert "squares of 47 cm" in said[0]
 
 
 @pytest.mark.parametrize(("width", "passes"), [(0.48, False), (0.55, True)])

@@ -1,7 +1,5 @@
 //! Rule files and lots for tests of derivations.
 
-#![allow(dead_code)] // not every test needs all of it
-
 use std::collections::HashMap;
 use std::sync::Arc;
 

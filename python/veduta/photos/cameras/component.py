@@ -32,12 +32,16 @@ _MISPLACED = (
 )
 
 
+_KEPT_WEAK = f"fewer than {FEWEST_POINTS} points hold what may have been placed falsely"
+_KEPT_MISPLACED = "from where it was placed it would show much that it does not"
+
+
 @dataclass(frozen=True)
 class Component:
     """Photos that hang together. level_deg: how level they were held, in the middle.
 
     upright: what walls and vertical edges said of up; None where they were not asked. left: photos
-    that were mapped and fell out, as (name, reason).
+    that were mapped and fell out, as (name, reason). notes: of photos that should have.
     """
 
     structure: Structure
@@ -45,6 +49,7 @@ class Component:
     level_deg: float
     upright: Upright | None = None
     left: tuple[tuple[str, str], ...] = ()
+    notes: tuple[str, ...] = ()
 
     @cached_property
     def errors_px(self) -> NDArray[np.float64]:
@@ -64,14 +69,15 @@ def finish_component(
     structure = with_cameras(mapped, choice.kind, groups)
     structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
     structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
-    placed = without_misplaced(structure)
+    placed, doubtful = without_misplaced(structure)
     left = _told(structure, placed, _MISPLACED)
     if left:  # they bent what they were tied to
         placed = without_outliers(adjusted(placed, free_principal_point=free), MOST_ERROR_PX)
-    held = without_weak(placed)
+    held, weak = without_weak(placed)
     upright = oriented(held)
     left += _told(placed, held, _WEAK)
-    return Component(upright.structure, choice, upright.level_deg, left=left)
+    notes = (*_kept(doubtful, _KEPT_MISPLACED), *_kept(weak, _KEPT_WEAK))
+    return Component(upright.structure, choice, upright.level_deg, left=left, notes=notes)
 
 
 def _told(before: Structure, after: Structure, reason: str) -> tuple[tuple[str, str], ...]:
@@ -79,10 +85,17 @@ def _told(before: Structure, after: Structure, reason: str) -> tuple[tuple[str, 
     return tuple((name, reason) for name in sorted({*before.names} - {*after.names}))
 
 
-def without_weak(structure: Structure) -> Structure:
-    """The same without photos that too few points hold, as long as two are left."""
+def _kept(names: tuple[str, ...], state: str) -> tuple[str, ...]:
+    """A note on photos that would have fallen out."""
+    if not names:
+        return ()
+    return (f"{', '.join(names)}: {state}; kept, as fewer than two photos would be left",)
+
+
+def without_weak(structure: Structure) -> tuple[Structure, tuple[str, ...]]:
+    """The same without photos that too few points hold.
+
+    Where fewer than two would be left all stay: then the second names those that are weak.
+    """
     counts = np.bincount(structure.image_of, minlength=len(structure.names))
-    weak = counts < FEWEST_POINTS
-    if not weak.any() or np.count_nonzero(~weak) < 2:
-        return structure
-    return structure.without_photos(weak)
+    return structure.without_doubtful(counts < FEWEST_POINTS)

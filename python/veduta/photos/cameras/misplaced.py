@@ -26,12 +26,13 @@ MISPLACED = 0.5
 photos 0.77, true ones at most 0.25; fountain-P11, lund-door: at most 0.03."""
 
 
-def without_misplaced(structure: Structure) -> Structure:
-    """The same without photos that are misplaced; at least two are left."""
+def without_misplaced(structure: Structure) -> tuple[Structure, tuple[str, ...]]:
+    """The same without photos that are misplaced.
+
+    Where fewer than two would be left all stay: then the second names those that are misplaced.
+    """
     misplaced = np.array([share >= MISPLACED for share in empty_shares(structure)])
-    if not misplaced.any() or np.count_nonzero(~misplaced) < 2:
-        return structure
-    return structure.without_photos(misplaced)
+    return structure.without_doubtful(misplaced)
 
 
 def empty_shares(structure: Structure) -> NDArray[np.float64]:

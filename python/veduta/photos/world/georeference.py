@@ -58,7 +58,7 @@ class Georeference:
     """The best fit and the second best, where there are any, and whether the best is believed.
 
     crs: EPSG code, None where the reference names none. origin_m: where the world's axes meet, in
-    that CRS. why: one sentence, for a person.
+    that CRS. why: one sentence, for a person. notes: what else must be known of how it was found.
     """
 
     method: Method
@@ -68,3 +68,4 @@ class Georeference:
     origin_m: tuple[float, float, float]
     best: Fit | None
     second: Fit | None = None
+    notes: tuple[str, ...] = ()

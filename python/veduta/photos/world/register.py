@@ -40,6 +40,10 @@ NO_WALL_NATS = -4.0
 INSIDE_NATS, MOST_INSIDE_NATS = -3.0, -30.0
 """Of each camera inside of a building, and of all together: they err together."""
 FEWEST_WALLS = 3
+_RAN_AWAY = (
+    "what single points say leads away from the walls' placement: it is that of the walls alone,"
+    " less exact"
+)
 
 
 @dataclass(frozen=True)
@@ -93,7 +97,8 @@ def register(
     found.sort(key=lambda one: -one.score)
     closer = refine_by_points(found[0].refined, columns, corners, index, structure.points, middle)
     first = _weighed(closer, columns, index, lines, wall_of)
-    if _differ(first, found[0], middle):  # it has run away
+    ran_away = _differ(first, found[0], middle)
+    if ran_away:
         first = found[0]
     second = next((one for one in found[1:] if _differ(first, one, middle)), None)
     standing = Standing(
@@ -115,6 +120,7 @@ def register(
         origin_m=model.origin_m,
         best=_fit(first, walls, index),
         second=None if second is None else _fit(second, walls, index),
+        notes=(_RAN_AWAY,) if ran_away else (),
     )
 
 

@@ -60,6 +60,7 @@ def georef_notes(found: Sequence[Georeferenced]) -> list[str]:
         for tried in one.tried:
             state = "laid into the world by" if tried.accepted else "refused:"
             notes.append(f"{whose}{state} {method_name(tried.method)}: {tried.why}")
+            notes += [f"{whose}{method_name(tried.method)}: {note}" for note in tried.notes]
     return notes
 
 

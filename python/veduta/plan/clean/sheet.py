@@ -2,20 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.clean.straighten import laid_straight, skew, work_scale
-from veduta.plan.document import Text
 from veduta.plan.drawn import Cleaned
 from veduta.run.errors import NotFoundError
-
-TextReader = Callable[[NDArray[np.uint8]], Sequence[Text]]
-"""Reads the texts of (h, w, 3) pixels."""
 
 LEAST_SIDE_PX = 100
 """A house on fewer pixels has walls of less than one."""

@@ -22,7 +22,7 @@ from veduta.plan.furnish.layout import Layout, Stood
 from veduta.plan.furnish.place import place_first
 from veduta.plan.furnish.room import RoomSpace, room_spaces
 from veduta.plan.furnish.upon import place_upon
-from veduta.plan.furnish.walk import Ways
+from veduta.plan.furnish.walk import Ways, is_too_large
 from veduta.plan.house.flights import storey_spaces
 
 GROUPS: dict[str, Callable[[Choice, RoomSpace], list[Variant]]] = {
@@ -51,11 +51,12 @@ MOST_THINGS = 60
 
 @dataclass(frozen=True)
 class FurnishedRoom:
-    """A room with what stands in it, and what found no place."""
+    """A room with what stands in it, what found no place, and why it has no more than that."""
 
     room: Room
     stood: tuple[Stood, ...]
     missing: tuple[str, ...]
+    notes: tuple[str, ...] = ()
 
 
 def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: float, *,
@@ -87,29 +88,32 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
 
 def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom:
     """A room by its use; where something critical finds no place, what came before it gives way."""
+    if is_too_large(space.floor):
+        return FurnishedRoom(space.room, (), (), ("is left empty: it is too large",))
     name = zlib.crc32(f"{storey} {space.room.id}".encode())
     seeds = [choice.seed, name]
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
     ways = Ways(space.floor, space.doors)
-    tried: list[tuple[Layout, list[str]]] = []
+    tried: list[tuple[Layout, list[str], int]] = []
     given_up: list[str] = []
     critical = {wish.type for wish in wishes if wish.critical}
 
-    def lack(one: tuple[Layout, list[str]]) -> tuple[int, int]:
+    def lack(one: tuple[Layout, list[str], int]) -> tuple[int, int]:
         return sum(kind in critical for kind in one[1]), len(one[1])
 
     for _ in range(RESTARTS):
         layout = Layout(space, ways)
-        missing, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
-        tried.append((layout, [*_not_replaced(given_up, layout), *missing]))
+        missing, left, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
+        tried.append((layout, [*_not_replaced(given_up, layout), *missing], left))
         if not failed:
             break
         # The first wishes are the largest: without the first, there is place for the critical one.
         given_up.append(wishes.pop(0).type)
     # The last of those that lack as little: what was asked for in vain has its place there.
-    best, missing = min(reversed(tried), key=lack)
+    best, missing, left = min(reversed(tried), key=lack)
     place_upon(best, choice, np.random.default_rng([*seeds, 1]))
-    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing))
+    full = f"has {MOST_THINGS} things, which are the most; {left} wishes were not looked at"
+    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing), (full,) if left else ())
 
 
 def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:
@@ -134,16 +138,17 @@ def _wishes(space: RoomSpace, choice: Choice, rng: np.random.Generator) -> Itera
 
 def _place_all(
     wishes: Sequence[Wanted], layout: Layout, choice: Choice, rng: np.random.Generator
-) -> tuple[list[str], bool | None]:
-    """What found no place, and whether something critical did not that others could make room for.
+) -> tuple[list[str], int, bool | None]:
+    """What found no place, how many wishes are left when the room is full, and ...
 
-    None where nothing critical failed.
+    ... whether something critical found no place that others could make room for; None where
+    nothing critical failed.
     """
     missing: list[str] = []
     failed: bool | None = None
     for group, wish in enumerate(wishes, 1):
         if len(layout.stood) >= MOST_THINGS:
-            break
+            return missing, len(wishes) - group + 1, failed
         other = INSTEAD.get(wish.type)
         if other and any(one.entry.type == other for one in layout.stood):
             continue
@@ -152,7 +157,7 @@ def _place_all(
         missing.append(wish.type)
         if wish.critical:
             failed = group > 1
-    return missing, failed
+    return missing, 0, failed
 
 
 def _place_one(

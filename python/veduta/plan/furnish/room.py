@@ -6,7 +6,7 @@ Plan frame, metres; heights are from the room's floor.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
@@ -92,7 +92,6 @@ class RoomSpace:
     blocked: BaseGeometry
     windows: tuple[Window, ...]
     height_m: float
-    notes: list[str] = field(default_factory=list)
 
     @cached_property
     def inside(self) -> Polygon:
@@ -205,9 +204,18 @@ def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
 def _flight(stairs: Stairs, *, comes_up: bool) -> BaseGeometry:
     """A flight with the step before its foot, or, on the storey above, behind its head."""
     shape = Polygon(stairs.outline_m).buffer(0.02, join_style="mitre")
+    if stairs.path_m:
+        return unary_union([shape, _stand(np.array(stairs.path_m), comes_up=comes_up)])
     way = np.array(stairs.up) * (1.0 if comes_up else -1.0)
     moved = affinity.translate(shape, *(STEP_M * way))
     return unary_union([shape, moved]).convex_hull if np.any(way) else shape.buffer(0.4)
+
+
+def _stand(path: NDArray[np.float64], *, comes_up: bool) -> BaseGeometry:
+    """Where one steps on or off stairs that turn."""
+    end, before = path[[-1, -2] if comes_up else [0, 1]]
+    out = (end - before) / np.hypot(*(end - before))
+    return LineString([end, end + STEP_M * out]).buffer(STEP_M / 2.0, cap_style="flat")
 
 
 def _stretches(

@@ -14,12 +14,20 @@ from scipy import ndimage
 from shapely.geometry.base import BaseGeometry
 
 CELL_M = 0.05
+MOST_CELLS = 4_000_000
+"""Of a grid: 100 m by 100 m. Rooms that are larger have none."""
 RADIUS_M, WIDE_M = 0.25, 0.30
 """Of a person; and with a margin for what the cells do not show, where the empty room has it."""
 NEAR_M = 0.25
 """A point's cell is the nearest passable one, if it is no further than this."""
 LEAST_FREE_M2 = 0.3
 Mask = NDArray[np.bool_]
+
+
+def is_too_large(floor: BaseGeometry) -> bool:
+    """Whether a floor has more cells than a grid may have."""
+    left, bottom, right, top = floor.bounds
+    return bool((right - left) * (top - bottom) > MOST_CELLS * CELL_M**2)
 
 
 class WalkGrid:

@@ -10,13 +10,22 @@ from veduta.plan.document import PlanDocument
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.doors import add_door
 from veduta.plan.house.flights import Stairwell, storey_spaces
-from veduta.plan.house.floors import FINISH_M, add_ceilings, add_floors, add_skirting, add_slab
+from veduta.plan.house.floors import (
+    FINISH_M,
+    add_ceilings,
+    add_floors,
+    add_skirting,
+    add_slab,
+    slab_over,
+)
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.furniture import Furnishing
+from veduta.plan.house.ground_level import ground_storey
 from veduta.plan.house.looks import Looks
 from veduta.plan.house.roof import add_roof
+from veduta.plan.house.room_looks import TilePictures, room_looks
 from veduta.plan.house.sound import sound_part
-from veduta.plan.house.space import Space, solid_region
+from veduta.plan.house.space import Space
 from veduta.plan.house.stairs import add_stairs
 from veduta.plan.house.walls import add_walls
 from veduta.plan.house.windows import add_window
@@ -33,12 +42,23 @@ class House:
 
     part: Part
     spaces: tuple[Space, ...]
+    """From the lowest storey up."""
+
+    @property
+    def ground(self) -> int:
+        """The row of the storey at the level of the ground around the house."""
+        return ground_storey([space.storey for space in self.spaces])
 
 
-def build_house(document: PlanDocument, options: HouseOptions) -> House:
-    """The house; the notes of the part say what was left out or is otherwise than asked."""
+def build_house(
+    document: PlanDocument, options: HouseOptions, pictures: TilePictures | None = None
+) -> House:
+    """The house; the notes of the part say what was left out or is otherwise than asked.
+
+    pictures: of tiles that photos of rooms show.
+    """
     builder = PartBuilder(PART)
-    sculptor = Sculptor(builder, Looks(builder))
+    sculptor = Sculptor(builder, Looks(builder, room_looks(document, pictures or {})))
     furnishing = Furnishing(
         builder, catalogue_of(options.catalogue), coarse=options.furniture_detail == "coarse"
     )
@@ -54,7 +74,10 @@ def build_house(document: PlanDocument, options: HouseOptions) -> House:
     add_slab(first.slab, base - GROUND_SLAB_M, base, "ground slab", sculptor)
     top = last.storey.elevation_m + last.storey.height_m
     builder.notes.extend(add_roof(last.covered, top, sculptor, options))
-    builder.attributes["storeysAboveGround"] = len(spaces)
+    below = ground_storey(storeys)
+    builder.attributes["storeysAboveGround"] = len(spaces) - below
+    if below:
+        builder.attributes["storeysBelowGround"] = below
     return House(furnishing.onto(sound_part(builder.build())), spaces)
 
 
@@ -78,9 +101,7 @@ def _add_storey(
     add_ceilings(space, height, well.opening, sculptor)
     add_skirting(space, sculptor)
     add_lamps(storey, height - FINISH_M, sculptor)
-    over = space.covered if above is None else space.covered.union(above.slab)
-    over = solid_region(over.difference(well.opening))
     if above is not None:
         add_stairs(well, space, above, sculptor)
     top = storey.elevation_m + storey.height_m
-    add_slab(over, top - options.slab, top, f"{storey.name} slab", sculptor)
+    add_slab(slab_over(space, above), top - options.slab, top, f"{storey.name} slab", sculptor)

@@ -1,12 +1,11 @@
 """Flights of stairs between storeys: where they run, and the wells that they need.
 
 A flight that is drawn in a storey leads to the next one. Where only the storey above shows it, it
-comes up from below. The well above a flight is as long as a head needs it (`HEADROOM_M`).
+comes up from below. The well above a flight is as long as a head needs it (`headroom`).
 """
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
@@ -18,15 +17,17 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Stairs, Storey
+from veduta.plan.house.headroom import first_in_well
 from veduta.plan.house.space import Space, solid_region, space_of
+from veduta.plan.house.turning import TurningFlight, turning_flight
 
-HEADROOM_M = 2.0
 STEEP_M = 0.22
 """Higher steps are told: the drawing may show a part of the flight only."""
 LEAST_RUN_M = 0.6
 _SIDE_M = 0.005
 """Between a flight and the walls on its sides."""
 _AHEAD_M = 0.4
+_BETWEEN_M = 0.15
 
 
 @dataclass(frozen=True)
@@ -74,15 +75,24 @@ class Flight:
 
     def well(self, slab_m: float) -> Polygon:
         """Where the slab above would be nearer to a tread than a head is high."""
-        steps = math.floor((self.rise_m - slab_m - HEADROOM_M) / self.riser_m)
-        return self.piece(min(max(0, steps - 1), self.treads - 1) * self.going_m, self.run_m)
+        first = first_in_well(self.rise_m, self.riser_m, self.treads, slab_m)
+        return self.piece(first * self.going_m, self.run_m)
+
+    @property
+    def arrival(self) -> LineString:
+        """The edge at which one steps onto the upper floor."""
+        end = self.foot + self.run_m * self.along
+        return LineString([end, end + self.right * self.width_m])
+
+
+AnyFlight = Flight | TurningFlight
 
 
 @dataclass(frozen=True)
 class Stairwell:
     """The flights from a storey up, the opening in the slab above, and what is to be said."""
 
-    flights: tuple[Flight, ...] = ()
+    flights: tuple[AnyFlight, ...] = ()
     opening: BaseGeometry = field(default_factory=Polygon)
     notes: tuple[str, ...] = ()
 
@@ -108,22 +118,25 @@ def _stairwell(lower: Space, upper: Space, slab_m: float) -> Stairwell:
     own = lower.storey.stairs
     drawn = [*own] or [*upper.storey.stairs]
     rise = upper.storey.elevation_m - lower.storey.elevation_m
-    flights, notes = [], []
+    flights: list[AnyFlight] = []
+    notes: list[str] = []
     for one in drawn:
-        flight = _flight(one, lower, rise)
+        flight = turning_flight(one, rise) if one.steps_m else _flight(one, lower, rise)
         if flight is None:
-            where = f"stairs {one.id} of {lower.storey.name}"
+            where = f"stairs {one.id} of {(lower if own else upper).storey.name}"
             notes.append(f"{where} are left out: they are too small to walk on")
             continue
         flights.append(flight)
         notes += _told(flight, lower, upper, bool(own))
     walls = unary_union([lower.walls, upper.walls])
     wells = unary_union([flight.well(slab_m) for flight in flights]) if flights else Polygon()
+    # No strip of a slab is left between two flights.
+    wells = wells.buffer(_BETWEEN_M, join_style="mitre").buffer(-_BETWEEN_M, join_style="mitre")
     opening = solid_region(wells.intersection(upper.slab).difference(walls))
     return Stairwell(tuple(flights), opening, tuple(notes))
 
 
-def _told(flight: Flight, lower: Space, upper: Space, own: bool) -> list[str]:
+def _told(flight: AnyFlight, lower: Space, upper: Space, own: bool) -> list[str]:
     notes = []
     name = f"stairs {flight.id} from {lower.storey.name} to {upper.storey.name}"
     if not own:

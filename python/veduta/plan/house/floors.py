@@ -11,13 +11,12 @@ from shapely.ops import unary_union
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Room
 from veduta.plan.house.frame import Sculptor, Surface, level
-from veduta.plan.house.looks import floor_look, wall_look
+from veduta.plan.house.looks import floor_look, has_skirting
 from veduta.plan.house.space import Space, solid_region
 
 FINISH_M = 0.01
 SKIRTING_M = (0.012, 0.07)
 """How deep and how high it is."""
-_DRY = {"inner wall"}
 
 
 def add_slab(
@@ -32,6 +31,14 @@ def add_slab(
     sculptor.prism(
         region, low_m, high_m, level(0.0), Surface(feature, "slab"), side=Surface(feature, "facade")
     )
+
+
+def slab_over(space: Space, above: Space | None) -> BaseGeometry:
+    """The slab over a storey, open where stairs come up."""
+    over = space.covered
+    if above is not None:
+        over = over.union(above.slab).difference(above.well)
+    return solid_region(over)
 
 
 def add_floors(space: Space, sculptor: Sculptor) -> None:
@@ -72,7 +79,7 @@ def add_skirting(space: Space, sculptor: Sculptor) -> None:
     openings.append(space.well.buffer(1e-3))
     walls = space.walls.buffer(depth, join_style="mitre")
     for room, region in space.floors:
-        if room is None or wall_look(room) not in _DRY:
+        if room is None or not has_skirting(room):
             continue
         board = region.intersection(walls).difference(unary_union(openings))
         board = solid_region_of_boards(board)

@@ -1,10 +1,12 @@
 """Materials of a house by name, registered in the part when they are first used.
 
-No plan shows a material: all of them are invented, and their textures are painted by code.
+No plan shows a material: all of them are invented, and their textures are painted by code, but for
+those that photos of rooms show (`finishes`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -15,11 +17,12 @@ from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES, painted
 from veduta.place.builder import PartBuilder, UvMap
 from veduta.place.material import Colour, Material, Texture
 from veduta.plan.document import Room, RoomUse
+from veduta.plan.house.finishes import laid_tiling, paint_name, tiles_name
 
 
 @dataclass(frozen=True)
 class Look:
-    """A colour (sRGB), which multiplies the built-in texture where one is named."""
+    """A colour (sRGB), which multiplies the texture: a built-in one by its name, or a picture."""
 
     colour: Colour
     texture: str | None = None
@@ -27,6 +30,9 @@ class Look:
     opacity: float = 1.0
     metalness: float = 0.0
     glow: float = 0.0
+    picture: Texture | None = None
+    picture_m: tuple[float, float] = (1.0, 1.0)
+    """What the picture covers to the right and up."""
 
 
 LOOKS: dict[str, Look] = {
@@ -67,13 +73,16 @@ _FLOORS: dict[RoomUse, str] = {
     **dict.fromkeys(("garage", "technical"), "concrete floor"),
     **dict.fromkeys(("balcony", "terrace"), "terrace floor"),
 }
-_TILED: frozenset[RoomUse] = frozenset({"bathroom", "toilet", "sauna"})
+TILED: frozenset[RoomUse] = frozenset({"bathroom", "toilet", "sauna"})
 
 
 def floor_look(room: Room | None) -> str:
     """What the floor of a room is made of."""
     if room is None:
         return "concrete floor"
+    tiling = laid_tiling(room, "floor")
+    if tiling is not None:
+        return tiles_name(tiling)
     return "terrace floor" if room.outdoors else _FLOORS.get(room.use, "wood floor")
 
 
@@ -81,26 +90,41 @@ def wall_look(room: Room | None) -> str:
     """What the walls around a room look like; None and outdoors is the facade."""
     if room is None or room.outdoors:
         return "facade"
-    return "tiled wall" if room.use in _TILED else "inner wall"
+    tiling = laid_tiling(room, "wall")
+    if tiling is not None:
+        return tiles_name(tiling)
+    if room.wall_colour is not None:
+        return paint_name(room.wall_colour)
+    return "tiled wall" if room.use in TILED else "inner wall"
+
+
+def has_skirting(room: Room) -> bool:
+    """Whether there is a board along its walls: not where they are tiled."""
+    painted = room.wall_colour is not None or room.use not in TILED
+    return not room.outdoors and painted and laid_tiling(room, "wall") is None
 
 
 class Looks:
     """The materials of a part."""
 
-    def __init__(self, builder: PartBuilder) -> None:
+    def __init__(self, builder: PartBuilder, finishes: Mapping[str, Look] | None = None) -> None:
+        """finishes: looks of single rooms, by their names."""
         self._builder = builder
+        self._looks = {**LOOKS, **(finishes or {})}
         self._numbers: dict[str, int] = {}
 
     def of(self, name: str, ring_m: NDArray[np.float64]) -> tuple[int, UvMap | None]:
         """The number of a material, and where a flat surface with this (n, 3) ring shows what."""
-        look = LOOKS[name]
+        look = self._looks[name]
         if name not in self._numbers:
-            texture = None if look.texture is None else _texture(look.texture)
+            texture = look.picture if look.texture is None else _texture(look.texture)
             material = Material(
                 name.replace(" ", "-"), look.colour, look.roughness, look.metalness,
                 texture, look.opacity, look.glow,
             )  # fmt: skip
             self._numbers[name] = self._builder.material(material)
+        if look.picture is not None:
+            return self._numbers[name], flat_map(ring_m, look.picture_m)
         if look.texture is None:
             return self._numbers[name], None
         return self._numbers[name], flat_map(ring_m, SURFACES[look.texture].size_m)

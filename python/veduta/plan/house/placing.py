@@ -19,7 +19,7 @@ WHOLE = 0.7
 
 def raised_m(house: House, options: HouseOptions) -> float:
     """How much higher the house stands in its place than in the plan frame."""
-    return options.plinth - house.spaces[0].storey.elevation_m
+    return options.plinth - house.spaces[house.ground].storey.elevation_m
 
 
 def place_of(
@@ -28,6 +28,7 @@ def place_of(
     document: str | None,
     options: HouseOptions,
     tours: Sequence[Tour] = (),
+    city_model: str | None = None,
 ) -> Place:
     """The manifest; x and y are those of the plan, as no plan says where the house stands.
 
@@ -41,6 +42,7 @@ def place_of(
                 id=house.part.id,
                 name="House",
                 model=model,
+                city_model=city_model,
                 document=document,
                 transform=transform,
                 arrangement="single",
@@ -48,7 +50,7 @@ def place_of(
             )
         ],
         tours=list(tours),
-        start=_start(house.spaces[0]),
+        start=_start(house.spaces[house.ground]),
     )
 
 

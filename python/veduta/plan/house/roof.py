@@ -7,7 +7,9 @@ some centimetres, so that its skeleton is that of AV3D's tangents ("3D generatio
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 
+import manifold3d
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
@@ -16,14 +18,53 @@ from shapely.geometry.polygon import orient
 
 from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.eaves import clear_of, solid_of_faces
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.space import pieces_of
+from veduta.plan.house.walls import extruded
 from veduta.plan.options import HouseOptions, RoofKind
 
 FLAT_M = 0.12
 _JOG_M = 0.08
 _LEAST_M2 = 1.0
-_UNDER_M = 0.005
+UNDER_M = 0.005
+
+
+Solid = list[list[NDArray[np.float64]]]
+
+
+@dataclass(frozen=True)
+class Roof:
+    """A roof over a piece of a region. faces: rings of a solid about its eaves; None: flat."""
+
+    name: str
+    shape: Polygon
+    asked: RoofKind
+    built: RoofKind
+    faces: Solid | None
+
+
+def roofs_over(region: BaseGeometry, options: HouseOptions) -> list[Roof]:
+    """A roof for each piece of a region, as asked, or else hipped, or else flat."""
+    if options.roof == "none":
+        return []
+    kind: RoofKind = "hip" if options.roof == "auto" else options.roof
+    shapes = [(number, _smooth(piece)) for number, piece in enumerate(pieces_of(region), start=1)]
+    return [
+        _roof(f"roof {number}", shape, kind, options)
+        for number, shape in shapes
+        if shape.area >= _LEAST_M2
+    ]
+
+
+def _roof(name: str, shape: Polygon, asked: RoofKind, options: HouseOptions) -> Roof:
+    # A round house has no gables.
+    tried: tuple[RoofKind, ...] = () if asked == "flat" else (asked, "hip")
+    for kind in tried:
+        faces = _solid(shape, kind, options)
+        if faces is not None:
+            return Roof(name, shape, asked, kind, faces)
+    return Roof(name, shape, asked, "flat", None)
 
 
 def add_roof(
@@ -31,30 +72,36 @@ def add_roof(
 ) -> list[str]:
     """A roof over each piece of a region; what could not be built as asked is noted."""
     notes: list[str] = []
-    if options.roof == "none":
-        return notes
-    for number, piece in enumerate(pieces_of(region), start=1):
-        shape = _smooth(piece)
-        if shape.area < _LEAST_M2:
-            continue
-        kind: RoofKind = "hip" if options.roof == "auto" else options.roof
-        found = None if kind == "flat" else _solid(shape, kind, options)
-        if found is None and kind not in ("flat", "hip"):
-            # A round house has no gables.
-            found = _solid(shape, "hip", options)
-            if found is not None:
-                notes.append(f"roof {number} is hipped: its outline allows no {kind} roof")
-        if found is None and kind != "flat":
-            notes.append(f"roof {number} is flat: a {kind} roof cannot be built over its outline")
+    for roof in roofs_over(region, options):
+        if roof.built != roof.asked and roof.built == "hip":
+            notes.append(f"{roof.name} is hipped: its outline allows no {roof.asked} roof")
+        elif roof.built != roof.asked:
+            notes.append(
+                f"{roof.name} is flat: a {roof.asked} roof cannot be built over its outline"
+            )
         feature = sculptor.builder.feature(
-            SemanticClass.ROOF, Provenance.INVENTED, f"roof {number}",
+            SemanticClass.ROOF, Provenance.INVENTED, roof.name,
             shell=sculptor.builder.new_shell(),
         )  # fmt: skip
-        if found is None:
-            _add_flat(shape, height_m, sculptor, feature, options.overhang)
+        if roof.faces is None:
+            _add_flat(roof.shape, height_m, sculptor, feature, options.overhang)
         else:
-            _add_solid(found, height_m, sculptor, feature)
+            _add_solid(clear_of(roof.faces, region), height_m, sculptor, feature)
     return notes
+
+
+def roof_body(roof: Roof, height_m: float, options: HouseOptions) -> manifold3d.Manifold | None:
+    """The roof with what hangs below the walls' top; None where it is no closed solid."""
+    if roof.faces is None:
+        region = flat_region(roof.shape, options.overhang)
+        return extruded(region, height_m, height_m + FLAT_M)
+    body = solid_of_faces(roof.faces)
+    return None if body is None else body.translate([0.0, 0.0, height_m + UNDER_M])
+
+
+def flat_region(shape: Polygon, overhang_m: float) -> BaseGeometry:
+    """What a flat roof covers."""
+    return shape.buffer(min(overhang_m, 0.3), join_style="mitre")
 
 
 def _smooth(piece: Polygon) -> Polygon:
@@ -64,9 +111,6 @@ def _smooth(piece: Polygon) -> Polygon:
     largest = max(pieces_of(closed), key=lambda one: one.area, default=outline)
     simple = pieces_of(Polygon(largest.exterior).simplify(_JOG_M / 2.0))
     return orient(simple[0]) if simple else orient(outline)
-
-
-Solid = list[list[NDArray[np.float64]]]
 
 
 def _solid(shape: Polygon, kind: str, options: HouseOptions) -> Solid | None:
@@ -90,7 +134,7 @@ def _solid(shape: Polygon, kind: str, options: HouseOptions) -> Solid | None:
 
 
 def _add_solid(faces: Solid, height_m: float, sculptor: Sculptor, feature: int) -> None:
-    frame = level(height_m + _UNDER_M)
+    frame = level(height_m + UNDER_M)
     for rings in faces:
         normal = np.cross(rings[0], np.roll(rings[0], -1, axis=0)).sum(axis=0)
         look = "roof" if normal[2] > 1e-9 else "soffit"
@@ -100,7 +144,7 @@ def _add_solid(faces: Solid, height_m: float, sculptor: Sculptor, feature: int) 
 def _add_flat(
     shape: Polygon, height_m: float, sculptor: Sculptor, feature: int, overhang_m: float
 ) -> None:
-    region = shape.buffer(min(overhang_m, 0.3), join_style="mitre")
+    region = flat_region(shape, overhang_m)
     sculptor.prism(
         region, height_m, height_m + FLAT_M, level(0.0), Surface(feature, "soffit"),
         high=Surface(feature, "flat roof"),

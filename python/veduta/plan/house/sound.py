@@ -9,6 +9,7 @@ from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.place.part import PLANE_TOLERANCE_M, Part
+from veduta.place.subset import with_polygons
 
 _SHOWN = 6
 
@@ -29,23 +30,8 @@ def _without_unsound(part: Part) -> Part:
         part.polygon_offsets,
         PLANE_TOLERANCE_M,
     )
-    ring_counts, point_counts = np.diff(part.polygon_offsets), np.diff(part.ring_offsets)
-    ring_kept = np.repeat(kept, ring_counts)
-    vertices = np.repeat(ring_kept, point_counts)
-    row_of = np.cumsum(kept) - 1
-    movers = tuple(
-        replace(mover, polygons=row_of[mover.polygons[kept[mover.polygons]]])
-        for mover in part.movers
-    )
     return replace(
-        part,
-        positions_m=part.positions_m[vertices],
-        uv=part.uv[vertices],
-        ring_offsets=np.concatenate([[0], np.cumsum(point_counts[ring_kept])]).astype(np.int64),
-        polygon_offsets=np.concatenate([[0], np.cumsum(ring_counts[kept])]).astype(np.int64),
-        polygon_feature=part.polygon_feature[kept],
-        polygon_material=part.polygon_material[kept],
-        movers=tuple(mover for mover in movers if len(mover.polygons)),
+        with_polygons(part, kept),
         notes=(*part.notes, _left_out(part, kept)),
     )
 

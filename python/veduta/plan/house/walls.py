@@ -84,43 +84,51 @@ def add_walls(space: Space, height_m: float, sculptor: Sculptor) -> None:
     if space.walls.is_empty:
         return
     shell = shell_of(wall_solid(space, height_m))
-    surfaces = _Surfaces(space, sculptor)
-    by_plane = [surfaces.of(*_middle(shell, plane)) for plane in range(shell.plane.max() + 1)]
+    surfaces, names = _Surfaces(sculptor), WallNames(space)
+    by_plane = [
+        surfaces.of(*names.of(*middle_of(shell, plane))) for plane in range(shell.plane.max() + 1)
+    ]
     frame = level(space.storey.elevation_m)
-    for plane, rings in _polygons(shell):
+    for plane, rings in flat_faces(shell):
         sculptor.face(rings, frame, by_plane[plane])
 
 
 class _Surfaces:
-    """What the faces of walls are, each a feature when it is first met."""
+    """The features of walls, each made when it is first met."""
 
-    def __init__(self, space: Space, sculptor: Sculptor) -> None:
-        self._space = space
+    def __init__(self, sculptor: Sculptor) -> None:
         self._sculptor = sculptor
         self._features: dict[str, int] = {}
         self._shell = sculptor.builder.new_shell()
 
-    def of(self, middle: NDArray[np.float64], normal: NDArray[np.float64]) -> Surface:
-        """The surface of a face, by a point on it and its unit normal."""
+    def of(self, name: str, look: str) -> Surface:
+        """The surface of this name."""
+        if name not in self._features:
+            self._features[name] = self._sculptor.builder.feature(
+                SemanticClass.WALL, Provenance.INFERRED, name, shell=self._shell
+            )
+        return Surface(self._features[name], look)
+
+
+class WallNames:
+    """What the faces of a storey's walls are called, by where they lie (m, above its floor)."""
+
+    def __init__(self, space: Space) -> None:
+        self._space = space
+
+    def of(self, middle: NDArray[np.float64], normal: NDArray[np.float64]) -> tuple[str, str]:
+        """The name of a face's feature and its look, by a point on it and its unit normal."""
         storey = self._space.storey.name
         hole = self._hole_at(middle)
         if hole is not None:
             look = "inner wall" if hole.left and hole.right else "facade"
-            return Surface(self._feature(f"{storey} reveal {hole.opening.id}", "inferred"), look)
+            return f"{storey} reveal {hole.opening.id}", look
         if abs(normal[2]) > 0.5:
-            return Surface(self._feature(f"{storey} wall edges", "inferred"), "wall core")
+            return f"{storey} wall edges", "wall core"
         room = self._room_at(middle[:2] + _STEP_M * normal[:2])
         wall = self._wall_at(middle[:2])
         side = "outside" if room is None else f"in {room.id}"
-        return Surface(self._feature(f"{storey} wall {wall} {side}", "inferred"), wall_look(room))
-
-    def _feature(self, name: str, provenance: str) -> int:
-        if name not in self._features:
-            self._features[name] = self._sculptor.builder.feature(
-                SemanticClass.WALL, Provenance(provenance), name,
-                shell=self._shell,
-            )  # fmt: skip
-        return self._features[name]
+        return f"{storey} wall {wall} {side}", wall_look(room)
 
     def _hole_at(self, middle: NDArray[np.float64]) -> Hole | None:
         at = Point(middle[:2])
@@ -166,17 +174,17 @@ def _planes(shell: Shell) -> NDArray[np.int64]:
     return connected_components(links, directed=False)[1].astype(np.int64)
 
 
-def _middle(shell: Shell, plane: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def middle_of(shell: Shell, plane: int) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The middle of the largest triangle of a flat face, and its unit normal."""
     chosen = np.flatnonzero(shell.plane == plane)
     normals = shell.normals[chosen]
     length = np.linalg.norm(normals, axis=1)
     largest = int(length.argmax())
     corners = shell.points_m[shell.faces[chosen[largest]]]
-    return corners.mean(axis=0), normals[largest] / length[largest]
+    return corners.mean(axis=0), normals[largest] / max(float(length[largest]), 1e-300)
 
 
-def _polygons(shell: Shell) -> list[tuple[int, list[NDArray[np.float64]]]]:
+def flat_faces(shell: Shell) -> list[tuple[int, list[NDArray[np.float64]]]]:
     """Each flat face's number and the rings of its polygons."""
     corners = shell.points_m[shell.faces].reshape(-1, 3)
     count = len(shell.faces)

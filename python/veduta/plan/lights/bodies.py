@@ -11,7 +11,7 @@ from veduta.place.lamp import Lamp
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Light, Storey
 from veduta.plan.house.frame import Frame, Sculptor, Surface, level
-from veduta.plan.lights.furnished import FLOOR_LAMP_M, light_id
+from veduta.plan.lights.furnished import FLOOR_LAMP_M, bodies_of
 
 Profile = Sequence[tuple[float, float]]
 """(radius, height) from the lowest to the highest point of a turned body (m)."""
@@ -34,7 +34,7 @@ def add_lamps(storey: Storey, ceiling_m: float, sculptor: Sculptor) -> None:
 
     ceiling_m: above the floor.
     """
-    bodied = {light_id(item) for item in storey.furniture or []}
+    bodied = bodies_of(storey)
     for light in storey.lights or []:
         x, y = light.at_m
         at = (x, y, storey.elevation_m + light.above_m)

@@ -1,22 +1,32 @@
-"""Lamps that go with furniture: those that stand in the document, and one beside a seat."""
+"""Lamps that go with furniture: those that stand in the document, and one beside a seat.
+
+What is a lamp or a seat, the catalogue says.
+"""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import Any, Literal
 
 import numpy as np
 from shapely.geometry import Point
 from shapely.geometry.base import BaseGeometry
 
-from veduta.plan.document import Furniture, Light
+from veduta.plan.document import Furniture, Light, Storey
+from veduta.plan.furnish.catalogue.entry import Stands
+from veduta.plan.furnish.catalogue.read import Catalogue
 
 FLOOR_LUMEN, TABLE_LUMEN = 800.0, 450.0
 FLOOR_LAMP_M = 1.55
 """From the floor to where a floor lamp shines from."""
 FOOT_M = 0.16
 """Radius of its foot."""
-_SEATS = ("armchair", "sofa", "couch")
+_SEATS = frozenset({"armchair", "sofa", "corner-sofa"})
+"""Types of the catalogue beside which one reads."""
+_KINDS: Mapping[Stands, Literal["floor", "wall", "table"]] = {
+    "floor": "floor", "wall": "wall", "things": "table",
+}  # fmt: skip
 _BESIDE_M = 0.08
 _SHADE = 0.85
 """A lamp shines from this share of its height."""
@@ -29,35 +39,81 @@ def light_id(item: Furniture) -> str:
     return f"{item.id}-light"
 
 
-def furniture_lamps(room: str, things: Sequence[Furniture]) -> list[Light]:
+def bodies_of(storey: Storey) -> dict[str, Furniture]:
+    """The things that are the bodies of lamps, by the ids of their lights."""
+    by_id = {item.id: item for item in storey.furniture or ()}
+    by_light = {light_id(item): item for item in storey.furniture or ()}
+    found = {
+        light.id: by_light.get(light.id) if light.thing is None else by_id.get(light.thing)
+        for light in storey.lights or ()
+    }
+    return {name: item for name, item in found.items() if item is not None}
+
+
+def furniture_lamps(room: str, things: Sequence[Furniture], catalogue: Catalogue) -> list[Light]:
     """The lamps among the things of a room: they stand on the floor or on other things."""
-    lamps = []
-    for item in things:
-        if "lamp" not in item.object or "ceiling" in item.object:
-            continue
-        is_table = item.on is not None or item.above_m > 0.2
-        lamps.append(
-            Light(
-                id=light_id(item),
-                kind="table" if is_table else "floor",
-                room=room,
-                at_m=item.at_m,
-                above_m=round(item.above_m + _SHADE * item.size_m[2], 3),
-                lumen=TABLE_LUMEN if is_table else FLOOR_LUMEN,
-            )
-        )
-    return lamps
+    return [
+        Light(id=light_id(item), thing=item.id, room=room, **_shining(item, catalogue))
+        for item in things
+        if _is_lamp(item, catalogue)
+    ]
+
+
+def followed(storey: Storey, catalogue: Catalogue) -> tuple[Storey, list[str]]:
+    """The storey with the lights of its furniture where that stands now, and what that changed.
+
+    Whoever moves a lamp in a document, or takes it away, means its light, too. How bright it is
+    stays as it is there.
+    """
+    lights, notes = [], []
+    bodies = bodies_of(storey)
+    for light in storey.lights or []:
+        item = bodies.get(light.id)
+        if item is not None and _is_lamp(item, catalogue):
+            place = _shining(item, catalogue) | {"lumen": light.lumen, "room": item.room}
+            moved = light.model_copy(update=place)
+            if moved != light:
+                notes.append(f"{storey.name}: light {light.id} goes with its lamp {item.id}")
+            lights.append(moved)
+        elif light.thing is None:
+            lights.append(light)
+        else:
+            gone = f"there is no lamp {light.thing!r} any more"
+            notes.append(f"{storey.name}: light {light.id} is left out: {gone}")
+    if not notes:
+        return storey, []
+    return storey.model_copy(update={"lights": lights}), notes
+
+
+def _is_lamp(item: Furniture, catalogue: Catalogue) -> bool:
+    return catalogue.entries[item.object].kind == "lamp"
+
+
+def _shining(item: Furniture, catalogue: Catalogue) -> dict[str, Any]:
+    """From where a lamp shines, and how brightly."""
+    kind = _KINDS[catalogue.entries[item.object].stands]
+    return {
+        "kind": kind,
+        "at_m": item.at_m,
+        "above_m": round(item.above_m + _SHADE * item.size_m[2], 3),
+        "lumen": TABLE_LUMEN if kind == "table" else FLOOR_LUMEN,
+    }
 
 
 def seat_lamp(
-    room: str, name: str, things: Sequence[Furniture], free: BaseGeometry, lamps: Sequence[Light]
+    room: str,
+    name: str,
+    things: Sequence[Furniture],
+    free: BaseGeometry,
+    lamps: Sequence[Light],
+    catalogue: Catalogue,
 ) -> Light | None:
     """A floor lamp beside the first seat that has none near it, where there is room for it.
 
     free: what of the floor is neither taken nor walked on by a door's leaf.
     """
     for seat in things:
-        if not any(word in seat.object for word in _SEATS):
+        if catalogue.entries[seat.object].type not in _SEATS:
             continue
         if any(math.dist(seat.at_m, lamp.at_m) < _NEAR_M for lamp in lamps):
             return None

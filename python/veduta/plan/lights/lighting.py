@@ -12,11 +12,12 @@ from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture, Light, PlanDocument, Room, Storey
+from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.house.furniture import footprint
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space, pieces_of, space_of
 from veduta.plan.lights.ceiling import ceiling_lamps
-from veduta.plan.lights.furnished import furniture_lamps, seat_lamp
+from veduta.plan.lights.furnished import followed, furniture_lamps, seat_lamp
 from veduta.plan.lights.needs import (
     CEILING_LUMEN,
     REACH_PER_HEIGHT,
@@ -38,6 +39,8 @@ _LEAF_ROOM_M = 0.1
 _HIGH_M = 1.6
 """A thing that is higher than this hides the wall behind it."""
 _SEATED = {"living", "study", "bedroom"}
+_BY_SEATS = {"floor", "table"}
+"""Lamps of these kinds are for who sits there."""
 
 
 @dataclass(frozen=True)
@@ -54,22 +57,30 @@ class Lit:
 
 
 def light_house(document: PlanDocument, options: HouseOptions) -> Lit:
-    """Lamps for each storey that has none yet; those that a document has are left as they are."""
-    if options.lights == "none":
-        return Lit(document)
+    """Lamps for each storey that has none yet; those that a document has are left as they are.
+
+    Lights of furniture go with it, wherever a document has moved it to.
+    """
+    catalogue = catalogue_of(options.catalogue)
     storeys: list[Storey] = []
     notes: list[str] = []
-    points = dark = 0
     for storey in document.storeys:
+        kept, said = followed(storey, catalogue)
+        storeys.append(kept)
+        notes += said
+    if options.lights == "none":
+        return Lit(document.model_copy(update={"storeys": storeys}), notes=tuple(notes))
+    points = dark = 0
+    for index, storey in enumerate(storeys):
         space = space_of(storey, storey.height_m - options.slab)
         if storey.lights is None:
-            storey = storey.model_copy(update={"lights": _storey_lights(space, options)})
-        for room, seen, unseen in darkness(space, storey.lights or []):
+            lights = _storey_lights(space, options, catalogue)
+            storeys[index] = storey.model_copy(update={"lights": lights})
+        for room, seen, unseen in darkness(space, storeys[index].lights or []):
             points, dark = points + seen, dark + unseen
             if unseen:
                 share = f"{100 * unseen / seen:.0f} %"
                 notes.append(f"{storey.name}: {share} of {room.id} lie in the dark")
-        storeys.append(storey)
     return Lit(document.model_copy(update={"storeys": storeys}), points, dark, tuple(notes))
 
 
@@ -102,7 +113,7 @@ def _regions(space: Space) -> list[tuple[Room, Polygon]]:
     ]
 
 
-def _storey_lights(space: Space, options: HouseOptions) -> list[Light]:
+def _storey_lights(space: Space, options: HouseOptions, catalogue: Catalogue) -> list[Light]:
     ceiling_m = space.storey.height_m - options.slab
     things: dict[str, list[Furniture]] = {}
     for item in space.storey.furniture or []:
@@ -115,17 +126,21 @@ def _storey_lights(space: Space, options: HouseOptions) -> list[Light]:
             lights += _on_walls(room, region, space, standing, len(lights))
         else:
             lights += _on_ceiling(room, region, ceiling_m, len(lights))
+    for room_id, standing in things.items():
+        lights += furniture_lamps(room_id, standing, catalogue)
     for room, region in _regions(space):
         standing = things.get(room.id, [])
-        lamps = furniture_lamps(room.id, standing)
         if room.use in _SEATED and standing:
             free = _free(region, space, standing)
-            number = len(lights) + len(lamps) + 1
-            extra = seat_lamp(room.id, f"l{number}", standing, free, lamps)
-            lamps += [extra] if extra else []
-        known = {light.id for light in lights}
-        lights += [lamp for lamp in lamps if lamp.id not in known]
+            own = [one for one in lights if one.room == room.id and one.kind in _BY_SEATS]
+            extra = seat_lamp(room.id, _fresh_id(lights), standing, free, own, catalogue)
+            lights += [extra] if extra else []
     return lights
+
+
+def _fresh_id(lights: Sequence[Light]) -> str:
+    known = {light.id for light in lights}
+    return next(name for n in range(1, len(known) + 2) if (name := f"l{n}") not in known)
 
 
 def _on_ceiling(room: Room, region: Polygon, ceiling_m: float, first: int) -> list[Light]:

@@ -20,6 +20,8 @@ GRID_M = 0.25
 CORNER = math.sqrt(2.0)
 _INSIDE_M = 0.02
 """Points are looked at that are so far from the walls: on a wall, rounding decides."""
+_ROUNDED_M = 1e-3
+"""Places of lamps are rounded to this."""
 _MOST_POINTS = 4000
 _AT_ONCE = 200_000
 """Lines of sight that are in memory together."""
@@ -61,6 +63,8 @@ class Field:
         points = self.points if points is None else points
         away = np.linalg.norm(points[:, None] - lamps[None], axis=2)
         lit: NDArray[np.bool_] = np.asarray(away <= CORNER * reach_m)
+        # In a convex room each lamp sees all of it, but for those that hang elsewhere.
+        lit &= shapely.dwithin(self.region, shapely.points(lamps), _ROUNDED_M)
         if self._convex or not lit.any():
             return lit
         point, lamp = np.nonzero(lit)

@@ -41,6 +41,12 @@ LEAST_WIDTH = 4.0
 BESIDE = 0.6
 """What differs so near to an opening or the wall's end, in its thicknesses, is part of that."""
 
+SOLID = 0.7
+"""Walls are filled if no row between their faces is paler than this part of the darkest one."""
+
+PIERCED = 0.6
+"""An opening in a filled wall shows a row that is at most so dark, as a part of the wall there."""
+
 STEADY = 0.16
 """Across an opening its own drawing is the same, up to this part of the darkest row."""
 
@@ -132,6 +138,18 @@ def changed_stretches(
         if high - low < max(least_px, 6):
             continue
         stray = np.abs(inside - np.median(inside, axis=1)[:, None]).mean()
-        if stray <= STEADY * level:
+        if stray <= STEADY * level and _pierced(inside, usual, level):
             found.append((int(low), int(high)))
     return found
+
+
+def _pierced(inside: NDArray[np.float64], usual: NDArray[np.float64], level: float) -> bool:
+    """Whether a stretch may be an opening: a filled wall is not filled there.
+
+    What differs beside a filled wall alone is a bench, a counter, or a face that runs askew.
+    """
+    within = np.abs(ROWS) <= 0.7
+    if float(usual[within].min()) < SOLID * level:
+        return True
+    rows = np.median(inside[within], axis=1)
+    return bool((rows < PIERCED * usual[within]).any())

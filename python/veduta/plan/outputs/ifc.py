@@ -6,6 +6,7 @@ roof, a space for each room, and lamps. Ids derive from what is named, so that a
 
 from __future__ import annotations
 
+import math
 import uuid
 from collections.abc import Sequence
 from typing import Any, Literal
@@ -23,11 +24,15 @@ from veduta.place.semantics import SemanticClass
 from veduta.plan.document import Opening
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
+from veduta.plan.house.floors import slab_over
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine
-from veduta.plan.house.space import Space, pieces_of, solid_region
+from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
+from veduta.plan.outputs.ifc_stairs import add_stairs, triangles_of
+from veduta.plan.surroundings.site import Site
 
 Entity = Any
 _NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
@@ -38,9 +43,9 @@ DoorOperation = Literal[
 ]  # fmt: skip
 
 
-def house_ifc(house: House, options: HouseOptions) -> bytes:
-    """The file's content."""
-    model = _Model()
+def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> bytes:
+    """The file's content. site: north and the place on the earth, as far as they are known."""
+    model = _Model(site or Site())
     furniture = FurnitureMaker(model, catalogue_of(options.catalogue))
     storeys = []
     for index, space in enumerate(house.spaces):
@@ -49,7 +54,12 @@ def house_ifc(house: House, options: HouseOptions) -> bytes:
         model.contain(storeys[-1], _lamps(model, house, space, storeys[-1]), "lamps")
         things = furniture.of_storey(space.storey, storeys[-1].ObjectPlacement)
         model.contain(storeys[-1], things, "furniture")
+        rooms = [one for rel in storeys[-1].IsDecomposedBy for one in rel.RelatedObjects]
+        place = storeys[-1].ObjectPlacement
+        coverings = finishes_of(model, house.part, space, place, rooms)
+        model.contain(storeys[-1], coverings, "finishes")
     model.aggregate(model.building, storeys, "storeys")
+    add_stairs(model, house, storeys)
     roof = _roof(model, house)
     if roof is not None:
         model.contain(storeys[-1], [roof], "roof")
@@ -59,10 +69,12 @@ def house_ifc(house: House, options: HouseOptions) -> bytes:
 class _Model:
     """The file as it grows, with what every model begins with."""
 
-    def __init__(self) -> None:
+    def __init__(self, site: Site) -> None:
         self.file = ifcopenshell.file(schema="IFC4")
-        self.body, project = self._project()
-        self.site = self.product("IfcSite", "Site", None, CompositionType="ELEMENT")
+        self.body, project = self._project(site)
+        self.site = self.product(
+            "IfcSite", "Site", None, CompositionType="ELEMENT", **_on_earth(site)
+        )
         self.building = self.product(
             "IfcBuilding", "House", self.site.ObjectPlacement, CompositionType="ELEMENT"
         )
@@ -124,7 +136,7 @@ class _Model:
         text: str = self.file.to_string()  # type: ignore[no-untyped-call]
         return text.encode()
 
-    def _project(self) -> tuple[Entity, Entity]:
+    def _project(self, site: Site) -> tuple[Entity, Entity]:
         units = [
             self.make("IfcSIUnit", UnitType=kind, Name=name)
             for kind, name in (
@@ -140,6 +152,7 @@ class _Model:
             CoordinateSpaceDimension=3,
             Precision=1e-5,
             WorldCoordinateSystem=self._axes((0.0, 0.0, 0.0)),
+            **self._true_north(site),
         )
         body = self.make(
             "IfcGeometricRepresentationSubContext",
@@ -154,6 +167,14 @@ class _Model:
             UnitsInContext=self.make("IfcUnitAssignment", units),
         )  # fmt: skip
         return body, project
+
+    def _true_north(self, site: Site) -> dict[str, Entity]:
+        """Where north is on the page; nothing where it is not known."""
+        if site.north_deg is None:
+            return {}
+        angle = math.radians(site.north_deg)
+        way = (round(math.sin(angle), 9) + 0.0, round(math.cos(angle), 9) + 0.0)
+        return {"TrueNorth": self.make("IfcDirection", way)}
 
     def _axes(self, at: tuple[float, float, float]) -> Entity:
         return self.make("IfcAxis2Placement3D", self.make("IfcCartesianPoint", at))
@@ -183,6 +204,23 @@ class _Model:
         return self.make("IfcPolyline", [*points, points[0]])
 
 
+def _on_earth(site: Site) -> dict[str, Any]:
+    """Latitude and longitude of a place that is known (IfcCompoundPlaneAngleMeasure)."""
+    if site.place_deg is None:
+        return {}
+    latitude, longitude = site.place_deg
+    return {"RefLatitude": compound_angle(latitude), "RefLongitude": compound_angle(longitude)}
+
+
+def compound_angle(angle_deg: float) -> tuple[int, int, int, int]:
+    """Degrees, minutes, seconds and millionths of a second, all of the angle's sign."""
+    sign = -1 if angle_deg < 0.0 else 1
+    seconds, millionths = divmod(round(abs(angle_deg) * 3_600_000_000), 1_000_000)
+    minutes, second = divmod(seconds, 60)
+    degree, minute = divmod(minutes, 60)
+    return sign * degree, sign * minute, sign * second, sign * millionths
+
+
 def _storey(
     model: _Model, space: Space, above: Space | None, options: HouseOptions, *, is_lowest: bool
 ) -> Entity:
@@ -203,10 +241,7 @@ def _storey(
         slabs.append(
             _slab(model, f"{name} floor", space.slab, (-GROUND_SLAB_M, 0.0), place, "BASESLAB")
         )
-    over = space.covered
-    if above is not None:
-        over = over.union(above.slab).difference(above.well)
-    over = solid_region(over)
+    over = slab_over(space, above)
     if not over.is_empty:
         ends = (height, height + options.slab)
         slabs.append(_slab(model, f"{name} ceiling", over, ends, place, "FLOOR"))
@@ -352,28 +387,17 @@ def _lamps(model: _Model, house: House, space: Space, storey: Entity) -> list[En
             "IfcLightFixture", name, storey.ObjectPlacement,
             ObjectType=light.kind, PredefinedType="POINTSOURCE",
         )  # fmt: skip
-        points, corners = _triangles(house, np.array([feature]))
+        points, corners = triangles_of(house.part, [feature])
         points = points - np.array([0.0, 0.0, space.storey.elevation_m])
         fixture.Representation = model.mesh(points, corners)
         found.append(fixture)
     return found
 
 
-def _triangles(
-    house: House, features: NDArray[np.int64]
-) -> tuple[NDArray[np.float64], NDArray[np.int64]]:
-    """(n, 3) points and (m, 3) triangles of some features of the part."""
-    part = house.part
-    chosen = np.isin(part.polygon_feature, features)[part.triangles.polygon]
-    used, corners = np.unique(part.triangles.indices[chosen], return_inverse=True)
-    points: NDArray[np.float64] = part.positions_m[used].astype(np.float64)
-    return points, corners.reshape(-1, 3).astype(np.int64)
-
-
 def _roof(model: _Model, house: House) -> Entity | None:
     """The roof as it is in the part, its triangles about the building's origin."""
     is_roof = house.part.features.class_code == SemanticClass.ROOF.code
-    points, corners = _triangles(house, np.flatnonzero(is_roof))
+    points, corners = triangles_of(house.part, np.flatnonzero(is_roof).tolist())
     if not len(corners):
         return None
     roof = model.product("IfcRoof", "Roof", model.building.ObjectPlacement)

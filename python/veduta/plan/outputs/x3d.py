@@ -14,7 +14,7 @@ import numpy as np
 import shapely
 from numpy.typing import NDArray
 from shapely import STRtree
-from shapely.geometry import Polygon
+from shapely.geometry import MultiPolygon, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import X3dScene, look_from, place_of
@@ -28,6 +28,8 @@ from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.x3d_doors import add_doors
 from veduta.plan.outputs.x3d_lamps import RoomLamps
 from veduta.plan.outputs.x3d_tour import add_tour
+from veduta.plan.surroundings.daylight import daylight_of, toward_light
+from veduta.plan.surroundings.site import Site
 
 STEP_M = 0.05
 """From a surface to the place in whose room it is."""
@@ -37,17 +39,14 @@ AVATAR_M = (0.2, 1.6, 0.45)
 SPEED = 1.4
 FIELD_OF_VIEW = 1.05
 _FROM_WALL_M = 0.45
-_SKY = ((0.30, 0.52, 0.80), (0.55, 0.72, 0.90), (0.87, 0.92, 0.96))
 _SKY_ANGLE = (1.15, 1.55)
 _EARTH = ((0.42, 0.46, 0.33), (0.62, 0.66, 0.56))
 _EARTH_ANGLE = (1.5,)
-_DAYLIGHT = (
-    ("sun", (0.45, 0.65, -0.75), 0.45, 0.4),
-    ("sky light", (-0.5, -0.4, -0.3), 0.22, 0.0),
-    ("ground light", (0.1, -0.2, 1.0), 0.3, 0.0),
-)
-"""Names, directions, strengths, and how much comes from all around; no light of X3D throws a shadow
-without being asked to: the sun shines into rooms, too."""
+_SUN_STRENGTH, _SUN_AROUND = 0.45, 0.4
+_SKY_LIGHT = (("sky light", (-0.5, -0.4, -0.3), 0.22), ("ground light", (0.1, -0.2, 1.0), 0.3))
+"""Strengths of the sun, and how much of it comes from all around; names, directions and strengths
+of the others. No light of X3D throws a shadow without being asked to: the sun shines into rooms,
+too."""
 _FROM_DOOR_M = 0.4
 """Beside an open leaf."""
 
@@ -79,17 +78,20 @@ def house_x3d(
     views: Sequence[View] = (),
     tours: Sequence[Tour] = (),
     others: Sequence[Part] = (),
+    site: Site | None = None,
+    backdrop: Part | None = None,
 ) -> bytes:
     """The file's content.
 
     start: where the visitor begins. views: further places to look from. tours: each a viewpoint
-    that walks. others: what stands around the house. All in the frame of the place.
+    that walks. others: what stands around the house. All in the frame of the place. site: the sun.
+    backdrop: a picture around all of it, into which nobody bumps.
     """
     part = flattened(house.part)
-    up_m = options.plinth - house.spaces[0].storey.elevation_m
+    up_m = options.plinth - house.spaces[house.ground].storey.elevation_m
     ceilings = {s.storey.name: s.storey.height_m - options.slab for s in house.spaces}
     scene = X3dScene("House from a floor plan")
-    _add_surroundings(scene)
+    _add_surroundings(scene, site or Site())
     _add_views(scene, house, up_m, start, views)
     for tour in tours:
         add_tour(scene, tour, FIELD_OF_VIEW)
@@ -98,10 +100,12 @@ def house_x3d(
     still = np.ones(len(part.polygon_feature), dtype=np.bool_)
     for mover in part.movers:
         still[mover.polygons] = False
-    for number, (space, room, region) in enumerate(seen_from.rooms):
-        group = scene.node(whole, "Group", f"{space.storey.name} {room.id}")
-        lamps = RoomLamps(scene, part, f"{space.storey.name} {room.id}")
-        chosen = still & (seen_from.number == number)
+    for name, numbers in _pieces(seen_from).items():
+        group = scene.node(whole, "Group", name)
+        lamps = RoomLamps(scene, part, name)
+        chosen = still & np.isin(seen_from.number, numbers)
+        space = seen_from.rooms[numbers[0]][0]
+        region = MultiPolygon([seen_from.rooms[number][2] for number in numbers])
         lamps.add(group, region, space, ceilings[space.storey.name], chosen)
         scene.shapes(group, part, chosen & ~lamps.glass)
     outside = scene.node(whole, "Group", "outside")
@@ -111,6 +115,9 @@ def house_x3d(
         group = scene.node(scene.scene, "Group", other.id)
         plain = flattened(other)
         scene.shapes(group, plain, np.ones(len(plain.polygon_feature), dtype=np.bool_))
+    if backdrop is not None:
+        open_air = scene.node(scene.scene, "Collision", backdrop.id, enabled=False)
+        scene.shapes(open_air, backdrop, np.ones(len(backdrop.polygon_feature), dtype=np.bool_))
     return scene.content()
 
 
@@ -144,20 +151,36 @@ def room_of_polygons(part: Part, spaces: Sequence[Space], ceilings_m: dict[str, 
     return RoomOf(rooms, number)
 
 
-def _add_surroundings(scene: X3dScene) -> None:
-    """How one moves, the sky, and daylight."""
+def _pieces(seen_from: RoomOf) -> dict[str, list[int]]:
+    """The pieces of each room by its storey and id: a wall may part a floor."""
+    found: dict[str, list[int]] = {}
+    for number, (space, room, _) in enumerate(seen_from.rooms):
+        found.setdefault(f"{space.storey.name} {room.id}", []).append(number)
+    return found
+
+
+def _add_surroundings(scene: X3dScene, site: Site) -> None:
+    """How one moves, the sky, and daylight: the sun's, or the moon's by night."""
+    light = daylight_of(site.sun)
+    middle = [(top + low) / 2.0 for top, low in zip(light.zenith, light.horizon, strict=True)]
+    earth = [[light.shown[k] * colour[k] for k in range(3)] for colour in _EARTH]
     scene.node(
         scene.scene, "NavigationInfo", "navigation", type=["WALK", "EXAMINE", "FLY", "ANY"],
         avatarSize=AVATAR_M, speed=SPEED, headlight=False,
     )  # fmt: skip
     scene.node(
-        scene.scene, "Background", "sky", skyColor=_SKY, skyAngle=_SKY_ANGLE,
-        groundColor=_EARTH, groundAngle=_EARTH_ANGLE,
+        scene.scene, "Background", "sky", skyColor=[light.zenith, middle, light.horizon],
+        skyAngle=_SKY_ANGLE, groundColor=earth, groundAngle=_EARTH_ANGLE,
     )  # fmt: skip
-    for name, way, strength, ambient in _DAYLIGHT:
+    away = -np.array(toward_light(site))
+    scene.node(
+        scene.scene, "DirectionalLight", "sun", direction=place_of(away), color=light.colour,
+        intensity=_SUN_STRENGTH * light.strength, ambientIntensity=_SUN_AROUND, global_=True,
+    )  # fmt: skip
+    for name, way, strength in _SKY_LIGHT:
         scene.node(
-            scene.scene, "DirectionalLight", name, direction=place_of(way), intensity=strength,
-            ambientIntensity=ambient, color=(1.0, 0.98, 0.94), global_=True,
+            scene.scene, "DirectionalLight", name, direction=place_of(way), color=light.colour,
+            intensity=strength * light.around, ambientIntensity=0.0, global_=True,
         )  # fmt: skip
 
 

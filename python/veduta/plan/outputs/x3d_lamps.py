@@ -10,7 +10,7 @@ import math
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
 
 from veduta.formats.x3d import Element, X3dScene, place_of, turn_of
 from veduta.place.part import Part
@@ -36,14 +36,15 @@ class RoomLamps:
     def add(
         self,
         group: Element,
-        region: Polygon,
+        region: BaseGeometry,
         space: Space,
         height_m: float,
         chosen: NDArray[np.bool_],
     ) -> None:
         """The lamps of the room, their glass, and what switches them.
 
-        region: the room's floor, whose box turns them on. chosen: the polygons of the room.
+        region: the room's floor, the box around which turns them on; it may be in pieces, with one
+        box around all. chosen: the polygons of the room.
         """
         if not self._lamps:
             return
@@ -64,7 +65,9 @@ class RoomLamps:
             scene.route(switch, "toggle_changed", light, "set_on")
         self._add_glass(group, switch, chosen & self.glass)
 
-    def _sensor(self, group: Element, region: Polygon, floor_m: float, height_m: float) -> Element:
+    def _sensor(
+        self, group: Element, region: BaseGeometry, floor_m: float, height_m: float
+    ) -> Element:
         """Around the room: the smallest box, however it is turned."""
         box = region.minimum_rotated_rectangle
         corners = np.array(box.boundary.coords)

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from shapely import affinity, set_precision, unary_union
 from shapely.geometry import LineString, Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import LinearRing, orient
 
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import Graph, edge_line
@@ -119,18 +120,12 @@ def _rooms_of(free: BaseGeometry, thin_px: float) -> list[Space]:
         grown = polygon.buffer(0.6, join_style="mitre").simplify(0.4)
         if not isinstance(grown, Polygon) or grown.buffer(-LEAST_WIDTH / 2 * thin_px).is_empty:
             continue
-        rooms.append(Space(_ring(grown.exterior.coords, True), _holes(grown)))
+        # With y down, what goes clockwise by its sign goes counter-clockwise as one sees it.
+        seen = orient(grown, -1.0)
+        rooms.append(Space(_ring(seen.exterior), tuple(map(_ring, seen.interiors))))
     return rooms
 
 
-def _holes(polygon: Polygon) -> tuple[NDArray[np.float64], ...]:
-    return tuple(_ring(ring.coords, False) for ring in polygon.interiors)
-
-
-def _ring(coords: object, counter_clockwise: bool) -> NDArray[np.float64]:
-    """Open ring; counter-clockwise as one sees it, where y points down."""
-    ring = np.array(coords, dtype=float)[:-1]
-    x, y = ring.T
-    signed = float(np.dot(x, np.roll(y, -1)) - np.dot(y, np.roll(x, -1)))
-    # With y down, a positive sum goes clockwise as seen.
-    return ring[::-1].copy() if (signed > 0) == counter_clockwise else ring
+def _ring(ring: LinearRing) -> NDArray[np.float64]:
+    """Open."""
+    return np.array(ring.coords)[:-1]

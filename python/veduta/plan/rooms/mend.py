@@ -1,8 +1,9 @@
 """Rooms do not leak: where a wall is broken the space is closed, and that is said.
 
 A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
-drawn there, solid ink, a name or size of a room on either side, or a room that is open to the
-outdoors. The best one is closed first, as it changes what the others part.
+drawn there, both faces of the wall drawn on, solid ink, a name or size of a room on either side, or
+a room that is open to the outdoors. The best one is closed first, as it changes what the others
+part.
 """
 
 from __future__ import annotations
@@ -45,10 +46,14 @@ DOOR_BY_WALL = (3.5, 14.0)
 SURE_ARC = 0.6
 """An arc beside a corner is a door's only if it is drawn well: bowls and tables have arcs, too."""
 
+LEAFLESS = 1.5
+"""Doors of closets, drawn without leaves, are wider than others by this factor at most."""
+
 MOST_ROUNDS = 24
 
 Reason = Literal[
     "a door is drawn there",
+    "both faces are drawn on there",
     "it is solid there",
     "two rooms are named in one space",
     "a room is open to the outdoors",
@@ -185,6 +190,8 @@ class _Looker:
         doors = [each.score for each in drawn if each is not None and self._is_door(each)]
         if doors:
             return _Closing(one, "a door is drawn there", 2.0 + max(doors), drawn)
+        if not outdoors and all(self._is_leafless(each) for each in drawn):
+            return _Closing(one, "both faces are drawn on there", 2.0, drawn)
         window = all(each is not None and each.kind != "gap" for each in drawn)
         widest = FARTHEST if window else WIDEST_BREAK
         if outdoors and one.in_line:
@@ -210,6 +217,17 @@ class _Looker:
         """Whether a door's leaf is drawn, and as wide as the others."""
         fits = self.door_px[0] <= judged.gap.width_px <= self.door_px[1]
         return fits and judged.hinge != "none" and judged.score >= SURE_ARC
+
+    def _is_leafless(self, judged: Judged | None) -> bool:
+        """Whether the wall's two faces go on as lines with paper between them, over a door's width.
+
+        One line alone is the front of a counter or a wardrobe.
+        """
+        if judged is None or judged.seen is None or judged.kind == "gap":
+            return False
+        low, high = self.door_px[0], LEAFLESS * self.door_px[1]
+        drawn = judged.seen.faces == 2 and not judged.seen.inner
+        return drawn and low <= judged.gap.width_px <= high
 
     def _open(self, part: Polygon) -> bool:
         """Whether it reaches the border of the sheet."""
@@ -245,6 +263,8 @@ def _axis(closing: _Closing, thin_px: float) -> Axis:
         if judged.kind == "window" and closing.reason == "two rooms are named in one space":
             # Lines across the way from room to room are panels, as of a wardrobe or a terrace.
             judged = Judged(gap, "door", "sliding", "none", "none", 0.4)
+        if judged.kind == "window" and closing.reason == "both faces are drawn on there":
+            judged = Judged(gap, "door", "unknown", "none", "none", 0.6)
         first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))
         if judged.kind == "door" or gap.width_px >= NARROWEST_GAP * thin_px:
             openings.append(OnAxis(judged, float(first), float(last), along=True))

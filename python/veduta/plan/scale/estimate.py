@@ -9,18 +9,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Scale, ScaleEvidence, Text
-from veduta.plan.scale.assumed import assumed_scale, door_voter
+from veduta.plan.scale.assumed import DOOR_M, assumed_scale, door_voter
 from veduta.plan.scale.bars import bar_voters
 from veduta.plan.scale.dimension_lines import line_voters
 from veduta.plan.scale.evidence import Voter
 from veduta.plan.scale.free_runs import wall_masks
-from veduta.plan.scale.options import VoteOptions
 from veduta.plan.scale.ratios import ratio_voters
 from veduta.plan.scale.room_sizes import room_voters
 from veduta.plan.scale.vote import take_vote
 from veduta.plan.scale.width_rule import width_rule_voters
 from veduta.run.errors import InputError
 
+_BLUR_PX = 0.7  # how exactly faces of walls are found
 _RIVAL = 0.5  # a second group with so many of the votes is told of
 _DOUBT_SIGMA = 0.1
 _ALONE_SIGMA = 0.03
@@ -46,32 +46,37 @@ class DrawnSizes:
     texts: Sequence[Text] = field(default=())
 
 
-def estimate_scale(
-    sizes: DrawnSizes, given: float | None = None, options: VoteOptions | None = None
-) -> Scale:
+def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
     """The scale by the vote of all evidence; `given` (metres per pixel) goes before it.
 
     Without any evidence it is assumed from doors, else walls, else the size of the drawing, and
     its basis says so. Raises `InputError` where `given` is no size of a pixel.
     """
-    options = options or VoteOptions()
     if given is not None and not 1e-6 < given < 10.0:
         raise InputError("--scale", f"{given} m is no size of a pixel", "Give 0.000001 to 10 m.")
-    voters = find_voters(sizes, options)
+    voters = find_voters(sizes)
     if given is not None:
         return _given(given, voters)
-    doors = door_voter(sizes.doors, options)
+    doors = door_voter(sizes.doors)
     if not voters:
-        return _assumed(doors, sizes, options)
-    return _voted([*voters, doors] if doors else voters)
+        return _assumed(doors, sizes)
+    told = _voted([*voters, doors] if doors else voters)
+    if any(one.agrees and one.kind != "door" for one in told.evidence):
+        return told
+    # Doors outvote a lone number that means something else; but they are an assumption.
+    assumed = _assumed(doors, sizes)
+    others = [
+        one.model_copy(update={"agrees": False}) for one in told.evidence if one.kind != "door"
+    ]
+    return assumed.model_copy(update={"evidence": [*assumed.evidence, *others]})
 
 
-def find_voters(sizes: DrawnSizes, options: VoteOptions) -> list[Voter]:
+def find_voters(sizes: DrawnSizes) -> list[Voter]:
     """All that the sheet says of its scale."""
     texts, rooms = list(sizes.texts), list(sizes.rooms)
     return [
-        *room_voters(texts, rooms, options.blur_px, wall_masks(sizes.ink, sizes.walls)),
-        *line_voters(texts, sizes.ink, options.blur_px),
+        *room_voters(texts, rooms, _BLUR_PX, wall_masks(sizes.ink, sizes.walls)),
+        *line_voters(texts, sizes.ink, _BLUR_PX),
         *bar_voters(texts),
         *ratio_voters(texts, sizes.dpi, on_paper=sizes.on_paper),
         *width_rule_voters(texts, rooms, sizes.ink),
@@ -131,32 +136,37 @@ def _given(metres_per_px: float, voters: list[Voter]) -> Scale:
     first = ScaleEvidence(
         kind="given", metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, agrees=True
     )
-    judged = [
+    judged = judged_by(metres_per_px, own)
+    return Scale(
+        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
+    )
+
+
+def judged_by(metres_per_px: float, evidence: Sequence[ScaleEvidence]) -> list[ScaleEvidence]:
+    """The evidence with whether it agrees with a scale that is known."""
+    return [
         one.model_copy(
             update={
                 "agrees": abs(one.metres_per_px / metres_per_px - 1.0)
                 <= max(3.0 * one.sigma, _DISAGREES)
             }
         )
-        for one in own
+        for one in evidence
     ]
-    return Scale(
-        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
-    )
 
 
-def _assumed(doors: Voter | None, sizes: DrawnSizes, options: VoteOptions) -> Scale:
+def _assumed(doors: Voter | None, sizes: DrawnSizes) -> Scale:
     if doors is not None:
         reading = doors.hypotheses[0]
         evidence = ScaleEvidence(
             kind="door",
-            text=f"{doors.text}, taken for {options.door_m} m",
+            text=f"{doors.text}, taken for {DOOR_M} m",
             metres_per_px=float(np.exp(reading.log_mpp)),
             sigma=reading.sigma,
             agrees=True,
         )
     else:
-        evidence = assumed_scale(sizes.walls, _extent(sizes.ink), options)
+        evidence = assumed_scale(sizes.walls, _extent(sizes.ink))
     return Scale(
         metres_per_px=evidence.metres_per_px,
         sigma=evidence.sigma,

@@ -17,6 +17,8 @@ HEAD = 1.3
 """How far from the end of its shaft an arrow's head is looked for, in treads."""
 BESIDE = (0.15, 0.6)
 """Where its barbs are, from the shaft, in treads."""
+LEAST_BARB = 0.5
+"""Of the width that is looked at; a tread hides a part of the head."""
 LEAST_SHAFT = 0.45
 LEAST_DIFFERENCE = 1.5
 """One end has so many times the ink beside the shaft, or the arrow is not told."""
@@ -58,10 +60,16 @@ def _by_word(area: Polygon, forward: NDArray[np.float64], texts: Sequence[Text])
 
 
 def _by_head(area: Polygon, across: bool, ink: NDArray[np.bool_], treads: int) -> int:
-    """The shaft's end with barbs beside it; treads are taken out first."""
     left, low, right, high = (round(one) for one in area.bounds)
     part = ink[max(0, low) : high, max(0, left) : right]
-    part = part.T if across else part
+    return head_end(part.T if across else part, treads)
+
+
+def head_end(part: NDArray[np.bool_], treads: int) -> int:
+    """1 where an arrow's head is at the last of (n, m) rows, -1 at the first, 0 where none is.
+
+    It is the shaft's end with barbs beside it; treads, lines along the rows, are taken out first.
+    """
     if min(part.shape) < 12:
         return 0
     own = part & ~_treads(part, treads)
@@ -85,7 +93,7 @@ def _by_head(area: Polygon, across: bool, ink: NDArray[np.bool_], treads: int) -
         min(float(side[low_:high_].sum()) for side in sides)
         for low_, high_ in ((first, first + reach), (max(0, last - reach), last + 1))
     ]
-    if max(ends) < outer - inner or max(ends) < LEAST_DIFFERENCE * min(ends):
+    if max(ends) < LEAST_BARB * (outer - inner) or max(ends) < LEAST_DIFFERENCE * min(ends):
         return 0
     return 1 if ends[1] > ends[0] else -1
 

@@ -1,4 +1,4 @@
-"""Flights of stairs: treads are parallel lines as long as each other, evenly apart.
+"""Stairs: treads are parallel lines as long as each other, evenly apart, or turn (`turning`).
 
 Lines are those of the ink that are as long as half a flight is wide at least; an arrow that runs up
 the middle parts each in two. What has lines as close in both directions is a tiled floor.
@@ -15,12 +15,15 @@ from statistics import median
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Polygon, box
+from shapely.geometry import LineString, Polygon, box
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn, DrawnStairs
 from veduta.plan.stairs.arrow import way_up
+from veduta.plan.stairs.probe import probe_of
+from veduta.plan.stairs.turning import find_turning
 from veduta.plan.walls.runs import run_lengths_down
 
 TREAD_M = (0.19, 0.38)
@@ -92,9 +95,9 @@ def find_flights(
             continue
         up = way_up(shape, turned, ink, treads, texts)
         ring = np.array(shape.exterior.coords)[:-1]
-        name = f"s{len(kept) + 1}"
-        kept.append(DrawnStairs(name, ring, treads, up, round(score, 3), turned))
-    return tuple(kept)
+        kept.append(DrawnStairs("", ring, treads, up, round(score, 3), turned))
+    stairs = find_turning(ink, kept, probe_of(ink, line_px, extent), texts)
+    return tuple(replace(one, id=f"s{number}") for number, one in enumerate(stairs, start=1))
 
 
 def without_flights(
@@ -107,11 +110,22 @@ def without_flights(
     cleared = ink.copy()
     rim = round(line_px) + 1
     for one in flights:
+        if one.steps_px:
+            _clear(cleared, Polygon(one.outline_px).buffer(-rim, join_style="mitre"))
+            continue
         left, low, right, high = (round(side) for side in Polygon(one.outline_px).bounds)
         cleared[
             low + rim : max(low + rim, high - rim), left + rim : max(left + rim, right - rim)
         ] = 0
     return cleared
+
+
+def _clear(ink: NDArray[np.bool_], region: BaseGeometry) -> None:
+    mask = np.zeros(ink.shape, np.uint8)
+    for piece in getattr(region, "geoms", [region]):
+        if isinstance(piece, Polygon) and not piece.is_empty:
+            cv2.fillPoly(mask, [np.round(piece.exterior.coords).astype(np.int32)], (1,))
+    ink[mask > 0] = False
 
 
 def true_flights(drawn: Drawn, metres_per_px: float) -> tuple[DrawnStairs, ...]:
@@ -132,6 +146,10 @@ def true_flights(drawn: Drawn, metres_per_px: float) -> tuple[DrawnStairs, ...]:
 
 def _sides(one: DrawnStairs) -> tuple[float, float]:
     """Depth and width of a tread, in pixels: treads are wider than deep, but not flights."""
+    if one.path_px is not None:
+        outline = Polygon(one.outline_px)
+        width = outline.area / LineString(one.path_px).length
+        return float(np.median([Polygon(step).area for step in one.steps_px])) / width, width
     left, low, right, high = Polygon(one.outline_px).bounds
     first, second = (right - left, high - low) if one.across else (high - low, right - left)
     return first / one.treads, second

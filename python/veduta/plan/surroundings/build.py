@@ -33,7 +33,7 @@ class Surroundings:
 
 
 def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
-    """The surroundings of a house by its lowest storey."""
+    """The surroundings of a house by its storey at ground level."""
     terrain = terrain_of(space, options.ground_slope)
     windows = [hole.outline.buffer(2.2) for hole in space.holes if hole.low_m < 0.8]
     plants = tuple(plants_of(terrain, unary_union(windows)))

@@ -80,7 +80,7 @@ class Terrain:
 
 
 def terrain_of(space: Space, slope_deg: float) -> Terrain:
-    """The plot around the lowest storey; paths lead to its doors, a drive to its garage."""
+    """The plot around a storey; paths lead to its doors, a drive to its garage."""
     house = space.slab
     left, bottom, right, top = house.bounds
     plot = box(left - MARGIN_M, bottom - MARGIN_M, right + MARGIN_M, top + MARGIN_M)

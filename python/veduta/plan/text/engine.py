@@ -19,6 +19,8 @@ from numpy.typing import NDArray
 if TYPE_CHECKING:
     from rapidocr import RapidOCR
 
+THREADS = 2
+"""Of the recognition."""
 LINE_PX = 48
 """Height of the lines of text that the network reads."""
 
@@ -31,8 +33,8 @@ class Line:
     score: float
 
 
-@lru_cache(maxsize=2)
-def _engine(threads: int) -> RapidOCR:
+@lru_cache(maxsize=1)
+def _engine() -> RapidOCR:
     # Half a second and 60 MB: only who reads text pays for it.
     from rapidocr import RapidOCR
 
@@ -49,26 +51,26 @@ def _engine(threads: int) -> RapidOCR:
             # text is dropped when it is read.
             "Det.thresh": 0.2,
             "Det.box_thresh": 0.35,
-            "EngineConfig.onnxruntime.intra_op_num_threads": threads,
+            "EngineConfig.onnxruntime.intra_op_num_threads": THREADS,
         }
     )
 
 
-def find_lines(pixels: NDArray[np.uint8], threads: int) -> NDArray[np.float64]:
+def find_lines(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Quadrangles (n, 4, 2) around the lines of text of an image, in its pixels.
 
     `pixels` is (h, w, 3) sRGB. Corners go clockwise from the upper left of the quadrangle; of text
     that runs upwards this is not the upper left of its first letter.
     """
-    found: Any = _engine(threads)(_bgr(pixels), use_det=True, use_cls=False, use_rec=False)
+    found: Any = _engine()(_bgr(pixels), use_det=True, use_cls=False, use_rec=False)
     if found.boxes is None or not len(found.boxes):
         return np.zeros((0, 4, 2))
     return np.asarray(found.boxes, dtype=np.float64)
 
 
-def read_line(strip: NDArray[np.uint8], threads: int) -> Line:
+def read_line(strip: NDArray[np.uint8]) -> Line:
     """What an upright line of text says. `strip` is (h, w, 3) sRGB, h some 48 px."""
-    found: Any = _engine(threads)(_bgr(strip), use_det=False, use_cls=False, use_rec=True)
+    found: Any = _engine()(_bgr(strip), use_det=False, use_cls=False, use_rec=True)
     if not found.txts:
         return Line("", 0.0)
     return Line(str(found.txts[0]).strip(), float(found.scores[0]))

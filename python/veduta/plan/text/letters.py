@@ -22,7 +22,7 @@ _SURE = 0.9
 _MOST = 12
 
 
-def find_letters(pixels: NDArray[np.uint8], texts: list[Text], threads: int) -> list[Text]:
+def find_letters(pixels: NDArray[np.uint8], texts: list[Text]) -> list[Text]:
     """Letters that name rooms and are not in `texts`; `pixels` is (h, w, 3) sRGB."""
     ink = _ink(pixels)
     height = _letter_height(ink, texts)
@@ -30,7 +30,7 @@ def find_letters(pixels: NDArray[np.uint8], texts: list[Text], threads: int) -> 
         return []
     found = []
     for quad in _alone(ink, texts, height)[:_MOST]:
-        line = read_line(strip_of(pixels, quad), threads)
+        line = read_line(strip_of(pixels, quad))
         if line.score >= _SURE and len(line.text) == 1 and meanings(line.text):
             corners = [(float(x), float(y)) for x, y in quad]
             found.append(Text(text=line.text, box_px=corners, score=line.score))

@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 from veduta.plan.names.vocabulary import meanings
 from veduta.plan.scale.quantities import read_quantities
 from veduta.plan.text.engine import Line, read_line
-from veduta.plan.text.options import TextOptions
 from veduta.plan.text.regions import find_overview
 from veduta.plan.text.strips import in_colour, strip_of
 
@@ -25,6 +24,7 @@ _FIRST = 5  # so many are read as they stand; where they make sense, that is all
 _SENSE = 3.0  # how much more a word or a size counts than letters that are none
 _SYMMETRIC = frozenset("AHIMOTUVWXY8010o|-")  # the same in a mirror
 _MARGIN = 1.5  # another position must read so much better than the one that the sheet is in
+_LEAST = 4.0  # and say so much by itself: a short word that makes sense, not a line read as an l
 
 
 @dataclass(frozen=True)
@@ -48,28 +48,26 @@ class Position:
 
 def find_position(
     pixels: NDArray[np.uint8],
-    options: TextOptions | None = None,
     overview: NDArray[np.float64] | None = None,
 ) -> Position:
     """The position in which the text of a scan (h, w, 3) or (h, w) reads best.
 
     `overview` (n, 4, 2) is what `find_overview` gave, where it was called before.
     """
-    options = options or TextOptions()
     pixels = in_colour(pixels)
-    telling = _telling(find_overview(pixels, options) if overview is None else overview)
-    first = [_read_at(pixels, quad, False, 0, options.threads) for quad in telling[:_FIRST]]
+    telling = _telling(find_overview(pixels) if overview is None else overview)
+    first = [_read_at(pixels, quad, False, 0) for quad in telling[:_FIRST]]
     as_it_is = sum(map(_weight, first))
     if not telling or sum(map(_makes_sense, first)) * 2 > len(first):
         return Position(False, 0, as_it_is, as_it_is)
     scores = {
-        (mirrored, turns): _position_score(pixels, telling, mirrored, turns, options.threads)
+        (mirrored, turns): _position_score(pixels, telling, mirrored, turns)
         for mirrored in (False, True)
         for turns in range(4)
     }
     own = scores[False, 0]
     best = max(scores, key=lambda position: scores[position])
-    if scores[best] < _MARGIN * own:
+    if scores[best] < max(_MARGIN * own, _LEAST):
         best = (False, 0)
     return Position(best[0], best[1], scores[best], own)
 
@@ -108,13 +106,12 @@ def _position_score(
     regions: Iterable[NDArray[np.float64]],
     mirrored: bool,
     turns: int,
-    threads: int,
 ) -> float:
-    return sum(_weight(_read_at(pixels, quad, mirrored, turns, threads)) for quad in regions)
+    return sum(_weight(_read_at(pixels, quad, mirrored, turns)) for quad in regions)
 
 
 def _read_at(
-    pixels: NDArray[np.uint8], quad: NDArray[np.float64], mirrored: bool, turns: int, threads: int
+    pixels: NDArray[np.uint8], quad: NDArray[np.float64], mirrored: bool, turns: int
 ) -> Line:
     """What a region says if the sheet lies so. A region across the line of reading is left out."""
     quad = np.roll(quad, -turns, axis=0)
@@ -122,7 +119,7 @@ def _read_at(
     if np.linalg.norm(quad[3] - quad[0]) > 1.5 * across:
         return Line("", 0.0)
     strip = strip_of(pixels, quad)
-    return read_line(np.ascontiguousarray(strip[:, ::-1]) if mirrored else strip, threads)
+    return read_line(np.ascontiguousarray(strip[:, ::-1]) if mirrored else strip)
 
 
 def _makes_sense(line: Line) -> bool:

@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 from veduta.plan.document import Text
 from veduta.plan.text.engine import Line, read_line
 from veduta.plan.text.letters import find_letters
-from veduta.plan.text.options import TextOptions
 from veduta.plan.text.regions import find_regions
 from veduta.plan.text.strips import in_colour, strip_of
 
+MOST_REGIONS = 250
+LEAST_SCORE = 0.5
+"""What was read less surely is dropped."""
 _SIGNS = frozenset("’‘“”′″–—×²㎡ØⅡ≤≥±√∅¼½¾")  # of plans, beyond the Latin letters
 _SURE = 0.9  # a line that is read so well stands the way in which it was read
 _LONG = 1.5  # a region this much longer than wide runs along its long side
@@ -19,26 +21,24 @@ _LONG = 1.5  # a region this much longer than wide runs along its long side
 
 def read_texts(
     pixels: NDArray[np.uint8],
-    options: TextOptions | None = None,
     overview: NDArray[np.float64] | None = None,
 ) -> list[Text]:
     """The text on a sheet.
 
     `pixels` is (h, w, 3) sRGB or (h, w) gray, upright and not mirrored (see `orientation`). Boxes
     are in its pixels; corners go clockwise in the direction of reading, from the upper left corner
-    of the first letter. Regions that say nothing with `options.score` are left out. `overview`
+    of the first letter. Regions that say nothing with `LEAST_SCORE` are left out. `overview`
     (n, 4, 2) is what `find_overview` gave, where it was called before.
     """
-    options = options or TextOptions()
     pixels = in_colour(pixels)
-    regions = find_regions(pixels, options, overview)
-    read = (_read_region(pixels, quad, options.threads) for quad in regions[: options.regions])
+    regions = find_regions(pixels, overview)
+    read = (_read_region(pixels, quad) for quad in regions[:MOST_REGIONS])
     texts = [
         Text(text=line.text, box_px=[(float(x), float(y)) for x, y in quad], score=line.score)
         for quad, line in read
-        if line.score >= options.score and _is_latin(line.text)
+        if line.score >= LEAST_SCORE and _is_latin(line.text)
     ]
-    return [*texts, *find_letters(pixels, texts, options.threads)]
+    return [*texts, *find_letters(pixels, texts)]
 
 
 def _is_latin(text: str) -> bool:
@@ -49,13 +49,13 @@ def _is_latin(text: str) -> bool:
 
 
 def _read_region(
-    pixels: NDArray[np.uint8], quad: NDArray[np.float64], threads: int
+    pixels: NDArray[np.uint8], quad: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], Line]:
     """The corners in the direction of reading, and what the region says."""
     best_quad, best = quad, Line("", 0.0)
     for turns in _ways_round(quad):
         turned = np.roll(quad, -turns, axis=0)
-        line = read_line(strip_of(pixels, turned), threads)
+        line = read_line(strip_of(pixels, turned))
         if line.score > best.score:
             best_quad, best = turned, line
         if best.score >= _SURE and turns in (0, 3):

@@ -15,8 +15,12 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from veduta.plan.text.engine import find_lines
-from veduta.plan.text.options import TextOptions
 
+OVERVIEW_PX = 1600
+"""Long side at which the whole sheet is searched."""
+TILE_PX = 1280
+MOST_TILES = 8
+_ENLARGE = 2.0  # a small sheet, at most
 _OVERLAP = 0.15  # of a tile: a line of text on a border is whole in one of the two
 _FINER = 4.0  # a tile over the overview
 _LETTER_PX = (6, 60)  # height of letters, in pixels of the tile
@@ -25,35 +29,35 @@ _TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
 
 
-def find_overview(pixels: NDArray[np.uint8], options: TextOptions) -> NDArray[np.float64]:
+def find_overview(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
     """Quadrangles (n, 4, 2) around the lines of text that are seen with the whole sheet in view.
 
     `pixels` is (h, w, 3) sRGB; quadrangles are in its pixels.
     """
-    factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
-    found = find_lines(_resized(pixels, factor), options.threads) / factor
+    factor = overview_factor((pixels.shape[1], pixels.shape[0]))
+    found = find_lines(_resized(pixels, factor)) / factor
     # What is taller is a drawing that looks like text from afar, and would hide the text in it.
     kept = _short_sides(found) < _TALLEST * max(pixels.shape)
     return np.asarray(found[kept], dtype=np.float64)
 
 
 def find_regions(
-    pixels: NDArray[np.uint8], options: TextOptions, overview: NDArray[np.float64] | None = None
+    pixels: NDArray[np.uint8], overview: NDArray[np.float64] | None = None
 ) -> NDArray[np.float64]:
     """Quadrangles (n, 4, 2) around the lines of text of a sheet, in its pixels, each once.
 
     `pixels` is (h, w, 3) sRGB; `overview` is what `find_overview` gave, where it was called before.
     """
-    found = find_overview(pixels, options) if overview is None else overview
-    factor = overview_factor((pixels.shape[1], pixels.shape[0]), options)
-    if factor < 1.0 and options.tiles:
-        tile = int(options.tile_px)
+    found = find_overview(pixels) if overview is None else overview
+    factor = overview_factor((pixels.shape[1], pixels.shape[0]))
+    if factor < 1.0:
+        tile = TILE_PX
         scale = min(1.0, _FINER * factor)
         large = _resized(pixels, scale)
         clear = _short_sides(found) * factor >= _CLEAR_PX
         boxes, seen = [], np.zeros(len(found), dtype=bool)
-        for x, y in _tiles_with_letters(large, found[clear] * scale, tile, options.tiles):
-            inside = find_lines(large[y : y + tile, x : x + tile], options.threads)
+        for x, y in _tiles_with_letters(large, found[clear] * scale, tile, MOST_TILES):
+            inside = find_lines(large[y : y + tile, x : x + tile])
             boxes.append((inside + np.array([x, y])) / scale)
             centres = found.mean(axis=1) * scale
             seen |= np.all((centres >= (x, y)) & (centres < (x + tile, y + tile)), axis=1)
@@ -67,9 +71,9 @@ def _short_sides(quads: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.asarray(sides.min(axis=1, initial=np.inf), dtype=np.float64)
 
 
-def overview_factor(size_px: tuple[int, int], options: TextOptions) -> float:
+def overview_factor(size_px: tuple[int, int]) -> float:
     """By how much a sheet of this width and height is enlarged (or reduced, below 1)."""
-    return min(options.enlarge, options.overview_px / max(size_px))
+    return min(_ENLARGE, OVERVIEW_PX / max(size_px))
 
 
 def without_duplicates(quads: NDArray[np.float64]) -> NDArray[np.float64]:

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Sheet, Text
-from veduta.plan.text.options import TextOptions
 from veduta.plan.text.orientation import Position, find_position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
 from veduta.plan.text.regions import find_overview
@@ -29,15 +29,14 @@ class SheetText:
     texts: list[Text]
 
 
-def read_sheet(scan: NDArray[np.uint8], options: TextOptions | None = None) -> SheetText:
+def read_sheet(scan: NDArray[np.uint8]) -> SheetText:
     """Read a scan (h, w, 3) or (h, w) that may lie on its side, on its head, or be mirrored."""
-    options = options or TextOptions()
     scan = in_colour(scan)
-    overview = find_overview(scan, options)
-    position = find_position(scan, options, overview)
+    overview = find_overview(scan)
+    position = find_position(scan, overview)
     pixels = set_right(scan, position)
     # Of a scan that lay wrong more text is found when it is right.
-    texts = read_texts(pixels, options, overview if position.is_upright else None)
+    texts = read_texts(pixels, overview if position.is_upright else None)
     size = (scan.shape[1], scan.shape[0])
     return SheetText(pixels, right_from_scan(position, size), position, texts)
 
@@ -60,7 +59,7 @@ def sheet_of_file(sheet: Sheet, read: SheetText) -> Sheet:
     )
 
 
-def moved_texts(texts: list[Text], target_from_source: NDArray[np.float64]) -> list[Text]:
+def moved_texts(texts: Sequence[Text], target_from_source: NDArray[np.float64]) -> list[Text]:
     """Texts in another frame of pixels, by an affine (3, 3)."""
     linear, shift = target_from_source[:2, :2], target_from_source[:2, 2]
     return [

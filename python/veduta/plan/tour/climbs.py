@@ -1,15 +1,17 @@
-"""Flights of stairs as ways between storeys."""
+"""Stairs as ways between storeys."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString
 
-from veduta.plan.house.flights import Flight, Stairwell
+from veduta.plan.house.flights import AnyFlight, Flight, Stairwell
+from veduta.plan.house.headroom import HEADROOM_M
 from veduta.plan.house.space import Space
 from veduta.plan.tour.free import BODY_M
 
@@ -19,38 +21,61 @@ BESIDE_M = 0.1
 
 @dataclass(frozen=True)
 class Climb:
-    """A flight from a storey to the next, straight up.
+    """A way up stairs, from a storey to the next.
 
-    lower: the number of the storey. foot_m, head_m: (2,) where one stands below and above.
-    length_m: of the way on it.
+    lower: the number of the storey. line_m: (n, 3) the feet above the lower floor, from where one
+    stands below to where one stands above.
     """
 
     lower: int
-    foot_m: NDArray[np.float64]
-    head_m: NDArray[np.float64]
-    length_m: float
+    line_m: NDArray[np.float64]
+
+    @property
+    def foot_m(self) -> NDArray[np.float64]:
+        """(2,) where one stands below."""
+        return np.asarray(self.line_m[0, :2])
+
+    @property
+    def head_m(self) -> NDArray[np.float64]:
+        """(2,) where one stands above."""
+        return np.asarray(self.line_m[-1, :2])
+
+    @property
+    def length_m(self) -> float:
+        """Of the way on it."""
+        return float(np.linalg.norm(np.diff(self.line_m, axis=0), axis=1).sum())
 
 
 def climbs_of(spaces: Sequence[Space], wells: Sequence[Stairwell]) -> list[Climb]:
-    """All flights of a house that have no wall on their way; one stairwell for each storey."""
+    """All stairs of a house that have no wall on their way; one stairwell for each storey."""
     found = []
-    for number, (space, above) in enumerate(zip(spaces, spaces[1:], strict=False)):
+    for number, (space, above) in enumerate(pairwise(spaces)):
         for flight in wells[number].flights:
-            climb = _climb(number, flight)
-            if not any(_blocked(climb, one) for one in (space, above)):
+            climb = Climb(number, _line(flight))
+            if not _blocked(climb, flight.rise_m, space, above):
                 found.append(climb)
     return found
 
 
-def _climb(lower: int, flight: Flight) -> Climb:
+def _line(flight: AnyFlight) -> NDArray[np.float64]:
+    """(n, 3) from one standing place to the other."""
     away = BODY_M + BESIDE_M
-    middle = flight.foot + flight.right * flight.width_m / 2.0
-    foot = middle - away * flight.along
-    head = middle + (flight.run_m + away) * flight.along
-    return Climb(lower, foot, head, float(np.hypot(flight.run_m + 2.0 * away, flight.rise_m)))
+    if isinstance(flight, Flight):
+        middle = flight.foot + flight.right * flight.width_m / 2.0
+        ends = (middle - away * flight.along, middle + (flight.run_m + away) * flight.along)
+        return np.array([[*ends[0], 0.0], [*ends[1], flight.rise_m]])
+    path = flight.path_m
+    first, last = path[0] - path[1], path[-1] - path[-2]
+    foot = path[0] + away * first / np.hypot(*first)
+    head = path[-1] + away * last / np.hypot(*last)
+    return np.array([[*foot, 0.0], *flight.line_m, [*head, flight.rise_m]])
 
 
-def _blocked(climb: Climb, space: Space) -> bool:
-    """Whether a wall of a storey stands in the way."""
-    line = LineString([climb.foot_m, climb.head_m])
-    return bool(space.walls.buffer(BODY_M / 2.0).intersects(line))
+def _blocked(climb: Climb, rise_m: float, lower: Space, upper: Space) -> bool:
+    """Whether a wall stands in the way; those above count where a head comes up to them."""
+    line = climb.line_m
+    high = line[line[:, 2] > rise_m - HEADROOM_M]
+    ways = [(lower, line), (upper, high)] if len(line) > 2 else [(lower, line), (upper, line)]
+    return any(
+        space.walls.buffer(BODY_M / 2.0).intersects(LineString(way[:, :2])) for space, way in ways
+    )

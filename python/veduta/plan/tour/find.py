@@ -21,7 +21,7 @@ from veduta.plan.house.flights import stairwells
 from veduta.plan.tour import gaze, pace
 from veduta.plan.tour.climbs import climbs_of
 from veduta.plan.tour.free import BODY_M, SLIM_M, Ground, ground_of
-from veduta.plan.tour.grid import Grid, cells_of
+from veduta.plan.tour.grid import CELL_M, Cells, Grid, cells_of
 from veduta.plan.tour.leaves import open_leaves
 from veduta.plan.tour.outside import Outside, outside_of
 from veduta.plan.tour.smooth import STEP_M, resampled, smoothed
@@ -61,7 +61,7 @@ class Leg:
 
 def find_tour(house: House, speed_m_s: float) -> Tour | None:
     """The tour; None where there is no room in which one can stand."""
-    first = house.spaces[0]
+    first = house.spaces[house.ground]
     ways_in = entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
     plan = _plan(house, outside)
@@ -73,8 +73,22 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
     length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
-    notes = (*plan.found.missed, *((INDOORS,) if around is None else ()))
+    notes = (
+        *coarse_notes(plan.grounds, plan.grid.storeys),
+        *plan.found.missed,
+        *((INDOORS,) if around is None else ()),
+    )
     return Tour(path, stretches_of(timed, plan.grounds), length, notes, plan.grounds)
+
+
+def coarse_notes(grounds: Sequence[Ground], squares: Sequence[Cells]) -> list[str]:
+    """Where squares are larger than usual, as narrow doors may be missed there."""
+    return [
+        f"{ground.space.storey.name} is so large that the tour's way in it was searched on squares"
+        f" of {100.0 * cells.side_m:.0f} cm: it may miss narrow doors"
+        for ground, cells in zip(grounds, squares, strict=True)
+        if cells.side_m > CELL_M
+    ]
 
 
 @dataclass(frozen=True)
@@ -108,14 +122,14 @@ def _plan_for(house: House, outside: Outside | None, body_m: float) -> _Plan | N
         ground_of(
             space,
             leaves,
-            around if number == 0 else Polygon(),
+            around if number == house.ground else Polygon(),
             wells[number].flights,
             body_m,
         )
         for number, space in enumerate(house.spaces)
     )
-    grid = Grid([cells_of(ground) for ground in grounds], climbs)
-    begin = _begin(grid, grounds, outside)
+    grid = Grid([cells_of(ground, len(grounds)) for ground in grounds], climbs)
+    begin = _begin(grid, grounds, outside, house.ground)
     if begin is None:
         return None
     return _Plan(grounds, grid, begin, stops_of(grounds, grid, begin.node))
@@ -129,7 +143,9 @@ class _Begin:
     is_outside: bool
 
 
-def _begin(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> _Begin | None:
+def _begin(
+    grid: Grid, grounds: Sequence[Ground], outside: Outside | None, entered: int
+) -> _Begin | None:
     """Before the house, if most rooms are reached from there, else in the midst of the most."""
     rooms = Counter[int]()
     first: dict[int, int] = {}
@@ -141,11 +157,13 @@ def _begin(grid: Grid, grounds: Sequence[Ground], outside: Outside | None) -> _B
     if not rooms:
         return None
     most, count = rooms.most_common(1)[0]
-    front = None if outside is None else grid.nearest(0, outside.ring_m[0])
+    front = None if outside is None else grid.nearest(entered, outside.ring_m[0])
     if front is not None and 2 * rooms[next(iter(grid.pieces_of(np.array([front]))))] >= count:
         return _Begin(front, is_outside=True)
     stops = stops_of(grounds, grid, first[most]).stops
-    inviting = min(stops, key=lambda stop: (stop.storey, stop.room.use not in THROUGH))
+    inviting = min(
+        stops, key=lambda stop: (abs(stop.storey - entered), stop.room.use not in THROUGH)
+    )
     return _Begin(inviting.node, is_outside=False)
 
 
@@ -197,13 +215,18 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     storeys = grid.storey[squares]
     breaks = np.flatnonzero(np.diff(storeys)) + 1
     pieces: list[NDArray[np.float64]] = []
+    last = squares[0]
     for run in np.split(np.array(squares), breaks):
         ground = grounds[grid.storey[run[0]]]
         flat = smoothed(grid.places_m[run], ground.free)
         level = np.column_stack([flat, np.full(len(flat), ground.elevation_m)])
         if pieces:  # up or down a flight
-            pieces.append(resampled(np.stack([pieces[-1][-1], level[0]]), STEP_M)[1:-1])
+            low = min(grounds[grid.storey[one]].elevation_m for one in (last, run[0]))
+            stairs = grid.climb(last, run[0])[1:-1] + np.array([0.0, 0.0, low])
+            line = np.concatenate([pieces[-1][-1:], stairs, level[:1]])
+            pieces.append(resampled(line, STEP_M)[1:-1])
         pieces.append(level)
+        last = int(run[-1])
     return np.concatenate(pieces)
 
 

@@ -17,7 +17,7 @@ from shapely.ops import unary_union
 
 from veduta.plan.document import Furniture
 from veduta.plan.house.doors import FRAME_M
-from veduta.plan.house.flights import Flight
+from veduta.plan.house.flights import AnyFlight
 from veduta.plan.house.furniture import footprint
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
@@ -64,7 +64,7 @@ def ground_of(
     space: Space,
     leaves: Sequence[OpenLeaf],
     outdoors: BaseGeometry,
-    flights: Sequence[Flight],
+    flights: Sequence[AnyFlight],
     body_m: float = BODY_M,
 ) -> Ground:
     """The ground of a storey; outdoors is what of the surroundings one may walk on.

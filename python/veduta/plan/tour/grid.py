@@ -27,6 +27,8 @@ CELL_M = 0.06
 """Side of a square: doors leave a strip that is little wider for the visitor's middle."""
 MOST_CELLS = 400_000
 """In a storey; larger ones have larger squares."""
+MOST_IN_ALL = 2_000_000
+"""In all storeys together."""
 SHY_M = 0.5
 """Nearer to what stands in the way than this a metre costs more ..."""
 SHY_COST = 3.0
@@ -50,10 +52,11 @@ class Cells:
     lengths_m: NDArray[np.float64]
 
 
-def cells_of(ground: Ground) -> Cells:
-    """The free squares of a storey."""
+def cells_of(ground: Ground, storeys: int = 1) -> Cells:
+    """The free squares of a storey of so many."""
     left, bottom, right, top = ground.free.bounds if not ground.free.is_empty else (0, 0, 0, 0)
-    side = max(CELL_M, math.sqrt((right - left) * (top - bottom) / MOST_CELLS))
+    most = min(MOST_CELLS, MOST_IN_ALL // storeys)
+    side = max(CELL_M, math.sqrt((right - left) * (top - bottom) / most))
     columns = np.arange(left + side / 2.0, right, side)
     rows = np.arange(bottom + side / 2.0, top, side)
     x, y = np.meshgrid(columns, rows)
@@ -101,6 +104,7 @@ class Grid:
         self._graph.add_nodes_from(range(len(self.places_m)))
         self._edges: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
         self._add_edges()
+        self._climbs: dict[tuple[int, int], Climb] = {}
         for climb in climbs:
             self._add_climb(climb)
 
@@ -130,8 +134,15 @@ class Grid:
         if foot is None or head is None:
             return
         self._join(np.array([[foot, head]]), np.array([climb.length_m]))
+        self._climbs[foot, head] = climb
         joined, kept = self._piece[head], self._piece[foot]
         self._piece[self._piece == joined] = kept
+
+    def climb(self, start: int, end: int) -> NDArray[np.float64]:
+        """(n, 3) the feet on the stairs from one square to another, above the lower floor."""
+        if (start, end) in self._climbs:
+            return self._climbs[start, end].line_m
+        return self._climbs[end, start].line_m[::-1]
 
     def nearest(
         self, storey: int, at_m: Sequence[float] | NDArray[np.float64], within_m: float = 0.15

@@ -21,6 +21,8 @@ from veduta.plan.vector.layers import Role, role_of
 Points = NDArray[np.float64]
 MOST_ENTITIES = 400_000
 """Blocks in blocks can make any number of entities out of a small file."""
+_LOOKED_AT = 5
+"""So many times as many are looked at: blocks may hold nothing but blocks, or what is not shown."""
 _DEEPEST = 12
 _MOST_WORDS = 4
 """Lines of more words are remarks for builders, and no names of rooms."""
@@ -72,14 +74,16 @@ class Entities:
     """Files that this one refers to and does not hold."""
     more: bool = False
     """Whether there were more than are read."""
+    left: int = 0
+    """How many are looked at still."""
 
 
 def entities_of(document: DxfDocument, most: int = MOST_ENTITIES) -> Entities:
     """What the model space shows: layers that are off or frozen are left out.
 
-    After `most` entities no more are read.
+    After `most` entities no more are read, nor after some times as many that show nothing.
     """
-    found = Entities()
+    found = Entities(left=_LOOKED_AT * most)
     hidden = {
         layer.dxf.name.lower()
         for layer in document.layers
@@ -107,6 +111,8 @@ def _shown(
 ) -> Iterator[tuple[Role, DXFGraphic]]:
     """Entities with blocks taken apart; what lies on layer 0 of a block is on the block's layer."""
     for entity in entities:
+        if not _goes_on(found):
+            return
         if not isinstance(entity, DXFGraphic) or entity.dxf.get("invisible", 0):
             continue
         own = str(entity.dxf.get("layer", "0"))
@@ -140,10 +146,19 @@ def _inside(
     yield from ((mine, one) for one in insert.attribs if not one.is_invisible)
     try:
         for single in insert.multi_insert() if insert.mcount > 1 else (insert,):
-            parts = list(single.virtual_entities())
-            yield from _shown(parts, mine, layer, hidden, found, depth + 1)
+            # An array has copies without end of a block without content.
+            if not _goes_on(found):
+                return
+            yield from _shown(single.virtual_entities(), mine, layer, hidden, found, depth + 1)
     except _FAULTS:
         found.unread["INSERT"] += 1
+
+
+def _goes_on(found: Entities) -> bool:
+    """Whether one more is looked at."""
+    found.left -= 1
+    found.more |= found.left < 0
+    return found.left >= 0
 
 
 def _take(role: Role, entity: DXFGraphic, found: Entities) -> None:

@@ -47,14 +47,14 @@ def read_vectors(path: Path, given_m: float | None = None) -> VectorPlan:
     found = entities_of(document)
     _require_lines(path, found)
     extent = extent_of(found)
-    unit = unit_scale(document, found, extent, given_m)
+    unit = unit_scale(path, document, found, extent, given_m)
     walls = solid_walls(found, unit.metres_per_px)
     sheet = lay_out(found, walls, unit.metres_per_px)
     segments = _segments(found, walls, sheet)
     known = KnownWalls(
         sheet.solid if not walls.solid.is_empty else None, lambda axes: exact_axes(axes, segments)
     )
-    drawn = read_cleaned(sheet.cleaned, sheet.cleaned.texts or (), known=known)
+    drawn = read_cleaned(sheet.cleaned, sheet.texts, known=known)
     drawn = replace(drawn, openings=named_openings(drawn, found, sheet))
     return VectorPlan(
         drawn=drawn,

@@ -36,6 +36,7 @@ class VectorSheet:
     """
 
     cleaned: Cleaned
+    texts: tuple[Text, ...]
     px_from_units: NDArray[np.float64]
     solid: NDArray[np.bool_]
 
@@ -74,9 +75,8 @@ def lay_out(found: Entities, walls: Walls, unit_m: float) -> VectorSheet:
         mirrored=False,
         rotation_rad=0.0,
         line_px=LINE_PX,
-        texts=texts,
     )
-    return VectorSheet(cleaned, px_from_units, solid)
+    return VectorSheet(cleaned, texts, px_from_units, solid)
 
 
 def _is_shown(stroke: Stroke, walls: Walls) -> bool:

@@ -11,6 +11,7 @@ import math
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 from ezdxf.document import Drawing as DxfDocument
@@ -38,6 +39,7 @@ _FEET = re.compile(r"\d\s*'\s*-?\s*\d*|\d\s*\"")
 _LEAST_FEET = 3
 _SURE = 0.001
 _UNSURE = 0.01
+_TEXTS_DISAGREE = 0.03
 
 
 @dataclass(frozen=True)
@@ -50,25 +52,28 @@ class Witness:
 
 
 def unit_scale(
-    document: DxfDocument, found: Entities, extent: float, given_m: float | None = None
+    path: Path,
+    document: DxfDocument,
+    found: Entities,
+    extent: float,
+    given_m: float | None = None,
 ) -> Scale:
-    """Metres per drawing unit. `extent` is the longer side of the walls, in drawing units.
+    """Metres per drawing unit of a file. `extent` is the longer side of its walls, in those units.
 
     `given_m` is by --scale and goes before everything. Raises InputError where a house of that size
     is none.
     """
     if given_m is not None:
         if not math.isfinite(extent * given_m) or not 0.1 < extent * given_m < 10_000:
-            raise InputError(
-                "--scale", f"makes the drawing {extent * given_m:.3g} m wide", "Mend the number."
-            )
+            fault = f"makes {path.name} {extent * given_m:.3g} m wide"
+            raise InputError("--scale", fault, "Mend the number.")
         said = ScaleEvidence(kind="given", metres_per_px=given_m, sigma=_SURE, agrees=True)
         return Scale(metres_per_px=given_m, sigma=_SURE, basis="given", evidence=[said])
     witnesses = [*_of_header(document), *_of_writing(document, found), *_of_leaves(found)]
     able = [name for name, size in METRES.items() if HOUSE_M[0] <= extent * size <= HOUSE_M[1]]
     if not able:
         raise InputError(
-            "the drawing",
+            path,
             f"is {extent:.4g} units wide, which is no house in any unit",
             "Give the size of a unit with --scale (mm).",
         )
@@ -92,6 +97,24 @@ def unit_notes(scale: Scale, extent: float) -> list[str]:
     for one in wrong:
         notes.append(f"The drawing is in {name}, though {one.text}.")
     return notes
+
+
+def text_notes(scale: Scale, said: Scale) -> list[str]:
+    """What must be said where the sizes that are written in a drawing contradict its unit.
+
+    `said` is the scale by the texts alone. Single sizes that differ say nothing: many belong to
+    something else than was measured.
+    """
+    if said.basis != "evidence":
+        return []
+    times = said.metres_per_px / scale.metres_per_px
+    if abs(times - 1.0) <= max(3.0 * said.sigma, _TEXTS_DISAGREE):
+        return []
+    behind = [one.text for one in said.evidence if one.agrees]
+    return [
+        f"{len(behind)} of {len(said.evidence)} sizes written in the drawing ({behind[0]}, for one)"
+        f" say that a unit is {times:.3g} times as large. --scale sets the size of a unit in mm."
+    ]
 
 
 def _scale(name: str, votes: float, witnesses: Sequence[Witness]) -> Scale:

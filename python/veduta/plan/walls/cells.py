@@ -106,11 +106,14 @@ def tolerance(breadth: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.maximum(1.0, SAME_BREADTH * breadth)
 
 
-def find_cells(ink: NDArray[np.bool_], line_px: float) -> Cells:
-    """The cells of an (h, w) mask of lines."""
+def find_cells(ink: NDArray[np.bool_], line_px: float, cut_px: float | None = None) -> Cells:
+    """The cells of an (h, w) mask of lines.
+
+    With `cut_px`, what is narrower than that ends where it opens into what is wider, so that a wall
+    whose end is not drawn does not run out into the room.
+    """
     paper = (~ink).astype(np.uint8)
-    count, found, places, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
-    labels, stats = np.asarray(found, np.int32), np.asarray(places, np.int32)
+    count, labels, stats = _connected(paper) if cut_px is None else _cut(paper, cut_px)
     depth = np.asarray(cv2.distanceTransform(paper, cv2.DIST_L2, 5), np.float32)
     height, width = ink.shape
     boxes, area = stats[:, :4], stats[:, cv2.CC_STAT_AREA].astype(np.float64)
@@ -144,6 +147,24 @@ def find_cells(ink: NDArray[np.bool_], line_px: float) -> Cells:
     ridges = {int(one): value[starts[one] : starts[one + 1]] for one in np.flatnonzero(narrow)}
     contacts = _contacts(labels, paper, ACROSS_LINES * line_px / 2 + 1)
     return Cells(labels, depth, boxes, area, breadth, narrow, room, ridges, contacts)
+
+
+def _connected(paper: NDArray[np.uint8]) -> tuple[int, NDArray[np.int32], NDArray[np.int32]]:
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
+    return count, np.asarray(labels, np.int32), np.asarray(stats, np.int32)
+
+
+def _cut(
+    paper: NDArray[np.uint8], cut_px: float
+) -> tuple[int, NDArray[np.int32], NDArray[np.int32]]:
+    """What is at least so wide, and then what is narrower, each connected by itself."""
+    side = 2 * round(cut_px / 2) + 1
+    opened = cv2.morphologyEx(paper, cv2.MORPH_OPEN, np.ones((side, side), np.uint8))
+    wide = np.asarray(opened, np.uint8)
+    rooms, labels, stats = _connected(wide)
+    count, rest, more = _connected(paper - wide)
+    labels = np.where(rest > 0, rest + np.int32(rooms - 1), labels)
+    return rooms + count - 1, labels, np.concatenate([stats, more[1:]])
 
 
 def longer_side(ink: NDArray[np.bool_]) -> float:

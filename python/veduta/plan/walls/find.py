@@ -61,6 +61,21 @@ LEAST_STROKES = 0.15
 MOSTLY = 0.3
 """Walls are hatched if there is so much that is hatched, as a part of the insides of walls."""
 
+LEAST_HATCHING = 0.04
+"""Strokes of hatching cover at least this part of what lies between the outlines of walls."""
+
+FINE = 2.5
+"""Walls that are thinner than so many lines are no thicker than letters."""
+
+THICK = 0.6
+"""Thick walls are at least this part of the thickest common ones."""
+
+CUT = 2.5
+"""Walls whose ends are not drawn are parted from rooms, which are so many times as broad."""
+
+LEAKS = 1.3
+"""That is done where it shows so many times as much wall."""
+
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
@@ -157,7 +172,9 @@ def _more_wall(
     full = wall_thickness(filled, line_px)
     if full is None:
         return None
-    least = 0.9 * full.least_px
+    # Where thin walls are no thicker than letters and double lines, the thick ones are compared.
+    fine = full.least_px < FINE * line_px
+    least = THICK * full.most_px if fine else 0.9 * full.least_px
     more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
     return full if more else None
 
@@ -167,13 +184,26 @@ def outlined_walls(ink: NDArray[np.bool_], line_px: float) -> tuple[NDArray[np.b
     strokes = hatch_strokes(ink, line_px)
     cells = find_cells(ink & ~strokes, line_px)
     walls = wall_cells(cells)
+    if walls.any():
+        cut_px = CUT * float(np.quantile(np.repeat(cells.breadth, _lengths(cells, walls)), 0.9))
+        again = find_cells(ink & ~strokes, line_px, cut_px)
+        more = wall_cells(again)
+        if _lengths(again, more).sum() > LEAKS * _lengths(cells, walls).sum():
+            cells, walls = again, more
     inside = walls[cells.labels]
     hatched = hatched_areas(strokes)
     drawing: WallDrawing = "hollow"
-    if hatched.any() and float(hatched.sum()) > MOSTLY * float(inside.sum()):
+    # Where walls have outlines, their hatching lies in these: arcs of doors have strokes, too.
+    lie_in_walls = float((strokes & inside).sum()) >= LEAST_HATCHING * float(inside.sum())
+    if hatched.any() and lie_in_walls and float(hatched.sum()) > MOSTLY * float(inside.sum()):
         drawing = "hatched"
         inside = hatched | _as_hatched(cells, walls, strokes)[cells.labels]
     return inside | (ink & _grown(inside, 3 * line_px)), drawing
+
+
+def _lengths(cells: Cells, chosen: NDArray[np.bool_]) -> NDArray[np.int64]:
+    """(n,) whole pixels along the middles of the chosen cells; 0 of others."""
+    return np.where(chosen, cells.length, 0.0).astype(np.int64)
 
 
 def _as_hatched(

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
-from veduta.plan.walls.meetings import meetings
+from veduta.plan.walls.meetings import MEET_RAD, meetings
 from veduta.plan.walls.pieces import Piece
 
 HOUSE_SHARE = 0.5
@@ -69,6 +69,10 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
             # A curved wall and a straight one may part the same ends.
             key = (min(ends), max(ends), round(4 * axes[index].line.arc.bulge_of(low, high)))
             if ends[0] != ends[1] and key not in edges:
+                line = axes[index].line
+                first, second = ((nodes[end] - line.start) @ line.direction for end in ends)
+                if first < second:  # of two points that became one, one has moved along the axis
+                    low, high = float(first), float(second)
                 edges[key] = Edge(ends[0], ends[1], index, low, high)
     kept = _without_islands(tuple(edges.values()))
     types = tuple(_type(node, nodes, kept, axes) for node in range(len(nodes)))
@@ -190,7 +194,36 @@ def _clustered(
         if weight[index] > heaviest[alias[index]]:
             heaviest[alias[index]] = weight[index]
             nodes[alias[index]] = point
-    return nodes, alias
+    through: list[set[int]] = [set() for _ in roots]
+    for axis_index, here in enumerate(stops):
+        for _, index in here:
+            through[alias[index]].add(axis_index)
+    return np.array(
+        [_on_lines(node, [axes[i] for i in at]) for node, at in zip(nodes, through, strict=True)]
+    ).reshape(-1, 2), alias
+
+
+def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.float64]:
+    """The node moved to where the two longest walls cross that meet there, so that none is bent.
+
+    Its cluster may have their crossing and, a little beside it, the end of one of them. Where one
+    of all is an arc, the node stays: it was put there already.
+    """
+    ordered = sorted(axes, key=lambda one: -one.line.length_px)
+    first = ordered[0].line
+    if any(one.line.bulge for one in ordered):
+        return node
+    for other in ordered[1:]:
+        line = other.line
+        cross = first.direction[0] * line.direction[1] - first.direction[1] * line.direction[0]
+        if abs(cross) < np.sin(MEET_RAD):
+            continue
+        apart = line.start - first.start
+        along = (apart[0] * line.direction[1] - apart[1] * line.direction[0]) / cross
+        place = first.start + along * first.direction
+        near = max(first.thickness_px, line.thickness_px)
+        return place if float(np.hypot(*(place - node))) <= near else node
+    return node
 
 
 def _type(

@@ -66,19 +66,6 @@ def merged(first: Piece, second: Piece) -> Piece:
     )
 
 
-def angle_between(first: Piece, second: Piece) -> float:
-    """Of their lines, 0 to a quarter turn."""
-    cross = float(np.cross(first.direction, second.direction))
-    return float(np.arcsin(min(1.0, abs(cross))))
-
-
-def offset_between(first: Piece, second: Piece) -> float:
-    """How far the middle of the shorter lies beside the line of the longer."""
-    longer, shorter = (first, second) if first.length_px >= second.length_px else (second, first)
-    apart = (shorter.start + shorter.end) / 2 - longer.start
-    return float(abs(np.cross(longer.direction, apart)))
-
-
 def gap_between(first: Piece, second: Piece) -> float:
     """Along the first one's direction, from end to end; negative where they overlap."""
     base = first.start

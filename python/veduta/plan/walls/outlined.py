@@ -40,6 +40,26 @@ A_SIDE = 0.15
 TURNS = 4.0
 """Walls around a corner are so many times as long as broad, at least."""
 
+WIDER = 3.0
+"""Beside walls between many rooms, what is so many times as broad is a space: a closet, a bath."""
+
+SPACIOUS = 8.0
+"""On large plans rooms are narrow beside the sheet: so many times as broad as a wall is a room."""
+
+WEB_REACH = 25.0
+"""Walls between many rooms reach so many times their breadth; rims of bathtubs do not."""
+
+WEB_LEAST_PX = 3.0
+"""What is narrower lies between two lines that run together."""
+
+WEB_SPACES = 3
+"""They have so many spaces beside them, each along some breadths of the wall, at least."""
+
+WEB_SIDE = 4.0
+
+WEB_ROOMS = 0.5
+"""Or rooms along this part of their length."""
+
 END = 1.7
 """Cells touch with an end if their common line is at most so many times as long as broad."""
 
@@ -65,7 +85,7 @@ class _Sorting:
         self.breadths: list[float] = []
 
     def walls(self) -> NDArray[np.bool_]:
-        first = [one for one in self.even if self._runs_on(one)]
+        first = [one for one in self.even if self._runs_on(one) or self._is_web(one)]
         if not first:
             return self.wall
         self.wall[first] = True
@@ -94,12 +114,46 @@ class _Sorting:
             self._parts_rooms(cell) and self._is_between_rooms(cell) and not self._is_straight(cell)
         )
 
+    def _is_web(self, cell: int) -> bool:
+        """Whether a cell is a wall between many small spaces: even, far-reaching, not straight."""
+        cells = self.cells
+        breadth = float(cells.breadth[cell])
+        if breadth < WEB_LEAST_PX or not self._reaches(cell) or self.even[cell][1] < EVEN:
+            return False
+        beside = cells.beside.get(cell, [])
+        wide = [
+            length
+            for other, length in beside
+            if cells.room[other] or cells.breadth[other] >= WIDER * breadth
+        ]
+        enough = sum(wide) >= BESIDE_ROOMS * sum(length for _, length in beside)
+        spaces = sum(length >= WEB_SIDE * breadth for length in wide)
+        # Where doors stand open, rooms and the corridor between them are one space.
+        rooms = sum(length for other, length in beside if cells.room[other])
+        many = spaces >= WEB_SPACES or rooms >= WEB_ROOMS * float(cells.length[cell])
+        return enough and many and not self._is_straight(cell)
+
     def _parts_rooms(self, cell: int) -> bool:
         """Whether it has two rooms beside it, or one and what is outdoors."""
         least = A_SIDE * self.cells.length[cell]
         beside = self.cells.beside.get(cell, [])
-        rooms = [other for other, length in beside if self.cells.room[other] and length >= least]
+        rooms = [
+            other
+            for other, length in beside
+            if length >= least and (self.cells.room[other] or self._is_spacious(other, cell))
+        ]
         return len(rooms) > 1
+
+    def _is_spacious(self, other: int, cell: int) -> bool:
+        """Whether a cell that is no room by the sheet's size is one beside this wall.
+
+        Beside the rim of a bathtub, which does not reach far, it is the inside of the tub.
+        """
+        broad = self.cells.breadth[other] >= SPACIOUS * self.cells.breadth[cell]
+        return bool(broad and self._reaches(cell))
+
+    def _reaches(self, cell: int) -> bool:
+        return bool(max(self.cells.boxes[cell, 2:]) >= WEB_REACH * self.cells.breadth[cell])
 
     def _turns(self, cell: int) -> bool:
         """Whether a cell that is as broad as a wall goes around a corner."""
@@ -113,7 +167,7 @@ class _Sorting:
     def _is_between_rooms(self, cell: int) -> bool:
         narrow = rooms = most = 0
         for other, length in self.cells.beside.get(cell, []):
-            if self.cells.narrow[other]:
+            if self.cells.narrow[other] and not self._is_spacious(other, cell):
                 narrow += length
                 most = max(most, length)
             else:

@@ -56,6 +56,36 @@ def cell(box: Box, use: Use | None = None) -> Cell:
     return Cell(corners, (0.0,) * 4, use)
 
 
+@dataclass(frozen=True)
+class Widening:
+    """A house made larger where its stairs stand: they need more room than was drawn for them.
+
+    What is at x in 0..`stairs.right` is stretched to `right`, what is farther is moved; so is what
+    lies above `stairs.bottom` on the page. Nothing else changes, and nothing gets smaller.
+    """
+
+    stairs: Box
+    right: float
+    top: float
+
+    def cell(self, one: Cell) -> Cell:
+        """The same cell in the larger house."""
+        return Cell(tuple(self._point(corner) for corner in one.corners), one.bulges, one.use)
+
+    def _point(self, at: Point) -> Point:
+        old = self.stairs
+        x = _stretched(at[0], old.left, old.right, self.right)
+        return x, _stretched(at[1], old.bottom, old.top, self.top)
+
+
+def _stretched(at: float, start: float, end: float, to: float) -> float:
+    if at <= start:
+        return at
+    if at >= end:
+        return round(at + to - end, 2)
+    return round(start + (at - start) * (to - start) / (end - start), 2)
+
+
 def steps(
     rng: np.random.Generator, low: float, high: float, least: float, most: float
 ) -> list[float]:

@@ -24,6 +24,9 @@ OpeningType = DoorType | WindowType
 OpeningKind = Literal["door", "window", "gap"]
 Hinge = Literal["start", "end", "both", "none"]
 Swing = Literal["left", "right", "both", "none"]
+StairsKind = Literal[
+    "straight", "quarter-winding", "quarter-landing", "half-winding", "half-landing", "spiral"
+]
 
 
 @dataclass(frozen=True)
@@ -74,11 +77,18 @@ class Room:
 
 @dataclass(frozen=True)
 class Stairs:
-    """A flight of stairs in a room; `up` is the direction in which it rises."""
+    """Stairs in a room; `up` is the direction in which they rise at their foot.
+
+    Of those that are no straight flight, `steps_m` has the treads from the lowest up, a landing is
+    one, and `path_m` the walking line over them.
+    """
 
     outline_m: tuple[Point, ...]
     treads: int
     up: Point
+    steps_m: tuple[tuple[Point, ...], ...] = ()
+    path_m: tuple[Point, ...] = ()
+    kind: StairsKind = "straight"
 
 
 @dataclass(frozen=True)

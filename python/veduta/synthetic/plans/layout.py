@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from shapely.geometry import Polygon
 
 from veduta.synthetic.plans import doors
-from veduta.synthetic.plans.dissect import Box, Cell, cell, corridor_cells, cut
+from veduta.synthetic.plans.dissect import Box, Cell, Widening, cell, corridor_cells, cut
 from veduta.synthetic.plans.house import (
     DoorType,
     House,
@@ -30,7 +30,7 @@ from veduta.synthetic.plans.network import (
 )
 from veduta.synthetic.plans.outline import with_features
 from veduta.synthetic.plans.places import swept
-from veduta.synthetic.plans.stairs import flight
+from veduta.synthetic.plans.stairs import StairPlan, stair_plan, stairs_in
 from veduta.synthetic.plans.uses import uses_of
 from veduta.synthetic.plans.windows import windows_of
 from veduta.synthetic.seeds import stream
@@ -62,6 +62,19 @@ class Frame:
     stairs: Box | None
     thickness: Thickness
     windows: WindowType
+    climb: StairPlan | None = None
+
+    @property
+    def widening(self) -> Widening | None:
+        """What makes room for the stairs."""
+        if self.stairs is None or self.climb is None:
+            return None
+        walls = (self.thickness.outer_m + self.thickness.inner_m) / 2.0
+        wide, deep = (round(side + walls + 0.005, 2) for side in self.climb.room_m)
+        old = self.stairs
+        return Widening(
+            old, max(old.right, old.left + wide), max(old.top, round(old.bottom + deep, 2))
+        )
 
 
 def make_house(seed: int, language: Language = "en", storeys: int | None = None) -> House:
@@ -69,6 +82,8 @@ def make_house(seed: int, language: Language = "en", storeys: int | None = None)
     rng = stream(seed, "house")
     count = storeys or int(rng.choice([1, 2], p=[0.8, 0.2]))
     frame = _frame(stream(seed, "frame"), count)
+    if frame.stairs is not None:
+        frame = replace(frame, climb=stair_plan(stream(seed, "stairs")))
     made = tuple(_storey(seed, number, frame, language) for number in range(count))
     return House(seed, made)
 
@@ -117,7 +132,8 @@ def _cells(rng: np.random.Generator, frame: Frame, number: int) -> list[Cell]:
         cells.append(
             cell(Box(box.right, box.bottom, box.right + deep, min(top, box.top)), "garage")
         )
-    return with_features(rng, cells, FEATURES)
+    wider = frame.widening
+    return with_features(rng, [wider.cell(one) for one in cells] if wider else cells, FEATURES)
 
 
 def _cut_with_hall(rng: np.random.Generator, box: Box) -> list[Cell]:
@@ -161,12 +177,16 @@ def _furnished_with_openings(
             beside[second].add(first)
     given = [cell.use for cell in cells]
     uses = dict(zip(ids, uses_of(rng, areas, given, beside, number, language), strict=True))
-    ways = _doors(rng, walls, uses, number)
+    rooms = _rooms(ids, uses, room_areas(cells, walls))
+    steps = tuple(
+        stairs_in(Polygon(room.outline_m), frame.climb)
+        for room in rooms
+        if room.use == "stairs" and frame.climb
+    )
+    ways = _doors(rng, walls, uses, number, [Polygon(one.outline_m) for one in steps])
     if ways is None:
         return None
     windows = windows_of(rng, walls, uses, ways, frame.windows)
-    rooms = _rooms(ids, uses, room_areas(cells, walls))
-    steps = tuple(flight(Polygon(room.outline_m)) for room in rooms if room.use == "stairs")
     return Storey(number, walls, (*ways, *windows), rooms, steps)
 
 
@@ -183,19 +203,27 @@ def _rooms(ids: Sequence[str], uses: dict[str, Use], areas: Sequence[Polygon]) -
 
 
 def _doors(
-    rng: np.random.Generator, walls: Sequence[Wall], uses: dict[str, Use], number: int
+    rng: np.random.Generator,
+    walls: Sequence[Wall],
+    uses: dict[str, Use],
+    number: int,
+    stairs: Sequence[Polygon],
 ) -> list[Opening] | None:
-    """Doors to all rooms, the entrance, and a few more; None where a room cannot be entered."""
+    """Doors to all rooms, the entrance, and a few more; None where a room cannot be entered.
+
+    None opens onto stairs, or swings into their room.
+    """
     front = None if number else doors.entrance(rng, walls, uses)
     root = front[0] if front else next((n for n, use in uses.items() if use == "stairs"), None)
     ways = doors.way_to_all(walls, uses, root) if root else None
     if ways is None or root is None or (front is None and number == 0):
         return None
-    placed = _Placed(rng)
+    placed = _Placed(rng, stairs)
     for name, wall in ways:
         other = wall.right if wall.left == name else wall.left
         kind = doors.inner_type(rng, uses[name], uses[other or name])
-        into = other if uses[name] in ("toilet", "storage", "wardrobe") else name
+        outward = uses[name] in ("toilet", "storage", "wardrobe", "stairs")
+        into = other if outward else name
         if not (placed.put(wall, kind, into) or placed.put(wall, "swing", into)):
             return None
     if front:
@@ -209,10 +237,10 @@ def _doors(
 class _Placed:
     """Doors so far, none of which swings into another."""
 
-    def __init__(self, rng: np.random.Generator) -> None:
+    def __init__(self, rng: np.random.Generator, taken: Sequence[Polygon]) -> None:
         self.rng = rng
         self.doors: list[Opening] = []
-        self.taken: list[Polygon] = []
+        self.taken = [*taken]
 
     def put(self, wall: Wall, kind: DoorType, into: str | None) -> bool:
         """Place a door in the wall; false where none fits clear of the others."""

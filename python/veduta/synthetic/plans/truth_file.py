@@ -77,13 +77,20 @@ def from_json(fields: Mapping[str, Any]) -> SheetTruth:
             tuple(Wall(**_pairs(wall, "start_m", "end_m")) for wall in storey["walls"]),
             tuple(Opening(**opening) for opening in storey["openings"]),
             tuple(Room(**_outline(room)) for room in storey["rooms"]),
-            tuple(Stairs(**_pairs(_outline(flight), "up")) for flight in storey["stairs"]),
+            tuple(_stairs(flight) for flight in storey["stairs"]),
         ),
     )
 
 
 def _pairs(fields: Mapping[str, Any], *names: str) -> dict[str, Any]:
     return {**fields, **{name: tuple(fields[name]) for name in names}}
+
+
+def _stairs(fields: Mapping[str, Any]) -> Stairs:
+    """Older truths know straight flights alone."""
+    rings = tuple(tuple(map(tuple, ring)) for ring in fields.get("steps_m", ()))
+    path = tuple(map(tuple, fields.get("path_m", ())))
+    return Stairs(**{**_pairs(_outline(fields), "up"), "steps_m": rings, "path_m": path})
 
 
 def _outline(fields: Mapping[str, Any]) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from shapely.geometry import LineString, Polygon
+from shapely.ops import substring
 
 from veduta.synthetic.plans.bodies import solid_walls
 from veduta.synthetic.plans.canvas import Canvas
@@ -59,6 +60,9 @@ def draw_walls(canvas: Canvas, style: Style, storey: Storey) -> None:
 
 def draw_stairs(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None:
     """Treads as lines, an arrow up the middle, and the word at its foot."""
+    if stairs.steps_m:
+        _draw_turning(canvas, style, stairs, word)
+        return
     corners = np.array(stairs.outline_m)
     low, high = corners.min(axis=0), corners.max(axis=0)
     along_x = abs(stairs.up[0]) > 0.5
@@ -69,6 +73,7 @@ def draw_stairs(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None
             [(at[0], low[1]), (at[0], high[1])] if along_x else [(low[0], at[1]), (high[0], at[1])]
         )
         canvas.line(line, style.pen_px * 0.8, style.ink)
+    canvas.line([*stairs.outline_m, stairs.outline_m[0]], style.pen_px * 0.8, style.ink)
     middle, up = (low + high) / 2, np.array(stairs.up)
     reach = (high - low)[0 if along_x else 1] * 0.42
     tip, tail = middle + up * reach, middle - up * reach
@@ -80,4 +85,24 @@ def draw_stairs(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None
         style.ink,
     )
     foot = tail + 0.25 * across
+    canvas.text(word, (float(foot[0]), float(foot[1])), 9.0, style.font, style.ink)
+
+
+def _draw_turning(canvas: Canvas, style: Style, stairs: Stairs, word: str) -> None:
+    """As a straight flight; the arrow follows the walking line."""
+    for ring in stairs.steps_m:
+        canvas.line([*ring, ring[0]], style.pen_px * 0.8, style.ink)
+    path = LineString(stairs.path_m)
+    inset = 0.5 * path.length / stairs.treads
+    shaft = np.array(substring(path, inset, path.length - inset).coords)
+    canvas.line(shaft, style.pen_px, style.ink)
+    tip, up = shaft[-1], (shaft[-1] - shaft[-2]) / np.hypot(*(shaft[-1] - shaft[-2]))
+    across = np.array([-up[1], up[0]])
+    canvas.line(
+        [tip - 0.18 * up + 0.1 * across, tip, tip - 0.18 * up - 0.1 * across],
+        style.pen_px,
+        style.ink,
+    )
+    beside = np.array([-stairs.up[1], stairs.up[0]])
+    foot = shaft[0] + 0.25 * beside
     canvas.text(word, (float(foot[0]), float(foot[1])), 9.0, style.font, style.ink)

@@ -68,7 +68,8 @@ def _before_screen(choice: Choice, bench: tuple[Entry, Size], seat: tuple[Entry,
 
 def _backs(spot: Spot) -> list[float]:
     """Distances of the sofa's back from the wall of the television, the best first."""
-    assert spot.stretch is not None  # noqa: S101
+    if spot.stretch is None:  # a television stands at a wall
+        return []
     start = spot.at + 0.05 * spot.stretch.inward
     ray = LineString([start, start + 30.0 * spot.stretch.inward])
     met = ray.intersection(spot.space.floor.boundary)

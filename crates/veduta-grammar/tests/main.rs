@@ -1,0 +1,50 @@
+//! All tests of the crate from outside, as one program: each program of its own would have the
+//! same generic code compiled and linked again.
+
+#[path = "../../veduta-geometry/tests/support/draw.rs"]
+mod draw;
+mod programs;
+mod support;
+mod trees;
+
+mod along_uv;
+mod arrays;
+mod assets;
+mod budgets;
+mod components;
+mod derivation;
+mod diagnostics;
+mod documents;
+mod files;
+mod format;
+mod generated;
+mod hostile;
+mod importing;
+mod inlining;
+mod measures;
+mod mutated_files;
+mod occlusion;
+mod packing;
+mod perimeter;
+mod random_programs;
+mod rederivation;
+mod reshaping;
+mod roofs;
+mod scopes;
+mod setbacks;
+mod shapes;
+mod snapping;
+
+#[test]
+fn every_file_of_tests_is_in_this_program() {
+    let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
+    for entry in std::fs::read_dir(folder).unwrap() {
+        let path = entry.unwrap().path();
+        if path.extension().is_some_and(|extension| extension == "rs") {
+            let name = path.file_stem().unwrap().to_str().unwrap();
+            let line = format!("\nmod {name};\n");
+            let here = include_str!("main.rs").contains(&line);
+            assert!(here || name == "main", "{name}.rs is not in main.rs");
+        }
+    }
+}

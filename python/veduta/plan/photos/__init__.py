@@ -1,0 +1,1 @@
+"""Photos of rooms: the colour of walls, and tiles of floors and walls."""
