@@ -1,12 +1,16 @@
 //! All tests of the crate from outside, as one program: each program of its own would have the
 //! same generic code compiled and linked again.
 
+#[cfg(test)]
 #[path = "support/draw.rs"]
 mod draw;
+#[cfg(test)]
 #[path = "support/footprints.rs"]
 mod footprints;
+#[cfg(test)]
 #[path = "support/roof_kinds.rs"]
 mod roof_kinds;
+#[cfg(test)]
 #[path = "support/shapes.rs"]
 mod shapes;
 

@@ -1,10 +1,14 @@
 //! All tests of the crate from outside, as one program: each program of its own would have the
 //! same generic code compiled and linked again.
 
+#[cfg(test)]
 #[path = "../../veduta-geometry/tests/support/draw.rs"]
 mod draw;
+#[cfg(test)]
 mod programs;
+#[cfg(test)]
 mod support;
+#[cfg(test)]
 mod trees;
 
 mod along_uv;

@@ -45,6 +45,20 @@ def test_it_does_not_fill_a_closet() -> None:
     assert hole.swing == "left"
 
 
+def test_what_is_too_wide_for_one_leaf_has_two_or_slides() -> None:
+    """Only where no leaf is drawn: a drawn one stays as it is."""
+    wide = opening("inner", "middle", 1.0, 1.6, type="unknown")
+    assert (hung("inner", wide).type, hung("inner", wide).hinge) == ("double", "both")
+    assert hung("inner", wide.model_copy(update={"width_m": 1.0})).type == "unknown"
+    drawn = wide.model_copy(update={"hinge": "start", "swing": "left"})
+    assert hung("inner", drawn).type == "unknown"
+    assert hung("front", opening("front", "south-1", 0.6, 1.9, type="unknown")).type == "sliding"
+    closet = room("beyond", rectangle(5.06, 0.15, 5.9, 2.9), use="wardrobe")
+    storey = sample_storey(openings=[wide], rooms=[room("living", LIVING), closet])
+    (hole,) = space_of(storey, 2.55).holes
+    assert hole.type == "sliding"
+
+
 def test_a_front_door_opens_inward() -> None:
     """The south wall goes east, and the house is on its left."""
     assert hung("front", opening("front", "south-1", 0.6, 1.0)).swing == "left"

@@ -186,17 +186,17 @@ def _front_of(hole: Hole, sign: float, deep_m: float, beside_m: float) -> Polygo
 def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
     """What a door needs on one side: an approach, the sweep of its leaves."""
     opening = hole.opening
-    garage = opening.type == "garage"
+    garage = hole.type == "garage"
     zones = [_front_of(hole, sign, APPROACH_M, 0.03)]
-    if opening.kind == "gap" or opening.type == "plain" or garage:
+    if opening.kind == "gap" or hole.type == "plain" or garage:
         return zones
-    if opening.type in {"sliding", "pocket"}:
+    if hole.type in {"sliding", "pocket"}:
         # The leaf runs along the wall.
         return [*zones, _front_of(hole, sign, 0.1, hole.width_m)]
     swings = -1.0 if hole.swing == "right" else 1.0
     if hole.swing != "both" and swings != sign:
         return zones
-    both = hole.hinge == "both" or opening.type in {"double", "french", "folding"}
+    both = hole.hinge == "both" or hole.type in {"double", "french", "folding"}
     radius = (hole.width_m / 2.0 if both else hole.width_m) + 0.03
     return zones + [hole.sweep(end, sign, radius) for end in ENDS if both or end == hole.hinge]
 

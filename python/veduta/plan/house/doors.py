@@ -103,7 +103,7 @@ class _Door:
 
     def add(self) -> None:
         """Add what the type of the door asks for."""
-        kind = self.hole.opening.type
+        kind = self.hole.type
         if kind in {"sliding", "pocket"}:
             self._slide(in_wall=kind == "pocket")
         elif kind == "garage":
@@ -120,15 +120,15 @@ class _Door:
             self._swing(Leaf("leaf", self.first, self.last, self.first, self.side))
 
     def _side(self) -> float:
-        opening, hole = self.hole.opening, self.hole
-        if opening.type == "garage":  # it goes up under the ceiling, inside
+        hole = self.hole
+        if hole.type == "garage":  # it goes up under the ceiling, inside
             return -1.0 if hole.right is not None and hole.left is None else 1.0
         return -1.0 if hole.swing == "right" else 1.0
 
     @property
     def look(self) -> str:
         """Doors to the outside are darker."""
-        if self.hole.opening.type == "garage":
+        if self.hole.type == "garage":
             return "garage door"
         sides = (self.hole.left, self.hole.right)
         is_outer = any(room is None or room.outdoors for room in sides)
@@ -198,7 +198,7 @@ class _Door:
         near, far = sorted((-first_left, -last_left))  # the frame's third axis points right
         panel = box(leaf.start_m, self.bottom, leaf.end_m, self.top)
         surface = Surface(self.feature, self.look)
-        if self.hole.opening.type == "french":
+        if self.hole.type == "french":
             glass = box(
                 leaf.start_m + _STILE_M, self.bottom + 2 * _STILE_M,
                 leaf.end_m - _STILE_M, self.top - _STILE_M,

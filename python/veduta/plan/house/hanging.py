@@ -1,8 +1,9 @@
 """How leaves hang that are not drawn: where a builder would hang them.
 
-A leaf opens into the room that is entered, not into the way that leads there, nor into a closet
-that it would fill; and it stands open against the wall that is nearest to its hinge, before no
-other opening.
+A door of unknown type that is too wide for one leaf slides before closets and to the outdoors, and
+has two leaves elsewhere. A leaf opens into the room that is entered, not into the way that leads
+there, nor into a closet that it would fill; and it stands open against the wall that is nearest to
+its hinge, before no other opening.
 """
 
 from __future__ import annotations
@@ -12,13 +13,14 @@ from dataclasses import replace
 
 from shapely.geometry import Point, Polygon
 
-from veduta.plan.document import Room, RoomUse
+from veduta.plan.document import DoorType, Room, RoomUse
 from veduta.plan.house.hole import ENDS, End, Hinge, Hole, Swing
 
 Rooms = Sequence[tuple[Room, Polygon]]
 
 WAYS: frozenset[RoomUse] = frozenset({"hall", "corridor", "stairs"})
 """What one passes through: leaves do not open into it."""
+WIDEST_LEAF_M = 1.15
 CLOSET_M2 = 2.5
 """A room that is no larger would be filled by a leaf."""
 INTO_WAY, INTO_CLOSET, OUT_OF_DOORS, INTO_LARGER = 2.0, 3.0, 2.5, 0.5
@@ -37,9 +39,9 @@ def hung(holes: Sequence[Hole], rooms: Rooms) -> tuple[Hole, ...]:
 
 
 def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole:
-    opening = hole.opening
+    opening, guess = hole.opening, _guess(hole)
     swings: tuple[Swing, ...] = ("left", "right")
-    if opening.hinge == "both":
+    if opening.hinge == "both" or guess == "double":
         hinges: tuple[Hinge, ...] = ("both",)
     elif opening.hinge == "none":
         hinges = ENDS
@@ -52,7 +54,19 @@ def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole
         hinge, swing = ways[0]
     else:
         hinge, swing = min(ways, key=lambda way: _against(hole, way[0], way[1], holes, shapes))
-    return replace(hole, hinge=hinge, swing=swing)
+    return replace(hole, hinge=hinge, swing=swing, guess=guess)
+
+
+def _guess(hole: Hole) -> DoorType | None:
+    """What a wide door is that shows no leaf; None where it is drawn, or one leaf is enough."""
+    opening = hole.opening
+    is_told = opening.kind != "door" or opening.type != "unknown" or opening.hinge != "none"
+    if is_told or hole.width_m <= WIDEST_LEAF_M:
+        return None
+    sides = (hole.left, hole.right)
+    outdoors = any(room is None or room.outdoors for room in sides)
+    closet = any(room is not None and room.area_m2 <= CLOSET_M2 for room in sides)
+    return "sliding" if outdoors or closet else "double"
 
 
 def _against(

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Opening, Room
+from veduta.plan.document import DoorType, Opening, OpeningType, Room
 from veduta.plan.house.lines import WallLine
 
 End = Literal["start", "end"]
@@ -27,7 +27,8 @@ class Hole:
 
     start, end: (2,) the ends on the centre line. low_m, high_m: above the storey's floor.
     left, right: the rooms on its sides; None is outdoors. hinge, swing: how its leaf hangs, as
-    it is drawn or as `hanging` has it.
+    it is drawn or as `hanging` has it. guess: what `hanging` takes a door for whose type is not
+    drawn; None for others.
     """
 
     opening: Opening
@@ -40,6 +41,12 @@ class Hole:
     right: Room | None = None
     hinge: Hinge = "start"
     swing: Swing = "left"
+    guess: DoorType | None = None
+
+    @property
+    def type(self) -> OpeningType:
+        """What is built: as it is drawn, or the guess."""
+        return self.guess or self.opening.type
 
     @property
     def start(self) -> NDArray[np.float64]:

@@ -215,7 +215,7 @@ _WITHOUT_HINGE = frozenset({"sliding", "pocket", "garage", "plain"})
 
 def _hinges(hole: Hole) -> list[tuple[NDArray[np.float64], float]]:
     ends = {"start": [hole.start_m], "end": [hole.end_m], "both": [hole.start_m, hole.end_m]}
-    at = [] if hole.opening.type in _WITHOUT_HINGE else ends[hole.hinge]
+    at = [] if hole.type in _WITHOUT_HINGE else ends[hole.hinge]
     return [(hole.line.at(one), hole.width_m / len(at)) for one in at]
 
 

@@ -308,7 +308,7 @@ def _filling(model: _Model, hole: Hole, name: str, place: Entity) -> Entity:
     else:
         filling = model.product(
             "IfcDoor", name, place,
-            PredefinedType="GATE" if hole.opening.type == "garage" else "DOOR",
+            PredefinedType="GATE" if hole.type == "garage" else "DOOR",
             OperationType=door_operation(hole.opening),
             **size,
         )  # fmt: skip
