@@ -182,7 +182,8 @@ def _vector_scale(plan: VectorPlan) -> tuple[Scale, list[str]]:
         for one in unit.evidence
     ]
     said = estimate_scale(sizes)
-    told = judged_by(metres_per_px, said.evidence) if said.basis == "evidence" else []
+    written = [one for one in said.evidence if one.kind not in {"door", "assumed"}]
+    told = judged_by(metres_per_px, written)
     scale = unit.model_copy(update={"metres_per_px": metres_per_px, "evidence": [*own, *told]})
     return scale, text_notes(scale, said)
 

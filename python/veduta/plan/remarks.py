@@ -42,7 +42,7 @@ def remarks(drawn: Drawn, scan_size_px: Sequence[int] | None, metres_per_px: flo
 
 
 def false_flights(found: Sequence[DrawnStairs], true: Sequence[DrawnStairs]) -> list[str]:
-    """What looked like stairs and is none: its lines were taken out of the ink of walls before."""
+    """What looked like stairs and is none. Of pictures, its lines are not looked at for walls."""
     kept = {id(one.outline_px) for one in true}
     left = [one for one in found if id(one.outline_px) not in kept]
     if not left:
@@ -51,7 +51,7 @@ def false_flights(found: Sequence[DrawnStairs], true: Sequence[DrawnStairs]) -> 
     more = f" and {len(left) - _SHOWN} more" if len(left) > _SHOWN else ""
     return [
         f"lines at pixel {shown}{more} of the cleaned drawing look like treads, but have not the"
-        " size of stairs or lie in no room: they are taken neither for stairs nor for walls."
+        " size of stairs or lie in no room: they are not taken for stairs."
     ]
 
 

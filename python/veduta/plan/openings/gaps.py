@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.walls.arcs import Arc
-from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 PARALLEL_RAD = np.radians(7.0)
 CROSSING_RAD = np.radians(25.0)
@@ -20,7 +20,6 @@ BESIDE = 0.55
 FARTHEST = 60.0
 """Openings are at most so many wall thicknesses wide (a garage door in a thin wall)."""
 
-FACET_RAD = np.radians(10.0)
 LEAST_PX = 3
 """What is narrower is a flaw of the ink."""
 

@@ -8,8 +8,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import FACET_RAD, Gap
-from veduta.plan.walls.pieces import Piece
+from veduta.plan.openings.gaps import Gap
+from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 SHRINK = 2
 """Flooding needs no finer grid."""

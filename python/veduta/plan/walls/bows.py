@@ -17,6 +17,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.document import WallDrawing
 from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.curved import lies_in
@@ -82,7 +83,7 @@ class _Ink:
 class _Break:
     """Two ends of a broken wall, (2,) each, the way from the first to the second, and how thick.
 
-    `side`: where it is outdoors, 1 to the right of the way, -1 to the left.
+    `side`: where it is outdoors, 1 to the right of the way, -1 to the left. `drawing`: of the wall.
     """
 
     first: NDArray[np.float64]
@@ -90,6 +91,7 @@ class _Break:
     way: NDArray[np.float64]
     thickness_px: float
     side: float
+    drawing: WallDrawing
 
 
 def with_bows(found: Found, faint: NDArray[np.bool_]) -> Found:
@@ -140,9 +142,10 @@ def _breaks(found: Found) -> Iterator[_Break]:
         thick = min(
             max(axes[edge.axis].line.thickness_px for edge in at[node]) for node in (one, other)
         )
+        drawing = axes[at[one][0].axis].line.drawing
         for side in (1.0, -1.0):
             if _sees_out(first, second, side, found.solid):
-                yield _Break(first, second, way, thick, side)
+                yield _Break(first, second, way, thick, side, drawing)
 
 
 def _sees_out(
@@ -200,7 +203,7 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     bend = (high - low) ** 2 / 8.0 / arc.radius_px
     if bend < 3 * NEAR_PX or near[low:high].mean() < COVERED:
         return None
-    return Piece(arc.start, arc.end, one.thickness_px, bulge=arc.bulge)
+    return Piece(arc.start, arc.end, one.thickness_px, one.drawing, arc.bulge)
 
 
 def _likeliest(one: _Break, ink: _Ink) -> Arc | None:

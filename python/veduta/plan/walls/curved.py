@@ -44,6 +44,11 @@ DEEP = 0.6
 """And bows by so many of them: what does not lies within a straight wall."""
 
 MOST_SEEDS = 60
+MOST_TRACKS = 1500
+"""More bands are a photo or a texture: the longest are looked at."""
+
+PATIENCE = 6
+"""So many longer chains that are no arc in a row: the arc has ended."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +80,12 @@ def curved_pieces(
     drawing: WallDrawing = "filled",
 ) -> tuple[list[Piece], list[Track]]:
     """The curved pieces of all bands that are at least so thick, and the bands without them."""
+    others: Sequence[Track] = ()
+    if len(tracks) > MOST_TRACKS:
+        ordered = sorted(tracks, key=lambda track: -len(track.along))
+        tracks, others = ordered[:MOST_TRACKS], ordered[MOST_TRACKS:]
     stretches = _stretches(tracks)
+    samples = np.array([one.points[[0, len(one.points) // 2, -1]] for one in stretches])
     taken: set[int] = set()
     found: list[Piece] = []
     seeds = sorted(_seeds(tracks, stretches), key=lambda seed: -len(seed[1]))
@@ -90,12 +100,12 @@ def curved_pieces(
             continue
         if _depth(points) < DEEP * thickness:
             continue
-        whole, more = _grown(seed, thickness, members, stretches, taken)
+        whole, more = _grown(seed, thickness, members, (stretches, samples), taken)
         made = _runs(whole, thickness, [stretches[index] for index in more], solid, drawing)
         if made:
             taken |= set(more)
             found += made
-    return found, _rest(tracks, [stretches[index] for index in sorted(taken)])
+    return found, [*_rest(tracks, [stretches[index] for index in sorted(taken)]), *others]
 
 
 def _stretches(tracks: Sequence[Track]) -> list[Stretch]:
@@ -125,6 +135,8 @@ def _seeds(
                 chosen = [stretches[index] for index in mine[first:last]]
                 if _is_arc(chosen, tolerance):
                     best = last
+                elif last - (best or first + 2) >= PATIENCE:
+                    break
             if best is None:
                 first += 1
             else:
@@ -187,17 +199,23 @@ def _grown(
     circle: Circle,
     thickness: float,
     members: Sequence[int],
-    stretches: Sequence[Stretch],
+    known: tuple[Sequence[Stretch], NDArray[np.float64]],
     taken: set[int],
 ) -> tuple[Circle, list[int]]:
-    """The circle through all stretches that lie on it, and which these are."""
+    """The circle through all stretches that lie on it, and which these are.
+
+    known: the stretches, and three points (n, 3, 2) of each.
+    """
+    stretches, samples = known
     more = list(members)
     tolerance = max(MOST_TURN_PX, 0.12 * thickness)
     for _ in range(3):
+        away = np.abs(circle.away(samples.reshape(-1, 2))).reshape(-1, 3).max(axis=1)
         fitting = [
-            index
-            for index, one in enumerate(stretches)
-            if index not in taken and _lies_on(one, circle, thickness, tolerance)
+            int(index)
+            for index in np.flatnonzero(away <= 1.5 * tolerance)
+            if int(index) not in taken
+            and _lies_on(stretches[int(index)], circle, thickness, tolerance)
         ]
         fitting = sorted({*fitting, *members})
         again = fit_circle(np.concatenate([stretches[index].points for index in fitting]))

@@ -135,7 +135,10 @@ def find_walls(
     if known is None:
         whole = without_half_outline(whole, cleaned.ink, cleaned.line_px)
     if drawing == "single-line":
-        whole = [one for one in whole if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
+        whole, curved = (
+            [one for one in some if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
+            for some in (whole, curved)
+        )
     if not whole and not curved:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     return Found(whole, solid, thickness, thin_thickness([*whole, *curved]), curved)

@@ -14,7 +14,7 @@ from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.meetings import MEET_RAD, meetings
-from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 HOUSE_SHARE = 0.5
 """The walls of a house hang together: the largest group is so much of all their length."""
@@ -22,7 +22,9 @@ HOUSE_SHARE = 0.5
 ISLAND_SHARE = 0.08
 
 STRAIGHT_RAD = np.radians(15)
-FACET_RAD = np.radians(10.0)
+BULGES = 20
+"""Of so many parts of a half circle: walls between two nodes that bow alike are the same wall."""
+
 HALF_CIRCLE_RAD = np.radians(175.0)
 """A curved wall that turns more is parted in the middle: a bulge is of less than half a circle."""
 
@@ -66,11 +68,12 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
         ordered = sorted(stops[index])
         for (low, one), (high, other) in zip(ordered, ordered[1:], strict=False):
             ends = (alias[one], alias[other])
-            # A curved wall and a straight one may part the same ends.
-            key = (min(ends), max(ends), round(4 * axes[index].line.arc.bulge_of(low, high)))
+            # A curved wall and a straight one, or two curved ones, may part the same ends.
+            bulge = axes[index].line.arc.bulge_of(low, high)
+            side = 1.0 if ends[0] < ends[1] else -1.0
+            key = (min(ends), max(ends), round(BULGES * side * bulge))
             if ends[0] != ends[1] and key not in edges:
-                line = axes[index].line
-                first, second = ((nodes[end] - line.start) @ line.direction for end in ends)
+                first, second = axes[index].line.arc.place(nodes[list(ends)])[0]
                 if first < second:  # of two points that became one, one has moved along the axis
                     low, high = float(first), float(second)
                 edges[key] = Edge(ends[0], ends[1], index, low, high)

@@ -47,7 +47,7 @@ SPACIOUS = 8.0
 """On large plans rooms are narrow beside the sheet: so many times as broad as a wall is a room."""
 
 WEB_REACH = 25.0
-"""Walls between many rooms reach so many times their breadth; rims of bathtubs do not."""
+"""Walls between many rooms reach so many times their breadth."""
 
 WEB_LEAST_PX = 3.0
 """What is narrower lies between two lines that run together."""
@@ -147,10 +147,11 @@ class _Sorting:
     def _is_spacious(self, other: int, cell: int) -> bool:
         """Whether a cell that is no room by the sheet's size is one beside this wall.
 
-        Beside the rim of a bathtub, which does not reach far, it is the inside of the tub.
+        What touches nothing but this cell lies inside of a rim, as of a bathtub.
         """
         broad = self.cells.breadth[other] >= SPACIOUS * self.cells.breadth[cell]
-        return bool(broad and self._reaches(cell))
+        alone = all(one == cell for one, _ in self.cells.beside[other])
+        return bool(broad and not alone and self._reaches(cell))
 
     def _reaches(self, cell: int) -> bool:
         return bool(max(self.cells.boxes[cell, 2:]) >= WEB_REACH * self.cells.breadth[cell])

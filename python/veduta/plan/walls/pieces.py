@@ -18,6 +18,9 @@ LEAST_ASPECT = 0.6
 MOST_TURN_PX = 1.5
 """A straight piece's centre strays no more from its line (or 12 % of its thickness)."""
 
+FACET_RAD = np.radians(10.0)
+"""By so much straight pieces turn that stand for an arc where only straight ones are known."""
+
 
 @dataclass(frozen=True)
 class Piece:
