@@ -16,6 +16,7 @@ from veduta.photos.structure import Structure
 from veduta.photos.walls.find_walls import find_walls
 from veduta.photos.walls.step import photo_reader, set_upright
 from veduta.photos.walls.wall import Wall
+from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Georeference, Similarity
 from veduta.photos.world.georeferencing import (
     Georeferenced,
@@ -94,7 +95,9 @@ def _laid(
 ) -> Laid:
     structure = component.structure
     method, seed = options.world.georef, options.random.seed
-    found = georeference(structure, walls, photos, references, method, seed)
+    upright = component.upright
+    up_sd_rad = UP_SD_RAD if upright is None else upright.whole_sd_rad
+    found = georeference(structure, walls, photos, references, method, seed, up_sd_rad)
     pictures: list[Picture] = []
     for tried in found.tried:
         model = references.model if tried.method == "model" else None

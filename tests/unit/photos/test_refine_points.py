@@ -12,7 +12,7 @@ from veduta.photos.city.facades import facades_of
 from veduta.photos.world.columns import wall_columns
 from veduta.photos.world.corners import wall_corners
 from veduta.photos.world.evidence import FacadeIndex
-from veduta.photos.world.gauss_newton import BEHIND_M, Pose
+from veduta.photos.world.gauss_newton import BEHIND_M, GATE, Pose, Rows, stepped
 from veduta.photos.world.georeference import Similarity
 from veduta.photos.world.refine import Refined
 from veduta.photos.world.refine_points import refine_by_points
@@ -83,3 +83,24 @@ def test_points_on_no_facade_change_nothing(street: SimulatedStreet) -> None:
     far = street.structure.points + 1e4
     found = refined(street, begin, far)
     assert found.pose == Pose(begin, BEHIND_M)
+
+
+@pytest.mark.parametrize("up_sd_deg", [1.5, 0.25])
+def test_what_is_known_of_up_is_weighed_against_walls_that_lean(up_sd_deg: float) -> None:
+    """A facade whose upper half stands out by 4 cm, the lower back, against the mean of both."""
+    height = np.repeat([2.0, -2.0], 4)
+    place = np.column_stack([np.zeros(8), np.tile([-3.0, -1.0, 1.0, 3.0], 2), height])
+    rows = Rows(
+        place,
+        np.tile([1.0, 0.0, 0.0], (8, 1)),
+        0.04 * np.sign(height) + BEHIND_M,
+        np.ones(8, dtype=bool),
+        np.ones(8),
+        np.zeros(8, dtype=np.int64),
+    )
+    now = Pose(Similarity(1.0, np.eye(3), np.zeros(3)))
+    sd, up_sd = 0.05, np.deg2rad(up_sd_deg)
+    turn = stepped(now, rows, np.full(8, sd), np.zeros(3), up_sd).pose.similarity.rotation
+    said = (1.0 - (0.04 / (GATE * sd)) ** 2) ** 2 * (height**2).sum() / sd**2
+    wanted = 0.04 / 2.0 * said / (said + 1.0 / up_sd**2)
+    assert Rotation.from_matrix(turn).as_rotvec() == pytest.approx([0.0, wanted, 0.0], abs=1e-6)

@@ -33,6 +33,10 @@ SHARED_RAD = np.deg2rad(0.5)
 """What the directions of one kind may be off by together: the drift of the poses, relief."""
 
 
+TRUE_RAD = np.deg2rad(0.25)
+"""What stands upright in one place may lean together: plumb lines of buildings, drift of poses."""
+
+
 @dataclass(frozen=True)
 class Upright:
     """up: (3,) unit. moved_deg: from what the cameras said. sd_deg: about the worse known axis."""
@@ -40,6 +44,11 @@ class Upright:
     up: NDArray[np.float64]
     moved_deg: float
     sd_deg: float
+
+    @property
+    def whole_sd_rad(self) -> float:
+        """How well up is known: what the directions scatter by, and what they have in common."""
+        return float(np.hypot(np.deg2rad(self.sd_deg), TRUE_RAD))
 
 
 def level_normals(

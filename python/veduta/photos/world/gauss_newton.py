@@ -16,8 +16,8 @@ from scipy.spatial.transform import Rotation
 
 from veduta.photos.world.georeference import Similarity
 
-UP_SD_RAD = np.deg2rad(1.5)
-"""How well up is known before: from how people hold cameras."""
+UP_SD_RAD = float(np.deg2rad(1.5))
+"""How well up is known before where only cameras say it: from how people hold them."""
 BEHIND_M, BEHIND_SD_M = 0.05, 0.1
 """How far points of a facade lie behind its plane on average, before they are looked at."""
 GATE = 3.5
@@ -65,10 +65,16 @@ class Step:
     weight: NDArray[np.float64]
 
 
-def stepped(now: Pose, rows: Rows, sd: NDArray[np.float64], middle: NDArray[np.float64]) -> Step:
+def stepped(
+    now: Pose,
+    rows: Rows,
+    sd: NDArray[np.float64],
+    middle: NDArray[np.float64],
+    up_sd_rad: float,
+) -> Step:
     """One step of Gauss-Newton with weights that fall off for what does not fit (Tukey).
 
-    sd: (r,) metres. middle: (3,) of the photos.
+    sd: (r,) metres. middle: (3,) of the photos. up_sd_rad: of the structure's z, as up.
     """
     before = now.similarity
     arm = before.scale * (rows.place - middle) @ before.rotation.T
@@ -84,7 +90,7 @@ def stepped(now: Pose, rows: Rows, sd: NDArray[np.float64], middle: NDArray[np.f
         ]
     )
     strength = weight * rows.share / sd**2
-    known, right = _known_before(now)
+    known, right = _known_before(now, up_sd_rad)
     normal = jacobian.T @ (strength[:, None] * jacobian) + known
     right -= jacobian.T @ (strength * left)
     inverse = np.linalg.inv(normal)
@@ -119,15 +125,15 @@ def median_sd(left_m: NDArray[np.float64], low: float, high: float) -> float:
     return float(np.clip(1.4826 * np.median(np.abs(left_m)), low, high))
 
 
-def _known_before(now: Pose) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+def _known_before(now: Pose, up_sd_rad: float) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(8, 8) and (8,) of the normal equations: up, what lies behind, and a little of the rest."""
     up = now.similarity.rotation[:, 2]
     tilt = np.zeros((2, _UNKNOWNS + 1))
     tilt[0, 1:4] = (0.0, up[2], -up[1])
     tilt[1, 1:4] = (-up[2], 0.0, up[0])
-    normal = tilt.T @ tilt / UP_SD_RAD**2
+    normal = tilt.T @ tilt / up_sd_rad**2
     normal += np.diag([1e-2, 0.0, 0.0, 1e-2, 1e-6, 1e-6, 1e-6, 1.0 / BEHIND_SD_M**2])
-    right = -tilt.T @ up[:2] / UP_SD_RAD**2
+    right = -tilt.T @ up[:2] / up_sd_rad**2
     right[7] -= (now.behind_m - BEHIND_M) / BEHIND_SD_M**2
     return normal, right
 

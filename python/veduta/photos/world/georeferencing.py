@@ -22,6 +22,7 @@ from veduta.photos.structure import Structure
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.control_file import ControlPoints, read_control
 from veduta.photos.world.control_fit import control_georeference
+from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Georeference, Method
 from veduta.photos.world.gps_fit import gps_georeference
 from veduta.photos.world.gps_positions import gps_positions
@@ -103,8 +104,12 @@ def georeference(
     references: References,
     method: str,
     seed: int,
+    up_sd_rad: float = UP_SD_RAD,
 ) -> Georeferenced:
-    """What the references say of an upright structure; walls are in its frame."""
+    """What the references say of an upright structure; walls are in its frame.
+
+    up_sd_rad: how well it is known that the structure's z is up.
+    """
     if method == "off":
         return Georeferenced(())
     model, control = references.model, references.control
@@ -118,7 +123,7 @@ def georeference(
     if control is not None and method in ("auto", "gcp"):
         tried.append(control_georeference(structure, control, origin))
     if model is not None and method in ("auto", "model") and not _is_settled(tried):
-        tried.append(register(structure, walls, model, prior, seed))
+        tried.append(register(structure, walls, model, prior, seed, up_sd_rad))
     if method in ("auto", "gps") and not _is_settled(tried):
         if gps is not None:
             tried.append(gps)

@@ -16,6 +16,7 @@ from veduta.photos.world.columns import Placements, WallColumns
 from veduta.photos.world.evidence import FacadeIndex, Matches, match_walls
 from veduta.photos.world.gauss_newton import (
     GATE,
+    UP_SD_RAD,
     Pose,
     Rows,
     median_sd,
@@ -77,9 +78,10 @@ def refine(
     index: FacadeIndex,
     placement: Placements,
     middle: NDArray[np.float64],
+    up_sd_rad: float = UP_SD_RAD,
 ) -> Refined:
     """From one placement on; corners: (w, 4, 3) of the walls in their own frame, start and end at
-    the foot, then at the top. middle: (3,) of the photos.
+    the foot, then at the top. middle: (3,) of the photos. up_sd_rad: of the structure's z, as up.
     """
     matches = match_walls(walls, index, placement)
     turn, shift = placement.turn[0], placement.shift[0]
@@ -93,7 +95,7 @@ def refine(
     sds = np.array(FIRST_SD_M)
     for step in range(ITERATIONS + 1):
         seen = wall_rows(corners, index, matches)
-        after = stepped(now, seen.rows, sds[seen.kind], middle)
+        after = stepped(now, seen.rows, sds[seen.kind], middle, up_sd_rad)
         now = after.pose
         refined = Refined(now, after.covariance, seen.wall, seen.kind, after.left_m, after.weight)
         if step == ITERATIONS:

@@ -20,6 +20,7 @@ from veduta.photos.city.facades import Facades
 from veduta.photos.world.columns import WallColumns
 from veduta.photos.world.evidence import FacadeIndex, match_walls
 from veduta.photos.world.gauss_newton import (
+    UP_SD_RAD,
     Pose,
     Rows,
     median_sd,
@@ -67,6 +68,7 @@ def refine_by_points(
     index: FacadeIndex,
     points: NDArray[np.float64],
     middle: NDArray[np.float64],
+    up_sd_rad: float = UP_SD_RAD,
 ) -> Refined:
     """From a placement that is right but for some decimetres; points: (p, 3) of the structure.
 
@@ -83,7 +85,7 @@ def refine_by_points(
         if len(on.point) == 0:
             return first
         rows, sd = _together(seen, points, on, facades, len(walls), sds, point_sd)
-        after = stepped(now, rows, sd, middle)
+        after = stepped(now, rows, sd, middle, up_sd_rad)
         point_sd = median_sd(after.left_m[rows.is_plane], LEAST_POINT_SD_M, MOST_POINT_SD_M)
         left = residuals_m(after.pose, seen.rows)
         sds = deviations(seen.kind, left, np.array(FIRST_SD_M))

@@ -21,6 +21,7 @@ from veduta.photos.world.columns import Placements, WallColumns, wall_columns
 from veduta.photos.world.corners import wall_corners
 from veduta.photos.world.evidence import FacadeIndex, Matches, match_walls
 from veduta.photos.world.free_space import SightLines, Violations, sight_lines, violations
+from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Fit, Georeference, Residual
 from veduta.photos.world.prior import PlacementPrior, log_cells
 from veduta.photos.world.refine import PLANE, Refined, refine
@@ -62,8 +63,12 @@ def register(
     model: CityModel,
     prior: PlacementPrior | None,
     seed: int,
+    up_sd_rad: float = UP_SD_RAD,
 ) -> Georeference:
-    """Where the walls of an upright structure stand in the model, and whether that is believed."""
+    """Where the walls of an upright structure stand in the model, and whether that is believed.
+
+    up_sd_rad: how well it is known that the structure's z is up.
+    """
     facades = facades_of(model)
     if len(walls) < FEWEST_WALLS:
         return _refused(
@@ -89,13 +94,16 @@ def register(
     wall_of = _wall_of_lines(walls, lines, len(structure.points))
     found: list[_Found] = []
     for row in best:
-        refined = refine(columns, corners, index, placements.taken(np.array([row])), middle)
+        placement = placements.taken(np.array([row]))
+        refined = refine(columns, corners, index, placement, middle, up_sd_rad)
         if prior is None or prior.allows(refined.level, flat)[0]:
             found.append(_weighed(refined, columns, index, lines, wall_of))
     if not found:
         return _refused(model, "no placement stays near where GPS says")
     found.sort(key=lambda one: -one.score)
-    closer = refine_by_points(found[0].refined, columns, corners, index, structure.points, middle)
+    closer = refine_by_points(
+        found[0].refined, columns, corners, index, structure.points, middle, up_sd_rad
+    )
     first = _weighed(closer, columns, index, lines, wall_of)
     ran_away = _differ(first, found[0], middle)
     if ran_away:
