@@ -63,7 +63,8 @@ def _stair(model: Model, house: House, one: StairPieces, storey: Entity) -> Enti
         NumberOfRisers=risers, NumberOfTreads=one.stairs.treads,
         RiserHeight=float(one.rise_m / risers),
     )  # fmt: skip
-    flight.Representation = _shape(model, house, one.body, place)
+    features = [*one.body, *one.columns.values()]
+    flight.Representation = _shape(model, house, features, place)
     rails = [
         _railing(model, house, name, feature, place, "HANDRAIL")
         for name, feature in one.rails.items()
