@@ -11,7 +11,9 @@ import pytest
 from numpy.typing import NDArray
 from shapely.geometry import Polygon, box
 
+from veduta.plan import document
 from veduta.plan.drawn import DrawnStairs
+from veduta.plan.load_treads import walk_faults
 from veduta.plan.stairs import course, fans
 from veduta.plan.stairs.find import find_flights, without_flights
 from veduta.plan.stairs.probe import probe_of
@@ -73,6 +75,18 @@ def test_each_tread_is_found_where_it_is_drawn(kind: StairsKind, mirrored: bool)
     # It rises along its arrow: the order above says so, too.
     assert np.hypot(*one.up_px) == pytest.approx(1.0)
     assert np.dot(one.up_px, np.array(true.up) * [1.0, -1.0]) > 0.95
+
+
+@pytest.mark.parametrize("kind", SIZES)
+def test_what_is_found_is_not_refused_when_it_is_read_again(kind: StairsKind) -> None:
+    (one,) = found(kind, mirrored=False)
+    assert one.path_px is not None
+    stairs = document.Stairs(
+        id="s1", outline_m=(one.outline_px / PX_PER_M).tolist(), treads=one.treads, up=one.up_px,
+        steps_m=[(step / PX_PER_M).round(3).tolist() for step in one.steps_px],
+        path_m=(one.path_px / PX_PER_M).round(3).tolist(), score=one.score,
+    )  # fmt: skip
+    assert walk_faults(stairs, "stairs[0]") == []
 
 
 @pytest.mark.parametrize("kind", ["quarter-winding", "half-landing"])
