@@ -1,4 +1,4 @@
-"""What ISO 19107 asks of faces and solids, as val3dity checks it, by shapely and counting edges."""
+"""What ISO 19107 asks of faces and solids, as val3dity checks it, by shapely, scipy and edges."""
 
 from __future__ import annotations
 
@@ -10,6 +10,8 @@ from typing import Any
 
 import numpy as np
 import trimesh
+from scipy.sparse import coo_array
+from scipy.sparse.csgraph import connected_components
 from shapely.geometry import Polygon
 from shapely.validation import explain_validity
 
@@ -59,7 +61,21 @@ def faults(faces: Faces, points: np.ndarray) -> list[str]:
         if not shape.is_valid:
             found.append(f"face {number}: {explain_validity(shape)}")
     unpaired = [edge for edge, count in edges.items() if count != 1 or edges[edge[::-1]] != 1]
-    return found + ([f"{len(unpaired)} edges do not pair"] if unpaired else [])
+    found += [f"{len(unpaired)} edges do not pair"] if unpaired else []
+    bodies = _bodies(faces)
+    return found + ([f"{bodies} bodies in one shell"] if bodies > 1 else [])
+
+
+def _bodies(faces: Faces) -> int:
+    """How many groups of faces a shell has that have no edge in common."""
+    owners: dict[tuple[int, ...], list[int]] = {}
+    for number, face in enumerate(faces):
+        for ring in face:
+            for edge in pairwise([*ring, ring[0]]):
+                owners.setdefault(tuple(sorted(edge)), []).append(number)
+    pairs = np.array([pair for one in owners.values() for pair in pairwise(one)]).reshape(-1, 2)
+    graph = coo_array((np.ones(len(pairs)), pairs.T), shape=(len(faces), len(faces)))
+    return int(connected_components(graph, directed=False)[0])
 
 
 def mesh_of(faces: Faces, points: np.ndarray) -> trimesh.Trimesh:

@@ -10,9 +10,7 @@ Meshes that stand many times are nodes of their own (`gltf_instances`), and so i
 
 from __future__ import annotations
 
-import json
 import math
-import struct
 from collections.abc import Sequence
 from functools import lru_cache
 from pathlib import Path
@@ -21,7 +19,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.gltf_bin import GltfBin, y_up
+from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import add_instances
 from veduta.formats.gltf_lights import add_lights, add_sun
@@ -41,7 +39,6 @@ JPEG_QUALITY = 90
 UNLIT = "KHR_materials_unlit"
 _LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
 _BESIDE_UV = 1e-3
-_JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 
 
 def write_glb(
@@ -94,18 +91,7 @@ def glb_bytes(part: Part, tours: Sequence[CameraPath] = (), sun: Sunlight | None
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
     root["buffers"] = [{"byteLength": len(binary.content)}]
-    text = json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(binary.content)
-    return b"".join(
-        (
-            struct.pack("<4sII", b"glTF", 2, total),
-            struct.pack("<II", len(text), _JSON_CHUNK),
-            text,
-            struct.pack("<II", len(binary.content), _BIN_CHUNK),
-            bytes(binary.content),
-        )
-    )
+    return glb_container(root, bytes(binary.content))
 
 
 def feature_columns(part: Part) -> dict[str, list[Any]]:

@@ -1,13 +1,17 @@
-"""The binary chunk of a GLB file as it grows, with the views into it."""
+"""The binary chunk of a GLB file as it grows, with the views into it, and the file around it."""
 
 from __future__ import annotations
 
+import json
+import struct
+from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 _FLOAT, _UINT = 5126, 5125
+_JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 
 
@@ -53,6 +57,25 @@ class GltfBin:
             accessor["max"] = values.max(axis=0).tolist()
         self.accessors.append(accessor)
         return len(self.accessors) - 1
+
+
+def glb_container(root: Mapping[str, Any], content: bytes) -> bytes:
+    """The file of a document and its binary chunk (glTF 2.0, section 4.4).
+
+    content: as long as the document's buffer, a multiple of four bytes.
+    """
+    text = json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
+    text += b" " * (-len(text) % 4)
+    total = 12 + 8 + len(text) + 8 + len(content)
+    return b"".join(
+        (
+            struct.pack("<4sII", b"glTF", 2, total),
+            struct.pack("<II", len(text), _JSON_CHUNK),
+            text,
+            struct.pack("<II", len(content), _BIN_CHUNK),
+            content,
+        )
+    )
 
 
 def y_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:

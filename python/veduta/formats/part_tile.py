@@ -16,12 +16,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.gltf import glb_bytes
+from veduta.formats.gltf_bin import glb_container
 from veduta.formats.gltf_instances import FEATURES
 from veduta.formats.tile_glb import NO_SIZE_MM, BuildingRow, buildings_table, schema
 from veduta.place.part import Features, Part
 
 METADATA, MESH_FEATURES = "EXT_structural_metadata", "EXT_mesh_features"
-_JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _ALIGNED = 8
 """Columns of tables begin at multiples of eight bytes."""
 
@@ -100,15 +100,4 @@ def _opened(glb: bytes) -> tuple[dict[str, Any], bytes]:
 def _closed(root: dict[str, Any], content: bytes) -> bytes:
     content += b"\0" * (-len(content) % 4)
     root["buffers"] = [{"byteLength": len(content)}]
-    text = json.dumps(root, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(content)
-    return b"".join(
-        (
-            struct.pack("<4sII", b"glTF", 2, total),
-            struct.pack("<II", len(text), _JSON_CHUNK),
-            text,
-            struct.pack("<II", len(content), _BIN_CHUNK),
-            content,
-        )
-    )
+    return glb_container(root, content)

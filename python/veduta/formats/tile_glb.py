@@ -12,13 +12,13 @@ glTF's y-up.
 from __future__ import annotations
 
 import itertools
-import json
 import struct
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol
 
 from veduta import _core
+from veduta.formats.gltf_bin import glb_container
 from veduta.place.semantics import Provenance, SemanticClass
 
 TRANSFORM = "KHR_texture_transform"
@@ -27,7 +27,6 @@ BYTE, UBYTE, SHORT, USHORT, UINT, FLOAT = 5120, 5121, 5122, 5123, 5125, 5126
 _SIZES = {BYTE: 1, UBYTE: 1, SHORT: 2, USHORT: 2, UINT: 4, FLOAT: 4}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 _ARRAY, _ELEMENTS = 34962, 34963
-_JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _ROUGHNESS = {SemanticClass.WINDOW: 0.25, SemanticClass.SHOP: 0.2}
 COMPRESSION = "EXT_meshopt_compression"
 NO_SIZE_MM = 65535
@@ -220,18 +219,7 @@ def packed(root: Mapping[str, Any], binary: Binary) -> bytes:
     }
     for name in ("extensionsUsed", "extensionsRequired"):
         whole[name] = sorted({*root[name], COMPRESSION})
-    text = json.dumps(whole, separators=(",", ":"), allow_nan=False).encode()
-    text += b" " * (-len(text) % 4)
-    total = 12 + 8 + len(text) + 8 + len(content)
-    return b"".join(
-        (
-            struct.pack("<4sII", b"glTF", 2, total),
-            struct.pack("<II", len(text), _JSON_CHUNK),
-            text,
-            struct.pack("<II", len(content), _BIN_CHUNK),
-            content,
-        )
-    )
+    return glb_container(whole, content)
 
 
 def _merged(

@@ -7,10 +7,12 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 
 import numpy as np
-from shapely.geometry import LineString, Polygon
+from shapely.geometry import Polygon
 
 from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
 from veduta.plan.house.lines import wall_lines
+from veduta.plan.house.space import UNNAMED
+from veduta.plan.load_treads import MAX_CORNERS, walk_faults
 from veduta.run.edited import numbers_of, read_edited, shown_faults
 from veduta.run.errors import InputError
 
@@ -32,7 +34,6 @@ LARGEST_M = 500.0
 _SHORTEST_M = 0.01
 _LEAST_FLIGHT_M2 = 0.05
 _LEAST_STEP_M2 = 0.01
-_LEAST_GOING_M = 0.02
 _UNIT_SLACK = 0.01
 _BEYOND_M = 0.02
 _REMEDY = "Mend it there; docs/plan.md says what each field means."
@@ -59,12 +60,7 @@ def _faults(document: PlanDocument) -> list[str]:
         for place, value in numbers_of(document)
         if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
     ]
-    names = [storey.name for storey in document.storeys]
-    found += [
-        f"storeys[{index}].name: {name!r} is the name of another storey, too"
-        for index, name in enumerate(names)
-        if name in names[:index]
-    ]
+    found += _name_faults(document)
     for index, storey in enumerate(document.storeys):
         place = f"storeys[{index}]"
         # Geometry is looked at only where the ids hold together.
@@ -81,6 +77,33 @@ def _faults(document: PlanDocument) -> list[str]:
                 f"storeys[{index}].elevation_m: another storey lies at {elevation:g} m, too"
             )
     return found
+
+
+def _name_faults(document: PlanDocument) -> list[str]:
+    """Storeys, and rooms with their storeys, that would be one and the same in the model."""
+    found = []
+    storeys: set[str] = set()
+    rooms: dict[str, tuple[str, int]] = {}
+    for number, storey in enumerate(document.storeys):
+        if _as_id(storey.name) in storeys:
+            found.append(
+                f"storeys[{number}].name: {storey.name!r} is the name of another storey, too"
+            )
+            continue
+        storeys.add(_as_id(storey.name))
+        for index, room in enumerate(storey.rooms):
+            place = f"storeys[{number}].rooms[{index}].id"
+            if room.id == UNNAMED:
+                found.append(f"{place}: {UNNAMED!r} is what is said of floors without a room")
+            other, owner = rooms.setdefault(_as_id(f"{storey.name} {room.id}"), (place, number))
+            if owner != number:
+                found.append(f"{place}: with its storey's name it is the same as {other}")
+    return found
+
+
+def _as_id(name: str) -> str:
+    """As ids of the model have it: a blank is a dash there."""
+    return name.replace(" ", "-")
 
 
 def size_of(storey: Storey) -> float:
@@ -100,9 +123,9 @@ def _id_faults(storey: Storey, place: str) -> list[str]:
             return [f"{place}.{kind}: {len(items)}, more than {MAX_PARTS}"]
         seen: set[str] = set()
         for index, item in enumerate(items):
-            if item.id in seen:
+            if _as_id(item.id) in seen:
                 found.append(f"{place}.{kind}[{index}].id: {item.id!r} is there twice")
-            seen.add(item.id)
+            seen.add(_as_id(item.id))
     junctions = {item.id for item in storey.junctions}
     walls = {item.id for item in storey.walls}
     openings = {item.id for item in storey.openings}
@@ -248,18 +271,15 @@ def _steps_faults(flight: Stairs, place: str) -> list[str]:
     if len(flight.steps_m) != flight.treads:
         return [f"{place}.steps_m: {len(flight.steps_m)} outlines, but {flight.treads} treads"]
     for index, ring in enumerate(flight.steps_m):
-        if not 3 <= len(ring) <= MAX_POINTS:
-            return [f"{place}.steps_m[{index}]: {len(ring)} points, not between 3 and {MAX_POINTS}"]
+        if not 3 <= len(ring) <= MAX_CORNERS:
+            told = f"{len(ring)} points, not between 3 and {MAX_CORNERS}"
+            return [f"{place}.steps_m[{index}]: {told}"]
         step = Polygon(ring)
         if not step.is_valid or step.area < _LEAST_STEP_M2:
             return [f"{place}.steps_m[{index}]: its line crosses itself, or encloses nothing"]
     if not 2 <= len(flight.path_m) <= MAX_POINTS:
         return [f"{place}.path_m: {len(flight.path_m)} points, not between 2 and {MAX_POINTS}"]
-    path = LineString(flight.path_m)
-    for index, ring in enumerate(flight.steps_m):
-        if path.intersection(Polygon(ring)).length < _LEAST_GOING_M:
-            return [f"{place}.path_m: does not lead over steps_m[{index}]"]
-    return []
+    return walk_faults(flight, place)
 
 
 def _with_areas(document: PlanDocument) -> PlanDocument:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import tracemalloc
 from functools import cache
 
 import cv2
@@ -10,8 +11,12 @@ import pytest
 from numpy.typing import NDArray
 from shapely.geometry import Polygon, box
 
+from veduta.plan import document
 from veduta.plan.drawn import DrawnStairs
+from veduta.plan.load_treads import walk_faults
+from veduta.plan.stairs import course, fans
 from veduta.plan.stairs.find import find_flights, without_flights
+from veduta.plan.stairs.probe import probe_of
 from veduta.synthetic.plans.house import Stairs, StairsKind
 from veduta.synthetic.plans.stairs import StairPlan, stairs_in
 
@@ -72,6 +77,18 @@ def test_each_tread_is_found_where_it_is_drawn(kind: StairsKind, mirrored: bool)
     assert np.dot(one.up_px, np.array(true.up) * [1.0, -1.0]) > 0.95
 
 
+@pytest.mark.parametrize("kind", SIZES)
+def test_what_is_found_is_not_refused_when_it_is_read_again(kind: StairsKind) -> None:
+    (one,) = found(kind, mirrored=False)
+    assert one.path_px is not None
+    stairs = document.Stairs(
+        id="s1", outline_m=(one.outline_px / PX_PER_M).tolist(), treads=one.treads, up=one.up_px,
+        steps_m=[(step / PX_PER_M).round(3).tolist() for step in one.steps_px],
+        path_m=(one.path_px / PX_PER_M).round(3).tolist(), score=one.score,
+    )  # fmt: skip
+    assert walk_faults(stairs, "stairs[0]") == []
+
+
 @pytest.mark.parametrize("kind", ["quarter-winding", "half-landing"])
 def test_without_an_arrow_nothing_tells_which_way_they_rise(kind: StairsKind) -> None:
     (one,) = found(kind, mirrored=False, arrow=False)
@@ -90,6 +107,40 @@ def test_what_lies_in_them_is_taken_out_and_nothing_around() -> None:
     assert not cleared[inside > 0].any()
     cv2.fillPoly(inside, [np.array(shape.buffer(8.0).exterior.coords, np.int32)], (1,))
     assert (cleared == ink)[inside == 0].all()
+
+
+def test_many_lines_that_meet_take_little_memory() -> None:
+    """160 of them meet by 12,000 pairs: all lists of their neighbours have 150 million entries."""
+    turn = np.linspace(0.02, np.pi - 0.02, 160)
+    ways = np.stack([np.cos(turn), np.sin(turn)], axis=1)
+    ends = np.stack([20.0 * ways, 100.0 * ways], axis=1) + 400.0
+    probe = probe_of(np.zeros((800, 800), np.bool_), LINE, 800.0)
+    tracemalloc.start()
+    first, *_ = fans._meetings(ends, probe)
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert first == pytest.approx([400.0, 400.0], abs=1e-6)
+    assert most < 100e6
+
+
+def test_ends_settle_only_where_their_neighbours_stay_treads() -> None:
+    even = np.deg2rad([-3.0, 28.0, 59.0, 92.0])
+    settled = fans._settled(even)
+    assert settled is not None
+    assert np.rad2deg(settled) == pytest.approx([0.0, 28.0, 59.0, 90.0])
+    assert fans._settled(np.deg2rad([-12.0, -1.0, *range(10, 80, 11), 88.0])) is None
+
+
+def test_a_wedge_is_the_largest_piece_of_its_bounds_or_nothing() -> None:
+    newel = np.zeros(2)
+    low, high = np.deg2rad([0.0, 45.0])
+    split = Polygon([(10, -5), (50, -5), (50, 40), (10, 40), (10, 6), (45, 6), (45, 3), (10, 3)])
+    cut = course._wedge(newel, low, high, split)
+    truth = Polygon([(0, 0), (200, 0), (200, 200)]).intersection(split)
+    pieces = getattr(truth, "geoms", [truth])
+    assert cut is not None
+    assert cut.area == pytest.approx(max(piece.area for piece in pieces), rel=1e-6)
+    assert course._wedge(newel, low, high, box(-50, -50, -10, -10)) is None
 
 
 def test_a_star_and_slanted_hatching_are_no_stairs() -> None:

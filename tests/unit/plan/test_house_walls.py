@@ -17,6 +17,7 @@ from shapely.ops import unary_union
 from veduta.place.builder import PartBuilder
 from veduta.place.part import Part
 from veduta.plan.document import Junction, Storey
+from veduta.plan.house import roof
 from veduta.plan.house.build import build_house
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.lines import arc_points, footprint, wall_lines
@@ -150,6 +151,22 @@ def test_a_window_in_a_curved_wall_follows_it() -> None:
     # Sills reach farthest; the centre line is polygonal.
     assert np.abs(away).max() < OUTER_M / 2 + 0.12 + 0.01
     assert len(points) > 100
+
+
+def test_a_roof_that_cannot_be_cut_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A side is missing: the other faces are there, and it is said."""
+    whole = roof._solid
+
+    def open_solid(*given: object) -> object:
+        faces = whole(*given)  # type: ignore[arg-type]
+        return faces[1:] if faces else faces
+
+    monkeypatch.setattr(roof, "_solid", open_solid)
+    builder = PartBuilder("test")
+    sculptor = Sculptor(builder, Looks(builder))
+    notes = add_roof(Polygon([(0, 0), (8, 0), (8, 5), (0, 5)]), 3.0, sculptor, HouseOptions())
+    assert notes == ["roof 1 is no closed solid: its eaves may hang into rooms"]
+    assert len(builder.build().positions_m) > 8
 
 
 def test_a_round_house_has_a_hip_roof_where_it_cannot_have_gables() -> None:

@@ -12,6 +12,7 @@ from city_oracle import faults, loaded, mesh_of, points_of, solids_of
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sample_plan import HEIGHT_M, opening, rectangle, room, sample_plan, sample_storey
+from shapely.geometry import Polygon, box
 
 from veduta.formats.cityjson_read import read_cityjson
 from veduta.formats.cityjson_solids import CityDocument, CityFace
@@ -21,6 +22,8 @@ from veduta.plan.house.floors import FINISH_M
 from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.cityjson import house_cityjson
+from veduta.synthetic.plans.house import StairsKind
+from veduta.synthetic.plans.stairs import StairPlan, stairs_in
 
 SLAB_M, LIVING_M2 = 0.25, 4.79 * 4.7
 CLEAR_M = HEIGHT_M - SLAB_M - 2 * FINISH_M
@@ -125,6 +128,57 @@ def test_surfaces_are_named_as_cityjson_has_them(city: dict[str, Any]) -> None:
     assert {one["provenance"] for one in roofs} == {"invented"}
 
 
+def turning(kind: StairsKind, *, grown_m: float = 0.0) -> PlanDocument:
+    """Two storeys with stairs that turn in the middle of the living room."""
+    drawn = stairs_in(box(1.0, 1.0, 2.96, 4.2), StairPlan(kind, False, 0.95, 0.27, 4, 5))
+    rings = [Polygon(ring).buffer(grown_m, join_style="mitre") for ring in drawn.steps_m]
+    stairs = Stairs(
+        id="s1", outline_m=list(drawn.outline_m), treads=drawn.treads, up=drawn.up, score=0.9,
+        steps_m=[list(ring.exterior.coords)[:-1] for ring in rings], path_m=list(drawn.path_m),
+    )  # fmt: skip
+    upper = sample_storey(name="first floor", elevation_m=HEIGHT_M)
+    return sample_plan(sample_storey(stairs=[stairs]), upper)
+
+
+@pytest.mark.parametrize("kind", ["half-winding", "spiral"])
+def test_stairs_that_turn_and_their_rails_are_valid_solids(kind: StairsKind) -> None:
+    city = city_of(turning(kind), roof="none")
+    points = points_of(city)
+    told: dict[str, set[str]] = {}
+    most = 0
+    for name, item in city["CityObjects"].items():
+        if item["type"] != "BuildingInstallation":
+            continue
+        (shape,) = item["geometry"]
+        shells = list(solids_of(shape))
+        assert shells, name
+        assert [fault for shell in shells for fault in faults(shell, points)] == [], name
+        said = told.setdefault(item["attributes"]["class"], set())
+        said |= {one["provenance"] for one in shape["semantics"]["surfaces"]}
+        most = max(most, len(shells))
+    assert most > 1 or kind == "spiral"  # a rail is not one body
+    column = {"column": {"invented"}} if kind == "spiral" else {}
+    assert told == column | {"stairs": {"inferred"}, "rail": {"invented"}}
+
+
+def test_stairs_that_close_no_solid_are_told() -> None:
+    """Treads that cover each other: such a document is refused, but none is written in silence."""
+    made = HouseOptions(roof="none")
+    _, notes = house_cityjson(build_house(turning("half-winding", grown_m=0.05), made), made)
+    assert any("stairs-s1 is no closed solid" in note for note in notes)
+
+
+def test_a_room_without_air_is_told() -> None:
+    storey = sample_storey()
+    low = room("slot", rectangle(8.2, 1.0, 8.3, 2.0))
+    made = HouseOptions(roof="none")
+    document = sample_plan(sample_storey(rooms=[*storey.rooms, low]))
+    content, notes = house_cityjson(build_house(document, made), made)
+    assert "house/ground-floor/slot" not in loaded(content)["CityObjects"]
+    assert len(notes) == 1
+    assert notes[0].startswith("ground floor slot has no")
+
+
 def test_a_gap_is_closed_by_one_surface_for_both_rooms() -> None:
     gap = opening("g", "middle", 1.0, 0.9, kind="gap", type="plain")
     city = city_of(sample_plan(sample_storey(openings=[gap])))
@@ -143,6 +197,7 @@ def test_a_gap_is_closed_by_one_surface_for_both_rooms() -> None:
 
 def test_the_shell_is_that_of_the_model(city: dict[str, Any]) -> None:
     points = points_of(city)
+    assert city["CityObjects"]["house"]["attributes"]["roofType"] == "hip"  # asked for: "auto"
     mesh = mesh_of(shell_of(city, "house"), points)
     assert mesh.bounds[0] == pytest.approx([-0.6, -0.6, -0.2], abs=2e-3)  # eaves, ground slab
     assert mesh.bounds[1][:2] == pytest.approx([8.6, 5.6], abs=2e-3)
@@ -179,6 +234,7 @@ def test_it_is_read_back(city: dict[str, Any], tmp_path: Path) -> None:
 def test_every_roof_gives_a_closed_shell(roof: str) -> None:
     city = city_of(sample_plan(), roof=roof)
     assert faults(shell_of(city, "house"), points_of(city)) == []
+    assert city["CityObjects"]["house"]["attributes"]["roofType"] == roof
 
 
 @settings(max_examples=6, deadline=None)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 from typing import Any
 
@@ -42,6 +43,12 @@ def flight(**changes: Any) -> dict[str, Any]:
 
 
 TWO_STEPS = [[[1, 1], [2, 1], [2, 2], [1, 2]], [[1, 2], [2, 2], [2, 3.5], [1, 3.5]]]
+
+
+ROUND = [
+    [1.5 + 0.5 * math.cos(turn), 2.5 + 0.5 * math.sin(turn)]
+    for turn in (2.0 * math.pi * number / 65 for number in range(65))
+]
 
 
 def turning(**changes: Any) -> dict[str, Any]:
@@ -122,6 +129,32 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
             [flight(path_m=[[1.0, 1.0], [1.0, 2.0]])],
             "storeys[0].stairs[0].path_m: there are no steps_m",
         ),
+        (
+            ["stairs"],
+            [turning(steps_m=TWO_STEPS[::-1])],
+            "storeys[0].stairs[0].path_m: comes to steps_m[1] before steps_m[0]",
+        ),
+        (
+            ["stairs"],
+            [turning(path_m=[[1.5, 0.2], [1.5, 3.5]])],
+            "storeys[0].stairs[0].path_m: begins 0.80 m from the edge of steps_m[0]",
+        ),
+        (
+            ["stairs"],
+            [turning(path_m=[[1.5, 1.0], [1.5, 2.5]])],
+            "storeys[0].stairs[0].path_m: ends 0.50 m from the edge of steps_m[1]",
+        ),
+        (
+            ["stairs"],
+            [turning(steps_m=[TWO_STEPS[0], [[1, 1.5], [2, 1.5], [2, 3.5], [1, 3.5]]])],
+            "storeys[0].stairs[0].steps_m[1]: 0.50 m² of it lie on steps_m[0]",
+        ),
+        (
+            ["stairs"],
+            [turning(steps_m=[TWO_STEPS[0], ROUND])],
+            "storeys[0].stairs[0].steps_m[1]: 65 points, not between 3 and 64",
+        ),
+        (["rooms", 0, "id"], "unnamed", "storeys[0].rooms[0].id: 'unnamed' is what is said of"),
         (["lights"], [lamp(above_m=50.0)], "storeys[0].lights[0].above_m: 50 m is not between"),
         (["colour"], "red", "storeys[0].colour: Extra inputs are not permitted"),
     ],
@@ -133,6 +166,29 @@ def test_the_field_and_the_reason_are_named(
         load_document(written(tmp_path, (place, value)))
     assert told in caught.value.fault
     assert caught.value.subject.endswith("plan.json")
+
+
+@pytest.mark.parametrize(
+    ("names", "told"),
+    [
+        (("a b", "a-b"), "storeys[1].name: 'a-b' is the name of another storey, too"),
+        (("a", "a living"), "storeys[1].rooms[0].id: with its storey's name it is the same as"),
+    ],
+)
+def test_names_that_are_one_in_the_model(tmp_path: Path, names: tuple[str, str], told: str) -> None:
+    """Ids are made of them, blanks as dashes."""
+    content = json.loads(sample_plan().model_dump_json(by_alias=True))
+    (ground,) = content["storeys"]
+    upper = json.loads(json.dumps(ground)) | {"elevation_m": 2.8, "name": names[1]}
+    if names[1] == "a living":
+        ground["rooms"][0]["id"], upper["rooms"][0]["id"] = "living x", "x"
+        ground["lights"] = ground["furniture"] = upper["lights"] = upper["furniture"] = None
+    content["storeys"] = [ground | {"name": names[0]}, upper]
+    file = tmp_path / "plan.json"
+    file.write_text(json.dumps(content))
+    with pytest.raises(InputError) as caught:
+        load_document(file)
+    assert told in caught.value.fault
 
 
 def test_no_storey_at_all(tmp_path: Path) -> None:

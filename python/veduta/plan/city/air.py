@@ -49,14 +49,17 @@ class Cavity:
     @property
     def name(self) -> str:
         """The storey and the room, as features are named."""
-        return f"{self.space.storey.name} {self.room.id if self.room else 'unnamed'}"
+        return self.space.name_of(self.room)
 
 
 def cavities(
     spaces: Sequence[Space], matter: manifold3d.Manifold, slab_m: float, marks: Marks
-) -> tuple[list[Cavity], manifold3d.Manifold]:
-    """The rooms of all storeys but for what is outdoors, and the matter with its rooms filled."""
-    found, filled = [], [matter]
+) -> tuple[list[Cavity], manifold3d.Manifold, list[str]]:
+    """The rooms of all storeys but for what is outdoors, and the matter with its rooms filled.
+
+    Also which rooms of the document are not there, as they have no air.
+    """
+    found, filled, notes = [], [matter], []
     for index, space in enumerate(spaces):
         above = spaces[index + 1] if index + 1 < len(spaces) else None
         opening = Polygon() if above is None else above.well
@@ -66,7 +69,20 @@ def cavities(
             filled.append(hollow.solid(into_m=2.0 * _REACH_M))
             if air:
                 found.append(Cavity(space, hollow.room, hollow.region, air))
-    return found, joined(filled)
+            elif hollow.room is not None:
+                name = space.name_of(hollow.room)
+                notes.append(f"{name} has no air in it: house.city.json has no such room")
+        notes += [
+            f"{space.name_of(room)} has no floor of its own: house.city.json has no such room"
+            for room in _without_floor(space)
+        ]
+    return found, joined(filled), notes
+
+
+def _without_floor(space: Space) -> list[Room]:
+    """Rooms indoors that walls, other rooms or a well leave nothing of."""
+    with_floor = {room.id for room, _ in replace(space, well=Polygon()).floors if room is not None}
+    return [room for room, _ in space.rooms if not room.outdoors and room.id not in with_floor]
 
 
 def _sound(
@@ -126,7 +142,7 @@ class _Hollow:
         under = floor + self.space.storey.height_m - self.slab_m
         low = floor + FINISH_M - (FINISH_M + into_m if into_m else 0.0)
         high = under - (FINISH_M if not into_m else -into_m)
-        name = f"{self.space.storey.name} {self.room.id if self.room else 'unnamed'}"
+        name = self.space.name_of(self.room)
         ground, ceiling = Mark("floor", f"{name} floor"), Mark("ceiling", f"{name} ceiling")
         wide = self._wide()
         well = self.space.well.intersection(self.region)

@@ -1,6 +1,7 @@
 """What a house is made of as one solid: walls, slabs, panels in openings, and the roof.
 
-Walls are those of `house.walls`, the roof is that of the part; regions are those of `house.space`.
+It is built from the same regions (`house.space`), walls (`house.walls`) and roofs as the part, not
+cut from the part's faces.
 Openings are shut: a panel stands in the middle of the wall, as thick as a window's frame.
 """
 
@@ -19,7 +20,7 @@ from veduta.plan.city.marked import Mark, Marks, joined, one_mark
 from veduta.plan.house.build import GROUND_SLAB_M
 from veduta.plan.house.floors import FINISH_M, slab_over
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.roof import UNDER_M, roof_body, roofs_over
+from veduta.plan.house.roof import UNDER_M, Roof, roof_body
 from veduta.plan.house.space import Space
 from veduta.plan.house.walls import WallNames, extruded, wall_solid
 from veduta.plan.options import HouseOptions
@@ -65,7 +66,7 @@ def matter_of(spaces: Sequence[Space], slab_m: float, marks: Marks) -> manifold3
 
 
 def roofs_of(
-    last: Space, options: HouseOptions, marks: Marks
+    roofs: Sequence[Roof], last: Space, options: HouseOptions, marks: Marks
 ) -> tuple[list[manifold3d.Manifold], list[str]]:
     """The roofs over the highest storey, and which of them are no solids.
 
@@ -74,7 +75,7 @@ def roofs_of(
     top = last.storey.elevation_m + last.storey.height_m
     inner = last.covered.buffer(-_RIM_M, join_style="mitre")
     solids, notes = [], []
-    for roof in roofs_over(last.covered, options):
+    for roof in roofs:
         body = roof_body(roof, top, options)
         if body is None:
             notes.append(f"{roof.name} is no closed solid: house.city.json has no roof there")

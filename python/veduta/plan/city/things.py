@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,37 +30,58 @@ def storey_id(house: House, space: Space) -> str:
     return f"{house.part.id}/{space.storey.name}".replace(" ", "-")
 
 
-def add_stairs(house: House, document: CityDocument, table: SurfaceTable, marks: Marks) -> None:
-    """Stairs and rails as installations of the rooms in which they begin."""
-    pieces = [(one.space, one.name, "stairs", one.body) for one in stair_pieces(house)]
-    rails = [
-        (one.space, name, row) for one in stair_pieces(house) for name, row in one.rails.items()
+def not_closed(name: str, shape: Mapping[str, object]) -> list[str]:
+    """A note where the geometry of an object is no closed solid."""
+    if shape["type"] != "MultiSurface":
+        return []
+    return [f"{name} is no closed solid in house.city.json: its surfaces alone are there"]
+
+
+def add_stairs(
+    house: House, document: CityDocument, table: SurfaceTable, marks: Marks
+) -> list[str]:
+    """Stairs, columns of spirals and rails as installations of the rooms in which they begin.
+
+    Returns which are no closed solids.
+    """
+    stairs = stair_pieces(house)
+    pieces = [(one.space, one.name, "stairs", one.body) for one in stairs]
+    single = [
+        (one.space, name, kind, row)
+        for one in stairs
+        for kind, named in (("column", one.columns), ("rail", one.rails))
+        for name, row in named.items()
     ]
-    rails += guard_rails(house)
-    pieces += [(space, name, "rail", (row,)) for space, name, row in rails]
+    single += [(space, name, "rail", row) for space, name, row in guard_rails(house)]
+    pieces += [(space, name, kind, (row,)) for space, name, kind, row in single]
+    notes: list[str] = []
     for space, name, kind, features in pieces:
-        faces = _faces(house.part, name, features, table, marks)
-        shape = document.solid([faces], table.surfaces([faces]))
-        told = {"class": kind, "name": name}
-        parent = _room_of(document, house, space, features)
-        document.add(
+        shells = _shells(house.part, name, features, table, marks)
+        shape = document.solid(shells, table.surfaces(shells))
+        own = document.add(
             f"{house.part.id}/{name}".replace(" ", "-"),
             "BuildingInstallation",
-            parent,
-            told,
+            _room_of(document, house, space, features),
+            {"class": kind, "name": name},
             [shape],
         )
+        notes += not_closed(own, shape)
+    return notes
 
 
-def _faces(
+def _shells(
     part: Part, name: str, features: Sequence[int], table: SurfaceTable, marks: Marks
-) -> list[CityFace]:
-    """The faces of the solid that features close, or else their polygons."""
+) -> list[list[CityFace]]:
+    """The faces of each body that features close, or else their polygons.
+
+    A rail is as many bodies as it has corners: a shell must hang together (ISO 19107).
+    """
     solid = solid_of(part, features)
-    if solid is not None:
-        marked = marks.marked(solid, one_mark(Mark("slab", name)))
-        return table.faces(marks.faces(marked), installed_kind)
-    return [CityFace(rings, ("InteriorWallSurface", name)) for rings in _polygons(part, features)]
+    if solid is None:
+        polygons = _polygons(part, features)
+        return [[CityFace(rings, ("InteriorWallSurface", name)) for rings in polygons]]
+    marked = marks.marked(solid, one_mark(Mark("slab", name)))
+    return [table.faces(marks.faces(body), installed_kind) for body in marked.decompose()]
 
 
 def _polygons(part: Part, features: Sequence[int]) -> list[Rings]:

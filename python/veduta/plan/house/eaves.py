@@ -19,14 +19,14 @@ _LEFT_M = 0.004
 """A roof is so thick where it passes over the walls' outer faces: it hangs together there."""
 
 
-def clear_of(faces: Sequence[Rings], region: BaseGeometry) -> list[Rings]:
+def clear_of(faces: Sequence[Rings], region: BaseGeometry) -> list[Rings] | None:
     """The faces of a closed roof without what lies below the walls' top, 0, within a region.
 
-    The faces as they are where they close no solid.
+    None where they close no solid that could be cut.
     """
     solid = solid_of_faces(faces)
     if solid is None:
-        return list(faces)
+        return None
     cut = solid - extruded(region, -_DEEP_M, -_LEFT_M)
     return [rings for _, rings in flat_faces(shell_of(cut))]
 

@@ -99,7 +99,7 @@ def solid_region_of_boards(board: BaseGeometry) -> BaseGeometry:
 
 
 def _names(space: Space) -> list[str]:
-    return [f"{space.storey.name} {room.id if room else 'unnamed'}" for room, _ in space.floors]
+    return [space.name_of(room) for room, _ in space.floors]
 
 
 def _surface(

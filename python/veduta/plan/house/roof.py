@@ -60,7 +60,7 @@ def roofs_over(region: BaseGeometry, options: HouseOptions) -> list[Roof]:
 def _roof(name: str, shape: Polygon, asked: RoofKind, options: HouseOptions) -> Roof:
     # A round house has no gables.
     tried: tuple[RoofKind, ...] = () if asked == "flat" else (asked, "hip")
-    for kind in tried:
+    for kind in dict.fromkeys(tried):
         faces = _solid(shape, kind, options)
         if faces is not None:
             return Roof(name, shape, asked, kind, faces)
@@ -86,7 +86,10 @@ def add_roof(
         if roof.faces is None:
             _add_flat(roof.shape, height_m, sculptor, feature, options.overhang)
         else:
-            _add_solid(clear_of(roof.faces, region), height_m, sculptor, feature)
+            cleared = clear_of(roof.faces, region)
+            if cleared is None:
+                notes.append(f"{roof.name} is no closed solid: its eaves may hang into rooms")
+            _add_solid(cleared or roof.faces, height_m, sculptor, feature)
     return notes
 
 

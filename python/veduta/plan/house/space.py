@@ -23,6 +23,8 @@ LINTEL_M = 0.05
 """What is left of a wall at least above an opening."""
 GAP_M = 1.6
 """A gap in the walls around a space that is no wider than this does not make it outdoors."""
+UNNAMED = "unnamed"
+"""In the place of a room's id, of what is floored but no room."""
 _SLIVER_M2 = 0.01
 _JOIN_M = 1e-3
 _STEP_M = 0.05
@@ -96,6 +98,10 @@ class Space:
         if not rest.is_empty:
             found.append((None, rest))
         return tuple(found)
+
+    def name_of(self, room: Room | None) -> str:
+        """The storey and the room, as features are named; None: what lies in no room."""
+        return f"{self.storey.name} {UNNAMED if room is None else room.id}"
 
     def room_at(self, point: NDArray[np.float64]) -> Room | None:
         """The room in which a point lies; None in none."""

@@ -14,7 +14,8 @@ from veduta.plan.house.space import Space
 class StairPieces:
     """One stair. space: the storey that it begins in; above: the one that it leads to.
 
-    body: the features of steps and what bears them. rails: those of handrails, by their names.
+    body: the features of steps and what bears them. columns, rails: those of a spiral's column and
+    of handrails, by their names.
     """
 
     name: str
@@ -22,6 +23,7 @@ class StairPieces:
     space: Space
     above: Space
     body: tuple[int, ...]
+    columns: dict[str, int]
     rails: dict[str, int]
 
     @property
@@ -41,10 +43,13 @@ def stair_pieces(house: House) -> list[StairPieces]:
             rows = [
                 row for row, own in enumerate(names) if own == name or own.startswith(f"{name} ")
             ]
-            rails = {names[row]: row for row in rows if names[row].endswith(" rail")}
-            body = tuple(row for row in rows if names[row] not in rails)
+            columns, rails = (
+                {names[row]: row for row in rows if names[row].endswith(kind)}
+                for kind in (" column", " rail")
+            )
+            body = tuple(row for row in rows if names[row] not in columns | rails)
             if body:
-                found.append(StairPieces(name, one, space, above, body, rails))
+                found.append(StairPieces(name, one, space, above, body, columns, rails))
     return found
 
 

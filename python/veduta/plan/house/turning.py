@@ -168,10 +168,11 @@ def noded(shapes: Sequence[Polygon]) -> tuple[tuple[Corner, ...], ...]:
 
 def _merged(points: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points without those that lie on another."""
+    left = np.round(points, _DIGITS)
     kept: list[NDArray[np.float64]] = []
-    for point in np.round(points, _DIGITS):
-        if all(np.hypot(*(point - other)) > _TOUCH_M for other in kept):
-            kept.append(point)
+    while len(left):
+        kept.append(left[0])
+        left = left[np.hypot(*(left - left[0]).T) > _TOUCH_M]
     return np.array(kept)
 
 

@@ -14,7 +14,15 @@ from numpy.typing import NDArray
 from shapely.geometry import LineString, MultiPoint, Point, Polygon
 
 from veduta.plan.house.frame import Sculptor, Surface, level, upright
-from veduta.plan.house.rails import RAIL_M, RAIL_SIDE_M, add_bar, is_free, rail_surface, smooth_runs
+from veduta.plan.house.rails import (
+    RAIL_M,
+    RAIL_SIDE_M,
+    Edge,
+    add_bar,
+    is_free,
+    rail_surface,
+    smooth_runs,
+)
 from veduta.plan.house.space import Space
 from veduta.plan.house.turning import Corner, TurningFlight
 
@@ -30,8 +38,6 @@ _COLUMN_M = 0.4
 _COLUMN_SIDE_M = 0.15
 _COLUMN_CORNERS = 8
 _SAME_M = 5e-3
-
-Edge = tuple[Corner, Corner]
 
 
 def add_turning(

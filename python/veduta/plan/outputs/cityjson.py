@@ -8,6 +8,8 @@ the finest of 2.0. Where air goes on without a door, a ClosureSurface ends it.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from veduta.formats.cityjson_solids import CityDocument
@@ -15,10 +17,12 @@ from veduta.plan.city.air import Cavity, cavities
 from veduta.plan.city.marked import Marks, bodies, joined
 from veduta.plan.city.matter import matter_of, roofs_of
 from veduta.plan.city.surfaces import SurfaceTable, inner_kind, outer_kind
-from veduta.plan.city.things import add_furniture, add_lamps, add_stairs, storey_id
+from veduta.plan.city.things import add_furniture, add_lamps, add_stairs, not_closed, storey_id
 from veduta.plan.document import Storey
 from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import House
+from veduta.plan.house.roof import Roof, roofs_over
+from veduta.plan.house.space import UNNAMED
 from veduta.plan.options import HouseOptions
 
 TITLE = "House from a floor plan"
@@ -29,8 +33,10 @@ def house_cityjson(house: House, options: HouseOptions) -> tuple[bytes, list[str
     part, spaces = house.part, house.spaces
     marks = Marks()
     matter = matter_of(spaces, options.slab, marks)
-    roofs, notes = roofs_of(spaces[-1], options, marks)
-    rooms, filled = cavities(spaces, matter, options.slab, marks)
+    over = roofs_over(spaces[-1].covered, options)
+    roofs, notes = roofs_of(over, spaces[-1], options, marks)
+    rooms, filled, airless = cavities(spaces, matter, options.slab, marks)
+    notes += airless
     low, high = part.bounds_m
     document = CityDocument(TITLE, np.array(low))
     table = SurfaceTable(part, spaces)
@@ -38,19 +44,24 @@ def house_cityjson(house: House, options: HouseOptions) -> tuple[bytes, list[str
         table.faces(marks.faces(body), outer_kind) for body in bodies(joined([filled, *roofs]))
     ]
     shape = document.solid(shells, table.surfaces(shells))
-    building = document.add(
-        part.id, "Building", None, {**part.attributes, "roofType": options.roof}, [shape]
-    )
-    notes += _told(building, shape)
+    told = {**part.attributes, "roofType": _roof_type(over)}
+    building = document.add(part.id, "Building", None, told, [shape])
+    notes += not_closed(building, shape)
     for space in spaces:
         storey = _add_storey(document, house, space.storey, storey_id(house, space))
         own = [room for room in rooms if room.space is space]
         for room in own:
             notes += _add_room(document, storey, room, table, marks)
-    add_stairs(house, document, table, marks)
+    notes += add_stairs(house, document, table, marks)
     add_lamps(house, document)
     add_furniture(house, document, catalogue_of(options.catalogue))
     return document.content(low, high), notes
+
+
+def _roof_type(roofs: Sequence[Roof]) -> str:
+    """As they were built; of several that differ, that of the largest first."""
+    kinds = [one.built for one in sorted(roofs, key=lambda one: -one.shape.area)]
+    return ", ".join(dict.fromkeys(kinds)) or "none"
 
 
 def _add_storey(document: CityDocument, house: House, storey: Storey, name: str) -> str:
@@ -76,13 +87,6 @@ def _add_room(
     }
     if room is not None:
         told |= {"name": room.name or room.use, "function": room.use}
-    name = document.add(
-        f"{storey}/{room.id if room else 'unnamed'}", "BuildingRoom", storey, told, [shape]
-    )
-    return _told(name, shape)
-
-
-def _told(name: str, shape: dict[str, object]) -> list[str]:
-    if shape["type"] != "MultiSurface":
-        return []
-    return [f"{name} is no closed solid in house.city.json: its surfaces alone are there"]
+    own = f"{storey}/{room.id if room else UNNAMED}"
+    name = document.add(own, "BuildingRoom", storey, told, [shape])
+    return not_closed(name, shape)

@@ -7,7 +7,7 @@ are those of the house's part, a little before the wall, which is a solid withou
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Literal, Protocol
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,29 +18,11 @@ from veduta.place.part import Part
 from veduta.plan.document import Room
 from veduta.plan.house.finishes import hex_of, laid_tiling
 from veduta.plan.house.space import Space
+from veduta.plan.outputs.ifc_model import Entity, Model
 
-Entity = Any
 Kind = Literal["CLADDING", "FLOORING"]
 BEFORE_M = 0.001
 """A covering lies so far before the wall: at the same place, viewers show either."""
-
-
-class Model(Protocol):
-    """The file as it grows."""
-
-    def make(self, kind: str, *values: Any, **named: Any) -> Entity:
-        """An entity without an id of its own."""
-
-    def rooted(self, kind: str, name: str, **named: Any) -> Entity:
-        """An entity with a stable id."""
-
-    def product(
-        self, kind: str, name: str, within: Entity | None, up_m: float = 0.0, **named: Any
-    ) -> Entity:
-        """Something that stands somewhere."""
-
-    def mesh(self, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Entity:
-        """A shape of triangles."""
 
 
 def finishes_of(

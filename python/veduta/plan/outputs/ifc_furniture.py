@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any, Protocol
-
 import numpy as np
 
 from veduta.grammar.assets.asset import Asset
@@ -12,8 +10,8 @@ from veduta.plan.furnish.catalogue.entry import Entry, ObjectClass, Size
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.shapes import asset_of
 from veduta.plan.house.floors import FINISH_M
+from veduta.plan.outputs.ifc_model import Entity, Model
 
-Entity = Any
 CLASSES: dict[ObjectClass, str] = {
     "sanitary": "IfcSanitaryTerminal",
     "appliance": "IfcElectricAppliance",
@@ -38,20 +36,6 @@ PREDEFINED: dict[str, str] = {
     "microwave": "MICROWAVE", "oven-tower": "ELECTRICCOOKER",
 }  # fmt: skip
 """By the type of an object; others are not defined further."""
-
-
-class Model(Protocol):
-    """What of the file as it grows is used here."""
-
-    body: Entity
-
-    def make(self, kind: str, *values: Any, **named: Any) -> Entity:
-        """An entity without an id of its own."""
-
-    def product(
-        self, kind: str, name: str, within: Entity | None, up_m: float = 0.0, **named: Any
-    ) -> Entity:
-        """Something that stands somewhere."""
 
 
 class FurnitureMaker:

@@ -6,7 +6,6 @@ Shapes are those of the part, as triangles. No plan shows a height: risers follo
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,26 +13,7 @@ from numpy.typing import NDArray
 from veduta.place.part import Part
 from veduta.plan.house.build import House
 from veduta.plan.house.stair_pieces import StairPieces, guard_rails, stair_pieces
-
-Entity = Any
-
-
-class Model(Protocol):
-    """What of the file as it grows is used here."""
-
-    def product(
-        self, kind: str, name: str, within: Entity | None, up_m: float = 0.0, **named: Any
-    ) -> Entity:
-        """Something that stands somewhere."""
-
-    def aggregate(self, whole: Entity, parts: Sequence[Entity], name: str) -> None:
-        """Parts of a whole."""
-
-    def contain(self, storey: Entity, elements: Sequence[Entity], name: str) -> None:
-        """Elements of a storey."""
-
-    def mesh(self, points: NDArray[np.float64], triangles: NDArray[np.int64]) -> Entity:
-        """A shape: triangles."""
+from veduta.plan.outputs.ifc_model import Entity, Model
 
 
 def add_stairs(model: Model, house: House, storeys: Sequence[Entity]) -> None:
@@ -63,7 +43,8 @@ def _stair(model: Model, house: House, one: StairPieces, storey: Entity) -> Enti
         NumberOfRisers=risers, NumberOfTreads=one.stairs.treads,
         RiserHeight=float(one.rise_m / risers),
     )  # fmt: skip
-    flight.Representation = _shape(model, house, one.body, place)
+    features = [*one.body, *one.columns.values()]
+    flight.Representation = _shape(model, house, features, place)
     rails = [
         _railing(model, house, name, feature, place, "HANDRAIL")
         for name, feature in one.rails.items()

@@ -21,6 +21,8 @@ WALK = 0.6
 FIRST = (0.6, 1.75)
 """The first straight tread beside a fan, of the depth of its treads in the middle."""
 MOST_TREADS = 24
+LEAST_PX2 = 4.0
+"""A smaller tread is none."""
 
 
 @dataclass(frozen=True)
@@ -84,15 +86,21 @@ class Leg:
         return [middle + self.away_px[-1] * self.way] if self.away_px else []
 
 
-def course_of(fan: Fan, probe: Probe) -> Course:
-    """The stairs that a fan belongs to."""
+def course_of(fan: Fan, probe: Probe) -> Course | None:
+    """The stairs that a fan belongs to; None where one of its treads would be nothing."""
     if fan.round:
         return _spiral(fan)
     first = _leg(fan, float(fan.angles[0]), -1.0, probe)
     last = _leg(fan, float(fan.angles[-1]), 1.0, probe)
     widths = [float(np.hypot(*(leg.outer - leg.inner))) for leg in (first, last)]
     bounds = _bounds(fan, first, last)
-    wedges = [_wedge(fan.newel, low, high, bounds) for low, high in pairwise(fan.angles)]
+    wedges = [
+        wedge
+        for low, high in pairwise(fan.angles)
+        if (wedge := _wedge(fan.newel, low, high, bounds)) is not None
+    ]
+    if len(wedges) < len(fan.angles) - 1:
+        return None
     steps = [*first.steps()[::-1], *wedges, *last.steps()]
     arc = _arc(fan, fan.newel, widths[0] / 2.0, widths[1] / 2.0)
     path = np.array([*first.path(), *arc, *last.path()])
@@ -124,11 +132,15 @@ def _bounds(fan: Fan, first: Leg, last: Leg) -> Polygon:
     return Polygon([first.outer, first.outer + deep, last.outer + deep, last.outer])
 
 
-def _wedge(newel: Spot, low: float, high: float, bounds: Polygon) -> Polygon:
+def _wedge(newel: Spot, low: float, high: float, bounds: Polygon) -> Polygon | None:
+    """The tread between two angles; None where the bounds have nothing there."""
+    if not bounds.is_valid:
+        return None
     far = 10.0 * math.sqrt(bounds.area)
     ends = [newel + far * _ways(angle)[0] for angle in (low, high)]
-    piece = Polygon([newel, *ends]).intersection(bounds)
-    return piece if isinstance(piece, Polygon) else Polygon([newel, *ends])
+    cut = Polygon([newel, *ends]).intersection(bounds)
+    largest = max(getattr(cut, "geoms", [cut]), key=lambda piece: piece.area)
+    return largest if isinstance(largest, Polygon) and largest.area >= LEAST_PX2 else None
 
 
 def _arc(fan: Fan, middle: Spot, first_px: float, last_px: float) -> list[Spot]:
@@ -155,7 +167,7 @@ def _spiral(fan: Fan) -> Course:
         )
         for here, there in pairwise(ways)
     ]
-    walk = 0.6 * outer
+    walk = WALK * outer
     return Course(
         tuple(steps), np.array(_arc(fan, fan.newel, walk, walk)), outer - inner, fan.score
     )

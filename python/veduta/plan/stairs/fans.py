@@ -28,6 +28,8 @@ SLANT_RAD = math.radians(8.0)
 APART_RAD = math.radians(8.0)
 MEET_PX = 3.0
 MOST_NEWELS = 80
+MOST_LOOKED = 800
+"""So many places are looked at for them."""
 TURN_RAD = (math.radians(9.0), math.radians(48.0))
 """From tread to tread."""
 EVEN = 0.22
@@ -109,15 +111,24 @@ def _meetings(pieces: NDArray[np.float64], probe: Probe) -> list[Spot]:
     if not len(places):
         return []
     tree = KDTree(places)
-    near = tree.query_ball_point(places, MEET_PX)
+    # All lists at once would grow with the fourth power of the lines that meet in one place.
+    counts = tree.query_ball_point(places, MEET_PX, return_length=True)
     found: list[Spot] = []
-    for row in sorted(range(len(places)), key=lambda row: -len(near[row])):
-        place = places[near[row]].mean(axis=0)
-        if all(np.hypot(*(place - one)) > MEET_PX for one in found):
+    looked = 0
+    for row in np.argsort(-counts, kind="stable"):
+        if _is_beside(places[row], found):
+            continue
+        place = places[tree.query_ball_point(places[row], MEET_PX)].mean(axis=0)
+        if not _is_beside(place, found):
             found.append(place)
-        if len(found) == MOST_NEWELS:
+        looked += 1
+        if len(found) == MOST_NEWELS or looked == MOST_LOOKED:
             break
     return found
+
+
+def _is_beside(place: Spot, others: list[Spot]) -> bool:
+    return any(np.hypot(*(place - one)) <= MEET_PX for one in others)
 
 
 def _leads_to(
@@ -260,10 +271,16 @@ def _even_run(peaks: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _settled(angles: NDArray[np.float64]) -> NDArray[np.float64] | None:
-    """A quarter or a half turn between walls begins and ends at right angles to them."""
+    """A quarter or a half turn between walls begins and ends at right angles to them.
+
+    None where it does not, or where a line beside an end would then be too near or too far for a
+    tread: that run is not the stairs.
+    """
     quarter = math.pi / 2
     ends = np.round(angles[[0, -1]] / quarter) * quarter
     turns = round((ends[1] - ends[0]) / quarter)
     if turns not in (1, 2) or np.abs(angles[[0, -1]] - ends).max() > SNAP_RAD:
         return None
-    return np.concatenate([ends[:1], angles[1:-1], ends[1:]])
+    settled = np.concatenate([ends[:1], angles[1:-1], ends[1:]])
+    gaps = np.diff(settled)
+    return settled if TURN_RAD[0] <= gaps.min() and gaps.max() <= TURN_RAD[1] else None

@@ -87,12 +87,8 @@ def probe_of(ink: NDArray[np.bool_], line_px: float, extent_px: float) -> Probe:
     return Probe(near.astype(np.float32), solid.astype(np.float32), line_px, extent_px)
 
 
-def peaks_of(values: NDArray[np.bool_], widest: float) -> list[float]:
-    """The middles of runs that are not too wide."""
-    return _peaks(values, widest)
-
-
 def _peaks(values: NDArray[np.bool_], widest: float) -> list[float]:
+    """The middles of runs that are not too wide."""
     edges = np.diff(np.pad(values.astype(np.int8), 1))
     starts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
     return [

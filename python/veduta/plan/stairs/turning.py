@@ -32,7 +32,7 @@ def find_turning(
     ink: NDArray[np.bool_], flights: Sequence[DrawnStairs], probe: Probe, texts: Sequence[Text]
 ) -> list[DrawnStairs]:
     """Stairs that turn, and those of the straight flights that are no parts of them."""
-    fans = [course_of(fan, probe) for fan in find_fans(ink, probe)]
+    fans = [one for fan in find_fans(ink, probe) if (one := course_of(fan, probe)) is not None]
     landed = [one for flight in flights if (one := with_landings(flight, probe)) is not None]
     kept: list[Course] = []
     for course in sorted([*fans, *landed], key=lambda one: -len(one.steps)):

@@ -19,8 +19,6 @@ from veduta.synthetic.plans.house import Point, Stairs, StairsKind
 
 FREE_M = 0.95
 """Floor before the first step and behind the last."""
-LANDING_M = 1.7
-"""Treads so many times as deep as others are landings."""
 NEWEL_M = 0.08
 """Radius of a spiral's column."""
 SPIRAL_M = 0.98
