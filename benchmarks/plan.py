@@ -8,7 +8,7 @@ document; with `--house` they go through the whole verb. The real ones are `plan
 (else ../shared/data) and always go through the whole verb, whose time is given. Only a run over all
 is kept, and one over all the real sets, as `plan-real`. `--pictures` writes sheets of overlays: of
 other people's pixels, so never into the repository. `--work` keeps the synthetic readings, from
-which a later call of the same code goes on.
+which a later call on the same commit goes on.
 """
 
 from __future__ import annotations

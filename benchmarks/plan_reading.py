@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from pydantic import TypeAdapter
+from record import commit
 
 from veduta.plan.analyse import read_drawings
 from veduta.plan.document import PlanDocument, Storey
@@ -65,10 +66,16 @@ def read_plans(
 ) -> list[Reading]:
     """Drawings in `jobs` spawned processes; a crash is raised, with the drawing's name.
 
-    Readings are left in `kept`, by the names of the drawings, and taken from there.
+    Readings are left in `kept`, in a folder for this commit by the names of the drawings, and taken
+    from there; not where the sources differ from the commit.
     """
-    done = {} if kept is None else _kept(kept, paths)
     work = read_with_house if house else read_alone
+    now = commit()
+    if now["changed"]:
+        kept = None
+    if kept is not None:
+        kept = kept / f"{now['commit']}-{work.__name__}"
+    done = {} if kept is None else _kept(kept, paths)
     tasks = [Task(str(path), path, MEMORY) for path in paths if str(path) not in done]
     for outcome in run_tasks(work, tasks, jobs=jobs):
         if outcome.value is None:
@@ -76,7 +83,7 @@ def read_plans(
             raise RuntimeError(f"{outcome.task.name}: {fault}")
         done[outcome.task.name] = outcome.value
         if kept is not None:
-            _file_of(kept, outcome.task.argument).write_bytes(READING.dump_json(outcome.value))
+            _keep(_file_of(kept, outcome.task.argument), outcome.value)
     return [done[str(path)] for path in paths]
 
 
@@ -88,6 +95,12 @@ def _kept(folder: Path, paths: Sequence[Path]) -> dict[str, Reading]:
         for name, file in files.items()
         if file.exists()
     }
+
+
+def _keep(file: Path, reading: Reading) -> None:
+    half = file.with_suffix(".half")
+    half.write_bytes(READING.dump_json(reading))
+    half.replace(file)
 
 
 def _file_of(folder: Path, path: Path) -> Path:

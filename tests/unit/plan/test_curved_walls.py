@@ -219,3 +219,22 @@ def test_a_bay_of_straight_walls_stays_straight() -> None:
     bay = LineString(corners).buffer(10.0, cap_style="flat", join_style="mitre")
     solid = unary_union([house(Polygon(), box(250, 380, 450, 420)), bay])
     assert curved_walls(read_storey(sheet(solid, []))) == []
+
+
+def test_a_half_round_end_is_parted_where_a_wall_ends_on_it() -> None:
+    """Each part bows as its own stretch of the circle does; the arc ends where its walls begin."""
+    circle = Point(400.0, 250.0).buffer(150.0, quad_segs=64)
+    inner = box(100.0, 100.0, 400.0, 400.0).union(circle).buffer(-6.0)
+    outer = inner.buffer(12.0)
+    across = box(247.0, 106.0, 253.0, 394.0).buffer(3.0)
+    end = box(250.0, 172.0, 540.0, 178.0).buffer(3.0)
+    gaps = unary_union([box(235.0, 280.0, 265.0, 330.0), box(150.0, 380.0, 200.0, 420.0)])
+    solid = outer.difference(inner).union(across).union(end.intersection(outer)).difference(gaps)
+    drawn = read_storey(
+        sheet(solid, [LineString([(120, 130 + k), (180, 130 + k)]) for k in (0, 15, 30)])
+    )
+    assert len(drawn.rooms) == 3
+    bows = sorted(abs(wall.bulge) for wall in curved_walls(drawn))
+    up = math.asin((250.0 - 175.0) / 150.0)  # of where the wall ends, above the middle
+    shares = ((math.pi / 2 - up) / 4, (math.pi / 2 + up) / 4)
+    assert bows == pytest.approx([math.tan(share) for share in shares], abs=0.04)

@@ -9,6 +9,7 @@ import numpy as np
 from veduta.plan.openings.gaps import CROSSING_RAD, FARTHEST, LEAST_PX, Gap
 from veduta.plan.walls.arcs import Arc
 from veduta.plan.walls.curved import same_circle
+from veduta.plan.walls.meetings import end_to_end
 from veduta.plan.walls.pieces import Piece
 
 WHOLE_RAD = np.radians(330.0)
@@ -40,6 +41,8 @@ def _ahead(
     number: int, at_end: bool, pieces: Sequence[Piece], curved: Sequence[Piece]
 ) -> Gap | None:
     piece = curved[number]
+    if _goes_on(piece, at_end, pieces):
+        return None
     arc = piece.arc if at_end else Arc(piece.end, piece.start, -piece.bulge)
     reach = min(FARTHEST * piece.thickness_px, WHOLE_RAD * arc.radius_px - arc.length_px)
     best: tuple[float, int, bool] | None = None
@@ -62,6 +65,12 @@ def _ahead(
         len(pieces) + number, at_end, target, to_side, start, end, piece.thickness_px, end,
         arc.bulge_of(low, high),
     )  # fmt: skip
+
+
+def _goes_on(piece: Piece, at_end: bool, pieces: Sequence[Piece]) -> bool:
+    """Whether a straight wall goes on from this end: its line touches the circle there at most."""
+    place = piece.length_px if at_end else 0.0
+    return any(one.first == place for other in pieces for one in end_to_end(piece, other))
 
 
 def _distance(arc: Arc, piece: Piece, other: Piece) -> tuple[float | None, bool]:

@@ -34,7 +34,7 @@ def meetings(one: Piece, other: Piece) -> list[Meeting]:
         return _curved(one, other)
     cross = one.direction[0] * other.direction[1] - one.direction[1] * other.direction[0]
     if abs(cross) < np.sin(MEET_RAD):
-        return _end_to_end(one, other)
+        return end_to_end(one, other)
     apart = other.start - one.start
     along = float((apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross)
     beyond = float((apart[0] * one.direction[1] - apart[1] * one.direction[0]) / cross)
@@ -76,7 +76,7 @@ def _curved(one: Piece, other: Piece) -> list[Meeting]:
             -its_reach <= beyond <= other.length_px + its_reach
         ):
             found.append(Meeting(at, along, beyond))
-    return found or _end_to_end(one, other)
+    return found or end_to_end(one, other)
 
 
 def _longer(piece: Piece, by_px: float) -> NDArray[np.float64]:
@@ -87,7 +87,7 @@ def _longer(piece: Piece, by_px: float) -> NDArray[np.float64]:
     return piece.part(-by_px, piece.length_px + by_px).arc.points(FINE_RAD)
 
 
-def _end_to_end(one: Piece, other: Piece) -> list[Meeting]:
+def end_to_end(one: Piece, other: Piece) -> list[Meeting]:
     """Walls of different thickness or slightly different direction that touch with their ends."""
     thick = max(one.thickness_px, other.thickness_px)
     for mine, along in ((one.start, 0.0), (one.end, one.length_px)):
