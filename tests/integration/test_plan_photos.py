@@ -33,6 +33,8 @@ def inputs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     (folder / "plan.json").write_text(sample_plan().model_dump_json(by_alias=True))
     scene = RoomScene(floor_tiles=Tiled((0.3, 0.3), joint_m=0.008))
     Image.fromarray(room_photo(scene, 600, 450)).save(folder / "living.png")
+    other = RoomScene(floor_tiles=Tiled((0.3, 0.3), joint_m=0.008, tile=(150, 170, 200)))
+    Image.fromarray(room_photo(other, 600, 450)).save(folder / "other.png")
     return folder
 
 
@@ -97,12 +99,35 @@ def test_photos_may_come_later_and_an_edited_document_stays(inputs: Path, tmp_pa
     content["storeys"][0]["rooms"][0]["wall_colour"] = {"srgb": [10, 200, 30]}
     edited = json.dumps(content)
     (out / "plan.json").write_text(edited)
+    texture = (out / "tiles-1.png").read_bytes()
     plan(out / "plan.json", out)
     assert "paint-0ac81e" in materials(out)
     told = plan(out / "plan.json", out, photo)
     assert "paint-0ac81e" not in materials(out)
     assert (out / "plan.json").read_text() == edited
-    assert any("was edited and stays as it is" in note for note in told.notes)
+    assert sum("was edited and stays as it is" in note for note in told.notes) == 1
+    assert plan(out / "plan.json", out, photo).notes == told.notes
+
+    # Another photo makes another house; the document's own picture is still there for the next.
+    other = f"living={inputs / 'other.png'}"
+    assert any("was edited" in note for note in plan(out / "plan.json", out, other).notes)
+    assert (out / "tiles-1.png").read_bytes() == texture
+    assert {name[:7] for name in materials(out) if name.startswith("tiles")} == {"tiles-2"}
+    plan(out / "plan.json", out)
+    assert (out / "tiles-1.png").read_bytes() == texture
+    assert not (out / "tiles-2.png").exists()
+    assert "tiles-1-0.3-x-0.3" in materials(out)
+
+
+def test_a_photo_that_an_edited_document_has_already_is_no_news(
+    inputs: Path, tmp_path: Path
+) -> None:
+    out, photo = tmp_path / "out", f"living={inputs / 'living.png'}"
+    plan(inputs / "plan.json", out, photo)
+    content = json.loads((out / "plan.json").read_text())
+    content["storeys"][0]["rooms"][1]["name"] = "Bath 2"
+    (out / "plan.json").write_text(json.dumps(content))
+    assert plan(out / "plan.json", out, photo).notes == []
 
 
 def test_an_unknown_room_is_refused_and_leaves_nothing(inputs: Path, tmp_path: Path) -> None:

@@ -118,6 +118,30 @@ def test_north_sun_and_panorama_survive_a_rebuild(tmp_path: Path, document: Path
         made(out / "plan.json")
 
 
+def test_an_edited_document_keeps_its_panorama(tmp_path: Path, document: Path) -> None:
+    """A rebuild with another one, of which the document does not know, takes none away."""
+    out, given = tmp_path / "out", tmp_path / "mine.png"
+    Image.linear_gradient("L").resize((512, 256)).convert("RGB").save(given)
+    bare = HouseOptions(no_furniture=True, no_tour=True, lights="none", surroundings="none")
+
+    def made(**site: object) -> PlanResult:
+        path = out / "plan.json" if out.exists() else document
+        options = PlanOptions(house=bare, site=SiteOptions(**site))
+        return run_plan([path], out, options, Progress(quiet=True))
+
+    made(panorama=str(given))
+    first = (out / "panorama.jpg").read_bytes()
+    content = json.loads((out / "plan.json").read_text())
+    content["storeys"][0]["rooms"][0]["name"] = "Salon"
+    (out / "plan.json").write_text(json.dumps(content))
+
+    four = ",".join(f"{name}={given}" for name in "NESW")
+    told = made(panorama=four)
+    assert any("does not say what --north" in note for note in told.notes)
+    assert (out / "panorama-north.jpg").exists()
+    assert (out / "panorama.jpg").read_bytes() == first
+
+
 def test_a_faulty_document_leaves_nothing_behind(tmp_path: Path, document: Path) -> None:
     content = json.loads(document.read_text())
     content["storeys"][0]["openings"][0]["wall"] = "gone"
@@ -176,6 +200,15 @@ def test_a_dxf_becomes_a_house_and_a_dwg_leaves_nothing_behind(tmp_path: Path) -
     result = run_plan([drawing], out, PlanOptions(), Progress(quiet=True))
     assert (result.exit_code, result.measures["rooms"]) == (0, 2)
     assert {path.name for path in out.iterdir()} >= FILES
+
+    # Beside a document that somebody has edited, drawings make nothing: options are dropped.
+    content = json.loads((out / "plan.json").read_text()) | {"north_deg": 20.0}
+    (out / "plan.json").write_text(json.dumps(content))
+    for north, dropped in ((None, 0), (20.0, 0), (50.0, 1)):
+        options = PlanOptions(site=SiteOptions(north=north))
+        left = run_plan([drawing], out, options, Progress(quiet=True), force=True)
+        assert sum("it was not made anew" in note for note in left.notes) == dropped
+
     drawing.write_bytes(b"AC1027" + bytes(100))
     with pytest.raises(InputError, match=r"house\.dxf: is a DWG file"):
         run_plan([drawing], tmp_path / "other", PlanOptions(), Progress(quiet=True))

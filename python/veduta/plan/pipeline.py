@@ -21,16 +21,17 @@ from veduta.plan.furnish.furnish import furnish
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
 from veduta.plan.idle_options import idle_notes
+from veduta.plan.kept_document import LEFT, UNWRITTEN, keep_panorama, says_site, sited
 from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import HouseOptions, PlanOptions, SiteOptions
+from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.photos.finish import Finished, load_pictures, picture_digests, with_photos
 from veduta.plan.photos.given import RoomPhoto, place_of
 from veduta.plan.report import failure_report, measures, plan_report
 from veduta.plan.sheets import Pixels, load_sheets
 from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
-from veduta.plan.surroundings.site import check_site, with_site
+from veduta.plan.surroundings.site import check_site
 from veduta.plan.tour.find import Tour, find_tour
 from veduta.plan.writing import Result, result_of, write_result
 from veduta.run.digests import file_digest, result_key
@@ -47,10 +48,8 @@ VERSION = "7"
 COMMAND = {"drawings": "plan", "document": "plan (rebuild)"}
 MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
-_UNWRITTEN = (
-    f"{DOCUMENT} was edited and stays as it is: it does not say what --north, --place, --time,"
-    " --panorama and --photos do. Give them again at the next rebuild, or write them there."
-)
+OTHERWISE = "document_says_otherwise"
+"""In the summary of a result: whether options made another house than the document describes."""
 
 
 @dataclass
@@ -114,9 +113,10 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
-        if _stays(opened) and (photos or options.site != SiteOptions()):
-            result.notes.append(_UNWRITTEN)
-        if not result.up_to_date and not _is_left(opened, call):
+        left = not result.up_to_date and _is_left(opened, call)
+        if left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
+            result.notes.append(LEFT)
+        if not result.up_to_date and not left:
             with progress.over(1):
                 progress.started(Task(call.subject, None))
                 _make(call, given, options, opened, key, progress.step)
@@ -211,13 +211,12 @@ def _make(
     work = opened.work_folder(CALL)
     try:
         read, sheets, notes = _document(call, given.plan, options, steps, progress)
-        finished = _finishes(call, read, given.photos, steps, progress)
+        finished = _finishes(call, read, given.photos, steps, progress, stays=stays)
         notes = [*notes, *finished.notes]
-        kind = None if given.panorama is None else given.panorama.kind
-        document = with_site(finished.document, options.site)
-        document = document.model_copy(update={"panorama": kind})
-        if stays and document != read:
-            notes = [*notes, _UNWRITTEN]
+        document = sited(finished.document, options.site, given.panorama)
+        otherwise = stays and document != read
+        if otherwise:
+            notes = [*notes, UNWRITTEN]
         if not options.house.no_furniture:
             document = _furnish(document, given.catalogue, options.house, steps, progress)
         lit = _lights(document, options, steps, progress)
@@ -232,13 +231,16 @@ def _make(
     else:
         progress("write", 0.0)
         with writing_to(opened.path), timed_step(steps, "write") as step:
+            if stays:
+                keep_panorama(read, opened.path, work)
             step.rejected.extend(write_result(result, work, options.house))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
         made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
-        opened.publish(CALL, key, work, {**measures(result.document), MADE_FROM: made_from})
+        summary = {**measures(result.document), MADE_FROM: made_from, OTHERWISE: otherwise}
+        opened.publish(CALL, key, work, summary)
     if opened.standing is not Standing.AMENDED:
         opened.finish()
 
@@ -267,6 +269,8 @@ def _finishes(
     photos: Sequence[RoomPhoto],
     steps: list[StepRecord],
     progress: StepProgress,
+    *,
+    stays: bool,
 ) -> Finished:
     """The document with the paint and the tiles that photos show, and the pictures of tiles."""
     before = load_pictures(call.paths[0].parent, document)
@@ -274,7 +278,7 @@ def _finishes(
         return before
     progress("photos", 0.0)
     with timed_step(steps, "photos") as step:
-        finished = with_photos(before, photos)
+        finished = with_photos(before, photos, stays=stays)
         step.counts |= {
             "photos": len(photos),
             "colours": sum(look.colour is not None for look in finished.looks),
@@ -378,6 +382,8 @@ def _tell(result: PlanResult, opened: OutFolder) -> None:
         result.failure = item.failure
         result.measures = dict(item.summary)
         made_from = result.measures.pop(MADE_FROM, None)
+        if result.measures.pop(OTHERWISE, False) and _stays(opened):
+            result.notes.append(UNWRITTEN)
         document = opened.path / DOCUMENT
         if made_from is not None and document.is_file():
             result.outdated = made_from != file_digest(document)

@@ -14,7 +14,6 @@ from veduta.imaging.encode import jpeg_bytes
 from veduta.plan.document import PlanDocument, Storey, Tiling, WallColour
 from veduta.plan.house.finishes import hex_of
 from veduta.plan.pages import drawing_label
-from veduta.plan.photos.picture import look_picture
 from veduta.plan.sheets import sheet_name
 from veduta.plan.writing import TOUR_PICTURE, Result
 from veduta.run.options import Options
@@ -169,7 +168,7 @@ def _pictures(result: Result) -> list[Picture]:
             Picture(
                 f"Photo of {look.photo.room}",
                 f"{look.photo.path.name}: red: tiles that were found; yellow: their texture",
-                jpeg_bytes(look_picture(look), 88),
+                jpeg_bytes(look.picture, 88),
                 "image/jpeg",
             )
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +22,7 @@ from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.photos.finish import Finished, load_pictures, with_photos
 from veduta.plan.photos.given import OPTION, place_of, room_photos
+from veduta.plan.photos.look import look_at
 from veduta.run.errors import InputError
 
 OCHRE = (201, 162, 90)
@@ -56,7 +58,8 @@ def test_each_face_of_a_wall_has_the_paint_of_its_own_room() -> None:
 def test_tiles_repeat_at_their_size_and_reach_the_model_as_they_are() -> None:
     rng = np.random.default_rng(0)
     picture = rng.integers(0, 255, (40, 120, 3), dtype=np.uint8)
-    document = with_room(1, tilings=[TILES])
+    measured = TILES.model_copy(update={"origin": "measured"})
+    document = with_room(1, tilings=[measured])
     part = build_house(document, HouseOptions(), {"tiles-1.png": picture}).part
     row = part.features.name.index("ground floor wall east in bath")
     (number,) = np.unique(part.polygon_material[part.polygon_feature == row])
@@ -70,6 +73,16 @@ def test_tiles_repeat_at_their_size_and_reach_the_model_as_they_are() -> None:
     # The picture covers 4 tiles of 0.3 m to the right and 2 of 0.2 m up.
     assert span_uv[0] == pytest.approx(span_m[:2].max() / 1.2, rel=1e-4)
     assert span_uv[1] == pytest.approx(span_m[2] / 0.4, rel=1e-4)
+
+
+def test_a_picture_that_somebody_wrote_does_not_pass_for_a_photo() -> None:
+    picture = np.full((40, 120, 3), 90, dtype=np.uint8)
+    pictures = {"tiles-1.png": picture}
+    part = build_house(with_room(1, tilings=[TILES]), HouseOptions(), pictures).part
+    (texture,) = [
+        one.texture for one in part.materials if one.name.startswith("tiles-1") and one.texture
+    ]
+    assert texture.invented.all()
 
 
 def test_a_missing_picture_leaves_the_usual_tiles_and_is_told(tmp_path: Path) -> None:
@@ -147,10 +160,12 @@ def test_photos_that_cannot_be_read_are_named(tmp_path: Path) -> None:
         room_photos([f"living={cut}"])
 
 
-def finished(tmp_path: Path, scene: RoomScene, name: str) -> tuple[Room, Finished]:
+def finished(
+    tmp_path: Path, scene: RoomScene, name: str, document: PlanDocument | None = None
+) -> tuple[Room, Finished]:
     path = tmp_path / "room.png"
     Image.fromarray(room_photo(scene, 600, 450)).save(path)
-    before = load_pictures(tmp_path, sample_plan())
+    before = load_pictures(tmp_path, document or sample_plan())
     done = with_photos(before, room_photos([f"{name}={path}"]))
     place = place_of(done.document, name)
     return done.document.storeys[place.storey].rooms[place.room], done
@@ -183,6 +198,47 @@ def test_a_photo_without_tiles_says_so(tmp_path: Path) -> None:
     assert own.wall_colour is not None
     assert own.tilings == []
     assert any("no tiles: of" in note for note in done.notes)
+
+
+FLOOR = RoomScene(floor_tiles=Tiled((0.3, 0.3), joint_m=0.008))
+
+
+def test_a_missing_picture_keeps_its_name_from_other_rooms(tmp_path: Path) -> None:
+    own, done = finished(tmp_path, FLOOR, "living", with_room(1, tilings=[TILES]))
+    assert [one.picture for one in own.tilings] == ["tiles-2.png"]
+    assert set(done.pictures) == {"tiles-2.png"}
+    assert "tiles-1.png is missing: its tiles have the usual look" in done.notes
+
+
+def test_a_missing_picture_that_a_photo_replaces_is_not_missed(tmp_path: Path) -> None:
+    floor = TILES.model_copy(update={"surface": "floor"})
+    own, done = finished(tmp_path, FLOOR, "living", with_room(0, tilings=[floor]))
+    assert [one.picture for one in own.tilings] == ["tiles-1.png"]
+    assert not any("is missing" in note for note in done.notes)
+
+
+@pytest.mark.parametrize("laid", [True, False])
+def test_whether_tiles_are_laid_stays_and_paint_that_they_hide_is_told(
+    tmp_path: Path, laid: bool
+) -> None:
+    scene = RoomScene(wall_tiles=Tiled((0.3, 0.3), joint_m=0.01), pitch_rad=0.05, boxes_m=())
+    known = TILES.model_copy(update={"laid": laid})
+    own, done = finished(tmp_path, scene, "living", with_room(0, tilings=[known]))
+    (tiling,) = own.tilings
+    assert (tiling.origin, tiling.laid) == ("measured", laid)
+    assert own.wall_colour is not None
+    assert any("no wall has it" in note for note in done.notes) == laid
+    assert any("are not tiled" in note for note in done.notes) != laid
+
+
+def test_what_is_seen_in_photos_does_not_hold_them(tmp_path: Path) -> None:
+    path = tmp_path / "large.png"
+    Image.new("RGB", (3000, 2000), (200, 180, 150)).save(path)
+    (photo,) = room_photos([f"living={path}"])
+    seen = look_at(photo, sample_storey().rooms[0])
+    held = [getattr(seen, one.name) for one in fields(seen)]
+    assert sum(one.nbytes for one in held if isinstance(one, np.ndarray)) < 3_000_000
+    assert (seen.picture[300, 300] == (200, 180, 150)).all()
 
 
 @pytest.mark.parametrize(

@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+import time
+
+import cv2
 import numpy as np
 import pytest
 from room_photo import RoomScene, Tiled, pixel_of, room_photo
 
 from veduta.geometry import homography
+from veduta.plan.photos.lattice import find_lattices
 from veduta.plan.photos.plane import plane_of
-from veduta.plan.photos.rectangles import find_rectangles
+from veduta.plan.photos.rectangles import Rectangles, find_rectangles
 from veduta.plan.photos.texture import evenly_lit
 from veduta.plan.photos.tiles import Looked, TilesSeen, find_tiles
 
@@ -124,6 +128,30 @@ def test_floor_and_wall_are_told_apart_in_one_photo() -> None:
 def test_a_room_without_tiles_has_none() -> None:
     found = look(RoomScene())
     assert found.tiles == ()
+
+
+def test_five_thousand_tiles_are_found_in_a_moment() -> None:
+    """Each has its neighbours looked at, not all others: that took a minute."""
+    count = 70
+    at = np.stack(np.meshgrid(np.arange(count), np.arange(count)), axis=-1).reshape(-1, 1, 2)
+    tile = np.array([[0.05, 0.05], [0.95, 0.05], [0.95, 0.95], [0.05, 0.95]])
+    flat = (at + tile) * 2.0 / count - 1.0
+    matrix = np.array([[600.0, 0.0, 700.0], [0.0, 600.0, 700.0], [0.0, 0.2, 1.0]])
+    seen = homography.apply(matrix, flat.reshape(-1, 2)).reshape(-1, 4, 2)
+    seen += np.random.default_rng(0).normal(0.0, 0.05, seen.shape)
+    areas = np.array([cv2.contourArea(one.astype(np.float32)) for one in seen])
+    begun = time.process_time()
+    (found,) = find_lattices(Rectangles(seen, areas))
+    assert time.process_time() - begun < 10.0
+    assert len(found) == count**2
+    # Whichever corner and cell it began with, tile (0, 0) of one is a whole tile of the other.
+    side = 2.0 / count
+    ours = homography.apply(
+        homography.inverse(matrix) @ found.photo_from_tiles, (found.cells + 0.5).astype(float)
+    )
+    cells = (ours + 1.0) / side - 0.5
+    assert np.abs(cells - cells.round()).max() < 0.05
+    assert len(np.unique(cells.round(), axis=0)) == count**2
 
 
 def test_a_row_of_doors_is_no_tiling() -> None:

@@ -21,8 +21,15 @@ _TILE_ROUGHNESS = 0.4
 def room_looks(document: PlanDocument, pictures: TilePictures) -> dict[str, Look]:
     """Of each paint and each tiling, by name; a picture that is missing leaves the usual look."""
     found: dict[str, Look] = {}
-    textures = {name: _texture(pixels) for name, pixels in pictures.items()}
-    for room in rooms_of(document):
+    rooms = rooms_of(document)
+    photographed = {
+        tiling.picture for room in rooms for tiling in room.tilings if tiling.origin == "measured"
+    }
+    textures = {
+        name: _texture(pixels, invented=name not in photographed)
+        for name, pixels in pictures.items()
+    }
+    for room in rooms:
         if room.wall_colour is not None:
             found[paint_name(room.wall_colour)] = _paint(room.wall_colour)
         for tiling in room.tilings:
@@ -42,5 +49,6 @@ def _tiles(tiling: Tiling, texture: Texture | None) -> Look:
     return Look((1.0, 1.0, 1.0), roughness=_TILE_ROUGHNESS, picture=texture, picture_m=covers)
 
 
-def _texture(pixels: NDArray[np.uint8]) -> Texture:
-    return Texture(pixels, np.zeros(pixels.shape[:2], dtype=np.bool_))
+def _texture(pixels: NDArray[np.uint8], *, invented: bool) -> Texture:
+    """Nobody knows whether a picture that somebody wrote is of a photo: then it counts as none."""
+    return Texture(pixels, np.full(pixels.shape[:2], invented, dtype=np.bool_))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
@@ -22,7 +22,10 @@ from veduta.run.digests import file_digest
 
 @dataclass(frozen=True)
 class Finished:
-    """The document with the finishes; pictures of tiles by name; what was seen in each photo."""
+    """The document with the finishes; what was seen in each photo.
+
+    pictures: of tiles, by name; also those that only the document in OUT names, where it stays.
+    """
 
     document: PlanDocument
     pictures: dict[str, NDArray[np.uint8]]
@@ -32,15 +35,21 @@ class Finished:
 
 def load_pictures(folder: Path, document: PlanDocument) -> Finished:
     """The pictures of tiles beside a document; what is missing is told."""
-    pictures: dict[str, NDArray[np.uint8]] = {}
-    notes = []
-    for name in picture_names(document):
-        path = folder / name
-        if path.is_file():
-            pictures[name] = read_image(path).pixels
-        else:
-            notes.append(f"{name} is missing: its tiles have the usual look")
-    return Finished(document, pictures, (), tuple(notes))
+    pictures = {
+        name: read_image(folder / name).pixels
+        for name in picture_names(document)
+        if (folder / name).is_file()
+    }
+    return Finished(document, pictures, (), tuple(_missing(document, pictures)))
+
+
+def _missing(document: PlanDocument, pictures: Collection[str]) -> list[str]:
+    """A note for each picture that a document names and that is not there."""
+    return [
+        f"{name} is missing: its tiles have the usual look"
+        for name in picture_names(document)
+        if name not in pictures
+    ]
 
 
 def picture_names(document: PlanDocument) -> list[str]:
@@ -58,8 +67,10 @@ def picture_digests(folder: Path, document: PlanDocument) -> list[str]:
     return [file_digest(path) if path.is_file() else "" for path in paths]
 
 
-def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
+def with_photos(before: Finished, photos: Sequence[RoomPhoto], *, stays: bool = False) -> Finished:
     """The finishes of rooms by their photos, in the place of what the document says of them.
+
+    stays: the document of `before` is kept as it is, and so are the pictures that it names.
 
     Of several photos of a room, the colour is of the one in which most pixels have it, the tiles
     of a surface of the one that shows most of them.
@@ -72,10 +83,11 @@ def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
         by_place.setdefault(place, []).append(look_at(photo, room))
     pictures = dict(before.pictures)
     rooms = [list(storey.rooms) for storey in document.storeys]
-    notes = list(before.notes)
+    notes: list[str] = []
+    kept = set(picture_names(document)) if stays else set[str]()
     for place, looks in by_place.items():
         room = rooms[place.storey][place.room]
-        room, said = _finished(room, looks, pictures, Counter(_pictures(rooms)))
+        room, said = _finished(room, looks, pictures, Counter(_pictures(rooms)), kept)
         rooms[place.storey][place.room] = room
         notes += [note for look in looks for note in look.notes]
         notes += [f"{document.storeys[place.storey].name} {room.id}: {note}" for note in said]
@@ -84,10 +96,10 @@ def with_photos(before: Finished, photos: Sequence[RoomPhoto]) -> Finished:
         for storey, own in zip(document.storeys, rooms, strict=True)
     ]
     document = document.model_copy(update={"storeys": storeys})
-    used = set(picture_names(document))
-    kept = {name: pixels for name, pixels in pictures.items() if name in used}
+    used = kept.union(picture_names(document))
+    pictures = {name: pixels for name, pixels in pictures.items() if name in used}
     seen = tuple(look for looks in by_place.values() for look in looks)
-    return Finished(document, kept, seen, tuple(notes))
+    return Finished(document, pictures, seen, (*_missing(document, pictures), *notes))
 
 
 def _finished(
@@ -95,10 +107,11 @@ def _finished(
     looks: Sequence[Look],
     pictures: dict[str, NDArray[np.uint8]],
     uses: Counter[str],
+    kept: Collection[str],
 ) -> tuple[Room, list[str]]:
     """The room with what its photos show; new pictures are added, or take the place of its own.
 
-    uses: how many tilings have each picture.
+    uses: how many tilings have each picture. kept: pictures that are not replaced.
     """
     notes: list[str] = []
     tilings = {tiling.surface: tiling for tiling in room.tilings}
@@ -109,12 +122,12 @@ def _finished(
             continue
         look, tiles = max(seen, key=lambda one: len(one[1].lattice))
         known = tilings.get(surface)
-        own = known is not None and uses[known.picture] == 1
-        name = known.picture if known is not None and own else _free_name(pictures)
+        own = known is not None and _is_replaced(known, tiles, pictures, uses, kept)
+        name = known.picture if known and own else _free_name({*pictures, *uses, *kept})
         pictures[name] = tiles.texture
-        laid = surface == "floor" or room.use in TILED
+        laid = surface == "floor" or room.use in TILED if known is None else known.laid
         tilings[surface] = _tiling(look, tiles, name, laid=laid)
-        if not laid:
+        if surface == "wall" and not laid:
             notes.append(
                 f"tiles on a wall of a {room.use} are taken for a part of it: the walls are not"
                 " tiled (`laid` in plan.json)"
@@ -126,8 +139,23 @@ def _finished(
         colour = _wall_colour(best)
         if room.outdoors:
             notes.append("it is outdoors: its walls keep the look of the facade")
+        elif "wall" in tilings and tilings["wall"].laid:
+            notes.append("its walls are tiled all over: their colour is told, and no wall has it")
     update = {"wall_colour": colour, "tilings": list(tilings.values())}
     return room.model_copy(update=update), notes
+
+
+def _is_replaced(
+    known: Tiling,
+    tiles: TilesSeen,
+    pictures: dict[str, NDArray[np.uint8]],
+    uses: Counter[str],
+    kept: Collection[str],
+) -> bool:
+    """Whether a tiling's picture may give way to that of a photo: it is its own, or the same."""
+    if np.array_equal(pictures.get(known.picture, ()), tiles.texture):
+        return True
+    return uses[known.picture] == 1 and known.picture not in kept
 
 
 def _wall_colour(look: Look) -> WallColour | None:
@@ -159,8 +187,8 @@ def _file(look: Look) -> PhotoFile:
     return PhotoFile(file=look.photo.path.name, sha256=look.photo.sha256)
 
 
-def _free_name(pictures: dict[str, NDArray[np.uint8]]) -> str:
+def _free_name(taken: Collection[str]) -> str:
     number = 1
-    while f"tiles-{number}.png" in pictures:
+    while f"tiles-{number}.png" in taken:
         number += 1
     return f"tiles-{number}.png"

@@ -12,6 +12,7 @@ from typing import Literal
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta.geometry import homography
 from veduta.geometry.homography import Matrix
@@ -36,6 +37,15 @@ _FAR = 1e6
 _STRAY = 2.5
 _NO_STRAY = 0.05
 """A corner that is further off than so many medians, and than this (in tiles), is a stray."""
+_MOST_FITTED = 400
+"""A lattice that grows is fitted to so many of its tiles; the one that has grown, to all."""
+_REACH = 2.5
+"""A neighbour's middle is no further off than so many diagonals of a rectangle."""
+_BESIDE = np.array([(x, y) for x in (-2, 2) for y in (-1, 0, 1)])
+"""From a tile to those at its left and right, in halves of a tile; a bond shifts them."""
+_AROUND = np.array([(x, y) for x in (-1, 0, 1) for y in (-1, 0, 1)])
+_HERE = np.zeros((1, 2), dtype=np.int64)
+_SPAN = 1 << 24
 _UNIT = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
 
 
@@ -65,10 +75,9 @@ class Lattice:
 
         A row of railings or doors is no tiling, nor with a stray rectangle above it.
         """
-        at = 2.0 * origins(self.cells, self.bond)
-        apart = np.abs(at[:, None] - at)
-        beside = ((apart[..., 0] == 2.0) & (apart[..., 1] <= 1.0)).any(axis=1)
-        above = ((apart[..., 1] == 2.0) & (apart[..., 0] <= 1.0)).any(axis=1)
+        halves = (2.0 * origins(self.cells, self.bond)).astype(np.int64)
+        beside = _has_any(halves, halves, _BESIDE)
+        above = _has_any(halves, halves, _BESIDE[:, ::-1])
         return int((beside & above).sum()) >= LEAST_TILES and self.residual <= LARGEST_RESIDUAL
 
 
@@ -88,14 +97,15 @@ def find_lattices(rectangles: Rectangles) -> list[Lattice]:
     tried = np.zeros(len(rectangles), dtype=np.bool_)
     found: list[Lattice] = []
     order = np.argsort(-rectangles.area_px, kind="stable")
+    around = _Around(rectangles)
     for _ in range(_SEEDS):
-        seeds = [int(seed) for seed in order if left[seed] and not tried[seed]]
+        seeds = order[left[order] & ~tried[order]]
         if len(seeds) < LEAST_TILES:
             break
-        seed = seeds[len(seeds) // 2]  # neither a wall nor a crumb
+        seed = int(seeds[len(seeds) // 2])  # neither a wall nor a crumb
         tried[seed] = True
         for bond in BONDS:
-            lattice, used = _grown(rectangles, left, seed, bond)
+            lattice, used = _grown(around, left, seed, bond)
             tried[used] = True
             if lattice is not None and lattice.is_tiling:
                 left[used] = False
@@ -104,25 +114,44 @@ def find_lattices(rectangles: Rectangles) -> list[Lattice]:
     return sorted(found, key=len, reverse=True)
 
 
+class _Around:
+    """Rectangles, and which of them lie near others."""
+
+    def __init__(self, rectangles: Rectangles) -> None:
+        self.corners_px = rectangles.corners_px
+        self._middles = rectangles.middles_px
+        self._tree = cKDTree(self._middles)
+
+    def near(self, rows: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The numbers of all that may be neighbours of some, and their own, in order."""
+        corners = self.corners_px[rows]
+        across = np.linalg.norm(corners[:, :2] - corners[:, 2:], axis=2).max(axis=1)
+        found = self._tree.query_ball_point(self._middles[rows], _REACH * across)
+        return np.unique(np.concatenate([np.asarray(one, dtype=np.int64) for one in found]))
+
+
 def _grown(
-    rectangles: Rectangles, free: NDArray[np.bool_], seed: int, bond: Bond
+    around: _Around, free: NDArray[np.bool_], seed: int, bond: Bond
 ) -> tuple[Lattice | None, NDArray[np.int64]]:
     """The lattice that one rectangle belongs to, and the numbers of its rectangles."""
     used = np.array([seed])
-    first = rectangles.corners_px[used]
+    first = around.corners_px[used]
+    near = around.near(used)
     lattice = _fitted(first, np.zeros((1, 2), dtype=np.int64), bond, np.zeros(2))
     if lattice is None:
         return None, used
     for _ in range(_ROUNDS):
-        new = _neighbours(rectangles, free, used, lattice)
+        near = np.setdiff1d(near[free[near]], used)
+        new = _neighbours(around.corners_px[near], near, lattice)
         if not len(new.rows):
             break
         corners = np.concatenate([lattice.corners_px, new.corners_px])
         cells = np.concatenate([lattice.cells, new.cells])
-        wider = _fitted(corners, cells, bond, lattice.joint)
+        wider = _fitted(corners, cells, bond, lattice.joint, _MOST_FITTED)
         if wider is None or wider.residual > LARGEST_RESIDUAL:
             break
         used, lattice = np.concatenate([used, new.rows]), wider
+        near = np.union1d(near, around.near(new.rows))
     return _settled(lattice, used)
 
 
@@ -167,35 +196,41 @@ class _Neighbours:
 
 
 def _neighbours(
-    rectangles: Rectangles, free: NDArray[np.bool_], used: NDArray[np.int64], lattice: Lattice
+    corners_px: NDArray[np.float64], numbers: NDArray[np.int64], lattice: Lattice
 ) -> _Neighbours:
-    """Rectangles that lie beside those of the lattice."""
+    """Those of some rectangles, by their corners and numbers, that lie beside the lattice's."""
     tiles_from_photo = homography.inverse(lattice.photo_from_tiles)
-    corners = homography.apply(tiles_from_photo, rectangles.corners_px.reshape(-1, 2))
+    corners = homography.apply(tiles_from_photo, corners_px.reshape(-1, 2))
     corners = np.nan_to_num(corners.reshape(-1, 4, 2), nan=_FAR, posinf=_FAR, neginf=-_FAR)
     corners = corners.clip(-_FAR, _FAR)
     cells = _cells_of(corners.mean(axis=1), lattice.bond)
     expected = origins(cells, lattice.bond)[:, None] + _inset(lattice.joint)
     # One rectangle alone knows neither its joints nor much of the perspective.
-    loose = _LOOSE if len(used) == 1 else 0.0
+    loose = _LOOSE if len(lattice) == 1 else 0.0
     turn = _turns(corners, expected)
     off = np.abs(corners.mean(axis=1) - expected.mean(axis=1)).max(axis=1)
     corner_off = np.abs(_turned(corners, turn) - expected).max(axis=(1, 2))
-    fits = (off < _OFF + loose) & (corner_off < _CORNER_OFF + loose) & free
-    fits[used] = False
-    known = {tuple(cell) for cell in lattice.cells.tolist()}
-    rows: list[int] = []
-    for row in np.flatnonzero(fits)[np.argsort(off[fits], kind="stable")].tolist():
-        cell = tuple(cells[row].tolist())
-        if cell not in known and _is_beside(cell, lattice):
-            known.add(cell)
-            rows.append(row)
-    placed = _turned(rectangles.corners_px[rows], turn[rows])
-    return _Neighbours(np.array(rows, dtype=np.int64), cells[rows], placed)
+    fits = (off < _OFF + loose) & (corner_off < _CORNER_OFF + loose)
+    beside = _has_any(cells, lattice.cells, _AROUND) & ~_has_any(cells, lattice.cells, _HERE)
+    rows = np.flatnonzero(fits & beside)
+    rows = rows[np.argsort(off[rows], kind="stable")]
+    _, first = np.unique(_keys(cells[rows]), return_index=True)  # the one that fits a cell best
+    rows = rows[np.sort(first)]
+    return _Neighbours(numbers[rows], cells[rows], _turned(corners_px[rows], turn[rows]))
 
 
-def _is_beside(cell: tuple[int, ...], lattice: Lattice) -> bool:
-    return bool((np.abs(lattice.cells - np.array(cell)).max(axis=1) <= 1).any())
+def _has_any(
+    of: NDArray[np.int64], cells: NDArray[np.int64], ways: NDArray[np.int64]
+) -> NDArray[np.bool_]:
+    """(n,) whether any of (m, 2) cells lies one of (k, 2) ways from each of (n, 2)."""
+    there = np.isin(_keys(of[:, None] + ways), _keys(cells))
+    return np.asarray(there.any(axis=1), dtype=np.bool_)
+
+
+def _keys(cells: NDArray[np.int64]) -> NDArray[np.int64]:
+    """(...) a number of its own for each (..., 2) cell that is less than `_FAR` from the first."""
+    keys: NDArray[np.int64] = cells[..., 0] * _SPAN + cells[..., 1]
+    return keys
 
 
 def _cells_of(middles: NDArray[np.float64], bond: Bond) -> NDArray[np.int64]:
@@ -232,16 +267,21 @@ def _fitted(
     cells: NDArray[np.int64],
     bond: Bond,
     joint: NDArray[np.float64],
+    most: int | None = None,
 ) -> Lattice | None:
     """The homography of rectangles in cells, with the joints that fit; None if none does.
 
+    most: how many of them are fitted, from the first to the last evenly; all are measured.
     Joints along a direction are known from the second row on: till then they stay as they are.
     """
     start = origins(cells, bond)
     several = len(cells) > 1
+    step = 1 if most is None else -(-len(cells) // most)
     for _ in range(_FITS if several else 1):
         model = start[:, None] + _inset(joint)
-        found, _ = cv2.findHomography(model.reshape(-1, 2), corners_px.reshape(-1, 2))
+        found, _ = cv2.findHomography(
+            model[::step].reshape(-1, 2), corners_px[::step].reshape(-1, 2)
+        )
         if found is None or abs(np.linalg.det(found)) < _DEGENERATE:
             return None
         matrix = np.asarray(found, dtype=np.float64)

@@ -8,13 +8,12 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.geometry import homography
 from veduta.imaging.read import read_image
 from veduta.plan.document import Room
 from veduta.plan.house.looks import TILED
 from veduta.plan.photos.dbce import Densest, densest_colour
 from veduta.plan.photos.given import RoomPhoto
-from veduta.plan.photos.lattice import origins
+from veduta.plan.photos.picture import look_picture
 from veduta.plan.photos.rectangles import Pixels
 from veduta.plan.photos.tiles import Surface, TilesSeen, find_tiles
 
@@ -28,11 +27,11 @@ FEW = 0.01
 class Look:
     """colour: of the walls, None where they are tiled. tiles: one of a surface at most.
 
-    notes: what is doubtful, or was not found.
+    picture: the photo, made smaller, beside both. notes: what is doubtful, or was not found.
     """
 
     photo: RoomPhoto
-    pixels: Pixels
+    picture: Pixels
     colour: Densest | None
     tiles: tuple[TilesSeen, ...]
     notes: tuple[str, ...]
@@ -72,20 +71,14 @@ def look_at(photo: RoomPhoto, room: Room) -> Look:
                 f"{photo.path.name}: the colour of the walls is doubtful: only"
                 f" {100 * colour.share:.1f} % of the pixels have about it"
             )
-    return Look(photo, pixels, colour, found.tiles, tuple(notes))
-
-
-def tile_rings(tiles: TilesSeen) -> NDArray[np.float64]:
-    """(n, 4, 2) the outline of each tile with half of its joints, in the photo."""
-    lattice = tiles.lattice
-    square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
-    rings = origins(lattice.cells, lattice.bond)[:, None] + square
-    return homography.apply(lattice.photo_from_tiles, rings.reshape(-1, 2)).reshape(-1, 4, 2)
+    # Not the photo itself: those of all rooms would lie in memory till the report is written.
+    picture = look_picture(pixels, colour, found.tiles)
+    return Look(photo, picture, colour, found.tiles, tuple(notes))
 
 
 def _covered(tiles: tuple[TilesSeen, ...], shape: tuple[int, ...]) -> NDArray[np.bool_]:
     """(h, w) what tiles cover of the photo."""
     canvas = np.zeros(shape[:2], dtype=np.uint8)
     for one in tiles:
-        cv2.fillPoly(canvas, list(tile_rings(one).round().astype(np.int32)), 1)
+        cv2.fillPoly(canvas, list(one.rings_px.round().astype(np.int32)), 1)
     return canvas.astype(np.bool_)

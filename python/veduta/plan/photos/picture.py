@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -9,7 +11,6 @@ from PIL import Image, ImageDraw, ImageFont
 
 from veduta.geometry import homography
 from veduta.plan.photos.dbce import Densest, in_ball
-from veduta.plan.photos.look import Look, tile_rings
 from veduta.plan.photos.rectangles import Pixels
 from veduta.plan.photos.tiles import TilesSeen
 
@@ -24,14 +25,17 @@ _BLOCK = (255, 205, 0)
 _REPEATS = 2
 
 
-def look_picture(look: Look) -> Pixels:
-    """(h, w, 3) sRGB: the photo with the tiles outlined, at its right what was taken of it."""
-    height, width = look.pixels.shape[:2]
+def look_picture(pixels: Pixels, colour: Densest | None, seen: Sequence[TilesSeen]) -> Pixels:
+    """(h, w, 3) sRGB: the photo with the tiles outlined, at its right what was taken of it.
+
+    pixels: of the whole photo.
+    """
+    height, width = pixels.shape[:2]
     scale = PHOTO_PX / max(height, width)
     size = (max(1, round(width * scale)), max(1, round(height * scale)))
-    photo = np.asarray(cv2.resize(look.pixels, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
-    column = [] if look.colour is None else _colour_panels(look.pixels, look.colour)
-    for tiles in look.tiles:
+    photo = np.asarray(cv2.resize(pixels, size, interpolation=cv2.INTER_AREA), dtype=np.uint8)
+    column = [] if colour is None else _colour_panels(pixels, colour)
+    for tiles in seen:
         column += [_texture_panel(tiles)]
         _outline(photo, tiles, homography.scaling(size[0] / width, size[1] / height))
     if not column:
@@ -78,7 +82,7 @@ def _titled(panel: Pixels, title: str) -> Pixels:
 
 def _outline(photo: Pixels, tiles: TilesSeen, scale: NDArray[np.float64]) -> None:
     """All tiles that were found, and the block of which the texture is."""
-    for ring in tile_rings(tiles):
+    for ring in tiles.rings_px:
         _line(photo, homography.apply(scale, ring), _TILE, 1)
     _line(photo, homography.apply(scale, tiles.corners_px), _BLOCK, 3)
 

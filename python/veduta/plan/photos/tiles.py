@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.geometry import homography
-from veduta.plan.photos.lattice import Lattice, find_lattices
+from veduta.plan.photos.lattice import Lattice, find_lattices, origins
 from veduta.plan.photos.plane import Plane, Size, likely_size, plane_of
 from veduta.plan.photos.rectangles import Pixels, find_rectangles
 from veduta.plan.photos.texture import Block, best_block, block_texture
@@ -40,6 +40,14 @@ class TilesSeen:
     def corners_px(self) -> NDArray[np.float64]:
         """(4, 2) the block in the photo, clockwise from its upper left."""
         return homography.apply(self.lattice.photo_from_tiles, self.block.corners)
+
+    @property
+    def rings_px(self) -> NDArray[np.float64]:
+        """(n, 4, 2) the outline of each tile with half of its joints, in the photo."""
+        square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
+        rings = origins(self.lattice.cells, self.lattice.bond)[:, None] + square
+        matrix = self.lattice.photo_from_tiles
+        return homography.apply(matrix, rings.reshape(-1, 2)).reshape(-1, 4, 2)
 
 
 @dataclass(frozen=True)
