@@ -15,6 +15,7 @@ from veduta.formats.gltf import read_glb, write_glb
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance
 from veduta.plan.house.space import space_of
+from veduta.plan.surroundings import panorama
 from veduta.plan.surroundings.backdrop import EYE_M, backdrop_part, build_backdrop
 from veduta.plan.surroundings.panorama import FILES, Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.sky_picture import LOWEST_DEG, SkyPicture, sky_picture
@@ -159,6 +160,26 @@ def test_pictures_are_kept_as_they_are_read_again(tmp_path: Path) -> None:
     again = kept_pictures("round", tmp_path)
     assert again.digest == pictures.digest
     assert (again.pixels[0] == pictures.pixels[0]).all()
+
+
+@pytest.mark.parametrize(("size", "most"), [((266, 140), 256), ((1040, 65), 1030)])
+def test_what_is_accepted_is_accepted_at_a_rebuild(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: tuple[int, int], most: int
+) -> None:
+    """Made smaller, they are 256 x 135 and 1030 x 64 px: too high and too flat by less than one."""
+    monkeypatch.setitem(panorama.MOST_PX, "round", most)
+    given = tmp_path / "mine.jpg"
+    Image.new("RGB", size, (90, 120, 150)).save(given)
+    pictures = given_pictures(str(given))
+    (tmp_path / FILES["round"][0]).write_bytes(pictures.contents[0])
+    assert kept_pictures("round", tmp_path).digest == pictures.digest
+
+
+def test_a_picture_that_is_too_small_once_it_is_kept_is_refused(tmp_path: Path) -> None:
+    strip = tmp_path / "strip.png"
+    Image.new("RGB", (5000, 150)).save(strip)
+    with pytest.raises(InputError, match=r"is 5000 x 150 px, and 2048 x 61 px .* too small"):
+        given_pictures(",".join(f"{name}={strip}" for name in "NESW"))
 
 
 def test_four_pictures_in_any_order_and_with_commas_in_their_names(tmp_path: Path) -> None:

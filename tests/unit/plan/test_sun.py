@@ -88,6 +88,8 @@ def test_a_clock_without_an_offset_is_the_longitudes() -> None:
         ("2026-02-30T12:00", "is no date with a time"),
         ("2026-06-21", "has no time of day"),
         ("1850-06-21T12:00", "is not in the years"),
+        ("2026-06-21T12:00+02:00:30", "no whole number of minutes"),
+        ("1912-06-21T12:00-07:52:58", "no whole number of minutes"),
     ],
 )
 def test_faulty_times_are_told(text: str, fault: str) -> None:
