@@ -23,6 +23,7 @@ from veduta.plan.surroundings.terrain import terrain_of
 from veduta.run.errors import InputError
 
 TERRAIN = terrain_of(space_of(sample_storey(), 2.55), 6.0)
+TERRAIN_LEVEL = terrain_of(space_of(sample_storey(), 2.55), 0.0)
 
 
 def colour_of(way: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -139,6 +140,36 @@ def test_backdrop_is_seen_from_inside_and_joins_the_garden() -> None:
     inside = (at[:, 0] > left + 0.01) & (at[:, 0] < right - 0.01)
     inside &= (at[:, 1] > bottom + 0.01) & (at[:, 1] < top - 0.01) & (at[:, 2] < 50.0)
     assert not inside.any()
+
+
+@pytest.mark.parametrize("turn_deg", [0.0, 37.0])
+def test_without_a_garden_its_ground_goes_on_up_to_the_house(turn_deg: float) -> None:
+    sky = sky_of(spherical(512))
+    part = build_backdrop(sky, TERRAIN_LEVEL, turn_deg, garden=False)
+    triangles = part.triangles
+    corners = part.positions_m[triangles.indices].astype(float)
+    left, bottom, right, top = TERRAIN_LEVEL.plot.bounds
+    middle = np.array([(left + right) / 2.0, (bottom + top) / 2.0])
+    centre = corners.mean(axis=1)
+    within = (centre[:, 0] > left) & (centre[:, 0] < right)
+    within &= (centre[:, 1] > bottom) & (centre[:, 1] < top) & (centre[:, 2] < EYE_M)
+    assert np.abs(corners[within][:, :, 2]).max() == 0.0
+    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[within]
+    assert (sides[:, 2] > 0.0).all()
+    free_m2 = sum(area.area for _, area in TERRAIN_LEVEL.areas)
+    assert sides[:, 2].sum() / 2.0 == pytest.approx(free_m2, rel=1e-3)
+    # Each corner shows the direction in which it lies, down to the picture's end.
+    at, uv = corners[within].reshape(-1, 3), part.uv[triangles.indices[within]].reshape(-1, 2)
+    off = at[:, :2] - middle
+    reach = np.hypot(*off.T)
+    bearing = np.degrees(np.arctan2(*off.T)) - turn_deg
+    elevation = np.maximum(-np.degrees(np.arctan2(EYE_M, reach)), LOWEST_DEG + 0.5)
+    wanted = sky.uv(bearing, elevation)
+    assert np.abs(uv[:, 1] - wanted[:, 1]).max() < 1e-4
+    aside = (uv[:, 0] - wanted[:, 0] + 0.5) % 1.0 - 0.5
+    assert np.abs(aside[reach > 0.5]).max() < 1e-3
+    # No triangle runs around the picture.
+    assert np.ptp(part.uv[triangles.indices[within]][:, :, 0], axis=1).max() < 0.02
 
 
 def test_glb_is_unlit_and_read_back(tmp_path: Path) -> None:
