@@ -197,7 +197,7 @@ def _triangles(shape: BaseGeometry) -> list[Floats]:
         np.array(orient(one).exterior.coords)[:3]
         for piece in pieces_of(shape)
         for one in shapely.constrained_delaunay_triangles(piece).geoms
-        if one.area > _LEAST_M2
+        if isinstance(one, Polygon) and one.area > _LEAST_M2
     ]
 
 
