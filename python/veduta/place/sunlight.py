@@ -13,7 +13,7 @@ class Sunlight:
     """Light from far away.
 
     toward: unit vector to the sun, in the part's frame. colour: sRGB. strength: 1 is a clear day's
-    sun high in the sky, as an eye or a camera that has adapted to it sees it; above 0.
+    sun high in the sky, as an eye or a camera that has adapted to it sees it; 0 or more.
     """
 
     toward: Vector

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterable, Mapping
+from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
@@ -34,6 +35,8 @@ LARGEST_M = 500.0
 _SHORTEST_M = 0.01
 _LEAST_FLIGHT_M2 = 0.05
 _LEAST_STEP_M2 = 0.01
+_SAME_POINT_M = 5e-4
+"""Points that are nearer to each other give a line no direction."""
 _UNIT_SLACK = 0.01
 _BEYOND_M = 0.02
 _REMEDY = "Mend it there; docs/plan.md says what each field means."
@@ -60,6 +63,8 @@ def _faults(document: PlanDocument) -> list[str]:
         for place, value in numbers_of(document)
         if not (math.isfinite(value) and abs(value) <= MAX_COORDINATE)
     ]
+    if document.time is not None and document.place_deg is None:
+        found.append("time: says where the sun stands only with a place_deg, which is null")
     found += _name_faults(document)
     for index, storey in enumerate(document.storeys):
         place = f"storeys[{index}]"
@@ -279,6 +284,9 @@ def _steps_faults(flight: Stairs, place: str) -> list[str]:
             return [f"{place}.steps_m[{index}]: its line crosses itself, or encloses nothing"]
     if not 2 <= len(flight.path_m) <= MAX_POINTS:
         return [f"{place}.path_m: {len(flight.path_m)} points, not between 2 and {MAX_POINTS}"]
+    for index, ends in enumerate(pairwise(flight.path_m)):
+        if math.dist(*ends) < _SAME_POINT_M:
+            return [f"{place}.path_m: points {index + 1} and {index + 2} lie on each other"]
     return walk_faults(flight, place)
 
 

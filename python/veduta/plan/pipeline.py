@@ -22,6 +22,7 @@ from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
 from veduta.plan.idle_options import idle_notes
 from veduta.plan.kept_document import LEFT, UNWRITTEN, keep_panorama, says_site, sited
+from veduta.plan.lights.furnished import relit
 from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
 from veduta.plan.options import HouseOptions, PlanOptions
@@ -295,13 +296,15 @@ def _furnish(
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> PlanDocument:
-    """The document with furniture in each storey that has none yet."""
+    """The document with furniture in each storey that has none yet, and the lamps among it."""
     progress("furnish", 0.0)
     with timed_step(steps, "furnish") as step:
         done, rooms = furnish(
             document, catalogue, options.seed, options.slab, varied=options.varied_furniture
         )
+        done, lit_anew = relit(document, done, catalogue)
         step.counts |= {"rooms": len(rooms), "things": sum(len(room.stood) for room in rooms)}
+        step.rejected.extend(lit_anew)
         step.rejected.extend(
             f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
             for room in rooms

@@ -149,6 +149,9 @@ def _backdrop(result: Result, options: HouseOptions) -> Part | None:
     """The panorama around the garden, by the light of the sun; None without pictures."""
     if result.panorama is None:
         return None
-    terrain = terrain_of(result.house.spaces[result.house.ground], options.ground_slope)
+    garden = options.surroundings != "none"
+    slope_deg = options.ground_slope if garden else 0.0
+    terrain = terrain_of(result.house.spaces[result.house.ground], slope_deg)
     shown = daylight_of(result.site.sun).shown
-    return build_backdrop(sky_picture(result.panorama), terrain, result.site.turn_deg, shown)
+    sky = sky_picture(result.panorama)
+    return build_backdrop(sky, terrain, result.site.turn_deg, shown, garden=garden)

@@ -25,9 +25,20 @@ export interface SunPath {
   readonly words: string;
 }
 
+/** The sun or the moon. */
+export interface Shine {
+  /** Unit vector. */
+  readonly to: Vec3;
+  readonly isMoon: boolean;
+  /** From 0 (as good as none) to 1. */
+  readonly share: number;
+}
+
 export interface Daylight {
-  /** Unit vector to the sun, or to the moon where the sun is down. */
-  readonly toLight: Vec3;
+  /** What throws light and shadows: the moon where the sun is down, and neither on the horizon. */
+  readonly light: Shine;
+  /** Around what the sky glows: the sun's glow outlasts it. */
+  readonly glow: Shine;
   /** From 0 (night) to 1 (day). */
   readonly day: number;
   /** How red the light is: 1 where the sun stands on the horizon. */
@@ -38,6 +49,10 @@ export interface Daylight {
 const DAY_SINE = 0.3;
 const NIGHT_SINE = -0.12;
 const DUSK_SINE = 0.22;
+/** Below this the sun's own light fades. */
+const FADE_SINE = 0.03;
+/** Here the sky has no glow: that of the sun is gone, and the moon's begins. */
+const GLOWLESS_SINE = NIGHT_SINE / 2;
 /** Where the moon stands by night: high, and from the side from which facades are seen. */
 const TO_MOON: Vec3 = [0.45, -0.55, 0.7];
 
@@ -46,8 +61,12 @@ export function daylightAt(hour: number, path: SunPath = USUAL_PATH): Daylight {
   const height = toSun[2];
   const share = (height - NIGHT_SINE) / (DAY_SINE - NIGHT_SINE);
   const day = Math.min(1, Math.max(0, share));
+  const shine = (isMoon: boolean, share: number): Shine => {
+    return { to: isMoon ? scale(TO_MOON, 1 / length(TO_MOON)) : toSun, isMoon, share: Math.min(1, share) };
+  };
   return {
-    toLight: height > 0 ? toSun : scale(TO_MOON, 1 / length(TO_MOON)),
+    light: height > 0 ? shine(false, height / FADE_SINE) : shine(true, height / NIGHT_SINE),
+    glow: shine(height < GLOWLESS_SINE, Math.abs(height / GLOWLESS_SINE - 1)),
     day: day * day * (3 - 2 * day),
     dusk: Math.max(0, 1 - Math.abs(height) / DUSK_SINE),
   };
@@ -101,7 +120,7 @@ export function sunPathOf(sun: Place["sun"]): SunPath {
   return {
     sunAt: at,
     firstHour: hour,
-    dayHour: given ? hour : highest,
+    dayHour: given && hour !== lowest ? hour : highest,
     nightHour: lowest,
     words: `The sun of ${day} at ${degrees(latitude_deg, "N", "S")} ${degrees(longitude_deg, "E", "W")}, ${zone}${north}`,
   };

@@ -15,8 +15,10 @@ const LIGHTS_WORDS: Readonly<Record<LightHabit, string>> = {
 
 export function changeBy(command: HouseCommand, state: StudioState, path: SunPath = USUAL_PATH): { change: Change; words: string } {
   if (command === "daylight") {
-    const hour = daylightAt(state.hour, path).day > 0.5 ? path.nightHour : path.dayHour;
-    return { change: { hour }, words: `${hourText(hour)}, ${hour === path.nightHour ? "night" : "day"}` };
+    const isDay = (hour: number): boolean => daylightAt(hour, path).day > 0.5;
+    // Under a midnight sun the night's hour is by day, and in a polar night the day's by night.
+    const hour = state.hour === path.nightHour || (state.hour !== path.dayHour && !isDay(state.hour)) ? path.dayHour : path.nightHour;
+    return { change: { hour }, words: `${hourText(hour)}, ${isDay(hour) ? "day" : "night"}` };
   }
   if (command === "lights") {
     const lights = NEXT_LIGHTS[state.lights];

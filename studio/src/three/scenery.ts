@@ -55,9 +55,9 @@ export function makeScenery(
 ): Scenery {
   const height_m = lowest_m === null ? GROUND_HEIGHT_M : Math.min(0, lowest_m) + UNDER_GROUND_M;
   const group = new Group();
-  const { toLight } = daylightAt(DAY_HOUR);
-  const toSun = new Vector3(...drawnFromWorld(toLight));
-  const sky = makeSky(toSun);
+  const toSun = new Vector3(...drawnFromWorld(daylightAt(DAY_HOUR).light.to));
+  const toGlow = toSun.clone();
+  const sky = makeSky(toGlow);
   const sun = makeSun();
   let shaded = sphereOf(bounds);
   aimSun(sun, toSun, shaded.centre, shaded.radius);
@@ -69,7 +69,8 @@ export function makeScenery(
   group.add(sky, ground, shade, skyLight, sun, sun.target);
   const light = (daylight: Daylight): Color => {
     const look = skyLightAt(daylight);
-    toSun.set(...drawnFromWorld(daylight.toLight));
+    toSun.set(...drawnFromWorld(daylight.light.to));
+    toGlow.set(...drawnFromWorld(daylight.glow.to));
     sun.color.copy(look.sun);
     sun.intensity = look.sunStrength;
     skyLight.color.copy(look.above);
@@ -79,6 +80,7 @@ export function makeScenery(
     shade.material.opacity = SHADE * look.shade;
     (sky.material.uniforms.zenith as IUniform<Color>).value.copy(look.zenith);
     (sky.material.uniforms.glow as IUniform<Color>).value.copy(look.glow);
+    (sky.material.uniforms.glowStrength as IUniform<number>).value = look.glowStrength;
     (ground.material.uniforms.light as IUniform<Color>).value.copy(look.ground);
     aimSun(sun, toSun, shaded.centre, shaded.radius);
     return look.picture;
@@ -97,7 +99,7 @@ export function makeScenery(
   };
 }
 
-function makeSky(toSun: Vector3): Mesh<SphereGeometry, ShaderMaterial> {
+function makeSky(toGlow: Vector3): Mesh<SphereGeometry, ShaderMaterial> {
   const material = new ShaderMaterial({
     side: BackSide,
     depthWrite: false,
@@ -105,7 +107,8 @@ function makeSky(toSun: Vector3): Mesh<SphereGeometry, ShaderMaterial> {
       horizon: { value: HORIZON },
       zenith: { value: new Color() },
       glow: { value: new Color() },
-      toSun: { value: toSun },
+      glowStrength: { value: 1 },
+      toGlow: { value: toGlow },
     },
     vertexShader: `
       varying vec3 vDirection;
@@ -114,15 +117,16 @@ function makeSky(toSun: Vector3): Mesh<SphereGeometry, ShaderMaterial> {
         gl_Position = projectionMatrix * modelViewMatrix * vec4(position, 1.0);
       }`,
     fragmentShader: `
-      uniform vec3 horizon, zenith, glow, toSun;
+      uniform vec3 horizon, zenith, glow, toGlow;
+      uniform float glowStrength;
       varying vec3 vDirection;
       float dither(vec2 p) { return fract(sin(dot(p, vec2(12.9898, 78.233))) * 43758.5453) - 0.5; }
       void main() {
         vec3 d = normalize(vDirection);
         float height = clamp(d.y, 0.0, 1.0);
         vec3 colour = mix(horizon, zenith, pow(height, 0.62));
-        float near = max(0.0, dot(d, toSun));
-        colour = mix(colour, glow, 0.28 * pow(near, 6.0) + 0.5 * pow(near, 90.0));
+        float near = max(0.0, dot(d, toGlow));
+        colour = mix(colour, glow, glowStrength * (0.28 * pow(near, 6.0) + 0.5 * pow(near, 90.0)));
         gl_FragColor = vec4(colour, 1.0);
         #include <colorspace_fragment>
         gl_FragColor.rgb += dither(gl_FragCoord.xy) / 255.0;

@@ -11,6 +11,7 @@ export interface SkyLight {
   readonly zenith: Color;
   readonly horizon: Color;
   readonly glow: Color;
+  readonly glowStrength: number;
   /** By what the colours of the unlit ground are multiplied. */
   readonly ground: Color;
   /** By what a picture of the surroundings is multiplied, which was taken by day. */
@@ -20,7 +21,7 @@ export interface SkyLight {
 }
 
 type Strengths = "sunStrength" | "strength" | "shade";
-type Colours = Exclude<keyof SkyLight, Strengths>;
+type Colours = Exclude<keyof SkyLight, Strengths | "glowStrength">;
 type Look = Readonly<Record<Colours, string> & Record<Strengths, number>>;
 
 /** Calm daylight that leaves the photos' colours as they are. */
@@ -39,23 +40,25 @@ const NIGHT: Look = {
   zenith: "#101a2e", horizon: "#2c3a52", glow: "#3f547c", ground: "#566279", picture: "#384257", shade: 0.7,
 };
 
-export function skyLightAt({ day, dusk }: Daylight): SkyLight {
+export function skyLightAt({ day, dusk, light, glow }: Daylight): SkyLight {
   const colour = (name: Colours): Color =>
     new Color(NIGHT[name]).lerp(new Color(DAY[name]), day).lerp(new Color(DUSK[name]), DUSK_SHARE * dusk);
   const strength = (name: Strengths): number =>
     MathUtils.lerp(MathUtils.lerp(NIGHT[name], DAY[name], day), DUSK[name], DUSK_SHARE * dusk);
   return {
-    sun: colour("sun"),
-    sunStrength: strength("sunStrength"),
+    // The moon has its own colour and strength, however red the sky still is.
+    sun: light.isMoon ? new Color(NIGHT.sun) : colour("sun"),
+    sunStrength: light.share * (light.isMoon ? NIGHT.sunStrength : strength("sunStrength")),
     above: colour("above"),
     below: colour("below"),
     strength: strength("strength"),
     zenith: colour("zenith"),
     horizon: colour("horizon"),
-    glow: colour("glow"),
+    glow: glow.isMoon ? new Color(NIGHT.glow) : colour("glow"),
+    glowStrength: glow.share,
     ground: colour("ground"),
     picture: colour("picture"),
-    shade: strength("shade"),
+    shade: light.share * (light.isMoon ? NIGHT.shade : strength("shade")),
   };
 }
 

@@ -63,6 +63,25 @@ describe("the sun over a place", () => {
     expect(changeBy("daylight", { ...INITIAL_STATE, hour: 12 }, path).words).toMatch(/, night$/);
   });
 
+  it.each([
+    ["a midnight sun", "2026-06-21T14:00:00+01:00"],
+    ["a midnight sun, looked at by night", "2026-06-21T00:00:00+01:00"],
+    ["a polar night", "2026-12-21T14:00:00+01:00"],
+  ])("has two times to change between under %s", (_, time) => {
+    const svalbard = { ...SYDNEY, latitude_deg: 78.2, longitude_deg: 15.6, time };
+    const path = sunPathOf(readPlace(place(svalbard), "place.json").sun);
+    let hour = path.firstHour;
+    const seen = new Set<number>();
+    for (let press = 0; press < 4; press++) {
+      const { change, words } = changeBy("daylight", { ...INITIAL_STATE, hour }, path);
+      expect(change.hour).not.toBe(hour);
+      hour = change.hour ?? Number.NaN;
+      expect(words).toMatch(daylightAt(hour, path).day > 0.5 ? /, day$/ : /, night$/);
+      seen.add(hour);
+    }
+    expect([...seen].toSorted((a, b) => a - b)).toEqual([path.nightHour, path.dayHour].toSorted((a, b) => a - b));
+  });
+
   it("is the usual one where nobody knows the place, and says what is assumed", () => {
     const unknown = readPlace(place({ latitude_deg: null, longitude_deg: null, time: null, assumed: ["place", "time"] }), "place.json");
     const path = sunPathOf(unknown.sun);

@@ -20,7 +20,7 @@ from veduta.plan.furnish.catalogue.read import builtin_catalogue
 from veduta.plan.house.furniture import footprint
 from veduta.plan.house.space import space_of
 from veduta.plan.lights.ceiling import ceiling_lamps, wall_angles
-from veduta.plan.lights.furnished import furniture_lamps
+from veduta.plan.lights.furnished import furniture_lamps, relit
 from veduta.plan.lights.lighting import darkness, light_house
 from veduta.plan.lights.needs import LUX, UTILISATION
 from veduta.plan.lights.sight import CORNER, Field
@@ -226,6 +226,28 @@ def test_the_light_of_a_lamp_goes_away_with_it() -> None:
     assert len(storey.lights or []) - len(again.document.storeys[0].lights or []) == 1
     assert not [one for one in again.document.storeys[0].lights or [] if one.thing]
     assert [note for note in again.notes if "no lamp 'f1'" in note]
+
+
+def test_new_furniture_has_its_own_lights() -> None:
+    """Ids of old lamps are those of other things now, and of a lamp elsewhere."""
+    old = [lamp_at("f1", (1.0, 1.0)), lamp_at("f2", (2.0, 1.0))]
+    lit = light_house(sample_plan(sample_storey(furniture=old)), OPTIONS).document
+    bare = lit.storeys[0].model_copy(update={"furniture": None})
+    stool = lamp_at("f1", (2.0, 2.0), object="stool", size_m=(0.4, 0.4, 0.5))
+    new = [stool, lamp_at("f2", (6.5, 3.0), room="bath"), lamp_at("f3", (3.0, 1.0))]
+    full = bare.model_copy(update={"furniture": new})
+    done, notes = relit(sample_plan(bare), sample_plan(full), builtin_catalogue())
+    again = light_house(done, OPTIONS).document.storeys[0].lights or []
+    shining = {light.thing: (light.room, light.at_m) for light in again if light.thing}
+    assert shining == {"f2": ("bath", (6.5, 3.0)), "f3": ("living", (3.0, 1.0))}
+    assert [light for light in again if not light.thing] == [
+        light for light in lit.storeys[0].lights or [] if not light.thing
+    ]
+    assert "the 2 lamps of its new furniture" in notes[0]
+    dark = full.model_copy(update={"lights": []})
+    for before, after in ((full, full), (bare.model_copy(update={"lights": []}), dark)):
+        same = relit(sample_plan(before), sample_plan(after), builtin_catalogue())
+        assert same == (sample_plan(after), [])
 
 
 def test_lamps_and_seats_are_told_by_the_catalogue() -> None:

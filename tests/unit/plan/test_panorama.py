@@ -15,6 +15,7 @@ from veduta.formats.gltf import read_glb, write_glb
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance
 from veduta.plan.house.space import space_of
+from veduta.plan.surroundings import panorama
 from veduta.plan.surroundings.backdrop import EYE_M, backdrop_part, build_backdrop
 from veduta.plan.surroundings.panorama import FILES, Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.sky_picture import LOWEST_DEG, SkyPicture, sky_picture
@@ -22,6 +23,7 @@ from veduta.plan.surroundings.terrain import terrain_of
 from veduta.run.errors import InputError
 
 TERRAIN = terrain_of(space_of(sample_storey(), 2.55), 6.0)
+TERRAIN_LEVEL = terrain_of(space_of(sample_storey(), 2.55), 0.0)
 
 
 def colour_of(way: NDArray[np.float64]) -> NDArray[np.uint8]:
@@ -140,6 +142,36 @@ def test_backdrop_is_seen_from_inside_and_joins_the_garden() -> None:
     assert not inside.any()
 
 
+@pytest.mark.parametrize("turn_deg", [0.0, 37.0])
+def test_without_a_garden_its_ground_goes_on_up_to_the_house(turn_deg: float) -> None:
+    sky = sky_of(spherical(512))
+    part = build_backdrop(sky, TERRAIN_LEVEL, turn_deg, garden=False)
+    triangles = part.triangles
+    corners = part.positions_m[triangles.indices].astype(float)
+    left, bottom, right, top = TERRAIN_LEVEL.plot.bounds
+    middle = np.array([(left + right) / 2.0, (bottom + top) / 2.0])
+    centre = corners.mean(axis=1)
+    within = (centre[:, 0] > left) & (centre[:, 0] < right)
+    within &= (centre[:, 1] > bottom) & (centre[:, 1] < top) & (centre[:, 2] < EYE_M)
+    assert np.abs(corners[within][:, :, 2]).max() == 0.0
+    sides = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[within]
+    assert (sides[:, 2] > 0.0).all()
+    free_m2 = sum(area.area for _, area in TERRAIN_LEVEL.areas)
+    assert sides[:, 2].sum() / 2.0 == pytest.approx(free_m2, rel=1e-3)
+    # Each corner shows the direction in which it lies, down to the picture's end.
+    at, uv = corners[within].reshape(-1, 3), part.uv[triangles.indices[within]].reshape(-1, 2)
+    off = at[:, :2] - middle
+    reach = np.hypot(*off.T)
+    bearing = np.degrees(np.arctan2(*off.T)) - turn_deg
+    elevation = np.maximum(-np.degrees(np.arctan2(EYE_M, reach)), LOWEST_DEG + 0.5)
+    wanted = sky.uv(bearing, elevation)
+    assert np.abs(uv[:, 1] - wanted[:, 1]).max() < 1e-4
+    aside = (uv[:, 0] - wanted[:, 0] + 0.5) % 1.0 - 0.5
+    assert np.abs(aside[reach > 0.5]).max() < 1e-3
+    # No triangle runs around the picture.
+    assert np.ptp(part.uv[triangles.indices[within]][:, :, 0], axis=1).max() < 0.02
+
+
 def test_glb_is_unlit_and_read_back(tmp_path: Path) -> None:
     part = build_backdrop(sky_of(cylindrical()), TERRAIN, 0.0, (0.5, 0.5, 0.6))
     path = tmp_path / "panorama.glb"
@@ -159,6 +191,26 @@ def test_pictures_are_kept_as_they_are_read_again(tmp_path: Path) -> None:
     again = kept_pictures("round", tmp_path)
     assert again.digest == pictures.digest
     assert (again.pixels[0] == pictures.pixels[0]).all()
+
+
+@pytest.mark.parametrize(("size", "most"), [((266, 140), 256), ((1040, 65), 1030)])
+def test_what_is_accepted_is_accepted_at_a_rebuild(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, size: tuple[int, int], most: int
+) -> None:
+    """Made smaller, they are 256 x 135 and 1030 x 64 px: too high and too flat by less than one."""
+    monkeypatch.setitem(panorama.MOST_PX, "round", most)
+    given = tmp_path / "mine.jpg"
+    Image.new("RGB", size, (90, 120, 150)).save(given)
+    pictures = given_pictures(str(given))
+    (tmp_path / FILES["round"][0]).write_bytes(pictures.contents[0])
+    assert kept_pictures("round", tmp_path).digest == pictures.digest
+
+
+def test_a_picture_that_is_too_small_once_it_is_kept_is_refused(tmp_path: Path) -> None:
+    strip = tmp_path / "strip.png"
+    Image.new("RGB", (5000, 150)).save(strip)
+    with pytest.raises(InputError, match=r"is 5000 x 150 px, and 2048 x 61 px .* too small"):
+        given_pictures(",".join(f"{name}={strip}" for name in "NESW"))
 
 
 def test_four_pictures_in_any_order_and_with_commas_in_their_names(tmp_path: Path) -> None:

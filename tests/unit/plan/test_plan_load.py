@@ -121,6 +121,16 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
         ),
         (
             ["stairs"],
+            [turning(path_m=[[1.5, 1.0], [1.5, 1.0], [1.5, 3.5]])],
+            "storeys[0].stairs[0].path_m: points 1 and 2 lie on each other",
+        ),
+        (
+            ["stairs"],
+            [turning(path_m=[[1.5, 1.0], [1.5, 3.5], [1.5, 3.5001]])],
+            "storeys[0].stairs[0].path_m: points 2 and 3 lie on each other",
+        ),
+        (
+            ["stairs"],
             [turning(steps_m=[TWO_STEPS[0], [[1, 2], [2, 3], [2, 2], [1, 3]]])],
             "storeys[0].stairs[0].steps_m[1]: its line crosses itself, or encloses nothing",
         ),
@@ -189,6 +199,16 @@ def test_names_that_are_one_in_the_model(tmp_path: Path, names: tuple[str, str],
     with pytest.raises(InputError) as caught:
         load_document(file)
     assert told in caught.value.fault
+
+
+def test_a_time_needs_a_place(tmp_path: Path) -> None:
+    file = written(tmp_path)
+    content = json.loads(file.read_text()) | {"time": "2026-06-21T12:00"}
+    file.write_text(json.dumps(content))
+    with pytest.raises(InputError, match="time: says where the sun stands only with a place_deg"):
+        load_document(file)
+    file.write_text(json.dumps(content | {"place_deg": [51.5, -0.1]}))
+    assert load_document(file).time == "2026-06-21T12:00"
 
 
 def test_no_storey_at_all(tmp_path: Path) -> None:

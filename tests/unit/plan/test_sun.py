@@ -3,13 +3,16 @@
 from __future__ import annotations
 
 import math
+import re
 from datetime import datetime
+from pathlib import Path
 
 import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from veduta.plan.surroundings import daylight
 from veduta.plan.surroundings.daylight import daylight_of
 from veduta.plan.surroundings.sun import SunPosition, in_zone, read_time, sun_position
 
@@ -88,6 +91,8 @@ def test_a_clock_without_an_offset_is_the_longitudes() -> None:
         ("2026-02-30T12:00", "is no date with a time"),
         ("2026-06-21", "has no time of day"),
         ("1850-06-21T12:00", "is not in the years"),
+        ("2026-06-21T12:00+02:00:30", "no whole number of minutes"),
+        ("1912-06-21T12:00-07:52:58", "no whole number of minutes"),
     ],
 )
 def test_faulty_times_are_told(text: str, fault: str) -> None:
@@ -102,3 +107,52 @@ def test_light_by_the_suns_height() -> None:
     assert low.colour[0] - low.colour[2] > noon.colour[0] - noon.colour[2] > 0.0
     assert night.colour[2] > night.colour[0]
     assert max(night.shown) < 0.4
+
+
+STUDIO = Path(__file__).parents[3] / "studio" / "src"
+
+
+def by_sine(sine: float) -> daylight.Daylight:
+    return daylight_of(SunPosition(180.0, math.degrees(math.asin(sine))))
+
+
+def test_light_has_the_values_of_the_studio() -> None:
+    source = (STUDIO / "three" / "sky-light.ts").read_text()
+    for name in ("DAY", "DUSK", "NIGHT"):
+        (block,) = re.findall(rf"const {name}: Look = {{(.*?)}};", source, re.DOTALL)
+        told = dict(re.findall(r'(\w+): "?([^",]+)"?,', block))
+        look = getattr(daylight, name)
+        assert {one: told[one] for one in ("sun", "zenith", "horizon", "picture")} == {
+            "sun": look.sun, "zenith": look.zenith, "horizon": look.horizon,
+            "picture": look.picture,
+        }  # fmt: skip
+        assert float(told["sunStrength"]) == look.sun_strength
+    source += (STUDIO / "core" / "daylight.ts").read_text()
+    for name in ("DAY_SINE", "NIGHT_SINE", "DUSK_SINE", "FADE_SINE", "DUSK_SHARE"):
+        assert re.findall(rf"const {name} = (.*);", source) == [str(getattr(daylight, name))]
+    (moon,) = re.findall(r"const TO_MOON: Vec3 = \[(.*)\];", source)
+    way = np.array([float(one) for one in moon.split(",")])
+    assert daylight.MOON.toward(0.0) == pytest.approx(way / np.linalg.norm(way), abs=1e-3)
+
+
+def test_colours_are_mixed_as_light_is() -> None:
+    """Between night and day: of the linear values, by the curve of IEC 61966-2-1."""
+
+    def linear(value: float) -> float:
+        return value / 12.92 if value <= 0.04045 else ((value + 0.055) / 1.055) ** 2.4
+
+    sine = 0.25  # above where it is red
+    share = (sine + 0.12) / 0.42
+    day = share * share * (3.0 - 2.0 * share)
+    mixed = (1.0 - day) * linear(0x1A / 255.0) + day * linear(0xA6 / 255.0)
+    assert linear(by_sine(sine).zenith[1]) == pytest.approx(mixed, abs=1e-4)
+
+
+def test_sun_fades_to_the_horizon_and_the_moon_comes_in_by_its_own_colour() -> None:
+    sines = np.linspace(-0.3, 0.3, 601)
+    direct = np.array([by_sine(one).strength * np.array(by_sine(one).colour) for one in sines])
+    assert np.abs(np.diff(direct, axis=0)).max() < 0.03
+    assert direct[300] == pytest.approx(0.0, abs=1e-9)
+    just_set, night = by_sine(-0.03), by_sine(-0.3)
+    assert just_set.colour == night.colour
+    assert 0.0 < just_set.strength < 0.5 * night.strength

@@ -13,7 +13,7 @@ import numpy as np
 from shapely.geometry import Point
 from shapely.geometry.base import BaseGeometry
 
-from veduta.plan.document import Furniture, Light, Storey
+from veduta.plan.document import Furniture, Light, PlanDocument, Storey
 from veduta.plan.furnish.catalogue.entry import Stands
 from veduta.plan.furnish.catalogue.read import Catalogue
 
@@ -57,6 +57,31 @@ def furniture_lamps(room: str, things: Sequence[Furniture], catalogue: Catalogue
         for item in things
         if _is_lamp(item, catalogue)
     ]
+
+
+def relit(
+    before: PlanDocument, furnished: PlanDocument, catalogue: Catalogue
+) -> tuple[PlanDocument, list[str]]:
+    """The document with the lamps of its new furniture for those of the old, and what that changed.
+
+    before: as it was before storeys of it were furnished. Furniture that is new has new ids: what
+    has the id of an old lamp may be one elsewhere, or none at all.
+    """
+    storeys, notes = [], []
+    for old, new in zip(before.storeys, furnished.storeys, strict=True):
+        # Who has no lamps at all wants none, and who has null gets all of them later.
+        if old.furniture is not None or new.furniture is None or not new.lights:
+            storeys.append(new)
+            continue
+        rooms: dict[str, list[Furniture]] = {}
+        for item in new.furniture:
+            rooms.setdefault(item.room, []).append(item)
+        lamps = [lamp for room in rooms for lamp in furniture_lamps(room, rooms[room], catalogue)]
+        taken = {lamp.id for lamp in lamps}
+        kept = [light for light in new.lights if light.thing is None and light.id not in taken]
+        storeys.append(new.model_copy(update={"lights": [*kept, *lamps]}))
+        notes.append(f"{new.name}: the {len(lamps)} lamps of its new furniture are its lights now")
+    return furnished.model_copy(update={"storeys": storeys}), notes
 
 
 def followed(storey: Storey, catalogue: Catalogue) -> tuple[Storey, list[str]]:

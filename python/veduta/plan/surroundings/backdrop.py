@@ -9,16 +9,23 @@ picture shows. It is turned by north, and nobody bumps into it.
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
+from shapely.geometry import Polygon
+from shapely.geometry.base import BaseGeometry
+from shapely.geometry.polygon import orient
+from shapely.ops import unary_union
 
 from veduta.place.builder import PartBuilder, UvMap
 from veduta.place.manifest import Bounds, PlacePart
 from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.surroundings.sky_picture import SkyPicture
+from veduta.plan.house.space import pieces_of
+from veduta.plan.surroundings.sky_picture import LOWEST_DEG, SkyPicture
 from veduta.plan.surroundings.terrain import Terrain
 
 Floats = NDArray[np.float64]
@@ -31,14 +38,24 @@ SHOULDER_DEG = 45.0
 """Up to here it is a cylinder, from here on a dome."""
 _WALL_STEP_DEG, _DOME_STEP_DEG, _BEARING_STEP_DEG = 7.5, 5.0, 5.0
 _GROUND_RINGS = 8
+_PLOT_RINGS = 6
+_LEAST_M2 = 1e-6
+_EDGE_DEG = 0.5
+"""The picture's last rows would be mixed with its first where a viewer repeats it."""
 
 
 def build_backdrop(
-    sky: SkyPicture, terrain: Terrain, turn_deg: float, shown: Colour = (1.0, 1.0, 1.0)
+    sky: SkyPicture,
+    terrain: Terrain,
+    turn_deg: float,
+    shown: Colour = (1.0, 1.0, 1.0),
+    *,
+    garden: bool = True,
 ) -> Part:
     """The part in the frame of the place.
 
     turn_deg: where north is, clockwise from +y. shown: by what the picture is multiplied.
+    garden: whether there is one; else the picture's ground goes on over the plot up to the house.
     """
     builder = PartBuilder(PANORAMA)
     texture = Texture(sky.pixels, sky.invented)
@@ -48,7 +65,7 @@ def build_backdrop(
     for corners, uv in [*shape.wall(), *shape.dome()]:
         builder.polygon([corners], feature, material, _given(uv))
     feature = builder.feature(SemanticClass.OTHER, Provenance.INVENTED, f"{PANORAMA} foreground")
-    for corners, uv in shape.ground():
+    for corners, uv in [*shape.ground(), *([] if garden else shape.plot())]:
         builder.polygon([corners], feature, material, _given(uv))
     return builder.build()
 
@@ -120,6 +137,36 @@ class _Shape:
                 found += [(corners[[0, 1, 2]], uv[[0, 1, 2]]), (corners[[0, 2, 3]], uv[[0, 2, 3]])]
         return found
 
+    def plot(self) -> list[tuple[Floats, Floats]]:
+        """The level plot, but for the house, as if the picture had been taken over it.
+
+        What lies steeper below the eye than the picture reaches has its lowest row.
+        """
+        free = unary_union([area for _, area in self.terrain.areas])
+        way = self._ways(self.bearings)
+        inner = np.min(self.half / np.maximum(np.abs(way), 1e-12), axis=1)
+        found = []
+        for near, far in pairwise(np.linspace(0.0, 1.0, _PLOT_RINGS + 1).tolist()):
+            for i in range(len(way) - 1):
+                ends = [(near, i), (near, i + 1), (far, i + 1), (far, i)]
+                sector = Polygon([self.middle + share * inner[k] * way[k] for share, k in ends])
+                for piece in _triangles(orient(sector).intersection(free)):
+                    level = np.column_stack([piece, np.zeros(3)])
+                    found.append((level, self._seen_below(piece, i)))
+        return found
+
+    def _seen_below(self, at: Floats, sector: int) -> Floats:
+        """(n, 2) where points of the level ground between two bearings are in the picture."""
+        low, high = self.bearings[sector], self.bearings[sector + 1]
+        off = at - self.middle
+        reach = np.hypot(off[:, 0], off[:, 1])
+        bearing = np.degrees(np.arctan2(off[:, 0], off[:, 1])) - self.turn_deg
+        # Of all turns that one beside the sector: south is at both ends of the picture.
+        around = (bearing - (low + high) / 2.0 + 180.0) % 360.0 - 180.0 + (low + high) / 2.0
+        bearing = np.where(reach < 1e-6, (low + high) / 2.0, np.clip(around, low, high))
+        elevation = -np.degrees(np.arctan2(EYE_M, reach))
+        return self.sky.uv(bearing, np.maximum(elevation, LOWEST_DEG + _EDGE_DEG))
+
     def _rows(self, rows: list[tuple[float, float, float]]) -> list[tuple[Floats, Floats]]:
         """Faces between circles. rows: elevation (deg), radius, height over the eye."""
         way = self._ways(self.bearings)
@@ -142,6 +189,16 @@ class _Shape:
         """(n, 2) unit vectors on the page."""
         angle = np.radians(bearing_deg + self.turn_deg)
         return np.stack([np.sin(angle), np.cos(angle)], axis=1)
+
+
+def _triangles(shape: BaseGeometry) -> list[Floats]:
+    """A region in triangles (3, 2), counter-clockwise."""
+    return [
+        np.array(orient(one).exterior.coords)[:3]
+        for piece in pieces_of(shape)
+        for one in shapely.constrained_delaunay_triangles(piece).geoms
+        if isinstance(one, Polygon) and one.area > _LEAST_M2
+    ]
 
 
 def _given(uv: Floats) -> UvMap:

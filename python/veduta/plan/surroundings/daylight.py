@@ -1,6 +1,7 @@
 """What the sun's height does to the light: its colour and strength, and the sky's.
 
-The values are those of the studio (`studio/src/three/sky-light.ts`); they are chosen by eye.
+Colours, strengths and how they are mixed are the studio's (`studio/src/three/sky-light.ts`,
+`studio/src/core/daylight.ts`), but for `around`; they are chosen by eye.
 """
 
 from __future__ import annotations
@@ -10,18 +11,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour
 from veduta.place.mover import Vector
 from veduta.place.sunlight import Sunlight
 from veduta.plan.surroundings.site import Site
 from veduta.plan.surroundings.sun import SunPosition
 
-_DAY_SINE, _NIGHT_SINE, _DUSK_SINE = 0.3, -0.12, 0.22
+DAY_SINE, NIGHT_SINE, DUSK_SINE = 0.3, -0.12, 0.22
 """Sines of the sun's elevation: as light as by day from here on, dark from there on, red below."""
-_DUSK_SHARE = 0.75
+FADE_SINE = 0.03
+"""Below this the sun's own light fades; there is none on the horizon."""
+DUSK_SHARE = 0.75
 MOON = SunPosition(140.7, 44.6)
 """Where light comes from by night: high, from the side from which most houses are seen."""
-_MOON_STRENGTH = 0.18
 
 
 @dataclass(frozen=True)
@@ -39,31 +42,47 @@ class Daylight:
     shown: Colour
 
 
-_DAY = Daylight(
-    (1.0, 0.98, 0.94), 1.0, 1.0, (0.30, 0.52, 0.80), (0.87, 0.92, 0.96), (1.0, 1.0, 1.0)
-)
-_DUSK = Daylight(
-    (1.0, 0.62, 0.36), 0.48, 0.49, (0.37, 0.48, 0.65), (0.91, 0.71, 0.56), (0.79, 0.66, 0.60)
-)
-_NIGHT = Daylight(
-    (0.71, 0.78, 0.91), _MOON_STRENGTH, 0.4, (0.06, 0.10, 0.18), (0.17, 0.23, 0.32),
-    (0.22, 0.26, 0.34),
-)  # fmt: skip
+@dataclass(frozen=True)
+class Look:
+    """How it looks at one time: colours as in the studio, strengths in its units.
+
+    around: of X3D's lights from the sky, which have the sun's colour; 1 by day.
+    """
+
+    sun: str
+    sun_strength: float
+    zenith: str
+    horizon: str
+    picture: str
+    around: float
+
+
+DAY = Look("#fff6ea", 3.1, "#7ea6c9", "#e4eaee", "#ffffff", 1.0)
+DUSK = Look("#ff9d5c", 1.5, "#5f7ba6", "#e9b48f", "#c9a899", 0.49)
+NIGHT = Look("#b4c6e8", 0.55, "#101a2e", "#2c3a52", "#384257", 0.4)
 
 
 def daylight_of(sun: SunPosition) -> Daylight:
     """The light by a sun of this height."""
     height = math.sin(math.radians(sun.elevation_deg))
-    share = min(1.0, max(0.0, (height - _NIGHT_SINE) / (_DAY_SINE - _NIGHT_SINE)))
+    share = min(1.0, max(0.0, (height - NIGHT_SINE) / (DAY_SINE - NIGHT_SINE)))
     day = share * share * (3.0 - 2.0 * share)
-    dusk = _DUSK_SHARE * max(0.0, 1.0 - abs(height) / _DUSK_SINE)
+    dusk = DUSK_SHARE * max(0.0, 1.0 - abs(height) / DUSK_SINE)
+    if sun.is_up:
+        colour = _colour(NIGHT.sun, DAY.sun, DUSK.sun, day, dusk)
+        full = _number(NIGHT.sun_strength, DAY.sun_strength, DUSK.sun_strength, day, dusk)
+        direct = min(1.0, height / FADE_SINE)
+    else:
+        # The moon has its own colour and strength, however red the sky still is.
+        colour = _colour(NIGHT.sun, DAY.sun, DUSK.sun, 0.0, 0.0)
+        full, direct = NIGHT.sun_strength, min(1.0, height / NIGHT_SINE)
     return Daylight(
-        _colour(_NIGHT.colour, _DAY.colour, _DUSK.colour, day, dusk),
-        _number(_NIGHT.strength, _DAY.strength, _DUSK.strength, day, dusk),
-        _number(_NIGHT.around, _DAY.around, _DUSK.around, day, dusk),
-        _colour(_NIGHT.zenith, _DAY.zenith, _DUSK.zenith, day, dusk),
-        _colour(_NIGHT.horizon, _DAY.horizon, _DUSK.horizon, day, dusk),
-        _colour(_NIGHT.shown, _DAY.shown, _DUSK.shown, day, dusk),
+        colour,
+        direct * full / DAY.sun_strength,
+        _number(NIGHT.around, DAY.around, DUSK.around, day, dusk),
+        _colour(NIGHT.zenith, DAY.zenith, DUSK.zenith, day, dusk),
+        _colour(NIGHT.horizon, DAY.horizon, DUSK.horizon, day, dusk),
+        _colour(NIGHT.picture, DAY.picture, DUSK.picture, day, dusk),
     )
 
 
@@ -85,7 +104,17 @@ def _number(night: float, light: float, red: float, day: float, dusk: float) -> 
     return plain + dusk * (red - plain)
 
 
-def _colour(night: Colour, light: Colour, red: Colour, day: float, dusk: float) -> Colour:
-    mixed = [_number(*three, day, dusk) for three in zip(night, light, red, strict=True)]
+def _colour(night: str, light: str, red: str, day: float, dusk: float) -> Colour:
+    """Mixed as light is, in linear values; sRGB."""
+    at_night, by_day, at_dusk = (
+        linear_of_srgb(np.array(_srgb(one))) for one in (night, light, red)
+    )
+    plain = at_night + day * (by_day - at_night)
+    mixed = srgb_of_linear(plain + dusk * (at_dusk - plain))
     one, two, three = np.round(mixed, 4).tolist()
     return one, two, three
+
+
+def _srgb(text: str) -> Colour:
+    red, green, blue = bytes.fromhex(text.removeprefix("#"))
+    return red / 255.0, green / 255.0, blue / 255.0

@@ -80,7 +80,12 @@ def kept_pictures(kind: Panorama, folder: Path) -> Pictures:
                 f"is missing, and {folder / 'plan.json'} has panorama: {kind!r}",
                 "Put it there, give --panorama again, or write null for panorama.",
             )
-        pixels.append(_checked(path, read_image(path).pixels, kind))
+        seen = read_image(path).pixels
+        _check_size(path, seen.shape[:2], seen.shape[:2])
+        if kind == "round":
+            # A picture that was made smaller is so to a pixel.
+            _check_aspect(path, seen.shape[:2], slack_px=1)
+        pixels.append(seen)
         contents.append(path.read_bytes())
     return Pictures(kind, tuple(contents), tuple(pixels))
 
@@ -97,34 +102,47 @@ def _paths(text: str) -> list[Path]:
 
 
 def _as_kept(path: Path, kind: Panorama) -> bytes:
-    pixels = _checked(path, read_image(path).pixels, kind)
+    pixels = read_image(path).pixels
     image = Image.fromarray(pixels)
     image.thumbnail((MOST_PX[kind], MOST_PX[kind]), Image.Resampling.LANCZOS)
+    # As it is kept it is read again by each rebuild.
+    _check_size(path, pixels.shape[:2], (image.height, image.width))
+    if kind == "round":
+        _check_aspect(path, pixels.shape[:2])
     return jpeg_bytes(image, JPEG_QUALITY, optimize=True)
 
 
-def _checked(path: Path, pixels: Pixels, kind: Panorama) -> Pixels:
-    height, width = pixels.shape[:2]
-    size = f"is {width} x {height} px"
-    if min(height, width) < LEAST_PX:
-        raise InputError(
-            path, f"{size}: too small to be seen", f"Give one of {LEAST_PX} px or more."
-        )
-    if kind == "directions":
-        return pixels
-    if width < LEAST_ASPECT * height:
+def _check_size(path: Path, given: tuple[int, ...], kept: tuple[int, ...]) -> None:
+    """InputError where a picture is too small as it is kept. given, kept: height and width."""
+    if min(kept) >= LEAST_PX:
+        return
+    size = f"is {_size(given)}"
+    if kept != given:
+        size += f", and {_size(kept)} at the size at which it is used"
+    raise InputError(path, f"{size}: too small to be seen", f"Give one of {LEAST_PX} px or more.")
+
+
+def _check_aspect(path: Path, shape: tuple[int, ...], slack_px: int = 0) -> None:
+    """InputError where a picture does not show all around. slack_px: of its height."""
+    height, width = shape
+    if width < LEAST_ASPECT * (height - slack_px):
         raise InputError(
             path,
-            f"{size}: it does not show all around, being less than twice as wide as high",
+            f"is {_size(shape)}: it does not show all around,"
+            " being less than twice as wide as high",
             f"Give a panorama of 360 degrees, or four pictures: {_FOUR}.",
         )
-    if width > _NARROW * height:
+    if width > _NARROW * (height + slack_px):
         raise InputError(
             path,
-            f"{size}: so flat a strip shows no sky",
+            f"is {_size(shape)}: so flat a strip shows no sky",
             f"Give a panorama that is at most {_NARROW:g} times as wide as high.",
         )
-    return pixels
+
+
+def _size(shape: tuple[int, ...]) -> str:
+    height, width = shape
+    return f"{width} x {height} px"
 
 
 def _decoded(content: bytes) -> Pixels:

@@ -67,6 +67,9 @@ def read_time(text: str) -> datetime:
         raise ValueError(f"{text!r} has no time of day: write {text.strip()}T15:00, for one")
     if not FIRST_YEAR <= when.year <= LAST_YEAR:
         raise ValueError(f"{text!r} is not in the years {FIRST_YEAR} to {LAST_YEAR}")
+    offset = when.utcoffset()
+    if offset is not None and offset % timedelta(minutes=1):
+        raise ValueError(f"{text!r} has an offset that is no whole number of minutes")
     return when
 
 
