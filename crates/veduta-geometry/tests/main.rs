@@ -8,6 +8,9 @@ mod draw;
 #[path = "support/footprints.rs"]
 mod footprints;
 #[cfg(test)]
+#[path = "support/program.rs"]
+mod program;
+#[cfg(test)]
 #[path = "support/roof_kinds.rs"]
 mod roof_kinds;
 #[cfg(test)]
@@ -31,13 +34,5 @@ mod solids;
 #[test]
 fn every_file_of_tests_is_in_this_program() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "rs") {
-            let name = path.file_stem().unwrap().to_str().unwrap();
-            let line = format!("\nmod {name};\n");
-            let here = include_str!("main.rs").contains(&line);
-            assert!(here || name == "main", "{name}.rs is not in main.rs");
-        }
-    }
+    program::assert_whole(folder, include_str!("main.rs"));
 }

@@ -5,6 +5,9 @@
 #[path = "../../veduta-geometry/tests/support/draw.rs"]
 mod draw;
 #[cfg(test)]
+#[path = "../../veduta-geometry/tests/support/program.rs"]
+mod program;
+#[cfg(test)]
 mod programs;
 #[cfg(test)]
 mod support;
@@ -42,13 +45,5 @@ mod snapping;
 #[test]
 fn every_file_of_tests_is_in_this_program() {
     let folder = concat!(env!("CARGO_MANIFEST_DIR"), "/tests");
-    for entry in std::fs::read_dir(folder).unwrap() {
-        let path = entry.unwrap().path();
-        if path.extension().is_some_and(|extension| extension == "rs") {
-            let name = path.file_stem().unwrap().to_str().unwrap();
-            let line = format!("\nmod {name};\n");
-            let here = include_str!("main.rs").contains(&line);
-            assert!(here || name == "main", "{name}.rs is not in main.rs");
-        }
-    }
+    program::assert_whole(folder, include_str!("main.rs"));
 }

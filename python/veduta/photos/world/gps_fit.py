@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from veduta.photos.structure import Structure
 from veduta.photos.world.columns import Complex, Placements, complex_of, plane_fit
+from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Fit, Georeference, Residual, Similarity
 from veduta.photos.world.gps_positions import GpsPositions
 from veduta.photos.world.prior import PlacementPrior
@@ -23,7 +24,6 @@ LEAST_SD_M = 1.0
 """GPS of a hand-held device is no better than this, whatever the residuals say."""
 DRIFT_SD_M, HEIGHT_DRIFT_SD_M = 3.0, 10.0
 """What the positions of one walk err together: no residual shows it."""
-UP_SD_RAD = np.deg2rad(1.5)
 HUBER = 1.345
 DRAWS = 500
 INLIER_M = 10.0

@@ -12,7 +12,6 @@ Spot = NDArray[np.float64]
 INKED = 0.6
 """A line of treads has this share of its length inked, at least: an arrow or a word hides some."""
 _ENDS = 0.08
-_STEP_PX = 0.5
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
-from veduta.plan.walls.meetings import MEET_RAD, meetings
+from veduta.plan.walls.meetings import crossing, meetings
 from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 HOUSE_SHARE = 0.5
@@ -218,14 +218,11 @@ def _on_lines(node: NDArray[np.float64], axes: Sequence[Axis]) -> NDArray[np.flo
         return node
     for other in ordered[1:]:
         line = other.line
-        cross = first.direction[0] * line.direction[1] - first.direction[1] * line.direction[0]
-        if abs(cross) < np.sin(MEET_RAD):
+        met = crossing(first, line)
+        if met is None:
             continue
-        apart = line.start - first.start
-        along = (apart[0] * line.direction[1] - apart[1] * line.direction[0]) / cross
-        place = first.start + along * first.direction
         near = max(first.thickness_px, line.thickness_px)
-        return place if float(np.hypot(*(place - node))) <= near else node
+        return met.point if float(np.hypot(*(met.point - node))) <= near else node
     return node
 
 

@@ -32,18 +32,31 @@ def meetings(one: Piece, other: Piece) -> list[Meeting]:
     """Where two walls meet: once at most if both are straight."""
     if one.bulge or other.bulge:
         return _curved(one, other)
-    cross = one.direction[0] * other.direction[1] - one.direction[1] * other.direction[0]
-    if abs(cross) < np.sin(MEET_RAD):
+    met = crossing(one, other)
+    if met is None:
         return end_to_end(one, other)
+    reach, reach_other = _reaches(one, other, abs(_sine(one, other)))
+    if not -reach <= met.first <= one.length_px + reach:
+        return []
+    if not -reach_other <= met.second <= other.length_px + reach_other:
+        return []
+    return [met]
+
+
+def crossing(one: Piece, other: Piece) -> Meeting | None:
+    """Where the lines of two straight walls cross, however far off; None if all but parallel."""
+    sine = _sine(one, other)
+    if abs(sine) < np.sin(MEET_RAD):
+        return None
     apart = other.start - one.start
-    along = float((apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross)
-    beyond = float((apart[0] * one.direction[1] - apart[1] * one.direction[0]) / cross)
-    reach, reach_other = _reaches(one, other, abs(float(cross)))
-    if not -reach <= along <= one.length_px + reach:
-        return []
-    if not -reach_other <= beyond <= other.length_px + reach_other:
-        return []
-    return [Meeting(one.start + along * one.direction, along, beyond)]
+    along = float((apart[0] * other.direction[1] - apart[1] * other.direction[0]) / sine)
+    beyond = float((apart[0] * one.direction[1] - apart[1] * one.direction[0]) / sine)
+    return Meeting(one.start + along * one.direction, along, beyond)
+
+
+def _sine(one: Piece, other: Piece) -> float:
+    """Of the angle from one direction to the other."""
+    return float(one.direction[0] * other.direction[1] - one.direction[1] * other.direction[0])
 
 
 def _reaches(one: Piece, other: Piece, sine: float) -> tuple[float, float]:
