@@ -60,7 +60,7 @@ def main() -> None:
     for line in (*clashes, *shut):
         print(line)
     rows = [*_rows(len(chosen), clashes, shut, different, times), *_by_use(done, catalogue.wanted)]
-    keep_or_print("plan_furnish", rows, NOTES, list(chosen) == list(SEEDS))
+    keep_or_print("plan-furnish", rows, NOTES, list(chosen) == list(SEEDS))
 
 
 def _rows(

@@ -92,3 +92,28 @@ def test_what_a_leaf_sweeps_is_a_quarter_disc() -> None:
     assert swept.area == pytest.approx(3.14159 * 0.81 / 4.0, rel=0.02)
     left, bottom, right, top = swept.bounds
     assert (left, bottom, right, top) == pytest.approx((5.06, 1.0, 5.96, 1.9), abs=0.02)
+
+
+def test_a_leaf_slides_where_there_is_wall_to_slide_along() -> None:
+    """South of the opening is 1 m of wall, north of it 3.1 m; 0.9 m of them go to a door."""
+    sliding = opening("inner", "middle", 1.0, 1.2, type="sliding")
+    assert hung("inner", sliding).hinge == "end"
+    door = opening("beside", "middle", 2.9, 0.9)
+    assert hung("inner", sliding, door).hinge == "both"
+    near = opening("beside", "middle", 2.3, 0.9)
+    assert hung("inner", sliding.model_copy(update={"width_m": 0.9}), near).hinge == "start"
+    drawn = sliding.model_copy(update={"hinge": "start", "swing": "left"})
+    assert (hung("inner", drawn, door).hinge, hung("inner", drawn, door).swing) == (
+        "start",
+        "left",
+    )
+
+
+def test_a_pocket_is_where_the_wall_is_long_enough() -> None:
+    assert hung("inner", opening("inner", "middle", 0.4, 0.8, type="pocket")).hinge == "end"
+    assert hung("inner", opening("inner", "middle", 3.6, 0.8, type="pocket")).hinge == "start"
+
+
+def test_what_leads_outdoors_slides_indoors() -> None:
+    front = hung("front", opening("front", "south-1", 0.6, 1.9, type="sliding"))
+    assert (front.right if front.swing == "right" else front.left) is not None

@@ -4,9 +4,14 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from sample_plan import opening, sample_storey, window
+from sample_plan import opening, rectangle, room, sample_storey, wall, window
 from shapely.geometry import Point, box
 
+from veduta.plan.document import Junction
+from veduta.plan.furnish.arrangement import Piece, Variant, fixed
+from veduta.plan.furnish.catalogue.read import builtin_catalogue
+from veduta.plan.furnish.layout import Layout
+from veduta.plan.furnish.place import place
 from veduta.plan.furnish.room import room_spaces
 from veduta.plan.furnish.walk import WalkGrid, Ways
 from veduta.plan.house.space import space_of
@@ -61,3 +66,27 @@ def test_walls_of_a_room_have_the_room_on_their_left() -> None:
             # Things there look into the room: (0, -1) turned by `turn`.
             ahead = (np.sin(stretch.turn), -np.cos(stretch.turn))
             assert ahead == pytest.approx(tuple(stretch.inward), abs=1e-9)
+
+
+@pytest.mark.parametrize(("width_m", "stand"), [(1.3, ["rug"]), (2.6, ["rug", "coffee-table"])])
+def test_what_stands_on_a_rug_leaves_the_way_from_door_to_door(
+    width_m: float, stand: list[str]
+) -> None:
+    """A room between a door in the south and one in the north, a table in its middle."""
+    corners = {"a": (0.0, 0.0), "b": (width_m, 0.0), "c": (width_m, 4.0), "d": (0.0, 4.0)}
+    storey = sample_storey(
+        junctions=[Junction(id=name, at_m=at, type="L") for name, at in corners.items()],
+        walls=[wall(name, name[0], name[1]) for name in ("ab", "bc", "cd", "da")],
+        openings=[opening(name, name, 0.25, 0.8, type="plain") for name in ("ab", "cd")],
+        rooms=[room("living", rectangle(0.15, 0.15, width_m - 0.15, 3.85))],
+    )
+    (space,) = room_spaces(space_of(storey, HEIGHT_M), HEIGHT_M)
+    layout = Layout(space, Ways(space.floor, space.doors))
+    entries = {one.type: one for one in builtin_catalogue().entries.values()}
+    rug = Piece(entries["rug"], (0.8, 0.8, 0.01), 0.0, 0.0)
+    table = Piece(
+        entries["coffee-table"], (0.7, 0.7, 0.4), 0.0, 0.0, above_m=0.01, needed=False, on=0
+    )
+    variant = Variant(0.8, fixed([rug, table]), free=True)
+    assert place(variant, layout, np.random.default_rng(0), 1)
+    assert [one.entry.type for one in layout.stood] == stand

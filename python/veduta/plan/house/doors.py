@@ -141,17 +141,24 @@ class _Door:
         self._mover(leaf.name, polygons, (leaf.hinge_m, self.side * face), leaf.turn * TURN_RAD)
 
     def _slide(self, *, in_wall: bool) -> None:
-        """Before the wall or within it, to the end at which it hangs, or where there is room."""
+        """Before the wall or within it, to the ends at which leaves hang."""
         face = self.hole.line.half_m + _OVER_M + GAP_M
         near, far = (-LEAF_M / 2, LEAF_M / 2) if in_wall else (face, face + LEAF_M)
-        leaf = Leaf("leaf", self.first, self.last, self.first, 0.0)
-        polygons = self._leaf(leaf, self.side * near, self.side * far)
-        width = self.last - self.first
-        before = self.hole.start_m
-        after = self.hole.line.line.length - self.hole.end_m
-        to_end = self.hole.hinge == "end" or (self.hole.opening.hinge != "start" and after > before)
-        way = self.hole.along * width * (1.0 if to_end else -1.0)
-        self._mover("leaf", polygons, (self.first, 0.0), 0.0, (float(way[0]), float(way[1]), 0.0))
+        middle = (self.first + self.last) / 2.0
+        leaves = {
+            "start": [Leaf("leaf", self.first, self.last, self.first, 0.0)],
+            "end": [Leaf("leaf", self.first, self.last, self.last, 0.0)],
+            "both": [
+                Leaf("left", self.first, middle - GAP_M / 2, self.first, 0.0),
+                Leaf("right", middle + GAP_M / 2, self.last, self.last, 0.0),
+            ],
+        }
+        for leaf in leaves[self.hole.hinge]:
+            polygons = self._leaf(leaf, self.side * near, self.side * far)
+            beyond = 1.0 if leaf.hinge_m == leaf.end_m else -1.0
+            way = beyond * (leaf.end_m - leaf.start_m) * self.hole.along
+            shift = (float(way[0]), float(way[1]), 0.0)
+            self._mover(leaf.name, polygons, (leaf.start_m, 0.0), 0.0, shift)
 
     def _fold(self) -> None:
         """Two leaves that fold onto each other at one end."""

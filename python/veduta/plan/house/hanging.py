@@ -3,7 +3,7 @@
 A door of unknown type that is too wide for one leaf slides before closets and to the outdoors, and
 has two leaves elsewhere. A leaf opens into the room that is entered, not into the way that leads
 there, nor into a closet that it would fill; and it stands open against the wall that is nearest to
-its hinge, before no other opening.
+its hinge, before no other opening. What slides does so where it is least in the way (`sliding`).
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ from shapely.geometry import Point, Polygon
 
 from veduta.plan.document import DoorType, Room, RoomUse
 from veduta.plan.house.hole import ENDS, End, Hinge, Hole, Swing
+from veduta.plan.house.sliding import SLIDING, against_slide
 
 Rooms = Sequence[tuple[Room, Polygon]]
 
@@ -40,11 +41,12 @@ def hung(holes: Sequence[Hole], rooms: Rooms) -> tuple[Hole, ...]:
 
 def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole:
     opening, guess = hole.opening, _guess(hole)
+    hole = replace(hole, guess=guess)
     swings: tuple[Swing, ...] = ("left", "right")
     if opening.hinge == "both" or guess == "double":
         hinges: tuple[Hinge, ...] = ("both",)
     elif opening.hinge == "none":
-        hinges = ENDS
+        hinges = (*ENDS, "both") if hole.type in SLIDING else ENDS
     else:
         hinges = (opening.hinge,)
     if opening.swing != "none":
@@ -53,8 +55,9 @@ def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole
     if opening.kind != "door" or len(ways) == 1:
         hinge, swing = ways[0]
     else:
-        hinge, swing = min(ways, key=lambda way: _against(hole, way[0], way[1], holes, shapes))
-    return replace(hole, hinge=hinge, swing=swing, guess=guess)
+        others = [one for one in holes if one.opening.id != opening.id]
+        hinge, swing = min(ways, key=lambda way: _against(hole, way[0], way[1], others, shapes))
+    return replace(hole, hinge=hinge, swing=swing)
 
 
 def _guess(hole: Hole) -> DoorType | None:
@@ -70,9 +73,11 @@ def _guess(hole: Hole) -> DoorType | None:
 
 
 def _against(
-    hole: Hole, hinge: Hinge, swing: Swing, holes: Sequence[Hole], shapes: dict[str, Polygon]
+    hole: Hole, hinge: Hinge, swing: Swing, others: Sequence[Hole], shapes: dict[str, Polygon]
 ) -> float:
     """What speaks against a way to hang it."""
+    if hole.type in SLIDING and swing != "both":
+        return against_slide(hole, hinge, 1.0 if swing == "left" else -1.0, others, shapes)
     into, other = (hole.left, hole.right) if swing == "left" else (hole.right, hole.left)
     found = _against_side(into, other)
     if into is None or hinge == "both" or swing == "both":
@@ -82,7 +87,7 @@ def _against(
     swept = hole.sweep(hinge, side, hole.width_m)
     found += 1.0 - swept.intersection(room).area / swept.area
     open_leaf = _open_leaf(hole, hinge, side)
-    if any(one is not hole and open_leaf.distance(one.outline) < BEFORE_M for one in holes):
+    if any(open_leaf.distance(one.outline) < BEFORE_M for one in others):
         found += BEFORE_OPENING
     edge = Point(open_leaf.exterior.coords[1])
     return found + FAR * min(1.0, edge.distance(room.exterior) / hole.width_m)
