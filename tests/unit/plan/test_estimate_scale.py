@@ -6,6 +6,8 @@ import dataclasses
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 from veduta.plan.document import Text
 from veduta.plan.scale.estimate import DrawnSizes, estimate_scale, scale_notes
@@ -139,3 +141,14 @@ def test_a_number_that_doors_outvote_leaves_the_scale_assumed() -> None:
     assert [(one.kind, one.agrees) for one in scale.evidence] == [("door", True), ("line", False)]
     notes = scale_notes(scale)
     assert any("assumed" in note or "Nothing on the sheet says" in note for note in notes)
+
+
+SCRIBBLES = st.text(alphabet="0123456789.,'\"″ xm²/:=½-ftO|lI", min_size=1, max_size=16)
+
+
+@example(words=["0 1 1.883.25", "1.883.25 m", "1/0'' = 1'"])
+@given(words=st.lists(SCRIBBLES, min_size=1, max_size=4))
+def test_whatever_letters_are_read_from_a_scan_there_is_a_scale(words: list[str]) -> None:
+    texts = [_text(word, 250 + 40 * row, 200) for row, word in enumerate(words)]
+    scale = estimate_scale(_sheet(*texts, rooms=[ROOM], dpi=300.0))
+    assert 0.0 < scale.metres_per_px < np.inf

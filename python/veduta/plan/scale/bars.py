@@ -12,7 +12,8 @@ from veduta.plan.document import Text
 from veduta.plan.scale.evidence import Hypothesis, Voter
 from veduta.plan.scale.quantities import FOOT_M
 
-_NUMBERS = re.compile(r"^\W*((?:\d+(?:[.,]\d+)?\s*)+)(m|ft|feet|metres|meters|Meter)?\W*$")
+_NUMBER = r"\d+(?:[.,]\d+)?"
+_NUMBERS = re.compile(rf"^\W*({_NUMBER}(?:\s+{_NUMBER})*)\s*(m|ft|feet|metres|meters|Meter)?\W*$")
 _MARKED = 3  # so many numbers in proportion are no chance
 _DIGIT = 0.55  # width of a digit over the height of its line
 _LETTER_GAP = 0.15  # positions of numbers, in heights of the line
