@@ -20,6 +20,7 @@ from veduta.photos.world.believed import Standing, believed
 from veduta.photos.world.columns import Placements, WallColumns, wall_columns
 from veduta.photos.world.corners import wall_corners
 from veduta.photos.world.evidence import FacadeIndex, Matches, match_walls
+from veduta.photos.world.eye_height import eye_height_nats
 from veduta.photos.world.free_space import SightLines, Violations, sight_lines, violations
 from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Fit, Georeference, Residual
@@ -168,7 +169,7 @@ def _weighed(
     lines: SightLines,
     wall_of: NDArray[np.int64],
 ) -> _Found:
-    """The evidence of all walls that can be seen where they are laid, less that of cameras."""
+    """The evidence of all walls that can be seen where they are laid, and of the cameras."""
     matches = match_walls(walls, index, refined.level)
     against = violations(lines, index.facades, refined.world_from_model)
     own = wall_of >= 0
@@ -177,7 +178,8 @@ def _weighed(
     hidden = blocked > BLOCKED_WALL * np.maximum(count, 1)
     evidence = np.where(hidden, NO_WALL_NATS, matches.evidence[0])
     inside = max(MOST_INSIDE_NATS, INSIDE_NATS * float(against.inside.sum()))
-    return _Found(refined, matches, against, float(evidence.sum()) + inside)
+    eyes = eye_height_nats(refined.world_from_model.moved(lines.centres), index.facades)
+    return _Found(refined, matches, against, float(evidence.sum()) + inside + eyes)
 
 
 def _differ(one: _Found, other: _Found, middle: NDArray[np.float64]) -> bool:
