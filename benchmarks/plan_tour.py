@@ -12,7 +12,7 @@ from __future__ import annotations
 import argparse
 import io
 import time
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 import shapely
@@ -96,9 +96,7 @@ def _stands_in(shape: Polygon, feet: NDArray[np.float64], storey: Storey) -> boo
 
 def _to_model(house: House, feet: NDArray[np.float64]) -> float:
     """The smallest distance to a surface (m), at most `REACH_M`."""
-    # trimesh does not know EXT_mesh_gpu_instancing: all furniture would stand at the origin.
-    bare = replace(house.part, instances=None)
-    scene = trimesh.load_scene(io.BytesIO(glb_bytes(bare)), file_type="glb")
+    scene = trimesh.load_scene(io.BytesIO(glb_bytes(house.part)), file_type="glb")
     mesh = scene.to_mesh()
     way = _every(feet)
     angles = 2.0 * np.pi * np.arange(DIRECTIONS) / DIRECTIONS

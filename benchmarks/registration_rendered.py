@@ -33,7 +33,7 @@ from veduta.synthetic.streets.plan import plan_street
 STREETS = 20
 OTHER = 1000
 MODEL = "model.city.json"
-LAID = ("--georef", "model", "--no-texture", "--wall-side-px", "128")
+LAID = ("--force", "--georef", "model", "--no-texture", "--wall-side-px", "128")
 """Pictures of walls take half of the time, and nothing here looks at them."""
 NOTES = (
     f"right: accepted, the photos within {MOST_M} m of their true places in the mean, which"

@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 
 from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_camera import add_camera
-from veduta.formats.gltf_instances import add_instances
+from veduta.formats.gltf_instances import MOST_NODES, add_instances
 from veduta.formats.gltf_lights import add_lights, add_sun
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
@@ -48,8 +48,16 @@ def write_glb(
     write_bytes(path, glb_bytes(part, tours, sun))
 
 
-def glb_bytes(part: Part, tours: Sequence[CameraPath] = (), sun: Sunlight | None = None) -> bytes:
-    """The part, the tours through it and the sun that shines on it, as a GLB file's content."""
+def glb_bytes(
+    part: Part,
+    tours: Sequence[CameraPath] = (),
+    sun: Sunlight | None = None,
+    most_nodes: int = MOST_NODES,
+) -> bytes:
+    """The part, the tours through it and the sun that shines on it, as a GLB file's content.
+
+    most_nodes: more instances than that are written with EXT_mesh_gpu_instancing.
+    """
     binary = GltfBin()
     root: dict[str, Any] = {
         "asset": {"version": "2.0", "generator": "veduta"},
@@ -84,7 +92,7 @@ def glb_bytes(part: Part, tours: Sequence[CameraPath] = (), sun: Sunlight | None
     if sun is not None:
         add_sun(root, sun)
     if part.instances is not None:
-        add_instances(root, part.instances, materials.number, binary)
+        add_instances(root, part.instances, materials.number, binary, most_nodes)
     for tour in tours:
         add_camera(root, tour, binary)
     root["bufferViews"] = binary.views

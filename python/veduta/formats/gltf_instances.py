@@ -1,7 +1,9 @@
-"""Meshes that stand many times in a part, as nodes of EXT_mesh_gpu_instancing.
+"""Meshes that stand many times in a part: each is in the file once.
 
-One node per mesh and look. Where it stands is in the attributes TRANSLATION, ROTATION and SCALE,
-and which row of the feature table each instance is in `_FEATURE_ID_0` (EXT_instance_features).
+Where they are no more than `MOST_NODES`, each place is a plain node, which every reader of glTF
+knows; `extras.veduta.instance` is the row in the feature table. Many more are a node of
+EXT_mesh_gpu_instancing for each mesh and look: where it stands is in the attributes TRANSLATION,
+ROTATION and SCALE, and the row of each instance in `_FEATURE_ID_0` (EXT_instance_features).
 Meshes in other looks share the accessors of their vertices.
 """
 
@@ -22,13 +24,20 @@ from veduta.place.instances import (
 )
 
 INSTANCING, FEATURES = "EXT_mesh_gpu_instancing", "EXT_instance_features"
+MOST_NODES = 1000
+"""Of a part: readers draw each by itself."""
 GLTF_FROM_PART = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 
 
 def add_instances(
-    root: dict[str, Any], instances: Instances, material_of: Callable[[int], int], binary: GltfBin
+    root: dict[str, Any],
+    instances: Instances,
+    material_of: Callable[[int], int],
+    binary: GltfBin,
+    most_nodes: int,
 ) -> None:
     """Adds nodes and meshes; `material_of` gives the number in the file of a part's material."""
+    as_nodes = len(instances) <= most_nodes
     vertices = [_vertices(mesh, binary) for mesh in instances.meshes]
     for group in instances.groups:
         mesh, (attributes, indices) = instances.meshes[group.mesh], vertices[group.mesh]
@@ -38,10 +47,37 @@ def add_instances(
             if accessor is not None
         ]
         root["meshes"].append({"name": mesh.name, "primitives": primitives})
+        number = len(root["meshes"]) - 1
         root["scenes"][0]["nodes"].append(len(root["nodes"]))
-        root["nodes"].append(_node(mesh.name, len(root["meshes"]) - 1, group, binary))
-    root.setdefault("extensionsUsed", []).extend([INSTANCING, FEATURES])
-    root.setdefault("extensionsRequired", []).append(INSTANCING)
+        if as_nodes:
+            _add_nodes(root["nodes"], mesh.name, number, group)
+        else:
+            root["nodes"].append(_node(mesh.name, number, group, binary))
+    if not as_nodes:
+        root.setdefault("extensionsUsed", []).extend([INSTANCING, FEATURES])
+        root.setdefault("extensionsRequired", []).append(INSTANCING)
+
+
+def _add_nodes(nodes: list[dict[str, Any]], name: str, mesh: int, group: InstanceGroup) -> None:
+    """A node for the group, and in it one for each place."""
+    first = len(nodes) + 1
+    children = list(range(first, first + len(group.feature)))
+    nodes.append({"name": name, "children": children, "extras": {"veduta": {"instances": True}}})
+    placement = (
+        column.astype(np.float64).round(7).tolist()
+        for column in gltf_placement(group.part_from_mesh)
+    )
+    for row, move, turn, stretch in zip(group.feature.tolist(), *placement, strict=True):
+        nodes.append(
+            {
+                "name": f"{name} {row}",
+                "mesh": mesh,
+                "translation": move,
+                "rotation": turn,
+                "scale": stretch,
+                "extras": {"veduta": {"instance": row}},
+            }
+        )
 
 
 def _vertices(mesh: SharedMesh, binary: GltfBin) -> tuple[dict[str, int], list[int | None]]:

@@ -9,6 +9,7 @@ from __future__ import annotations
 import io
 import json
 import struct
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -30,6 +31,7 @@ LARGEST_PIXELS = 64 * 2**20
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 _REMEDY = "Let Veduta write it again."
+Columns = NDArray[np.float32]
 _DTYPES = {5126: np.float32, 5125: np.uint32}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
@@ -128,20 +130,16 @@ def _part(glb: _Glb) -> Part:
 
 def _instances(glb: _Glb, features: int) -> Instances | None:
     """What stands many times; None where there is nothing."""
-    nodes = [node for node in glb.root["nodes"] if INSTANCING in node.get("extensions", {})]
-    if not nodes:
+    found = list(_groups(glb))
+    if not found:
         return None
-    names = list(dict.fromkeys(glb.root["meshes"][node["mesh"]]["name"] for node in nodes))
+    names = list(dict.fromkeys(mesh["name"] for mesh, _, _ in found))
     meshes: dict[str, SharedMesh] = {}
     groups = []
-    for node in nodes:
-        mesh = glb.root["meshes"][node["mesh"]]
+    for mesh, feature, place in found:
         meshes.setdefault(mesh["name"], _shared_mesh(glb, mesh))
-        told = node["extensions"][INSTANCING]["attributes"]
-        feature = glb.array(told["_FEATURE_ID_0"]).astype(np.int32)
         if not 0 <= int(feature.min()) <= int(feature.max()) < features:
             raise ValueError("an instance names a feature that is not in the table")
-        place = [glb.array(told[name]) for name in ("TRANSLATION", "ROTATION", "SCALE")]
         groups.append(
             InstanceGroup(
                 mesh=names.index(mesh["name"]),
@@ -151,6 +149,25 @@ def _instances(glb: _Glb, features: int) -> Instances | None:
             )
         )
     return Instances(tuple(meshes[name] for name in names), tuple(groups))
+
+
+def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[Columns]]]:
+    """Mesh, feature rows and places (moves, turns, stretches) of what stands many times."""
+    nodes = glb.root["nodes"]
+    for node in nodes:
+        if INSTANCING in node.get("extensions", {}):
+            told = node["extensions"][INSTANCING]["attributes"]
+            place = [glb.array(told[name]) for name in ("TRANSLATION", "ROTATION", "SCALE")]
+            feature = glb.array(told["_FEATURE_ID_0"]).astype(np.int32)
+            yield glb.root["meshes"][node["mesh"]], feature, place
+        elif node.get("extras", {}).get("veduta", {}).get("instances"):
+            children = [nodes[number] for number in node["children"]]
+            place = [
+                np.array([child[name] for child in children], dtype=np.float32)
+                for name in ("translation", "rotation", "scale")
+            ]
+            rows = [child["extras"]["veduta"]["instance"] for child in children]
+            yield glb.root["meshes"][children[0]["mesh"]], np.array(rows, dtype=np.int32), place
 
 
 def _shared_mesh(glb: _Glb, mesh: dict[str, Any]) -> SharedMesh:

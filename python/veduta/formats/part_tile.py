@@ -47,7 +47,7 @@ class _Chunk:
 
 def part_tile(part: Part, name: str) -> bytes:
     """The GLB. name: of the thing that all of it belongs to. Lamps are no lights there."""
-    root, content = _opened(glb_bytes(replace(part, lamps=(), notes=())))
+    root, content = _opened(glb_bytes(replace(part, lamps=(), notes=()), most_nodes=0))
     told = {"featureCount": len(part.features), "attribute": 0, "propertyTable": 0}
     used = {*root.get("extensionsUsed", ()), METADATA}
     for mesh in root["meshes"]:

@@ -22,7 +22,7 @@ export interface InstancedFeatures {
   readonly matrices: Float32Array;
 }
 
-/** What the loader made of EXT_mesh_gpu_instancing, with the rows that the file gives. */
+/** What the loader made of EXT_mesh_gpu_instancing, or `gatherRepeated` of nodes, with the file's rows. */
 export function instancedFeatures(
   mesh: InstancedMesh,
   table: FeatureTable,

@@ -10,6 +10,7 @@ import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
 import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
 import { type Mover, moversOf } from "./movers.ts";
+import { gatherRepeated } from "./repeated-nodes.ts";
 
 export interface LoadedPart {
   readonly part: Part;
@@ -53,6 +54,7 @@ async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
   const gltf = await parse(bytes, part.model);
   const { scene } = gltf;
   removeLights(scene);
+  gatherRepeated(scene);
   const extras = scene.userData as { veduta?: { features?: unknown } };
   const table = readFeatureTable(extras.veduta?.features, part.model);
   const group = new Group();

@@ -1,7 +1,17 @@
-import { BoxGeometry, InstancedMesh, Matrix4, MeshBasicMaterial, BufferAttribute } from "three";
+import {
+  BoxGeometry,
+  BufferAttribute,
+  Group,
+  InstancedMesh,
+  Matrix4,
+  Mesh,
+  MeshBasicMaterial,
+  type Object3D,
+} from "three";
 import { describe, expect, it } from "vitest";
 import type { FeatureTable } from "../../src/core/features.ts";
 import { facesOfInstances, instancedFeatures, showInstances } from "../../src/three/instanced-mesh.ts";
+import { gatherRepeated } from "../../src/three/repeated-nodes.ts";
 import { Solid, soupOf } from "../../src/three/solid.ts";
 import { DEFAULT_WALK } from "../../src/core/walking.ts";
 
@@ -78,5 +88,50 @@ describe("repeated meshes", () => {
 
   it("that name no row are a fault of the file", () => {
     expect(() => instanced([9])).toThrow(/model.glb/u);
+  });
+});
+
+/** As the loader has it: a marked group of nodes with one geometry, of two materials each. */
+function chairs(rows: readonly number[], geometry: BoxGeometry): Group {
+  const group = new Group();
+  group.userData = { veduta: { instances: true } };
+  for (const [index, row] of rows.entries()) {
+    const place = new Group();
+    place.position.x = 5 * index;
+    place.userData = { veduta: { instance: row } };
+    place.add(new Mesh(geometry, new MeshBasicMaterial({ name: "wood" })));
+    place.add(new Mesh(geometry, new MeshBasicMaterial({ name: "cloth" })));
+    group.add(place);
+  }
+  return group;
+}
+
+function drawnIn(scene: Object3D): InstancedMesh[] {
+  const found: InstancedMesh[] = [];
+  scene.traverse((node) => {
+    if (node instanceof InstancedMesh) found.push(node as InstancedMesh);
+  });
+  return found;
+}
+
+describe("nodes that share a mesh", () => {
+  it("are drawn once for each material, where they stand", () => {
+    const scene = new Group();
+    const geometry = new BoxGeometry(1, 1, 1);
+    scene.add(chairs([1, 2, 3], geometry), chairs([0], geometry));
+    gatherRepeated(scene);
+    const drawn = drawnIn(scene);
+    expect(drawn.map(({ count }) => count)).toEqual([3, 3, 1, 1]);
+    const targets = drawn.map((mesh) => instancedFeatures(mesh, table, "model.glb"));
+    expect(targets.map(({ rows }) => [...rows])).toEqual([[1, 2, 3], [1, 2, 3], [0], [0]]);
+    expect(targets[0]?.matrices[16 + 12]).toBe(5);
+  });
+
+  it("without a row are a fault of the file", () => {
+    const scene = new Group();
+    scene.add(chairs([1], new BoxGeometry(1, 1, 1)));
+    delete scene.children[0]?.children[0]?.userData.veduta;
+    gatherRepeated(scene);
+    expect(() => drawnIn(scene).map((mesh) => instancedFeatures(mesh, table, "model.glb"))).toThrow(/model.glb/u);
   });
 });

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 from pathlib import Path
 
 import numpy as np
@@ -9,8 +10,8 @@ import pytest
 import trimesh
 from scipy.spatial.transform import Rotation
 
-from veduta.formats.gltf import read_glb, write_glb
-from veduta.formats.gltf_instances import gltf_placement, part_placement
+from veduta.formats.gltf import glb_bytes, read_glb
+from veduta.formats.gltf_instances import INSTANCING, gltf_placement, part_placement
 from veduta.place import flatten
 from veduta.place.builder import PartBuilder
 from veduta.place.flatten import TooManyTrianglesError, flattened
@@ -109,10 +110,11 @@ def test_too_many_are_not_written_out(monkeypatch: pytest.MonkeyPatch) -> None:
         flattened(part())
 
 
+@pytest.mark.parametrize("most_nodes", [0, 1000])
 @pytest.mark.parametrize("ground", [True, False])
-def test_a_file_gives_them_back(tmp_path: Path, ground: bool) -> None:
+def test_a_file_gives_them_back(tmp_path: Path, ground: bool, most_nodes: int) -> None:
     whole = part(ground=ground)
-    write_glb(whole, tmp_path / "house.glb")
+    (tmp_path / "house.glb").write_bytes(glb_bytes(whole, most_nodes=most_nodes))
     back = read_glb(tmp_path / "house.glb")
     assert back.instances is not None
     assert back.features.id == whole.features.id
@@ -124,6 +126,19 @@ def test_a_file_gives_them_back(tmp_path: Path, ground: bool) -> None:
         [one.materials[k].colour for k in one.polygon_material[-60:]] for one in (wanted, found)
     ]
     assert np.allclose(sorted(colour[0]), sorted(colour[1]), atol=1e-4)
+
+
+def test_any_reader_sees_few_of_them_where_they_stand() -> None:
+    """trimesh knows no extension for instances; its y is up, as glTF's."""
+    data = glb_bytes(part())
+    assert INSTANCING.encode() not in data
+    scene = trimesh.load_scene(io.BytesIO(data), file_type="glb")
+    found = scene.to_mesh()
+    low, high = part().bounds_m
+    assert found.bounds[0] == pytest.approx([low[0], low[2], -high[1]], abs=1e-4)
+    assert found.bounds[1] == pytest.approx([high[0], high[2], -low[1]], abs=1e-4)
+    boxes = sum(moved(place).area for place in places(5))
+    assert found.area == pytest.approx(boxes + 12.0, rel=1e-5)
 
 
 def test_placements_go_to_the_file_and_back() -> None:
