@@ -8,11 +8,15 @@ import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Point
 
+from veduta.plan.document import RoomUse
+from veduta.plan.house.hanging import WAYS
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import Space
 
 AWAY_M = (5.0, 4.0, 3.0, 2.0)
 """From the front door to the visitor: the first from which nothing is in the way."""
+OF_TERRACES = frozenset({"sliding", "french", "folding"})
+_ENTERED: dict[RoomUse, int] = {"living": 2, "dining": 2, "garage": 0, "storage": 0}
 _BEYOND_M = 0.1
 
 
@@ -51,10 +55,21 @@ def _entrance(hole: Hole, space: Space) -> Entrance:
     return Entrance(hole, hole.middle, _side(hole, space) * hole.leftward)
 
 
-def _inviting(hole: Hole) -> tuple[bool, bool, float]:
-    """Doors before gaps, garages last of doors, the surest first."""
+def _inviting(hole: Hole) -> tuple[bool, bool, bool, bool, int, float]:
+    """Doors before gaps, garages last of doors; those of a hall, and not those of a terrace, first.
+
+    Of what is alike then, the door whose room a visitor would enter, and the surest.
+    """
     opening = hole.opening
-    return opening.kind == "door", opening.type != "garage", opening.score
+    uses = {room.use for room in (hole.left, hole.right) if room is not None and not room.outdoors}
+    return (
+        opening.kind == "door",
+        hole.type != "garage",
+        not uses.isdisjoint(WAYS),
+        hole.type not in OF_TERRACES,
+        max((_ENTERED.get(use, 1) for use in uses), default=0),
+        opening.score,
+    )
 
 
 def _side(hole: Hole, space: Space) -> int:
