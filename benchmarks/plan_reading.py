@@ -20,7 +20,7 @@ from veduta.run.errors import VedutaError
 from veduta.run.pool import Task, run_tasks
 from veduta.run.progress import Progress, no_progress
 
-MEMORY = 1500 * 1024**2
+MEMORY = 800 * 1024**2
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from veduta.plan.compose import compose_storey
 from veduta.plan.document import Scale
 from veduta.plan.drawn import Drawn
 from veduta.plan.reading import read_storey
+from veduta.plan.rooms import mend
 from veduta.run.errors import NotFoundError
 
 Image = NDArray[np.uint8]
@@ -160,3 +161,12 @@ def _run(drawn: Drawn, name: str) -> NDArray[np.float64]:
     wall = next(one for one in drawn.walls if one.id == name)
     start, end = drawn.wall_ends(wall)
     return np.asarray(end - start)
+
+
+def test_a_drawing_of_which_all_is_taken_for_walls_is_not_mended(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(mend, "MOST_WALLS", 3)
+    notes = " ".join(read_storey(two_rooms()).notes)
+    assert "pieces of wall were found" in notes
+    assert "a cleaner or a sharper scan" in notes

@@ -14,9 +14,11 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 from shapely import STRtree, unary_union
 from shapely.geometry import Point, Polygon, box
+from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Origin, Text
 from veduta.plan.openings.classify import Judged, judge
@@ -50,6 +52,12 @@ LEAFLESS = 1.5
 """Doors of closets, drawn without leaves, are wider than others by this factor at most."""
 
 MOST_ROUNDS = 24
+MOST_WALLS = 500
+"""Of a drawing that is not noise: more leave thousands of breaks, none of which says anything."""
+TOO_MANY = (
+    "{} pieces of wall were found, too many to be walls alone: gaps between them are not closed."
+    " Take a cleaner or a sharper scan"
+)
 
 Reason = Literal[
     "a door is drawn there",
@@ -87,15 +95,18 @@ class _Closing:
 def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Text] = ()) -> Mended:
     """Close what is broken, the best break first, as long as that makes another room."""
     now, notes = list(axes), list[str]()
+    if len(now) > MOST_WALLS:
+        return Mended(now, (TOO_MANY.format(len(now)),))
     looker = _Looker(found, sheet, room_labels(texts), _usual_door(axes))
     failed: set[tuple[int, ...]] = set()
     graph = wall_graph(now)
     rooms = len(closed_spaces(wall_bodies(graph, now), found.thin_px))
+    closings = looker.closings(graph, now)
     for _ in range(MOST_ROUNDS):
-        closings = looker.closings(graph, now, failed)
-        if not closings:
+        left = [one for one in closings if one.broken.key not in failed]
+        if not left:
             break
-        best = max(closings, key=lambda one: one.worth)
+        best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
         more = [*now, _axis(best, found.thin_px)]
         tried = wall_graph(more)
@@ -103,6 +114,7 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
         if count > rooms:
             now, graph, rooms = more, tried, count
             notes.append(_note(best, more[-1]))
+            closings = looker.closings(graph, now)
     return Mended(now, tuple(notes))
 
 
@@ -125,21 +137,20 @@ class _Looker:
         self.leaking: list[Point] = []
         self.seen: dict[tuple[int, ...], Judged | None] = {}
 
-    def closings(
-        self, graph: Graph, axes: Sequence[Axis], failed: set[tuple[int, ...]]
-    ) -> list[_Closing]:
+    def closings(self, graph: Graph, axes: Sequence[Axis]) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
         bodies = wall_bodies(graph, axes)
         spaces = self._spaces(bodies)
         self.leaking = self._leaking(bodies)
         tree = STRtree([space for space, _ in spaces])
+        boundaries = [space.boundary for space, _ in spaces]
         found = []
         for one in find_breaks(graph, axes, self.found.solid, self.found.thin_px):
-            if one.key in failed:
-                continue
             body = wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)).buffer(0.7)
             for index in tree.query(body, predicate="intersects"):
                 space, outdoors = spaces[int(index)]
+                if not _may_part(boundaries[int(index)], body):
+                    continue
                 parts = self._parts(space, body)
                 if len(parts) > 1:
                     closing = self._judged(one, parts, outdoors)
@@ -239,6 +250,17 @@ class _Looker:
             view = look_at(gap, self.sheet)
             self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
         return self.seen[place]
+
+
+def _may_part(boundary: BaseGeometry, body: Polygon) -> bool:
+    """Whether a body meets a space's boundary at two places at least: else the rest is one piece.
+
+    A noisy drawing has thousands of breaks, and this is a hundredth of the work of `_parts`.
+    """
+    met = shapely.clip_by_rect(boundary, *body.buffer(1.0).bounds).intersection(body)
+    if met.geom_type not in {"LineString", "MultiLineString"}:
+        return not met.is_empty
+    return int(shapely.get_num_geometries(shapely.line_merge(met))) > 1
 
 
 def _usual_door(axes: Sequence[Axis]) -> float | None:
