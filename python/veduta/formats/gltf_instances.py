@@ -40,6 +40,8 @@ def add_instances(
     as_nodes = len(instances) <= most_nodes
     vertices = [_vertices(mesh, binary) for mesh in instances.meshes]
     for group in instances.groups:
+        if len(group.feature) == 0:
+            continue
         mesh, (attributes, indices) = instances.meshes[group.mesh], vertices[group.mesh]
         primitives = [
             {"attributes": attributes, "indices": accessor, "material": material_of(row)}

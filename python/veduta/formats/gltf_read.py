@@ -31,7 +31,11 @@ LARGEST_PIXELS = 64 * 2**20
 _HEADER = struct.Struct("<4sII")
 _CHUNK = struct.Struct("<I4s")
 _REMEDY = "Let Veduta write it again."
-Columns = NDArray[np.float32]
+_BROKEN = (
+    ValueError, KeyError, IndexError, TypeError, AttributeError, OverflowError,
+    struct.error, OSError,
+)  # fmt: skip
+_Columns = NDArray[np.float32]
 _DTYPES = {5126: np.float32, 5125: np.uint32}
 _WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
 
@@ -70,7 +74,7 @@ def read_glb(path: Path) -> Part:
         raise InputError(path, f"cannot be read ({error.strerror})", _REMEDY) from error
     try:
         return _part(_chunks(data))
-    except (ValueError, KeyError, IndexError, TypeError, struct.error, OSError) as error:
+    except _BROKEN as error:
         raise InputError(path, f"not a GLB file of Veduta ({error})", _REMEDY) from error
 
 
@@ -151,7 +155,7 @@ def _instances(glb: _Glb, features: int) -> Instances | None:
     return Instances(tuple(meshes[name] for name in names), tuple(groups))
 
 
-def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[Columns]]]:
+def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[_Columns]]]:
     """Mesh, feature rows and places (moves, turns, stretches) of what stands many times."""
     nodes = glb.root["nodes"]
     for node in nodes:
@@ -167,6 +171,8 @@ def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list
                 for name in ("translation", "rotation", "scale")
             ]
             rows = [child["extras"]["veduta"]["instance"] for child in children]
+            if len({child["mesh"] for child in children}) != 1:
+                raise ValueError("the instances of a group have different meshes")
             yield glb.root["meshes"][children[0]["mesh"]], np.array(rows, dtype=np.int32), place
 
 

@@ -19,6 +19,7 @@ export function gatherRepeated(scene: Group): void {
     const first = places[0];
     if (first === undefined) continue;
     const looks = meshesOf(first).map((mesh) => repeated(mesh, places));
+    if (looks.length === 0) continue;
     group.clear();
     for (const look of looks) group.add(look);
   }

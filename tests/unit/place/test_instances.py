@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import io
 from pathlib import Path
 
@@ -11,7 +12,7 @@ import trimesh
 from scipy.spatial.transform import Rotation
 
 from veduta.formats.gltf import glb_bytes, read_glb
-from veduta.formats.gltf_instances import INSTANCING, gltf_placement, part_placement
+from veduta.formats.gltf_instances import INSTANCING, MOST_NODES, gltf_placement, part_placement
 from veduta.place import flatten
 from veduta.place.builder import PartBuilder
 from veduta.place.flatten import TooManyTrianglesError, flattened
@@ -19,6 +20,7 @@ from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Material
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.run.errors import InputError
 
 BOX = trimesh.creation.box(extents=(1.0, 0.5, 2.0))
 
@@ -126,6 +128,33 @@ def test_a_file_gives_them_back(tmp_path: Path, ground: bool, most_nodes: int) -
         [one.materials[k].colour for k in one.polygon_material[-60:]] for one in (wanted, found)
     ]
     assert np.allclose(sorted(colour[0]), sorted(colour[1]), atol=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("written", "broken"),
+    [
+        (b'{"veduta":{"instances":true}}', b'{"veduta": "instances: true"}'),
+        (b'{"veduta":{"instances":true}}', b"null".ljust(29)),
+        (b'{"veduta":{"instance":5}}', b'{"veduta":{"instance":9}}'),
+        (b'{"veduta":{"instance":5}}', b'{"veduta":   "instance" }'),
+    ],
+)
+def test_a_file_that_was_edited_is_refused_or_read_without_them(
+    tmp_path: Path, written: bytes, broken: bytes
+) -> None:
+    """Never with a traceback."""
+    data = glb_bytes(part())
+    assert len(written) == len(broken)
+    assert written in data
+    path = tmp_path / "house.glb"
+    path.write_bytes(data.replace(written, broken))
+    with contextlib.suppress(InputError):
+        assert read_glb(path).instances is None
+
+
+def test_a_thousand_are_nodes_and_one_more_is_not() -> None:
+    assert INSTANCING.encode() not in glb_bytes(part(MOST_NODES))
+    assert INSTANCING.encode() in glb_bytes(part(MOST_NODES + 1))
 
 
 def test_any_reader_sees_few_of_them_where_they_stand() -> None:

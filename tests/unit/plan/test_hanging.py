@@ -5,8 +5,9 @@ from __future__ import annotations
 from typing import Any
 
 import pytest
-from sample_plan import opening, rectangle, room, sample_storey
+from sample_plan import opening, rectangle, room, sample_storey, wall
 
+from veduta.plan.document import Junction
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.space import space_of
 
@@ -117,3 +118,43 @@ def test_a_pocket_is_where_the_wall_is_long_enough() -> None:
 def test_what_leads_outdoors_slides_indoors() -> None:
     front = hung("front", opening("front", "south-1", 0.6, 1.9, type="sliding"))
     assert (front.right if front.swing == "right" else front.left) is not None
+
+
+def l_shaped(*openings: Any) -> dict[str, Hole]:
+    """A room of 8 m by 6 m without its upper right quarter, 4 m by 3 m; walls of 30 cm."""
+    corners = {
+        "a": (0.0, 0.0), "b": (8.0, 0.0), "c": (8.0, 3.0), "d": (4.0, 3.0), "e": (4.0, 6.0),
+        "f": (0.0, 6.0),
+    }  # fmt: skip
+    floor = [(0.15, 0.15), (7.85, 0.15), (7.85, 2.85), (3.85, 2.85), (3.85, 5.85), (0.15, 5.85)]
+    storey = sample_storey(
+        junctions=[Junction(id=name, at_m=at, type="L") for name, at in corners.items()],
+        walls=[wall(name, name[0], name[1]) for name in ("ab", "bc", "cd", "de", "ef", "fa")],
+        openings=list(openings),
+        rooms=[room("living", floor)],
+    )
+    return {hole.opening.id: hole for hole in space_of(storey, 2.55).holes}
+
+
+@pytest.mark.parametrize("beside_m", [0.2, 0.3])
+def test_no_leaf_slides_past_a_corner_into_the_room(beside_m: float) -> None:
+    """North of the door in "de" is 1 m of wall; south of it is the corner, and the free room."""
+    door = opening("door", "de", beside_m, 1.5, type="sliding", swing="left")
+    assert l_shaped(door)["door"].hinge in ("end", "both")
+    long = opening("door", "cd", 4.0 - 1.2 - beside_m, 1.2, type="sliding")
+    found = l_shaped(long)["door"]
+    assert (found.hinge, found.swing) == ("start", "left")
+
+
+def test_outdoors_on_both_sides_it_slides_where_the_wall_is() -> None:
+    storey = sample_storey(
+        openings=[opening("gate", "middle", 0.1, 1.2, type="sliding", swing="both")], rooms=[]
+    )
+    (hole,) = space_of(storey, 2.55).holes
+    assert hole.hinge == "end"
+
+
+def test_a_pocket_is_in_no_window_and_in_no_bend() -> None:
+    pocket = opening("door", "fa", 1.2, 1.0, type="pocket")
+    window = opening("window", "fa", 2.4, 1.5, kind="window", type="double-line")
+    assert l_shaped(pocket, window)["door"].hinge == "start"

@@ -115,6 +115,15 @@ def test_types_of_doors_have_their_leaves(kind: str, leaves: int) -> None:
     assert len(np.unique(every)) == len(every)
 
 
+def test_two_leaves_slide_apart() -> None:
+    door = opening("d", "south-1", 1.6, 2.0, type="sliding", hinge="both", swing="left")
+    part = build_house(sample_plan(sample_storey(openings=[door])), HouseOptions()).part
+    left, right = sorted(part.movers, key=lambda one: one.shift_m[0])
+    assert left.shift_m[0] == pytest.approx(-right.shift_m[0])
+    assert right.shift_m[0] == pytest.approx(1.0, abs=0.07)
+    assert set(left.polygons).isdisjoint(right.polygons)
+
+
 def test_a_plain_gap_has_no_leaf() -> None:
     gap = Opening.model_validate(opening("g", "middle", 1.0, 0.9).model_dump() | {"kind": "gap"})
     part = build_house(sample_plan(sample_storey(openings=[gap])), HouseOptions()).part

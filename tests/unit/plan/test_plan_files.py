@@ -162,3 +162,12 @@ def test_walls_of_the_building_model_share_the_footprint() -> None:
 def test_doors_open_as_ifc_calls_it(hinge: str, swing: str, operation: str) -> None:
     """Looking along the swing, hinges at the left are a left door (IfcDoorTypeOperationEnum)."""
     assert door_operation(opening("d", "w", 0.0, 0.9, hinge=hinge, swing=swing)) == operation
+
+
+def test_ifc_names_sliding_doors_by_their_leaves() -> None:
+    def named(hinge: str) -> str:
+        return door_operation(
+            opening("d", "w", 0.0, 1.6, type="sliding", hinge=hinge, swing="left")
+        )
+
+    assert [named("both"), named("start")] == ["DOUBLE_DOOR_SLIDING", "SLIDING_TO_LEFT"]

@@ -1,7 +1,7 @@
 """Whether the best placement of walls in a model is believed.
 
-Evidence is in nats: logarithms of how much likelier the walls are with the placement than by
-chance. A placement is believed where
+Evidence is in nats: logarithms of how much likelier the walls, and the height of the cameras, are
+with the placement than by chance. A placement is believed where
 - it is far likelier than that one of all the placements that could have been tried fits so well by
   chance: evidence above the logarithm of their number, by `SURE`;
 - the second best is far less likely: repeated houses fit at several places, and nothing of the fit

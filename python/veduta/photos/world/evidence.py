@@ -17,6 +17,7 @@ from scipy.spatial import KDTree
 
 from veduta.photos.city.facades import Facades
 from veduta.photos.world.columns import Complex, Placements, WallColumns, complex_of
+from veduta.photos.world.eye_height import Feet
 
 PLANE_SD_M, EDGE_SD_M, TOP_SD_M = 0.25, 0.4, 0.6
 PLANES_PER_M, EDGES_PER_M, TOPS_PER_M = 0.1, 0.12, 0.12
@@ -76,6 +77,11 @@ class FacadeIndex:
     def width(self) -> NDArray[np.float64]:
         """(f,)."""
         return self.facades.width
+
+    @cached_property
+    def feet(self) -> Feet:
+        """Where the buildings stand."""
+        return Feet(self.facades)
 
     @cached_property
     def _places(self) -> tuple[KDTree, NDArray[np.int64]]:

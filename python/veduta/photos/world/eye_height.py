@@ -7,6 +7,9 @@ all of them say it once.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+from functools import cached_property
+
 import numpy as np
 from numpy.typing import NDArray
 from scipy.spatial import KDTree
@@ -21,22 +24,43 @@ HEIGHTS_PER_M = 0.1
 """How densely heights lie by chance."""
 NEAR_M = 40.0
 """Feet of buildings further away say nothing of the ground."""
+BESIDE_M = 3.0
+"""Beyond the nearest facade: the lowest of these stands on the ground."""
 
 
-def eye_height_nats(centres: NDArray[np.float64], facades: Facades) -> float:
+@dataclass(frozen=True)
+class Feet:
+    """Where the buildings of a model stand on the ground."""
+
+    facades: Facades
+
+    def under(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n,) the height of the feet beside (n, 2) places; NaN where no building is near."""
+        if len(self.facades) == 0:
+            return np.full(len(places), np.nan)
+        tree, bottom = self._bottoms
+        away = np.asarray(tree.query(places)[0])
+        # A bay or an upper storey may be the nearest: it does not stand on the ground.
+        around = tree.query_ball_point(places, away + BESIDE_M)
+        lowest = np.array([bottom[rows].min() for rows in around])
+        found: NDArray[np.float64] = np.where(away <= NEAR_M, lowest, np.nan)
+        return found
+
+    @cached_property
+    def _bottoms(self) -> tuple[KDTree, NDArray[np.float64]]:
+        places, row = self.facades.samples()
+        return KDTree(places), self.facades.bottom[row]
+
+
+def eye_height_nats(centres: NDArray[np.float64], feet: Feet) -> float:
     """Logarithm of a likelihood ratio; 0 where no building is near.
 
     centres: (c, 3) of the cameras, in the world of the facades.
     """
-    places, row = facades.samples()
-    if len(places) == 0 or len(centres) == 0:
+    height = centres[:, 2] - feet.under(centres[:, :2])
+    height = height[np.isfinite(height)]
+    if len(height) == 0:
         return 0.0
-    found = KDTree(places).query(centres[:, :2])
-    away, nearest = np.asarray(found[0]), np.asarray(found[1])
-    near = away <= NEAR_M
-    if not near.any():
-        return 0.0
-    height = float(np.median(centres[near, 2] - facades.bottom[row[nearest[near]]]))
-    density = np.exp(-0.5 * ((height - EYES_M) / EYES_SD_M) ** 2)
-    density /= EYES_SD_M * np.sqrt(2.0 * np.pi)
+    off = (float(np.median(height)) - EYES_M) / EYES_SD_M
+    density = np.exp(-0.5 * off**2) / (EYES_SD_M * np.sqrt(2.0 * np.pi))
     return float(np.log(ON_FOOT * density / HEIGHTS_PER_M + 1.0 - ON_FOOT))

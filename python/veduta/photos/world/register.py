@@ -178,7 +178,7 @@ def _weighed(
     hidden = blocked > BLOCKED_WALL * np.maximum(count, 1)
     evidence = np.where(hidden, NO_WALL_NATS, matches.evidence[0])
     inside = max(MOST_INSIDE_NATS, INSIDE_NATS * float(against.inside.sum()))
-    eyes = eye_height_nats(refined.world_from_model.moved(lines.centres), index.facades)
+    eyes = eye_height_nats(refined.world_from_model.moved(lines.centres), index.feet)
     return _Found(refined, matches, against, float(evidence.sum()) + inside + eyes)
 
 

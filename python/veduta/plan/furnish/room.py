@@ -20,6 +20,7 @@ from shapely.ops import unary_union
 
 from veduta.plan.document import Room, Stairs
 from veduta.plan.house.hole import ENDS, Hole
+from veduta.plan.house.sliding import SLIDING
 from veduta.plan.house.space import Space, pieces_of
 
 APPROACH_M = 0.65
@@ -190,7 +191,7 @@ def _door_zones(hole: Hole, sign: float) -> list[Polygon]:
     zones = [_front_of(hole, sign, APPROACH_M, 0.03)]
     if opening.kind == "gap" or hole.type == "plain" or garage:
         return zones
-    if hole.type in {"sliding", "pocket"}:
+    if hole.type in SLIDING:
         # The leaf runs along the wall.
         return [*zones, _front_of(hole, sign, 0.1, hole.width_m)]
     swings = -1.0 if hole.swing == "right" else 1.0

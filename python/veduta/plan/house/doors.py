@@ -16,16 +16,16 @@ from veduta.place.mover import Mover, Vector
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.frame import Frame, Sculptor, Surface, ring_of, upright
 from veduta.plan.house.hole import Hole
+from veduta.plan.house.sliding import LEAF_M, OVER_M, SLIDING
 from veduta.plan.house.space import Space
 from veduta.plan.options import HouseOptions
 
 FRAME_M = 0.05
-LEAF_M = 0.04
 GAP_M = 0.004
 TURN_RAD = math.radians(90.0)
 OPENED = 0.92
 """How far open doors stand: a leaf at a right angle would touch the wall behind it."""
-_OVER_M = 0.012
+_OVER_M = OVER_M - GAP_M
 _STILE_M = 0.11
 
 
@@ -48,7 +48,8 @@ def add_door(hole: Hole, space: Space, sculptor: Sculptor, options: HouseOptions
     opening = hole.opening
     frame = upright(hole.start, hole.along, space.storey.elevation_m)
     drawn = opening.hinge != "none" and opening.swing != "none"
-    known = drawn or opening.type in {"sliding", "pocket", "garage"}
+    in_wall = opening.type == "pocket" and opening.hinge != "none"
+    known = drawn or in_wall or opening.type == "garage"
     feature = sculptor.builder.feature(
         SemanticClass.DOOR,
         Provenance.INFERRED if known and opening.origin != "invented" else Provenance.INVENTED,
@@ -104,7 +105,7 @@ class _Door:
     def add(self) -> None:
         """Add what the type of the door asks for."""
         kind = self.hole.type
-        if kind in {"sliding", "pocket"}:
+        if kind in SLIDING:
             self._slide(in_wall=kind == "pocket")
         elif kind == "garage":
             self._lift()
@@ -142,7 +143,7 @@ class _Door:
 
     def _slide(self, *, in_wall: bool) -> None:
         """Before the wall or within it, to the ends at which leaves hang."""
-        face = self.hole.line.half_m + _OVER_M + GAP_M
+        face = self.hole.line.half_m + OVER_M
         near, far = (-LEAF_M / 2, LEAF_M / 2) if in_wall else (face, face + LEAF_M)
         middle = (self.first + self.last) / 2.0
         leaves = {

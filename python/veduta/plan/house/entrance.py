@@ -16,7 +16,9 @@ from veduta.plan.house.space import Space
 AWAY_M = (5.0, 4.0, 3.0, 2.0)
 """From the front door to the visitor: the first from which nothing is in the way."""
 OF_TERRACES = frozenset({"sliding", "french", "folding"})
+"""Types of doors that lead out of a house rather than in."""
 _ENTERED: dict[RoomUse, int] = {"living": 2, "dining": 2, "garage": 0, "storage": 0}
+"""How likely a visitor is led into a room; others are 1."""
 _BEYOND_M = 0.1
 
 

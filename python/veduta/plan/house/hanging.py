@@ -9,9 +9,10 @@ its hinge, before no other opening. What slides does so where it is least in the
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 
 from shapely.geometry import Point, Polygon
+from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import DoorType, Room, RoomUse
 from veduta.plan.house.hole import ENDS, End, Hinge, Hole, Swing
@@ -33,13 +34,25 @@ FAR = 0.3
 _THICK_M = 0.05
 
 
-def hung(holes: Sequence[Hole], rooms: Rooms) -> tuple[Hole, ...]:
-    """The openings with the hinge and the swing of each leaf: as drawn, else where it is best."""
-    shapes = {room.id: shape for room, shape in rooms}
-    return tuple(_hung(hole, holes, shapes) for hole in holes)
+def hung(holes: Sequence[Hole], rooms: Rooms, walls: BaseGeometry) -> tuple[Hole, ...]:
+    """The openings with the hinge and the swing of each leaf: as drawn, else where it is best.
+
+    walls: all of the storey, openings not cut.
+    """
+    around = _Around(holes, {room.id: shape for room, shape in rooms}, walls)
+    return tuple(_hung(hole, around) for hole in holes)
 
 
-def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole:
+@dataclass(frozen=True)
+class _Around:
+    """What leaves may be in the way of. rooms: the floor of each, by its id."""
+
+    holes: Sequence[Hole]
+    rooms: dict[str, Polygon]
+    walls: BaseGeometry
+
+
+def _hung(hole: Hole, around: _Around) -> Hole:
     opening, guess = hole.opening, _guess(hole)
     hole = replace(hole, guess=guess)
     swings: tuple[Swing, ...] = ("left", "right")
@@ -49,14 +62,15 @@ def _hung(hole: Hole, holes: Sequence[Hole], shapes: dict[str, Polygon]) -> Hole
         hinges = (*ENDS, "both") if hole.type in SLIDING else ENDS
     else:
         hinges = (opening.hinge,)
-    if opening.swing != "none":
+    if opening.swing != "none" and not (hole.type in SLIDING and opening.swing == "both"):
         swings = (opening.swing,)
     ways = [(hinge, swing) for swing in swings for hinge in hinges]
     if opening.kind != "door" or len(ways) == 1:
         hinge, swing = ways[0]
     else:
-        others = [one for one in holes if one.opening.id != opening.id]
-        hinge, swing = min(ways, key=lambda way: _against(hole, way[0], way[1], others, shapes))
+        others = [one for one in around.holes if one.opening.id != opening.id]
+        beside = replace(around, holes=others)
+        hinge, swing = min(ways, key=lambda way: _against(hole, way[0], way[1], beside))
     return replace(hole, hinge=hinge, swing=swing)
 
 
@@ -72,22 +86,21 @@ def _guess(hole: Hole) -> DoorType | None:
     return "sliding" if outdoors or closet else "double"
 
 
-def _against(
-    hole: Hole, hinge: Hinge, swing: Swing, others: Sequence[Hole], shapes: dict[str, Polygon]
-) -> float:
+def _against(hole: Hole, hinge: Hinge, swing: Swing, around: _Around) -> float:
     """What speaks against a way to hang it."""
     if hole.type in SLIDING and swing != "both":
-        return against_slide(hole, hinge, 1.0 if swing == "left" else -1.0, others, shapes)
+        side = 1.0 if swing == "left" else -1.0
+        return against_slide(hole, hinge, side, around.holes, around.rooms, around.walls)
     into, other = (hole.left, hole.right) if swing == "left" else (hole.right, hole.left)
     found = _against_side(into, other)
     if into is None or hinge == "both" or swing == "both":
         return found
     side = 1.0 if swing == "left" else -1.0
-    room = shapes[into.id]
+    room = around.rooms[into.id]
     swept = hole.sweep(hinge, side, hole.width_m)
     found += 1.0 - swept.intersection(room).area / swept.area
     open_leaf = _open_leaf(hole, hinge, side)
-    if any(open_leaf.distance(one.outline) < BEFORE_M for one in others):
+    if any(open_leaf.distance(one.outline) < BEFORE_M for one in around.holes):
         found += BEFORE_OPENING
     edge = Point(open_leaf.exterior.coords[1])
     return found + FAR * min(1.0, edge.distance(room.exterior) / hole.width_m)

@@ -131,7 +131,7 @@ def space_of(storey: Storey, wall_height_m: float) -> Space:
         " floored and roofed, but no room"
         for piece in empty.leaks
     ]
-    return Space(storey, lines, walls, hung(holes, empty.rooms), tuple(notes))
+    return Space(storey, lines, walls, hung(holes, empty.rooms, walls), tuple(notes))
 
 
 def room_polygon(room: Room) -> Polygon:

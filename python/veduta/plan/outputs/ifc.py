@@ -27,6 +27,7 @@ from veduta.plan.house.build import GROUND_SLAB_M, House
 from veduta.plan.house.floors import slab_over
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.lines import WallLine
+from veduta.plan.house.sliding import SLIDING
 from veduta.plan.house.space import Space, pieces_of
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_finish import finishes_of
@@ -38,8 +39,9 @@ Entity = Any
 _NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
 _PANEL_M = 0.05
 DoorOperation = Literal[
-    "SINGLE_SWING_LEFT", "SINGLE_SWING_RIGHT", "DOUBLE_DOOR_SINGLE_SWING", "SLIDING_TO_LEFT",
-    "SLIDING_TO_RIGHT", "FOLDING_TO_LEFT", "FOLDING_TO_RIGHT", "ROLLINGUP", "NOTDEFINED",
+    "SINGLE_SWING_LEFT", "SINGLE_SWING_RIGHT", "DOUBLE_DOOR_SINGLE_SWING", "DOUBLE_DOOR_SLIDING",
+    "SLIDING_TO_LEFT", "SLIDING_TO_RIGHT", "FOLDING_TO_LEFT", "FOLDING_TO_RIGHT",
+    "ROLLINGUP", "NOTDEFINED",
 ]  # fmt: skip
 
 
@@ -325,11 +327,13 @@ def door_operation(opening: Opening) -> DoorOperation:
     at_left = (opening.hinge == "start") == (opening.swing == "left")
     if opening.type == "garage":
         return "ROLLINGUP"
+    if opening.type in SLIDING and opening.hinge == "both":
+        return "DOUBLE_DOOR_SLIDING"
     if opening.type in {"double", "french"} or opening.hinge == "both":
         return "DOUBLE_DOOR_SINGLE_SWING"
     if opening.hinge == "none" or opening.swing == "none":
         return "NOTDEFINED"
-    if opening.type in {"sliding", "pocket"}:
+    if opening.type in SLIDING:
         return "SLIDING_TO_LEFT" if at_left else "SLIDING_TO_RIGHT"
     if opening.type == "folding":
         return "FOLDING_TO_LEFT" if at_left else "FOLDING_TO_RIGHT"
