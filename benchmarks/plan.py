@@ -5,10 +5,11 @@
 
 The synthetic plans are `veduta.synthetic.plans` (seeds 10000 to 10199 unless told), read to their
 document; with `--house` they go through the whole verb. The real ones are `plans/` of $VEDUTA_DATA
-(else ../shared/data) and always go through the whole verb, whose time is given. Only a run over all
-is kept, and one over all the real sets, as `plan-real`. `--pictures` writes sheets of overlays: of
-other people's pixels, so never into the repository. `--work` keeps the synthetic readings, from
-which a later call on the same commit goes on.
+(else ../shared/data) and always go through the whole verb, whose time is given. A run over exactly
+the synthetic plans of all seeds is kept as `plan-synthetic`, one over all the real sets as
+`plan-real`. `--pictures` writes sheets of overlays: of other people's pixels, so never into the
+repository. `--work` keeps the synthetic readings, from which a later call on the same commit goes
+on.
 """
 
 from __future__ import annotations
@@ -190,11 +191,12 @@ def main() -> None:
     for name, measure in REAL.items():
         if name in chosen:
             rows += measure(arguments.jobs, arguments.pictures)
-    whole = set(chosen) == set(every) and arguments.seeds == TEST_SEEDS
     if set(chosen) == set(REAL):
         keep_or_print("plan-real", rows, REAL_NOTES, keep=True)
+    elif chosen == ["synthetic"]:
+        keep_or_print("plan-synthetic", rows, NOTES, keep=arguments.seeds == TEST_SEEDS)
     else:
-        keep_or_print("plan", rows, NOTES, keep=whole)
+        keep_or_print("plan", rows, (*NOTES, *REAL_NOTES), keep=False)
 
 
 if __name__ == "__main__":

@@ -30,3 +30,21 @@ def test_drawings_on_paper_of_any_colour_are_drawings() -> None:
     blue = np.where(two_rooms() > 128, (30, 70, 150), (230, 235, 245)).astype(np.uint8)
     for sheet in (two_rooms(), grainy, blue):
         assert clean_sheet(sheet).ink.max() > 0.9
+
+
+@pytest.mark.parametrize("noise", [0.0, 12.0])
+@pytest.mark.parametrize("paper", [(29, 65, 127), (70, 82, 84), (20, 20, 20)])
+def test_a_blueprint_has_its_ink_where_its_lines_are(
+    paper: tuple[int, int, int], noise: float
+) -> None:
+    blueprint = np.where(two_rooms() > 128, paper, (230, 235, 245))
+    grain = np.random.default_rng(6).normal(0, noise, blueprint.shape)
+    found = clean_sheet(np.clip(blueprint + grain, 0, 255).astype(np.uint8))
+    usual = clean_sheet(two_rooms())
+    assert any("inverted" in note for note in found.notes)
+    assert ((found.ink > 0.5) != (usual.ink > 0.5)).mean() < 0.01
+
+
+def test_dark_lines_on_dark_paper_are_no_blueprint() -> None:
+    for paper in ((120, 120, 120), (150, 110, 70)):
+        assert not any("inverted" in note for note in clean_sheet(two_rooms(paper, 10)).notes)

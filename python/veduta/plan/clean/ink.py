@@ -21,10 +21,29 @@ COMMON = 0.1
 NOISY = 0.03
 """Standard deviation of the noise, as a share of black, from which a sheet is smoothed first."""
 
+BLACK, WHITE = 80, 170
+"""A sheet whose median is darker is black; one whose median is lighter is white."""
+
+AROUND, FAINT = 0.2, 16
+"""The paper is the median within so much of the side; so many grey levels about it are noise."""
+
 
 def is_negative(pixels: NDArray[np.uint8]) -> bool:
-    """Whether (h, w, 3) pixels are light lines on black, as CAD programs show them."""
-    return bool(np.median(pixels[::7, ::7].max(axis=2)) < 80)
+    """Whether (h, w, 3) pixels are light lines on dark: blueprints, screens of CAD programs.
+
+    On a sheet that is neither black nor white it is told by what stands out of the paper, which is
+    the commonest around each place: more of it lighter, or more of it darker.
+    """
+    if np.median(pixels[::7, ::7].max(axis=2)) < BLACK:
+        return True
+    grey = cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY)
+    if np.median(grey[::7, ::7]) > WHITE:
+        return False
+    shrink = min(1.0, 2.0 * LIGHT_SIDE_PX / max(grey.shape))
+    small = cv2.resize(grey, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA)
+    reach = 2 * round(max(small.shape) * AROUND / 2) + 1
+    off = small.astype(np.int64) - cv2.medianBlur(small, min(reach, 255))
+    return int(off[off > FAINT].sum()) > -int(off[off < -FAINT].sum())
 
 
 def darkness(pixels: NDArray[np.uint8]) -> NDArray[np.float32]:
