@@ -69,6 +69,11 @@ class Stood:
         return self.top_m <= FLAT_M
 
     @property
+    def is_upon(self) -> bool:
+        """Whether it stands on another thing: what stands on a rug stands on the floor."""
+        return self.on is not None and not self.on.is_flat
+
+    @property
     def is_in_the_way(self) -> bool:
         """Whether one cannot walk where it is."""
         return not self.is_flat and self.above_m < OVERHEAD_M
@@ -101,7 +106,7 @@ class Layout:
 
     def allows(self, thing: Stood, beside: Sequence[Stood] = ()) -> bool:
         """Whether a thing may stand where it is: nothing overlaps, no window or door is covered."""
-        if thing.on is not None and not thing.on.is_flat:
+        if thing.is_upon:
             return all(not _overlap(thing, other) for other in (*self.stood, *beside))
         shape, space = thing.shape, self.space
         if thing.top_m > space.height_m - _CEILING_M or not space.inside.covers(shape):

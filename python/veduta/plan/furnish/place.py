@@ -69,7 +69,7 @@ def _try(
         thing = spot.place(piece, group, on)
         others = list(placed.values())
         allowed = layout.allows(thing, others)
-        if allowed and not piece.needed and thing.is_in_the_way and _is_on_floor(thing):
+        if allowed and not piece.needed and thing.is_in_the_way and not thing.is_upon:
             allowed = layout.can_walk([*others, thing])
         if allowed:
             placed[number] = thing
@@ -84,8 +84,3 @@ def _try(
 def _is_sound(things: list[Stood], zones: list, layout: Layout) -> bool:  # type: ignore[type-arg]
     free = all(layout.zone_is_free(zone, group, things) for zone, group in zones)
     return free and layout.can_walk(things)
-
-
-def _is_on_floor(thing: Stood) -> bool:
-    """Also what stands on a rug takes the way from who walks."""
-    return thing.on is None or thing.on.is_flat

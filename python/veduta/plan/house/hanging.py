@@ -9,14 +9,14 @@ its hinge, before no other opening. What slides does so where it is least in the
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from shapely.geometry import Point, Polygon
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import DoorType, Room, RoomUse
 from veduta.plan.house.hole import ENDS, End, Hinge, Hole, Swing
-from veduta.plan.house.sliding import SLIDING, against_slide
+from veduta.plan.house.sliding import SLIDING, Around, against_slide
 
 Rooms = Sequence[tuple[Room, Polygon]]
 
@@ -39,20 +39,11 @@ def hung(holes: Sequence[Hole], rooms: Rooms, walls: BaseGeometry) -> tuple[Hole
 
     walls: all of the storey, openings not cut.
     """
-    around = _Around(holes, {room.id: shape for room, shape in rooms}, walls)
+    around = Around(holes, {room.id: shape for room, shape in rooms}, walls)
     return tuple(_hung(hole, around) for hole in holes)
 
 
-@dataclass(frozen=True)
-class _Around:
-    """What leaves may be in the way of. rooms: the floor of each, by its id."""
-
-    holes: Sequence[Hole]
-    rooms: dict[str, Polygon]
-    walls: BaseGeometry
-
-
-def _hung(hole: Hole, around: _Around) -> Hole:
+def _hung(hole: Hole, around: Around) -> Hole:
     opening, guess = hole.opening, _guess(hole)
     hole = replace(hole, guess=guess)
     swings: tuple[Swing, ...] = ("left", "right")
@@ -86,11 +77,11 @@ def _guess(hole: Hole) -> DoorType | None:
     return "sliding" if outdoors or closet else "double"
 
 
-def _against(hole: Hole, hinge: Hinge, swing: Swing, around: _Around) -> float:
+def _against(hole: Hole, hinge: Hinge, swing: Swing, around: Around) -> float:
     """What speaks against a way to hang it."""
     if hole.type in SLIDING and swing != "both":
         side = 1.0 if swing == "left" else -1.0
-        return against_slide(hole, hinge, side, around.holes, around.rooms, around.walls)
+        return against_slide(hole, hinge, side, around)
     into, other = (hole.left, hole.right) if swing == "left" else (hole.right, hole.left)
     found = _against_side(into, other)
     if into is None or hinge == "both" or swing == "both":

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
@@ -23,48 +24,45 @@ TWO_LEAVES = 0.08
 """What speaks against two leaves where one would do."""
 
 
-def against_slide(
-    hole: Hole,
-    hinge: Hinge,
-    side: float,
-    others: Sequence[Hole],
-    shapes: Mapping[str, Polygon],
-    walls: BaseGeometry,
-) -> float:
+@dataclass(frozen=True)
+class Around:
+    """What leaves may be in the way of.
+
+    holes: other openings. rooms: the floor of each, by its id. walls: all of the storey, openings
+    not cut.
+    """
+
+    holes: Sequence[Hole]
+    rooms: Mapping[str, Polygon]
+    walls: BaseGeometry
+
+
+def against_slide(hole: Hole, hinge: Hinge, side: float, around: Around) -> float:
     """What speaks against leaves that slide to an end, or half to each: "both".
 
-    side: +1 where they run on the left of the wall, -1 on the right. shapes: the floor of each
-    room, by its id. walls: all of the storey, openings not cut.
+    side: +1 where they run on the left of the wall, -1 on the right.
     """
     if hinge == "both":
-        halves = [_against(hole, end, side, 0.5, others, shapes, walls) for end in ENDS]
+        halves = [_against(hole, end, side, 0.5, around) for end in ENDS]
         return TWO_LEAVES + sum(halves) / 2.0
-    return _against(hole, hinge, side, 1.0, others, shapes, walls)
+    return _against(hole, hinge, side, 1.0, around)
 
 
-def _against(
-    hole: Hole,
-    end: End,
-    side: float,
-    share: float,
-    others: Sequence[Hole],
-    shapes: Mapping[str, Polygon],
-    walls: BaseGeometry,
-) -> float:
+def _against(hole: Hole, end: End, side: float, share: float, around: Around) -> float:
     """The same of one leaf, as wide as a share of its door."""
     width = share * hole.width_m
     in_wall = (-hole.line.half_m, hole.line.half_m)
     beside = _beyond(hole, end, width, in_wall)
-    found = NO_WALL * (1.0 - beside.intersection(walls).area / beside.area)
+    found = NO_WALL * (1.0 - beside.intersection(around.walls).area / beside.area)
     is_pocket = hole.type == "pocket"
     face = hole.line.half_m + OVER_M
     leaf = beside if is_pocket else _beyond(hole, end, width, (side * face, side * (face + LEAF_M)))
     room = hole.left if side > 0.0 else hole.right
     if not is_pocket:
         inside = room is not None and not room.outdoors
-        free = shapes[room.id] if room is not None and inside else None
+        free = around.rooms[room.id] if room is not None and inside else None
         found += OUTSIDE if free is None else 1.0 - leaf.intersection(free).area / leaf.area
-    for other in others:
+    for other in around.holes:
         slight = other.opening.kind == "window" and not is_pocket
         near = other.outline.buffer(0.0 if is_pocket else LEAF_M + OVER_M)
         weight = BEFORE_WINDOW if slight else BEFORE_DOOR

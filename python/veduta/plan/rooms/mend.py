@@ -14,11 +14,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-import shapely
 from numpy.typing import NDArray
 from shapely import STRtree, unary_union
 from shapely.geometry import Point, Polygon, box
-from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Origin, Text
 from veduta.plan.openings.classify import Judged, judge
@@ -143,14 +141,11 @@ class _Looker:
         spaces = self._spaces(bodies)
         self.leaking = self._leaking(bodies)
         tree = STRtree([space for space, _ in spaces])
-        boundaries = [space.boundary for space, _ in spaces]
         found = []
         for one in find_breaks(graph, axes, self.found.solid, self.found.thin_px):
             body = wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)).buffer(0.7)
             for index in tree.query(body, predicate="intersects"):
                 space, outdoors = spaces[int(index)]
-                if not _may_part(boundaries[int(index)], body):
-                    continue
                 parts = self._parts(space, body)
                 if len(parts) > 1:
                     closing = self._judged(one, parts, outdoors)
@@ -250,17 +245,6 @@ class _Looker:
             view = look_at(gap, self.sheet)
             self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
         return self.seen[place]
-
-
-def _may_part(boundary: BaseGeometry, body: Polygon) -> bool:
-    """Whether a body meets a space's boundary at two places at least: else the rest is one piece.
-
-    A noisy drawing has thousands of breaks, and this is a hundredth of the work of `_parts`.
-    """
-    met = shapely.clip_by_rect(boundary, *body.buffer(1.0).bounds).intersection(body)
-    if met.geom_type not in {"LineString", "MultiLineString"}:
-        return not met.is_empty
-    return int(shapely.get_num_geometries(shapely.line_merge(met))) > 1
 
 
 def _usual_door(axes: Sequence[Axis]) -> float | None:
