@@ -48,6 +48,18 @@ def atomic_folder(path: Path) -> Iterator[Path]:
     sync_folder(path.parent)
 
 
+def drop_halves(folder: Path) -> None:
+    """Take away what writers that were killed have left under temporary names below `folder`.
+
+    Nobody may be writing there meanwhile.
+    """
+    for left in list(folder.rglob(".*.tmp")):
+        if left.is_dir():
+            shutil.rmtree(left, ignore_errors=True)
+        else:
+            left.unlink(missing_ok=True)
+
+
 def write_bytes(path: Path, content: bytes) -> None:
     """Write a small file whole or not at all."""
     with atomic_write(path) as temporary:

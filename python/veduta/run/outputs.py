@@ -30,7 +30,7 @@ from typing import Literal
 
 from pydantic import JsonValue
 
-from veduta.run.atomic import sync_folder, sync_tree
+from veduta.run.atomic import drop_halves, sync_folder, sync_tree
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, UnwritableError
 from veduta.run.record import CALL, JOURNAL, PRIVATE, RECORD, Change, Item, RunRecord, load_record
@@ -207,6 +207,7 @@ def open_out(
                 _settle(record, path)
             out = _open_locked(path, record, command, key, force=force, amend=amend)
             shutil.rmtree(work, ignore_errors=True)
+            drop_halves(path / PRIVATE)
             if out.standing is not Standing.UP_TO_DATE:
                 out.record.save(path)
         try:

@@ -365,3 +365,31 @@ def test_a_record_cannot_reach_outside(tmp_path: Path, path: str) -> None:
     record.write_text(record.read_text().replace("a/x.txt", path))
     with pytest.raises(InputError, match="run record"):
         load_record(tmp_path)
+
+
+KILLED = """
+import os, signal, sys
+from pathlib import Path
+from veduta.run import atomic
+from veduta.run.outputs import open_out
+
+with open_out(Path(sys.argv[1]), "facade", "k") as out:
+    cache = out.path / ".veduta" / "cache"
+    cache.mkdir()
+    with atomic.atomic_folder(cache / "views") as folder:
+        (folder / "a").write_text("half")
+        with atomic.atomic_write(cache / "b"):
+            atomic.sync_file = lambda path: os.kill(os.getpid(), signal.SIGKILL)
+            out.record.save(out.path)
+"""
+
+
+def test_halves_that_a_killed_run_left_are_taken_away(tmp_path: Path) -> None:
+    path = tmp_path / "out"
+    run = subprocess.run([sys.executable, "-c", KILLED, path], check=False)
+    assert run.returncode < 0
+    private = path / ".veduta"
+    assert len(list(private.rglob(".*.tmp"))) == 3
+    with open_out(path, "facade", "k") as out:
+        assert out.standing is Standing.RESUMED
+    assert {file.name for file in private.rglob("*")} == {"lock", "run.json", "cache"}
