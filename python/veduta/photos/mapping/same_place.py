@@ -17,7 +17,7 @@ from veduta.photos.mapping.conflicts import GRID, ClosePair
 from veduta.photos.mapping.votes import Matched, Pair
 from veduta.photos.structure import Structure
 
-SAME_DEG = 2.5
+SAME_DEG = 2.0
 """Angle between the rays to what both see up to which two photos stand in one place."""
 STILL = 0.03
 """Share of the longer side of a photo by which what matches may move from one to the other in the
