@@ -154,7 +154,10 @@ def _broad(depth: NDArray[np.float32], ridge: NDArray[np.bool_]) -> NDArray[np.f
     The middle of an odd breadth is one pixel wide, that of an even one two. Taken for one, a wall
     of 8.5 pixels would be 7 wide at one place and 9 at the next.
     """
-    even = cv2.morphologyEx(ridge.astype(np.uint8), cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
+    even = np.zeros_like(ridge)
+    block = ridge[:-1, :-1] & ridge[1:, :-1] & ridge[:-1, 1:] & ridge[1:, 1:]
+    for down, right in ((0, 0), (1, 0), (0, 1), (1, 1)):
+        even[down : down + block.shape[0], right : right + block.shape[1]] |= block
     return np.asarray(2.0 * depth.astype(np.float64) - 1.0 + even)
 
 
