@@ -134,10 +134,10 @@ def test_a_room_that_is_open_to_the_outdoors_is_closed() -> None:
 
 
 def facing() -> Image:
-    """As `house`, but the inner wall is parted by 130 px, 16 times its thickness, in its middle."""
+    """As `house`, but the inner wall is parted by 250 px in its middle: 16 times as wide as walls."""
     image = house()
     cv2.rectangle(image, (396, 116), (403, 483), BLACK, -1)
-    cv2.rectangle(image, (396, 230), (403, 359), WHITE, -1)
+    cv2.rectangle(image, (396, 175), (403, 424), WHITE, -1)
     return image
 
 
@@ -159,8 +159,10 @@ def chamfered(window: bool) -> Image:
     cv2.fillPoly(image, [hole], WHITE)
     cv2.rectangle(image, (671, 130), (699, 380), BLACK, -1)
     cv2.rectangle(image, (130, 471), (580, 499), BLACK, -1)
-    cv2.rectangle(image, (300, 130), (307, 470), BLACK, -1)
-    cv2.rectangle(image, (307, 300), (670, 307), BLACK, -1)
+    cv2.rectangle(image, (300, 130), (313, 470), BLACK, -1)
+    cv2.rectangle(image, (313, 290), (670, 303), BLACK, -1)
+    for top in (150, 220, 320):  # furniture: thin lines
+        cv2.rectangle(image, (330, top), (390, top + 50), BLACK, 2)
     if window:
         cv2.line(image, (686, 374), (574, 486), BLACK, 2, cv2.LINE_AA)
     return image
