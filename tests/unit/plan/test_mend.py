@@ -134,7 +134,7 @@ def test_a_room_that_is_open_to_the_outdoors_is_closed() -> None:
 
 
 def facing() -> Image:
-    """As `house`, but the inner wall is parted by 250 px in its middle: 16 times as wide as walls."""
+    """As `house`, but the inner wall is parted by 250 px: 16 times as wide as walls."""
     image = house()
     cv2.rectangle(image, (396, 116), (403, 483), BLACK, -1)
     cv2.rectangle(image, (396, 175), (403, 424), WHITE, -1)

@@ -187,7 +187,9 @@ class _Sorting:
                 most = max(most, length)
             else:
                 rooms += length
-        pane = most > BESIDE_ANOTHER * self.cells.length[cell] and not self._blocky(cell)
+        # Where an outer and an inner wall are one cell, it is as long as the thinner one makes it.
+        long_px = self.cells.area[cell] / max(min(self.even[cell][0]), 1.0)
+        pane = most > BESIDE_ANOTHER * long_px and not self._blocky(cell)
         return bool(not pane and rooms >= BESIDE_ROOMS * (narrow + rooms))
 
     def _blocky(self, cell: int) -> bool:
