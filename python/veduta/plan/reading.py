@@ -25,7 +25,7 @@ from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
-from veduta.plan.openings.settle import settled
+from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.mend import mended
@@ -79,6 +79,9 @@ def read_cleaned(
     if known is None:
         found = with_bows(found, sheet.faint)
     judged = judge_gaps(found, sheet)
+    if (sized := sized_by_doors(found, judged)) is not found:
+        found = sized
+        judged = judge_gaps(found, sheet)
     leaves = leaf_pieces(found.pieces, judged)
     if leaves:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
@@ -92,6 +95,19 @@ def read_cleaned(
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes
     return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)
+
+
+def sized_by_doors(found: Found, judged: Sequence[Judged]) -> Found:
+    """The walls with `thin_px` as the usual door has it, where lines stand for walls.
+
+    How broad these are says nothing of how wide openings are, which count in thin walls.
+    """
+    single = all(one.drawing == "single-line" for one in [*found.pieces, *found.curved])
+    door_px = usual_door(judged)
+    if not single or door_px is None:
+        return found
+    thin_px = door_px / USUAL_DOOR
+    return replace(found, thin_px=thin_px) if thin_px > found.thin_px else found
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:

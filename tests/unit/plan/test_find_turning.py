@@ -153,3 +153,21 @@ def test_a_star_and_slanted_hatching_are_no_stairs() -> None:
         cv2.line(hatched, (x, 300), (x + 60, 360), 255, LINE)
     assert find_flights(star > 0, LINE) == ()
     assert find_flights(hatched > 0, LINE) == ()
+
+
+def test_a_tread_ends_at_the_first_of_a_walls_two_lines() -> None:
+    ink = np.zeros((120, 300), np.bool_)
+    ink[59:61, 20:120] = True
+    ink[:, 120:122] = ink[:, 134:136] = True
+    probe = probe_of(ink, 2.0, 300.0)
+    way = np.array([1.0, 0.0])
+    assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 16.0) == pytest.approx(102, abs=2)
+
+
+def test_a_tread_goes_on_behind_an_arrow() -> None:
+    ink = np.zeros((120, 300), np.bool_)
+    ink[59:61, 20:60] = ink[59:61, 76:122] = True
+    ink[20:100, 67:69] = ink[:, 120:122] = True
+    probe = probe_of(ink, 2.0, 300.0)
+    way = np.array([1.0, 0.0])
+    assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 10.0) == pytest.approx(102, abs=2)

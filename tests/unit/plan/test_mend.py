@@ -133,6 +133,48 @@ def test_a_room_that_is_open_to_the_outdoors_is_closed() -> None:
     assert areas(drawn) == pytest.approx([280 * 368, 280 * 368], rel=0.03)
 
 
+def facing() -> Image:
+    """As `house`, but the inner wall is parted by 250 px: 16 times as wide as walls."""
+    image = house()
+    cv2.rectangle(image, (396, 116), (403, 483), BLACK, -1)
+    cv2.rectangle(image, (396, 175), (403, 424), WHITE, -1)
+    return image
+
+
+def test_a_wide_way_between_walls_in_one_line_parts_two_names() -> None:
+    assert len(read_storey(facing(), []).rooms) == 1
+    texts = [text("Kitchen", 250, 250), text("Living room", 550, 250)]
+    drawn = read_storey(facing(), texts)
+    assert areas(drawn) == pytest.approx([280 * 368, 280 * 368], rel=0.03)
+
+
+def chamfered(window: bool) -> Image:
+    """One room whose lower right corner is cut off: short stubs, and lines between them or none."""
+    image = np.full((600, 800, 3), 255, np.uint8)
+    outer = np.array([(100, 100), (700, 100), (700, 380), (580, 500), (100, 500)])
+    inner = np.array([(130, 130), (670, 130), (670, 368), (568, 470), (130, 470)])
+    cv2.fillPoly(image, [outer], BLACK)
+    cv2.fillPoly(image, [inner], WHITE)
+    hole = np.array([(688, 347), (724, 383), (583, 524), (547, 488)])
+    cv2.fillPoly(image, [hole], WHITE)
+    cv2.rectangle(image, (671, 130), (699, 380), BLACK, -1)
+    cv2.rectangle(image, (130, 471), (580, 499), BLACK, -1)
+    cv2.rectangle(image, (300, 130), (313, 470), BLACK, -1)
+    cv2.rectangle(image, (313, 290), (670, 303), BLACK, -1)
+    for top in (150, 220, 320):  # furniture: thin lines
+        cv2.rectangle(image, (330, top), (390, top + 50), BLACK, 2)
+    if window:
+        cv2.line(image, (686, 374), (574, 486), BLACK, 2, cv2.LINE_AA)
+    return image
+
+
+def test_a_slanted_corner_that_is_window_closes_its_room() -> None:
+    drawn = read_storey(chamfered(True), [])
+    assert len(drawn.rooms) == 3
+    assert any("a window is drawn there" in note for note in drawn.notes)
+    assert len(read_storey(chamfered(False), []).rooms) == 2
+
+
 def test_openings_of_a_room_lie_on_its_outline(drawn: Drawn) -> None:
     walls = {wall.id: wall for wall in drawn.walls}
     for room in drawn.rooms:

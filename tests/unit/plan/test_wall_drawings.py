@@ -71,6 +71,25 @@ def test_breadth_and_length_of_a_cell_are_those_of_its_rectangle() -> None:
     assert lengths[outdoors] == pytest.approx(2 * 800, rel=0.05)
 
 
+@pytest.mark.parametrize("breadth", range(5, 15))
+def test_odd_and_even_breadths_are_whole_pixels(breadth: int) -> None:
+    ink = np.zeros((200, 700), np.bool_)
+    _box(ink, 40, 80, 640, 80 + breadth + 2 * LINE)
+    cells = find_cells(ink, LINE)
+    assert cells.breadth[cells.labels[82 + breadth // 2, 300]] == breadth
+
+
+def test_walls_are_even_where_their_breadth_is_between_two_whole_numbers() -> None:
+    # A wall of 8.5 px: as 8 and as 9 px, by turns, as it comes to lie on the grid.
+    ink = np.zeros((200, 700), np.bool_)
+    _box(ink, 40, 80, 640, 80 + 9 + 2 * LINE)
+    for left in range(60, 600, 80):
+        ink[91, left : left + 40] = True
+    cells = find_cells(ink, LINE)
+    wall = int(cells.labels[85, 300])
+    assert common_values(cells.ridges[wall], 1)[1] > 0.9
+
+
 def test_common_values_are_the_heights_of_two_peaks() -> None:
     rng = np.random.default_rng(3)
     values = np.concatenate(
@@ -231,3 +250,26 @@ def test_outlined_walls_end_in_the_middle_of_their_lines(outlined: bool) -> None
     found = without_half_outline([piece], _blurred(ink, 0.6), 4.0)[0]
     assert found.thickness_px == pytest.approx(26 if outlined else 30, abs=0.4)
     assert found.start[1] == pytest.approx(95, abs=0.2)
+
+
+def _filled(thick: int, thin: int) -> Mask:
+    """Walls of two thicknesses around two rooms, and furniture of lines of two pixels."""
+    ink = np.zeros((700, 1000), np.bool_)
+    ink[100:600, 100:900] = True
+    ink[100 + thick : 600 - thick, 100 + thick : 900 - thick] = False
+    ink[100:600, 500 : 500 + thin] = True
+    ink[350 : 350 + thin, 100:900] = True
+    for left in range(160, 800, 90):
+        _box(ink, left, 180, left + 60, 260)
+    return ink
+
+
+def test_thin_walls_count_however_thick_others_are() -> None:
+    found = wall_thickness(_filled(32, 8), 2.0)
+    assert found is not None
+    assert found.most_px == 32
+    assert 2.0 * 1.6 < found.least_px < 8
+    # Lines alone are no thin walls.
+    lines = wall_thickness(_filled(32, 2), 2.0)
+    assert lines is not None
+    assert lines.least_px > 8

@@ -64,7 +64,7 @@ def settled(axes: Sequence[Axis], thin_px: float, sky: BaseGeometry) -> list[Axi
     """The axes with their openings judged by what lies on both sides; `sky` is what is outdoors."""
     places = list(_places(axes, sky))
     again = [_again(place, thin_px) for place in places]
-    usual = _usual_door(again)
+    usual = usual_door(again)
     door_px = usual or USUAL_DOOR * thin_px
     least_px = LEAST_DOOR * usual if usual else LEAST_WAY * thin_px
     leaf_px = _usual_leaf(again)
@@ -117,7 +117,8 @@ def _is_slit(judged: Judged, least_px: float) -> bool:
     return judged.kind != "window" and leafless and judged.gap.width_px < least_px
 
 
-def _usual_door(judged: Sequence[Judged]) -> float | None:
+def usual_door(judged: Sequence[Judged]) -> float | None:
+    """The median width of doors with leaves, in pixels; None where fewer than three are known."""
     widths = [one.gap.width_px for one in judged if one.type == "swing"]
     return float(np.median(widths)) if len(widths) >= 3 else None
 

@@ -27,7 +27,13 @@ IN_LINE_FARTHEST = 45.0
 """Those between two walls in one line reach farther: a bay window may lie before them."""
 
 SLANTED_FARTHEST = 12.0
-"""Nor between two ends of walls that do not lie in one line."""
+"""Nor between two ends of walls that do not lie in one line ..."""
+
+SLANTED_FARTHEST_OWN = 7.0
+"""... or over so many of their own thicknesses, where these are thick."""
+
+THICK = 1.5
+"""Those are thicker than thin walls by this factor."""
 
 STUB = (0.5, 2.5)
 """Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
@@ -59,7 +65,7 @@ class Break:
     @property
     def key(self) -> tuple[int, ...]:
         """The same break has the same key in the next round."""
-        return tuple(int(value) // 4 for value in (*self.start, *self.end))
+        return tuple(int(value) // 4 for value in (*self.start, *self.end, self.thickness_px))
 
 
 @dataclass(frozen=True)
@@ -187,24 +193,43 @@ def _between_ends(
 ) -> list[Break]:
     """Slanted ways between ends and corners of walls that are a door's width apart."""
     loose = [index for index, kind in enumerate(graph.types) if kind in ("end", "L")]
-    used = {edge.first for edge in graph.edges} | {edge.second for edge in graph.edges}
-    loose = [index for index in loose if index in used]
+    thick = _thickest_at(graph, walls)
+    loose = [index for index in loose if index in thick]
     linked = {(edge.first, edge.second) for edge in graph.edges}
     found = []
     for place, first in enumerate(loose):
         for second in loose[place + 1 :]:
             run = graph.nodes[second] - graph.nodes[first]
             width = float(np.hypot(*run))
-            far = not 3 * thin_px < width <= SLANTED_FARTHEST * thin_px
             straight = float(np.abs(run).min()) < 0.15 * width
-            if far or straight or {(first, second), (second, first)} & linked:
+            joined = {(first, second), (second, first)} & linked
+            if width <= 3 * thin_px or straight or joined:
                 continue
             ends = graph.nodes[first], graph.nodes[second]
-            gap = Gap(-1, True, -1, False, *ends, thin_px, ends[1])
-            free = parted(gap, solid)
-            if len(free) == 1:
-                found.append(Break(gap.start, gap.end, thin_px, free, slanted=True))
+            own_px = min(thick[first], thick[second])
+            for thickness_px in _slanted_as(width, thin_px, own_px):
+                gap = Gap(-1, True, -1, False, *ends, thickness_px, ends[1])
+                free = parted(gap, solid)
+                if len(free) == 1:
+                    found.append(Break(gap.start, gap.end, thickness_px, free, slanted=True))
     return found
+
+
+def _slanted_as(width_px: float, thin_px: float, own_px: float) -> list[float]:
+    """As how thick a wall a slanted way is looked at: as a thin one, and as those at its ends."""
+    found = [thin_px] if width_px <= SLANTED_FARTHEST * thin_px else []
+    if own_px > THICK * thin_px and width_px <= SLANTED_FARTHEST_OWN * own_px:
+        found.append(own_px)
+    return found
+
+
+def _thickest_at(graph: Graph, walls: _Walls) -> dict[int, float]:
+    """How thick the thickest wall at each node is; nodes without walls are left out."""
+    thick: dict[int, float] = {}
+    for edge, own in zip(graph.edges, walls.thickness, strict=True):
+        for node in (edge.first, edge.second):
+            thick[node] = max(thick.get(node, 0.0), float(own))
+    return thick
 
 
 def _on(mask: NDArray[np.bool_], points: NDArray[np.float64]) -> NDArray[np.bool_]:

@@ -1,9 +1,9 @@
 """Rooms do not leak: where a wall is broken the space is closed, and that is said.
 
 A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
-drawn there, both faces of the wall drawn on, solid ink, a name or size of a room on either side, or
-a room that is open to the outdoors. The best one is closed first, as it changes what the others
-part.
+drawn there, both faces of the wall drawn on, a window, solid ink, a name or size of a room on
+either side, or a room that is open to the outdoors. The best one is closed first, as it changes
+what the others part.
 """
 
 from __future__ import annotations
@@ -34,6 +34,9 @@ from veduta.plan.walls.pieces import Piece
 WIDEST_BREAK = 12.0
 """Breaks for which nothing is drawn are at most so many (thin) wall thicknesses wide."""
 
+WIDEST_FACING = 18.0
+"""Or so many between two walls in one line, in a space with two names."""
+
 NARROWEST_GAP = 4.0
 """Nobody walks through what is narrower, in (thin) wall thicknesses: it is wall."""
 
@@ -60,6 +63,7 @@ TOO_MANY = (
 Reason = Literal[
     "a door is drawn there",
     "both faces are drawn on there",
+    "a window is drawn there",
     "it is solid there",
     "two rooms are named in one space",
     "a room is open to the outdoors",
@@ -199,9 +203,11 @@ class _Looker:
         if not outdoors and all(self._is_leafless(each) for each in drawn):
             return _Closing(one, "both faces are drawn on there", 2.0, drawn)
         window = all(each is not None and each.kind != "gap" for each in drawn)
+        if one.slanted and outdoors and all(_is_window(each) for each in drawn):
+            return _Closing(one, "a window is drawn there", 2.0, drawn)
         widest = FARTHEST if window else WIDEST_BREAK
-        if outdoors and one.in_line:
-            widest = IN_LINE_FARTHEST
+        if one.in_line:
+            widest = IN_LINE_FARTHEST if outdoors else max(widest, WIDEST_FACING)
         if one.slanted or one.width_px > widest * self.found.thin_px:
             return None
         # What is narrow and has lines drawn in it is the better place.
@@ -245,6 +251,10 @@ class _Looker:
             view = look_at(gap, self.sheet)
             self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
         return self.seen[place]
+
+
+def _is_window(judged: Judged | None) -> bool:
+    return judged is not None and judged.seen is not None and bool(judged.seen.lines)
 
 
 def _usual_door(axes: Sequence[Axis]) -> float | None:

@@ -12,6 +12,8 @@ Spot = NDArray[np.float64]
 INKED = 0.6
 """A line of treads has this share of its length inked, at least: an arrow or a word hides some."""
 _ENDS = 0.08
+CROSSED = 1.5
+"""What is no longer than so many line widths is a line that is met and does not go on."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +44,10 @@ class Probe:
         return np.asarray(self.at(places).mean(axis=1), np.float64)
 
     def reach(self, start: Spot, way: Spot, most_px: float, gap_px: float) -> float:
-        """How far a line goes on from a place, over gaps for an arrow, until it ends at a wall."""
+        """How far a line goes on from a place, over gaps for an arrow, until it ends at a wall.
+
+        Of a wall that is drawn as two lines, the second one does not belong to it.
+        """
         at = np.arange(0.0, most_px, 1.0)
         places = start + at[:, None] * way
         inked = np.flatnonzero(self.at(places) > 0)
@@ -52,7 +57,11 @@ class Probe:
         if not len(inked):
             return 0.0
         broken = np.flatnonzero(np.diff(inked) > gap_px)
-        return float(inked[broken[0]] if len(broken) else inked[-1])
+        inked = inked[: broken[0] + 1] if len(broken) else inked
+        runs = np.split(inked, np.flatnonzero(np.diff(inked) > 1) + 1)
+        while len(runs) > 1 and len(runs[-1]) <= CROSSED * self.line_px + 3.0:
+            runs.pop()
+        return float(runs[-1][-1])
 
     def lines_beside(
         self, ends: tuple[Spot, Spot], way: Spot, tread_px: tuple[float, float], most: int

@@ -122,6 +122,9 @@ def find_walls(
             thickness = wall_thickness(dark, cleaned.line_px) or thickness
         solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
     least_px = 0.8 * thickness.least_px
+    if drawing == "single-line":
+        # Tracks are whole pixels wide, which is much of a line; the measured width judges later.
+        least_px -= 0.5
     curved, tracks = curved_pieces(find_tracks(solid), solid, least_px, drawing)
     pieces = straight_pieces(tracks, least_px, drawing)
     if len(pieces) > MOST_PIECES:

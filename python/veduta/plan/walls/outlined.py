@@ -43,6 +43,9 @@ TURNS = 4.0
 WIDER = 3.0
 """Beside walls between many rooms, what is so many times as broad is a space: a closet, a bath."""
 
+LARGER = 5.0
+"""A part of a tiled room is so many times as large as a piece of wall beside it."""
+
 SPACIOUS = 8.0
 """On large plans rooms are narrow beside the sheet: so many times as broad as a wall is a room."""
 
@@ -153,6 +156,17 @@ class _Sorting:
         alone = all(one == cell for one, _ in self.cells.beside[other])
         return bool(broad and not alone and self._reaches(cell))
 
+    def _is_space(self, other: int, cell: int) -> bool:
+        """Whether a narrow cell lies beside a piece of wall as rooms do.
+
+        Of a tiled floor the lines part a room into cells that are narrow, but large.
+        """
+        cells = self.cells
+        broad = cells.breadth[other] >= WIDER * cells.breadth[cell]
+        large = cells.area[other] >= LARGER * cells.area[cell]
+        alone = all(one == cell for one, _ in cells.beside[other])
+        return bool(broad and large and not alone) or self._is_spacious(other, cell)
+
     def _reaches(self, cell: int) -> bool:
         return bool(max(self.cells.boxes[cell, 2:]) >= WEB_REACH * self.cells.breadth[cell])
 
@@ -168,12 +182,14 @@ class _Sorting:
     def _is_between_rooms(self, cell: int) -> bool:
         narrow = rooms = most = 0
         for other, length in self.cells.beside.get(cell, []):
-            if self.cells.narrow[other] and not self._is_spacious(other, cell):
+            if self.cells.narrow[other] and not self._is_space(other, cell):
                 narrow += length
                 most = max(most, length)
             else:
                 rooms += length
-        pane = most > BESIDE_ANOTHER * self.cells.length[cell] and not self._blocky(cell)
+        # Where an outer and an inner wall are one cell, it is as long as the thinner one makes it.
+        long_px = self.cells.area[cell] / max(min(self.even[cell][0]), 1.0)
+        pane = most > BESIDE_ANOTHER * long_px and not self._blocky(cell)
         return bool(not pane and rooms >= BESIDE_ROOMS * (narrow + rooms))
 
     def _blocky(self, cell: int) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import cv2
@@ -15,6 +16,18 @@ LEAST_SHARE = 0.25
 
 THINNEST_WALL = 0.3
 """The thinnest wall is at least this part of the thickest common one."""
+
+THINNEST_COMMON = 0.15
+"""Or this part of it, where strokes of one thickness are as common as the thickest walls."""
+
+OVER_LINE = 2.2
+"""Such are at least so many times as thick as lines ..."""
+
+PARTED = 0.2
+"""... and parted from these by thicknesses that are this rare beside theirs."""
+
+BELOW_COMMON = 0.75
+"""What is thinner than them by this factor is no wall."""
 
 LEAST_OVER_LINE = 1.6
 """Walls are at least so many times as thick as lines."""
@@ -61,6 +74,9 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
     most = float(thick[-1]) if len(thick) else 0.0
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
+    thin_walls = _thin_walls(lengths, line_px, (THINNEST_COMMON * most, least))
+    if thin_walls is not None and _near(lengths, thin_walls) >= LEAST_SHARE * extent:
+        least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
     # A pen that is twice as broad as another draws a wall as one line.
@@ -70,6 +86,29 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     if pens is None and most >= max(2 * line_px, least):
         return Thickness(least, most)
     return pens
+
+
+def _thin_walls(
+    lengths: NDArray[np.float64], line_px: float, between_px: tuple[float, float]
+) -> int | None:
+    """The commonest thickness between two that is parted from lines; None where none is.
+
+    `lengths` are those of strokes of 0, 1, 2... pixels.
+    """
+    low, high = max(between_px[0], OVER_LINE * line_px), between_px[1]
+    near = np.arange(math.ceil(low), min(math.floor(high) + 2, len(lengths)))
+    if len(near) == 0:
+        return None
+    best = int(near[np.argmax(lengths[near])])
+    valley = lengths[max(1, round(line_px)) : best]
+    if best > high or not len(valley) or valley.min() > PARTED * lengths[best]:
+        return None
+    return best
+
+
+def _near(lengths: NDArray[np.float64], width: int) -> float:
+    """Of strokes that are so thick, but for a pixel."""
+    return float(lengths[width - 1 : width + 2].sum())
 
 
 def two_pens(lengths: NDArray[np.float64], least_length: float) -> Thickness | None:
