@@ -32,6 +32,9 @@ SLANTED_FARTHEST = 12.0
 STUB = (0.5, 2.5)
 """Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
 
+STUB_WALL = 1.2
+"""Or as broad as the thickest wall, and a little more."""
+
 LONG = 4.0
 """Slanted pieces of wall have a direction if so many times as long as thick."""
 
@@ -42,6 +45,7 @@ class Break:
 
     `gaps` are what of it is not solid. `slanted`: it joins two ends that do not lie in one line, so
     that only what is drawn there can speak for it. `in_line`: walls in one line lie at both ends.
+    `facing`: so they do, whatever walls meet them at these ends.
     """
 
     start: NDArray[np.float64]
@@ -50,6 +54,7 @@ class Break:
     gaps: tuple[Gap, ...]
     slanted: bool = False
     in_line: bool = False
+    facing: bool = False
 
     @property
     def width_px(self) -> float:
@@ -131,7 +136,16 @@ class _Walls:
         stop = ray.origin + float(face[nearest]) * ray.way
         end = ray.origin + float(reach[nearest]) * ray.way
         gap = Gap(-1, True, -1, to_side, ray.origin, stop, ray.thickness_px, stop)
-        return Break(ray.origin, end, ray.thickness_px, parted(gap, solid), in_line=not to_side)
+        # A wall that ends at a corner has its end in the wall that crosses it there.
+        corner = in_line & (np.abs(to_end - reach[nearest]) <= slack)
+        return Break(
+            ray.origin,
+            end,
+            ray.thickness_px,
+            parted(gap, solid),
+            in_line=not to_side,
+            facing=bool(corner.any()),
+        )
 
     def _to_ends(self, ray: _Ray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """How far ahead walls in the ray's line begin, and which are in its line."""
@@ -166,6 +180,7 @@ def _from_stubs(
     graph: Graph, walls: _Walls, solid: NDArray[np.bool_], thin_px: float
 ) -> Iterator[_Ray]:
     """Solid stubs that stand out from the face of a wall where no wall leaves it."""
+    most_px = max(STUB[1] * thin_px, STUB_WALL * float(walls.thickness.max(initial=0.0)))
     for index in range(len(graph.edges)):
         way, thick = walls.way[index], float(walls.thickness[index])
         normal = np.array([-way[1], way[0]])
@@ -176,7 +191,7 @@ def _from_stubs(
             dark = np.diff(np.pad(_on(solid, points).astype(np.int8), 1))
             pairs = zip(np.flatnonzero(dark == 1), np.flatnonzero(dark == -1), strict=True)
             for low, high in pairs:
-                if not STUB[0] * thin_px <= high - low <= STUB[1] * thin_px:
+                if not STUB[0] * thin_px <= high - low <= most_px:
                     continue
                 foot = walls.start[index] + float(low + high) / 2 * way
                 yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))
