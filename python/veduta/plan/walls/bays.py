@@ -63,6 +63,9 @@ END = 0.5
 """So many thicknesses of a side are wall at its ends."""
 
 Line = NDArray[np.float64]
+_TURNS = np.array([[1.0, 0, 0, -1, 0], [0, 1, 0, 0, -1], [0, 0, 1, 1, 1]])
+_MOVES = np.concatenate([np.eye(5), -np.eye(5), _TURNS, -_TURNS])
+"""Each alone, and where only the foot of a slanted side moves, or all of a bay goes farther out."""
 
 
 def with_bays(found: Found, faint: NDArray[np.bool_]) -> Found:
@@ -100,20 +103,21 @@ def _bay(one: Broken, ink: Nearness) -> Line | None:
 
 
 def _params(size: float, thick: float) -> Line:
-    """(n, 3) slide, depth and inset in pixels of the trapezia that are tried."""
+    """(n, 5) in pixels: slide of the first and of the last side, depth, inset of both."""
     slide, depth, inset = np.meshgrid(
         SLIDES * thick, DEPTHS[DEPTHS * thick <= DEEPEST * size] * thick, INSETS, indexing="ij"
     )
-    found = np.column_stack([slide.ravel(), depth.ravel(), (inset * depth).ravel()])
-    front = size - 2 * (found[:, 0] + found[:, 2])
+    beside, far = slide.ravel(), (inset * depth).ravel()
+    front = size - 2 * (beside + far)
+    found = np.column_stack([beside, beside, depth.ravel(), far, far])
     return np.asarray(found[front >= FRONT * thick])
 
 
 def _corners(params: Line, one: Broken, size: float) -> Line:
     """(n, 4, 2) corners in pixels."""
-    slide, depth, inset = params.T
-    zero = np.zeros_like(slide)
-    along = np.stack([slide, slide + inset, size - slide - inset, size - slide], axis=1)
+    first, last, depth, inset, other = params.T
+    zero = np.zeros_like(first)
+    along = np.stack([first, first + inset, size - last - other, size - last], axis=1)
     before = np.stack([zero, depth, depth, zero], axis=1)
     out = one.side * np.array([-one.way[1], one.way[0]])
     return np.asarray(one.first + along[..., None] * one.way + before[..., None] * out)
@@ -144,9 +148,9 @@ def _refined(params: Line, one: Broken, size: float, ink: Nearness) -> Line:
     best = float(_cost(params[None], one, size, ink, 3 * PLACES)[0])
     step = 0.4 * one.thickness_px
     while step > 0.2:
-        moves = step * np.concatenate([np.eye(3), -np.eye(3), [[1, 0, -1], [-1, 0, 1]]])
-        tried = params + moves
-        tried[:, 2] = np.maximum(tried[:, 2], 0.0)
+        tried = params + step * _MOVES
+        tried[:, 2] = np.maximum(tried[:, 2], DEPTHS[0] * one.thickness_px)
+        tried[:, 3:] = np.maximum(tried[:, 3:], 0.0)
         cost = _cost(tried, one, size, ink, 3 * PLACES)
         if float(cost.min()) < best:
             best, params = float(cost.min()), tried[int(np.argmin(cost))]

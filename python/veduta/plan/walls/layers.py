@@ -44,6 +44,9 @@ OTHER_BREADTH = 4.0
 SECOND = 0.1
 """A second breadth is that of walls, too, if they are so long together, of those of the first."""
 
+SIDE_BY_SIDE = 2.5
+"""What is filled over so many breadths each way is no wall."""
+
 LEAST_LENGTH = 1.5
 """Hollow walls of one colour are together so many times as long as the sheet's drawing."""
 
@@ -107,43 +110,45 @@ def hollow_walls(lines: NDArray[np.bool_], line_px: float, most_px: float) -> Ho
     across, down = run_lengths(paper), run_lengths_down(paper)
     thin, long = np.minimum(across, down), np.maximum(across, down)
     between = paper & (thin >= LEAST_LINES * line_px) & (thin <= most_px) & (long >= LONG * thin)
-    breadths, length = _breadths(thin[between])
+    breadths = _breadths(thin[between])
     if not breadths:
         return Hollow(np.zeros_like(lines), 0.0)
     fits = np.zeros(int(thin.max()) + 1, np.bool_)
     for one in breadths:
         fits |= np.abs(np.arange(len(fits)) - one) <= float(tolerance(np.array(one)))
-    filled = (lines | (between & fits[thin])).astype(np.uint8)
+    inside = between & fits[thin]
     # Where walls meet their spaces are as long as both. Even sides would move all by a pixel.
     corner = np.ones((_odd(max(breadths) + 2),) * 2, np.uint8)
-    closed = cv2.morphologyEx(filled, cv2.MORPH_CLOSE, corner)
-    # A line alone is no wall.
+    closed = cv2.morphologyEx((lines | inside).astype(np.uint8), cv2.MORPH_CLOSE, corner)
+    # Treads, boards and hatching are spaces side by side; a line alone is no wall.
+    field = np.ones((_odd(SIDE_BY_SIDE * max(breadths) + 2),) * 2, np.uint8)
+    walls = (closed > 0) & (cv2.morphologyEx(closed, cv2.MORPH_OPEN, field) == 0)
     broad = np.ones((_odd(min(breadths)),) * 2, np.uint8)
-    return Hollow(cv2.morphologyEx(closed, cv2.MORPH_OPEN, broad) > 0, length)
+    mask = cv2.morphologyEx(walls.astype(np.uint8), cv2.MORPH_OPEN, broad) > 0
+    return Hollow(mask, float((1.0 / thin[inside & mask]).sum()))
 
 
 def _odd(least: float) -> int:
     return 2 * (round(least) // 2) + 1
 
 
-def _breadths(thin: NDArray[np.int32]) -> tuple[list[float], float]:
-    """The one or two commonest breadths of spaces, and how long these are together.
+def _breadths(thin: NDArray[np.int32]) -> list[float]:
+    """The one or two commonest breadths of spaces; none of none.
 
     `thin` (n,) is the breadth at each pixel of them: b pixels are broad by b where they are long.
     """
     values, counts = np.unique(thin, return_counts=True)
     along = np.repeat(values.astype(np.float64), np.round(counts / values).astype(np.int64))
     if len(along) == 0:
-        return [], 0.0
+        return []
     first = common_values(along, 1)[0][0]
     off = np.abs(along - first) > tolerance(np.array(first))
-    near = (along <= OTHER_BREADTH * first) & (along >= first / OTHER_BREADTH)
-    length = float((~off).sum())
-    if not (off & near).any():
-        return [first], length
-    second, share = common_values(along[off & near], 1)
-    more = share * float((off & near).sum())
-    return ([first, second[0]], length + more) if more >= SECOND * length else ([first], length)
+    near = off & (along <= OTHER_BREADTH * first) & (along >= first / OTHER_BREADTH)
+    if not near.any():
+        return [first]
+    second, share = common_values(along[near], 1)
+    enough = share * float(near.sum()) >= SECOND * float((~off).sum())
+    return [first, second[0]] if enough else [first]
 
 
 def _uncovered(

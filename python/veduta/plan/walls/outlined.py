@@ -258,7 +258,7 @@ class _Sorting:
         return False
 
     def _stands_free(self, cell: int) -> bool:
-        """Whether one space is all around a straight cell, as on plans of load-bearing walls alone."""
+        """Whether one space is all around a straight cell: on plans of bearing walls alone."""
         cells = self.cells
         beside = cells.beside.get(cell, [])
         around = len(beside) == 1 and bool(cells.room[beside[0][0]])
