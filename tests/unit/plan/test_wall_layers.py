@@ -66,6 +66,23 @@ def test_walls_of_a_colour_are_those_that_were_drawn() -> None:
     assert (found & walls).sum() / (found | walls).sum() > 0.97
 
 
+def test_chains_of_dimensions_are_no_walls() -> None:
+    image, walls = _sheet()
+    whole = np.full((760, 1160, 3), 255, np.uint8)
+    whole[80:680, 80:1080] = image
+    for step in (0, 14, 60, 74):
+        cv2.line(whole, (40, 4 + step), (1130, 4 + step), (0, 180, 220), 2)
+        cv2.line(whole, (40, 756 - step), (1130, 756 - step), (0, 180, 220), 2)
+    found = walls_of_a_colour(whole, whole.min(axis=2) < 180, LINE)
+    assert found is not None
+    assert not found[:80].any()
+    assert (found[80:680, 80:1080] & walls).sum() > 0.97 * walls.sum()
+    chains = whole.copy()
+    chains[(whole == np.array(GREEN, np.uint8)).all(axis=2)] = 255
+    cv2.rectangle(chains, (140, 140), (1020, 620), GREEN, 2)
+    assert walls_of_a_colour(chains, chains.min(axis=2) < 180, LINE) is None
+
+
 def test_a_sheet_of_three_colours_has_no_layers() -> None:
     image, _ = _sheet()
     image[(image == np.array(BLUE, np.uint8)).all(axis=2)] = RED

@@ -50,6 +50,12 @@ SIDE_BY_SIDE = 2.5
 LEAST_LENGTH = 1.5
 """Hollow walls of one colour are together so many times as long as the sheet's drawing."""
 
+TURNS = 4.0
+"""Walls that meet others reach so many times their breadth both ways."""
+
+MOSTLY = 0.4
+"""So much of all walls does: chains of dimensions are straight lines side by side, too."""
+
 STROKE = 8.0
 """What goes on under another colour's line is so many line widths long, at least, on both sides."""
 
@@ -59,10 +65,11 @@ COVERED = 0.08
 
 @dataclass(frozen=True)
 class Hollow:
-    """Hollow walls of one colour: the (h, w) mask of them, and how long they are together."""
+    """Hollow walls of one colour: the (h, w) mask of them, how long and how broad they are."""
 
     mask: NDArray[np.bool_]
     length_px: float
+    breadth_px: float
 
 
 def walls_of_a_colour(
@@ -78,8 +85,17 @@ def walls_of_a_colour(
     extent = longer_side(ink)
     whole = [_uncovered(one, ink, line_px, COVERED * extent) for one in layers]
     walls = [hollow_walls(one, line_px, NARROW * extent) for one in whole]
-    best = max(walls, key=lambda one: one.length_px)
-    return best.mask if best.length_px >= LEAST_LENGTH * extent else None
+    walls = [one for one in walls if one.length_px >= LEAST_LENGTH * extent and _meet(one)]
+    return max(walls, key=lambda one: one.length_px).mask if walls else None
+
+
+def _meet(walls: Hollow) -> bool:
+    """Whether most of them go around corners or meet others."""
+    _, _, stats, _ = cv2.connectedComponentsWithStats(walls.mask.astype(np.uint8), connectivity=8)
+    both = np.minimum(stats[1:, cv2.CC_STAT_WIDTH], stats[1:, cv2.CC_STAT_HEIGHT])
+    area = stats[1:, cv2.CC_STAT_AREA]
+    turning = area[both >= TURNS * walls.breadth_px].sum()
+    return bool(turning >= MOSTLY * max(1, int(area.sum())))
 
 
 def colour_layers(pixels: NDArray[np.uint8], ink: NDArray[np.bool_]) -> list[NDArray[np.bool_]]:
@@ -112,7 +128,7 @@ def hollow_walls(lines: NDArray[np.bool_], line_px: float, most_px: float) -> Ho
     between = paper & (thin >= LEAST_LINES * line_px) & (thin <= most_px) & (long >= LONG * thin)
     breadths = _breadths(thin[between])
     if not breadths:
-        return Hollow(np.zeros_like(lines), 0.0)
+        return Hollow(np.zeros_like(lines), 0.0, 0.0)
     fits = np.zeros(int(thin.max()) + 1, np.bool_)
     for one in breadths:
         fits |= np.abs(np.arange(len(fits)) - one) <= float(tolerance(np.array(one)))
@@ -125,7 +141,8 @@ def hollow_walls(lines: NDArray[np.bool_], line_px: float, most_px: float) -> Ho
     walls = (closed > 0) & (cv2.morphologyEx(closed, cv2.MORPH_OPEN, field) == 0)
     broad = np.ones((_odd(min(breadths)),) * 2, np.uint8)
     mask = cv2.morphologyEx(walls.astype(np.uint8), cv2.MORPH_OPEN, broad) > 0
-    return Hollow(mask, float((1.0 / thin[inside & mask]).sum()))
+    length = float((1.0 / thin[inside & mask]).sum())
+    return Hollow(mask, length, max(breadths))
 
 
 def _odd(least: float) -> int:
