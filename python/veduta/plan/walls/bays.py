@@ -35,11 +35,11 @@ from veduta.plan.walls.pieces import Piece
 SLIDES = np.linspace(-0.6, 0.9, 4)
 """Sides begin so many thicknesses inward from the end of the wall: at its end or at its corner."""
 
-DEPTHS = np.arange(2.0, 24.0, 0.75)
+DEPTHS = np.arange(2.0, 24.0, 0.5)
 """Bays come so many thicknesses before the wall."""
 
-INSETS = np.array([0.0, 0.27, 0.45, 0.58, 0.78, 1.0, 1.4])
-"""Their sides slant inward by so many of that: square, by 60, 45 degrees, and between."""
+INSETS = np.array([0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.85, 1.0, 1.2, 1.4])
+"""Their sides slant inward by so much of that: from square to a slant of 54 degrees."""
 
 DEEPEST = 0.6
 """They come no farther before the wall than this part of their width."""
@@ -50,8 +50,11 @@ FRONT = 3.0
 PLACES = 12
 """On each side, so many places are looked at."""
 
-FARTHEST_PX = 2.2
+FARTHEST_PX = 2.6
 """The nearest trapezium of many is not so far from ink on the average."""
+
+CHOSEN = 6
+"""So many of all trapezia are looked at closely."""
 
 MOST_SOLID = 0.7
 """Bays of which more is solid have walls that are followed."""
@@ -95,11 +98,13 @@ def _bay(one: Broken, ink: Nearness) -> Line | None:
     if len(params) == 0:
         return None
     cost = _cost(params, one, size, ink, PLACES)
-    best = int(np.argmin(cost))
-    if float(cost[best]) > FARTHEST_PX:
+    order = np.argsort(cost)[:CHOSEN]
+    near = [_refined(params[place], one, size, ink) for place in order if cost[place] < FARTHEST_PX]
+    if not near:
         return None
-    bay = _corners(_refined(params[best], one, size, ink)[None], one, size)[0]
-    return bay if _is_drawn(bay, one.thickness_px, ink) else None
+    corners = _corners(np.stack(near), one, size)
+    best = int(np.argmin(_away(corners, one.thickness_px, ink, 3 * PLACES).mean(axis=(1, 2))))
+    return corners[best] if _is_drawn(corners[best], one.thickness_px, ink) else None
 
 
 def _params(size: float, thick: float) -> Line:
