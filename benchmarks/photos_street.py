@@ -2,10 +2,12 @@
 
     python benchmarks/photos_street.py [--seeds N] [--sets DIR]
     python benchmarks/photos_street.py --growth [--sets DIR]
+    python benchmarks/photos_street.py --towers [--seeds N] [--sets DIR]
 
 Streets of 40 photos, with radial lenses, changing exposure, noise, and a GPS that is wrong by 5 m.
 `--growth` runs 50, 100, 200 and 300 photos of a block instead, without GPS; the smaller sets are
-the first photos of the largest. Rendered sets are kept in `--sets` and used again.
+the first photos of the largest. `--towers`: 32 photos round a tower with four identical sides,
+where a map that is folded fails. Rendered sets are kept in `--sets` and used again.
 """
 
 from __future__ import annotations
@@ -17,7 +19,9 @@ import subprocess
 import sys
 import tempfile
 import time
+from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pycolmap
@@ -30,6 +34,18 @@ from veduta.run.atomic import same_file
 SEEDS = 3
 GROWTH = (50, 100, 200, 300)
 BOUND_GIB = 16.0
+NEAR = 0.02
+"""Of a tower's size: how far off a camera that is right may lie."""
+RIGHT = 0.9
+FEWEST = 4
+"""Photos of a component: a similarity fits any three positions too well."""
+TOWER = 32
+TOWER_NOTES = (
+    "A tower whose four sides are the same; other houses fill at least 15 % of each photo.",
+    f"`right`: cameras within {NEAR:.0%} of the largest distance between two of them, after the"
+    f" similarity that fits their component best; components of fewer than {FEWEST} have none."
+    f" {RIGHT:.0%} are wanted.",
+)
 NOTES = (
     "Errors are distances of the camera positions from the known ones after the similarity that"
     " fits best.",
@@ -61,15 +77,31 @@ def first_of(whole: Path, photos: int) -> Path:
     return place
 
 
-def run(made: StreetSet, place: Path) -> Row:
-    """One set through the command, with its time and memory."""
+@dataclass(frozen=True)
+class Run:
+    """One call of the command. components: camera centres found, of each; peak: GiB."""
+
+    report: dict[str, Any]
+    components: list[Centres]
+    seconds: float
+    peak: float
+
+
+def called(place: Path) -> Run:
+    """Put the photos of a set through the command."""
     with tempfile.TemporaryDirectory() as work:
         out = Path(work) / "out"
         seconds, peak = _measured(place / IMAGES, out)
         report = json.loads((out / "report.json").read_text())
-        measures, steps = report["measures"], report["steps"]
-        true = _true_centres(place)
-        found = _centres(out)
+        maps = sorted((out / "sparse").iterdir(), key=lambda folder: int(folder.name))
+        return Run(report, [_centres(folder) for folder in maps], seconds, peak)
+
+
+def run(made: StreetSet, place: Path) -> Row:
+    """One set through the command, with its time and memory."""
+    done = called(place)
+    measures, steps = done.report["measures"], done.report["steps"]
+    true, found = _true_centres(place), done.components[0]
     errors = centre_errors(found, true)
     return {
         "set": f"{made.place} {made.seed}",
@@ -82,9 +114,31 @@ def run(made: StreetSet, place: Path) -> Row:
         "reprojection px": measures["error_px"],
         "points": measures["points"],
         "lens": f"{measures['lens']}, {measures['cameras']}, {measures['principal_point']}",
-        "s per photo": seconds / measures["photos"],
+        "s per photo": done.seconds / measures["photos"],
         **{f"{step['name']} s": step["seconds"] for step in steps},
-        "all processes GiB": peak,
+        "all processes GiB": done.peak,
+    }
+
+
+def tower(made: StreetSet, place: Path) -> Row:
+    """A tower: how many cameras lie where they were, each component aligned by itself."""
+    done, true = called(place), _true_centres(place)
+    size = extent(true)
+    right = sum(
+        int((centre_errors(found, true) <= NEAR * size).sum())
+        for found in done.components
+        if len(found) >= FEWEST
+    )
+    share = right / len(true)
+    return {
+        "set": f"{made.place} {made.seed}",
+        "photos": len(true),
+        "components": ", ".join(str(len(found)) for found in done.components),
+        "doubtful pairs": done.report["measures"]["pairs_doubtful"],
+        "right": right,
+        "right %": 100 * share,
+        "met": "yes" if share >= RIGHT else "**no**",
+        "s": done.seconds,
     }
 
 
@@ -120,8 +174,8 @@ def _true_centres(place: Path) -> Centres:
     return {photo["name"]: np.array(photo["position_m"]) for photo in truth["photos"]}
 
 
-def _centres(out: Path) -> Centres:
-    model = pycolmap.Reconstruction(out / "sparse" / "0")
+def _centres(sparse: Path) -> Centres:
+    model = pycolmap.Reconstruction(sparse)
     images = [model.images[number] for number in model.reg_image_ids()]
     return {image.name: image.projection_center() for image in images}
 
@@ -144,12 +198,17 @@ def main() -> None:
     parser = argparse.ArgumentParser()
     parser.add_argument("--seeds", type=int, default=SEEDS)
     parser.add_argument("--growth", action="store_true")
+    parser.add_argument("--towers", action="store_true")
     parser.add_argument("--sets", type=Path)
     given = parser.parse_args()
     with tempfile.TemporaryDirectory() as own:
         folder = given.sets or Path(own)
         if given.growth:
             grow(folder)
+        elif given.towers:
+            towers = [StreetSet(seed, "tower", TOWER, gps=False) for seed in range(given.seeds)]
+            rows = [tower(made, prepared(made, folder)) for made in towers]
+            record("photos-towers", rows, TOWER_NOTES)
         else:
             sets = [StreetSet(seed) for seed in range(given.seeds)]
             record("photos-street", [run(made, prepared(made, folder)) for made in sets], NOTES)

@@ -155,6 +155,19 @@ def test_without_long_tracks_the_simplest_kind_is_taken() -> None:
     assert choice.tried == ()
 
 
+def test_a_few_long_tracks_tell_no_lens() -> None:
+    """Four observations would be held out: of some parts none."""
+    three = known_structure(photos=3, points=60)
+    four = known_structure(photos=4, points=60)
+    first = four.image_of < 3
+    some = first | (four.point_of == four.point_of[~first][0])
+    structure = four.observed(some)
+    assert len(structure.image_of) > len(three.image_of)
+    choice = choose_lens(structure, CameraOptions(), ONE_GROUP, seed=0)
+    assert choice.kind == CameraKind("pinhole", "shared", "middle")
+    assert choice.tried == ()
+
+
 def test_false_matches_do_not_bend_the_lens() -> None:
     """One observation in thirty lies 40 px aside: with squares the lens is far off."""
     params = (1400.0, *MIDDLE, -0.12)

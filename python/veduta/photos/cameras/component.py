@@ -67,7 +67,10 @@ def finish_component(
     choice = choose_lens(mapped, options, groups, seed)
     free = choice.kind.principal_point == "free"
     structure = with_cameras(mapped, choice.kind, groups)
-    structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
+    # False matches that lie within the bound can hold parts that hang on little, a distant wall,
+    # turned against each other: squares never let them go.
+    structure = adjusted(structure, free_principal_point=free, false_matches=True)
+    structure = without_outliers(structure, MOST_ERROR_PX)
     structure = without_outliers(adjusted(structure, free_principal_point=free), MOST_ERROR_PX)
     placed, doubtful = without_misplaced(structure)
     left = _told(structure, placed, _MISPLACED)

@@ -18,6 +18,7 @@ import numpy as np
 import pycolmap
 
 from veduta.photos.mapping.conflicts import ClosePair
+from veduta.photos.mapping.repeated import there_once
 from veduta.photos.mapping.votes import Matched, Pair, Vote, chain, vote
 from veduta.run.atomic import atomic_write, write_bytes
 
@@ -53,24 +54,33 @@ def doubtful_pairs(
     close: Sequence[ClosePair],
     matched: Matched,
     earlier: Sequence[Doubt] = (),
+    apart: frozenset[Pair] = frozenset(),
 ) -> tuple[Doubt, ...]:
     """The pairs to drop, with those that were dropped earlier.
 
-    close: of the model that was made without those. Where no others of its photos contradict each
-    other there are no more.
+    close: of the model that was made without those. apart: those of them that stand in one place
+    and show different ones. Where no others of its photos contradict each other there are no more.
     """
     known = {(doubt.first, doubt.second): doubt for doubt in earlier}
-    torn = {_ids(pair): pair for pair in close if contradict(pair)}
+    torn = {_ids(pair): pair for pair in close if contradict(pair) or _ids(pair) in apart}
     torn = {pair: torn[pair] for pair in torn if pair in matched.matches and pair not in known}
-    if not torn:
+    if not torn and not apart:
         return tuple(earlier)
+    once = there_once(matched, apart) if apart else {}
+    sure = {pair for pair in once if once[pair].shows_one_place} - {*known} - apart
+    ambiguous = {pair for pair in once if once[pair].is_ambiguous}
+    torn = {pair: found for pair, found in torn.items() if pair not in sure}
     agreeing = {_ids(pair) for pair in close if pair.share <= AGREE} & set(matched.matches)
-    votes = _trust(agreeing - set(known), {*torn, *known}, matched)
+    agreeing -= {*known, *torn} | ambiguous
+    votes = _trust(agreeing | sure, {*torn, *known}, matched)
     strongest = _strongest_false({*torn, *known}, matched)
     reasons = {pair: _torn_reason(found) for pair, found in torn.items()}
+    reasons |= dict.fromkeys(apart & torn.keys(), _APART)
     for pair, found in votes.items():
         if found.contradicted > found.confirmed:
             reasons[pair] = _contradicted_reason(found, len(matched.matches[pair]))
+        elif pair in ambiguous:
+            reasons[pair] = _AMBIGUOUS
         elif len(matched.matches[pair]) < STRONGER * max(strongest.get(image, 0) for image in pair):
             reasons[pair] = _UNCONFIRMED
     for pair, reason in reasons.items():
@@ -121,6 +131,12 @@ def _is_confirmed(found: Vote) -> bool:
 _UNCONFIRMED = (
     "nothing confirms it, and one of the two agrees in as many features with a photo that it"
     " contradicts"
+)
+
+
+_APART = "they would stand in one place, but what is around differs"
+_AMBIGUOUS = (
+    "nearly all of what matches in it is there more than once, and other photos do not confirm it"
 )
 
 

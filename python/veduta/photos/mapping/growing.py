@@ -33,6 +33,9 @@ MOST_TRIED = 8
 RELAXED = ((100, 16.0), (50, 16.0), (50, 8.0), (25, 8.0), (25, 4.0))
 """What the engine asks of a first pair that it chooses, in turn: agreeing features, and degrees
 between its rays."""
+PLACING_PX = 4.0
+"""How far off what a photo is placed by may lie. The engine's 12 let a photo that shows nothing of
+the model but a distant wall come to lie turned about it, and all that follows with it."""
 WRITING_SHARE = 0.2
 """Share of the time that snapshots may take: where a large model takes long to write, they are
 rarer than one a photo."""
@@ -190,6 +193,7 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
     options.num_threads = available_cores()
     options.min_model_size = growth.smallest
     options.extract_colors = False
+    options.mapper.abs_pose_max_error = PLACING_PX
     # The engine warns of a trivial rig in each photo otherwise.
     options.ba_refine_sensor_from_rig = False
     return options

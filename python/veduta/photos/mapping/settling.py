@@ -9,6 +9,7 @@ from __future__ import annotations
 import shutil
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from veduta.photos.mapping.at_once import map_at_once
@@ -28,6 +29,7 @@ from veduta.photos.mapping.mapping import (
     read_models,
     write_models,
 )
+from veduta.photos.mapping.same_place import different_places
 from veduta.photos.options import MapKind
 from veduta.photos.structure import structure_of
 from veduta.run.progress import StepProgress, no_progress
@@ -114,6 +116,10 @@ def _doubts(
         structure_of(model, {image: str(image) for image in model.reg_image_ids()})
         for model in mapped.models
     ]
-    close = [pair for structure in structures for pair in close_pairs(structure)]
     matched = read_matched(database, image_ids, FEWEST_MATCHES)
-    return doubtful_pairs(close, matched, dropped)
+    close = [close_pairs(structure) for structure in structures]
+    apart = [
+        different_places(structure, pairs, matched)
+        for structure, pairs in zip(structures, close, strict=True)
+    ]
+    return doubtful_pairs(list(chain(*close)), matched, dropped, frozenset().union(*apart))

@@ -1,0 +1,119 @@
+"""Photos that a model puts in one place although what is around the building differs.
+
+From one place two photos show the same, whatever its depth: no model of it is needed. So features
+are compared as they are, turned from one photo into the other, also those that no point of the
+model comes from: of surroundings that a folded model tears apart few do. (Missing correspondences:
+Zach, Irschara and Bischof, CVPR 2008.)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.photos.mapping.conflicts import GRID, ClosePair
+from veduta.photos.mapping.votes import Matched, Pair
+from veduta.photos.structure import Structure
+
+SAME_DEG = 2.0
+"""Angle between the rays to what both see up to which two photos stand in one place."""
+STILL = 0.03
+"""Share of the longer side of a photo by which what matches may move from one to the other in the
+middle: where it moves more they do not stand in one place, whatever the model says."""
+ENOUGH = 6
+"""Features of each of the photos that say something of a cell."""
+FEW_SHARED = 0.1
+"""In a cell that differs fewer than this share of them match."""
+SHARED = 4
+"""Matches of a cell from which on it agrees."""
+DIFFERS = 0.2
+"""Share of the cells that differ from which on the places do. Rendered towers with four equal sides
+on which this was found: false pairs 0.24 and more; no true pair stands in one place there."""
+FEWEST = 5
+"""Cells that must differ, besides."""
+
+
+def different_places(
+    structure: Structure, close: Iterable[ClosePair], matched: Matched
+) -> frozenset[Pair]:
+    """The pairs (image ids) that a model puts in one place, and that show different ones."""
+    row_of = {image: row for row, image in enumerate(structure.image_ids)}
+    repeated = _repeated(matched)
+    found = set()
+    for one in close:
+        pair = (min(one.first, one.second), max(one.first, one.second))
+        if one.apart_deg > SAME_DEG or not {*pair} <= {*row_of}:
+            continue
+        rows = (row_of[pair[0]], row_of[pair[1]])
+        differing, telling = _compared(structure, rows, pair, matched, repeated)
+        if differing >= max(FEWEST, DIFFERS * telling):
+            found.add(pair)
+    return frozenset(found)
+
+
+def _repeated(matched: Matched) -> dict[int, NDArray[np.int64]]:
+    """In how many pairs each feature of a photo matches, by its id."""
+    counts = {
+        image: np.zeros(len(px), dtype=np.int64) for image, px in matched.keypoints_px.items()
+    }
+    for pair, rows in matched.matches.items():
+        for side, image in enumerate(pair):
+            counts[image][np.unique(rows[:, side])] += 1
+    return counts
+
+
+def _compared(
+    structure: Structure,
+    rows: Sequence[int],
+    pair: Pair,
+    matched: Matched,
+    repeated: dict[int, NDArray[np.int64]],
+) -> tuple[int, int]:
+    """Cells of the first photo that differ in the second, and that say something.
+
+    Nothing is said where what matches moves. Only features that are found again in a third photo
+    count: others say nothing by missing.
+    """
+    matches = matched.matches.get(pair, np.empty((0, 2), dtype=np.int64))
+    places = [
+        matched.keypoints_px[pair[0]],
+        _turned_px(structure, rows, matched.keypoints_px[pair[1]]),
+    ]
+    camera = structure.camera(rows[0])
+    moved = np.linalg.norm(places[0][matches[:, 0]] - places[1][matches[:, 1]], axis=1)
+    if not len(moved) or not np.median(moved) <= STILL * max(camera.width, camera.height):
+        return 0, 0
+    own = []
+    for side, image in enumerate(pair):
+        others = repeated[image].copy()
+        others[np.unique(matches[:, side])] -= 1
+        own.append(_cells(places[side][others > 0], camera.width, camera.height))
+    shared = _cells(places[0][matches[:, 0]], camera.width, camera.height)
+    least = np.minimum(*own)
+    differing = (least >= ENOUGH) & (shared < FEW_SHARED * least)
+    return int(differing.sum()), int((differing | (shared >= SHARED)).sum())
+
+
+def _turned_px(
+    structure: Structure, rows: Sequence[int], keypoints_px: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(k, 2) where the first photo would show the features of the second; NaN behind it."""
+    first, second = (structure.cam_from_world[row][:, :3] for row in rows)
+    flat = np.asarray(structure.camera(rows[1]).cam_from_img(keypoints_px))
+    rays = np.column_stack([flat, np.ones(len(flat))]) @ second @ first.T
+    found = np.full((len(rays), 2), np.nan)
+    ahead = rays[:, 2] > 0
+    found[ahead] = structure.camera(rows[0]).img_from_cam(rays[ahead])
+    return found
+
+
+def _cells(places: NDArray[np.float64], width: int, height: int) -> NDArray[np.int64]:
+    """(GRID²,) how many places lie in each cell of a photo."""
+    inside = ((places >= 0) & (places < (width, height))).all(axis=1)
+    across = (places[inside] / (max(width, height) / GRID)).astype(np.int64)
+    counts: NDArray[np.int64] = np.bincount(
+        across[:, 1] * GRID + across[:, 0], minlength=GRID * GRID
+    )
+    return counts

@@ -1,0 +1,116 @@
+"""Photos that stand in one place but show different ones, and what they share by mistake."""
+
+from __future__ import annotations
+
+from itertools import combinations
+
+import numpy as np
+import pycolmap
+import pytest
+
+from veduta.photos.mapping.conflicts import ClosePair
+from veduta.photos.mapping.doubt import doubtful_pairs
+from veduta.photos.mapping.repeated import there_once
+from veduta.photos.mapping.same_place import different_places
+from veduta.photos.mapping.votes import Matched
+from veduta.photos.structure import Structure
+
+WIDTH_PX, HEIGHT_PX = 800, 600
+FACADE, AROUND = 200, 160
+
+
+def photos(
+    sides: tuple[int, ...], step_px: float = 0.0, yaw_deg: float = 0.0
+) -> tuple[Structure, Matched]:
+    """Photos of a facade that all sides of a building have, and of what is beside each side.
+
+    sides: which side each photo shows. step_px: what the content moves from photo to photo.
+    yaw_deg: what the camera turns from photo to photo; the features move with it.
+    """
+    rng = np.random.default_rng(7)
+    facade = rng.uniform((300.0, 50.0), (560.0, 500.0), (FACADE, 2))
+    beside = {
+        side: np.concatenate(
+            [rng.uniform((x, 50.0), (x + 190.0, 450.0), (AROUND // 2, 2)) for x in (60.0, 590.0)]
+        )
+        for side in sorted(set(sides))
+    }
+    camera = pycolmap.Camera(
+        camera_id=1, model="SIMPLE_PINHOLE", width=WIDTH_PX, height=HEIGHT_PX,
+        params=[600.0, WIDTH_PX / 2, HEIGHT_PX / 2],
+    )  # fmt: skip
+    keypoints, poses = [], []
+    for photo, side in enumerate(sides):
+        turn = np.deg2rad(yaw_deg * photo)
+        rotation = np.array(
+            [[np.cos(turn), 0, np.sin(turn)], [0, 1, 0], [-np.sin(turn), 0, np.cos(turn)]]
+        )
+        seen = np.concatenate([facade, beside[side]]) + np.array([step_px * photo, 0.0])
+        rays = np.column_stack([np.asarray(camera.cam_from_img(seen)), np.ones(len(seen))])
+        keypoints.append(np.asarray(camera.img_from_cam(rays @ rotation.T)))
+        poses.append(np.column_stack([rotation, np.zeros(3)]))
+    ids = tuple(range(1, len(sides) + 1))
+    rows = np.arange(FACADE + AROUND)
+    matches = {
+        (first, second): np.column_stack(
+            [rows, rows]
+            if sides[first - 1] == sides[second - 1]
+            else [rows[:FACADE], rows[:FACADE]]
+        )
+        for first, second in combinations(ids, 2)
+    }
+    structure = Structure(
+        cameras={1: camera},
+        camera_of=dict.fromkeys(ids, 1),
+        image_ids=ids,
+        names=tuple(f"{image}.jpg" for image in ids),
+        cam_from_world=np.array(poses),
+        keypoints_px=tuple(keypoints),
+        points=np.empty((0, 3)),
+        colours=np.empty((0, 3), dtype=np.uint8),
+        image_of=np.empty(0, dtype=np.int64),
+        keypoint_of=np.empty(0, dtype=np.int64),
+        point_of=np.empty(0, dtype=np.int64),
+    )
+    return structure, Matched(dict(zip(ids, keypoints, strict=True)), matches)
+
+
+def close(*pairs: tuple[int, int], apart_deg: float = 1.0) -> list[ClosePair]:
+    """Pairs in which the points of a model contradict nothing."""
+    return [ClosePair(first, second, apart_deg, 20, 0) for first, second in pairs]
+
+
+@pytest.mark.parametrize("yaw_deg", [0.0, 2.0])
+def test_what_is_around_tells_two_sides_apart(yaw_deg: float) -> None:
+    structure, matched = photos((0, 0, 1, 1), yaw_deg=yaw_deg)
+    pairs = close(*combinations((1, 2, 3, 4), 2))
+    found = different_places(structure, pairs, matched)
+    assert found == {(1, 3), (1, 4), (2, 3), (2, 4)}
+
+
+def test_photos_that_do_not_stand_in_one_place_are_not_compared() -> None:
+    structure, matched = photos((0, 0, 1, 1))
+    assert different_places(structure, close((1, 3), apart_deg=10.0), matched) == frozenset()
+    structure, matched = photos((0, 0, 1, 1), step_px=40.0)  # whatever the model says
+    assert different_places(structure, close((1, 3)), matched) == frozenset()
+
+
+def test_what_matches_between_different_places_is_there_twice() -> None:
+    _, matched = photos((0, 0, 1, 1))
+    once = there_once(matched, {(1, 3)})
+    assert once[1, 2].count == AROUND
+    assert once[1, 2].share == pytest.approx(AROUND / (AROUND + FACADE))
+    assert once[1, 2].shows_one_place
+    assert once[2, 4].count == 0  # by way of 1 and 3
+    assert once[2, 4].is_ambiguous
+
+
+def test_pairs_of_different_places_are_dropped() -> None:
+    """Two of them were not compared: they have nothing that is there once."""
+    structure, matched = photos((0, 0, 1, 1))
+    pairs = close((1, 2), (1, 3), (2, 4), (3, 4))
+    apart = different_places(structure, pairs, matched)
+    assert apart == {(1, 3), (2, 4)}
+    doubts = doubtful_pairs(pairs, matched, apart=apart)
+    assert [(doubt.first, doubt.second) for doubt in doubts] == [(1, 3), (1, 4), (2, 3), (2, 4)]
+    assert doubtful_pairs(pairs, matched) == ()
