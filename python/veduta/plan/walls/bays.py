@@ -131,7 +131,7 @@ def _corners(params: Line, one: Broken, size: float) -> Line:
 def _cost(params: Line, one: Broken, size: float, ink: Nearness, count: int) -> Line:
     """(n,) how far ink is on the average from where the sides have it."""
     corners = _corners(params, one, size)
-    return _away(corners, one.thickness_px, ink, count).mean(axis=(1, 2))
+    return np.asarray(_away(corners, one.thickness_px, ink, count).mean(axis=(1, 2)))
 
 
 def _away(corners: Line, thick: float, ink: Nearness, count: int) -> Line:

@@ -109,6 +109,7 @@ def find_walls(
     of `flights` are no walls.
     """
     by_colour = False
+    drawing: WallDrawing = "filled"
     if known is None:
         marks = inks.marks(cleaned.ink, cleaned.line_px)
         ink = without_texts(marks | toned_areas(cleaned.ink, cleaned.line_px), texts)
@@ -122,7 +123,7 @@ def find_walls(
             mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     else:
         ink = mask = known
-        thickness, drawing = known_thickness(known), "filled"
+        thickness = known_thickness(known)
     # Of what is known, short piers between openings count, too.
     solid = thick_strokes(mask, thickness) if known is None else known
     if known is None and drawing in ("filled", "single-line"):
