@@ -20,6 +20,9 @@ from veduta.plan.walls.join import UPRIGHT_RAD
 GOES_ON_RAD = np.radians(30.0)
 """A wall goes on at a junction where another leaves it in this direction, or nearly."""
 
+SQUARE_RAD = np.radians(15.0)
+"""Walls in line or square to each other are off by less."""
+
 FARTHEST = 24.0
 """Breaks towards the side of a wall reach over so many (thin) wall thicknesses at most."""
 
@@ -170,10 +173,21 @@ def _from_nodes(graph: Graph, walls: _Walls) -> Iterator[_Ray]:
     for node, leaving in at.items():
         beside = frozenset(index for index, _ in leaving)
         for index, away in leaving:
-            if walls.points_on(index) and not any(
-                float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving
-            ):
+            if not walls.points_on(index) or _is_side_of_bay(away, [way for _, way in leaving]):
+                continue
+            if not any(float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving):
                 yield _Ray(graph.nodes[node], -away, float(walls.thickness[index]), beside)
+
+
+def _is_side_of_bay(way: NDArray[np.float64], leaving: Sequence[NDArray[np.float64]]) -> bool:
+    """Whether a slanted wall ends where it meets others that are neither in line nor square to it.
+
+    `way` and `leaving` (2,) lead away from where they meet.
+    """
+    if float(np.abs(way).max()) > np.cos(UPRIGHT_RAD):
+        return False
+    along = [abs(float(other @ way)) for other in leaving]
+    return any(np.sin(SQUARE_RAD) < one < np.cos(SQUARE_RAD) for one in along)
 
 
 def _from_stubs(
