@@ -47,7 +47,7 @@ def _hang_together(pieces: list[Piece]) -> int:
 def test_a_wall_that_steps_aside_hangs_together(aside: float, turned: bool) -> None:
     pieces = [_piece(100, 200, 300, 200, 30), _piece(300, 200 + aside, 500, 200 + aside, 32)]
     if turned:
-        pieces = [_piece(*one.start[::-1], *one.end[::-1], one.thickness_px) for one in pieces]
+        pieces = [Piece(one.start[::-1], one.end[::-1], one.thickness_px) for one in pieces]
     (step,) = jogs(pieces, _solid(pieces))
     assert step.length_px == pytest.approx(abs(aside))
     assert _hang_together(pieces) == 2

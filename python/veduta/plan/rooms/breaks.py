@@ -194,10 +194,13 @@ def _from_stubs(
     graph: Graph, walls: _Walls, solid: NDArray[np.bool_], thin_px: float
 ) -> Iterator[_Ray]:
     """Solid stubs that stand out from the face of a wall where no wall leaves it."""
-    most_px = max(STUB[1] * thin_px, STUB_WALL * float(walls.thickness.max(initial=0.0)))
+    thickest_px = float(walls.thickness.max(initial=0.0))
     for index in range(len(graph.edges)):
         way, thick = walls.way[index], float(walls.thickness[index])
         normal = np.array([-way[1], way[0]])
+        most_px = STUB[1] * thin_px
+        if walls.points_on(index):
+            most_px = max(most_px, STUB_WALL * thickest_px)
         steps = np.arange(0.5, walls.length[index], 1.0)
         for side in (1, -1):
             points = walls.start[index] + steps[:, None] * way
