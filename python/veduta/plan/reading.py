@@ -32,6 +32,7 @@ from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
+from veduta.plan.walls.bays import with_bays
 from veduta.plan.walls.bows import with_bows
 from veduta.plan.walls.find import Found, find_walls
 
@@ -77,7 +78,7 @@ def read_cleaned(
     found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
-        found = with_bows(found, sheet.faint)
+        found = with_bays(with_bows(found, sheet.faint), sheet.faint)
     judged = judge_gaps(found, sheet)
     if (sized := sized_by_doors(found, judged)) is not found:
         found = sized
@@ -90,8 +91,10 @@ def read_cleaned(
     axes = axes_of([*found.pieces, *found.curved], judged)
     whole = mended(axes, found, sheet, texts)
     sky = open_sky(whole.axes, found.thin_px, texts)
-    # What a vector file says of its openings goes before what its picture looks like.
-    axes = whole.axes if known else with_unbroken(whole.axes, sheet, found.thin_px, sky)
+    # What a vector file says of its openings goes before what its picture looks like; in walls that
+    # are told by their colour, what else is drawn in them is lines of axes.
+    told = known is not None or found.by_colour
+    axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes
     return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)

@@ -33,6 +33,9 @@ LEAST_DOOR = 0.5
 LEAST_WAY = 2.5
 """Or so many (thin) wall thicknesses, where no leaves say how wide doors are."""
 
+LEAST_LEAF = 0.6
+"""What has a leaf, as of a cupboard, may be narrower by this factor."""
+
 LEAST_TIMES = 3
 """What is drawn so often between rooms is this sheet's manner of drawing doors."""
 
@@ -113,8 +116,9 @@ def _again(place: _Place, thin_px: float) -> Judged:
 
 def _is_slit(judged: Judged, least_px: float) -> bool:
     """Whether nobody could walk through: a flaw of the ink, behind which the wall goes on."""
-    leafless = judged.kind == "gap" or judged.type in ("plain", "unknown")
-    return judged.kind != "window" and leafless and judged.gap.width_px < least_px
+    leafless = judged.kind == "gap" or judged.type in ("plain", "unknown", "sliding")
+    narrow = least_px if leafless else LEAST_LEAF * least_px
+    return judged.kind != "window" and judged.gap.width_px < narrow
 
 
 def usual_door(judged: Sequence[Judged]) -> float | None:

@@ -20,6 +20,9 @@ from veduta.plan.walls.join import UPRIGHT_RAD
 GOES_ON_RAD = np.radians(30.0)
 """A wall goes on at a junction where another leaves it in this direction, or nearly."""
 
+SQUARE_RAD = np.radians(15.0)
+"""Walls in line or square to each other are off by less."""
+
 FARTHEST = 24.0
 """Breaks towards the side of a wall reach over so many (thin) wall thicknesses at most."""
 
@@ -38,6 +41,9 @@ THICK = 1.5
 STUB = (0.5, 2.5)
 """Stubs on the faces of walls are so broad, in (thin) wall thicknesses."""
 
+STUB_WALL = 1.2
+"""Or as broad as the thickest wall, and a little more."""
+
 LONG = 4.0
 """Slanted pieces of wall have a direction if so many times as long as thick."""
 
@@ -48,6 +54,7 @@ class Break:
 
     `gaps` are what of it is not solid. `slanted`: it joins two ends that do not lie in one line, so
     that only what is drawn there can speak for it. `in_line`: walls in one line lie at both ends.
+    `facing`: so they do, whatever walls meet them at these ends.
     """
 
     start: NDArray[np.float64]
@@ -56,6 +63,7 @@ class Break:
     gaps: tuple[Gap, ...]
     slanted: bool = False
     in_line: bool = False
+    facing: bool = False
 
     @property
     def width_px(self) -> float:
@@ -137,7 +145,16 @@ class _Walls:
         stop = ray.origin + float(face[nearest]) * ray.way
         end = ray.origin + float(reach[nearest]) * ray.way
         gap = Gap(-1, True, -1, to_side, ray.origin, stop, ray.thickness_px, stop)
-        return Break(ray.origin, end, ray.thickness_px, parted(gap, solid), in_line=not to_side)
+        # A wall that ends at a corner has its end in the wall that crosses it there.
+        corner = in_line & (np.abs(to_end - reach[nearest]) <= slack)
+        return Break(
+            ray.origin,
+            end,
+            ray.thickness_px,
+            parted(gap, solid),
+            in_line=not to_side,
+            facing=bool(corner.any()),
+        )
 
     def _to_ends(self, ray: _Ray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """How far ahead walls in the ray's line begin, and which are in its line."""
@@ -162,19 +179,34 @@ def _from_nodes(graph: Graph, walls: _Walls) -> Iterator[_Ray]:
     for node, leaving in at.items():
         beside = frozenset(index for index, _ in leaving)
         for index, away in leaving:
-            if walls.points_on(index) and not any(
-                float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving
-            ):
+            if not walls.points_on(index) or _is_side_of_bay(away, [way for _, way in leaving]):
+                continue
+            if not any(float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving):
                 yield _Ray(graph.nodes[node], -away, float(walls.thickness[index]), beside)
+
+
+def _is_side_of_bay(way: NDArray[np.float64], leaving: Sequence[NDArray[np.float64]]) -> bool:
+    """Whether a slanted wall ends where it meets others that are neither in line nor square to it.
+
+    `way` and `leaving` (2,) lead away from where they meet.
+    """
+    if float(np.abs(way).max()) > np.cos(UPRIGHT_RAD):
+        return False
+    along = [abs(float(other @ way)) for other in leaving]
+    return any(np.sin(SQUARE_RAD) < one < np.cos(SQUARE_RAD) for one in along)
 
 
 def _from_stubs(
     graph: Graph, walls: _Walls, solid: NDArray[np.bool_], thin_px: float
 ) -> Iterator[_Ray]:
     """Solid stubs that stand out from the face of a wall where no wall leaves it."""
+    thickest_px = float(walls.thickness.max(initial=0.0))
     for index in range(len(graph.edges)):
         way, thick = walls.way[index], float(walls.thickness[index])
         normal = np.array([-way[1], way[0]])
+        most_px = STUB[1] * thin_px
+        if walls.points_on(index):
+            most_px = max(most_px, STUB_WALL * thickest_px)
         steps = np.arange(0.5, walls.length[index], 1.0)
         for side in (1, -1):
             points = walls.start[index] + steps[:, None] * way
@@ -182,7 +214,7 @@ def _from_stubs(
             dark = np.diff(np.pad(_on(solid, points).astype(np.int8), 1))
             pairs = zip(np.flatnonzero(dark == 1), np.flatnonzero(dark == -1), strict=True)
             for low, high in pairs:
-                if not STUB[0] * thin_px <= high - low <= STUB[1] * thin_px:
+                if not STUB[0] * thin_px <= high - low <= most_px:
                     continue
                 foot = walls.start[index] + float(low + high) / 2 * way
                 yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))

@@ -1,9 +1,9 @@
 """Rooms do not leak: where a wall is broken the space is closed, and that is said.
 
 A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
-drawn there, both faces of the wall drawn on, a window, solid ink, a name or size of a room on
-either side, or a room that is open to the outdoors. The best one is closed first, as it changes
-what the others part.
+drawn there, both faces of the wall drawn on, a window, solid ink, ends of a wall that face each
+other across a passage, a name or size of a room on either side, or a room that is open to the
+outdoors. The best one is closed first, as it changes what the others part.
 """
 
 from __future__ import annotations
@@ -18,10 +18,11 @@ from numpy.typing import NDArray
 from shapely import STRtree, unary_union
 from shapely.geometry import Point, Polygon, box
 
-from veduta.plan.document import Origin, Text
+from veduta.plan.document import OpeningType, Origin, Text
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
+from veduta.plan.openings.settle import USUAL_DOOR
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
@@ -52,6 +53,16 @@ SURE_ARC = 0.6
 LEAFLESS = 1.5
 """Doors of closets, drawn without leaves, are wider than others by this factor at most."""
 
+PASSAGE = 10.0
+"""Ends of walls face each other across a passage of so many (thin) wall thicknesses at most."""
+
+ROOMY = (0.9, 2.0)
+"""On both sides of a passage a space is so many times as broad, and holds so many squares of its
+width: a corridor is hardly broader, a niche holds less."""
+
+GLAZED = 1.5
+"""Ways out that are so many times as wide as a door are taken for glazed doors that slide."""
+
 MOST_ROUNDS = 24
 MOST_WALLS = 500
 """Of a drawing that is not noise: more leave thousands of breaks, none of which says anything."""
@@ -65,12 +76,14 @@ Reason = Literal[
     "both faces are drawn on there",
     "a window is drawn there",
     "it is solid there",
+    "walls face each other across a passage there",
     "two rooms are named in one space",
     "a room is open to the outdoors",
 ]
 
 
 _UNDRAWN: tuple[Reason, ...] = (
+    "walls face each other across a passage there",
     "two rooms are named in one space",
     "a room is open to the outdoors",
 )
@@ -99,7 +112,9 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
     now, notes = list(axes), list[str]()
     if len(now) > MOST_WALLS:
         return Mended(now, (TOO_MANY.format(len(now)),))
-    looker = _Looker(found, sheet, room_labels(texts), _usual_door(axes))
+    usual = _usual_door(axes)
+    glazed_px = GLAZED * (usual or USUAL_DOOR * found.thin_px)
+    looker = _Looker(found, sheet, room_labels(texts), usual)
     failed: set[tuple[int, ...]] = set()
     graph = wall_graph(now)
     rooms = len(closed_spaces(wall_bodies(graph, now), found.thin_px))
@@ -110,7 +125,7 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
             break
         best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
-        more = [*now, _axis(best, found.thin_px)]
+        more = [*now, _axis(best, found.thin_px, glazed_px)]
         tried = wall_graph(more)
         count = len(closed_spaces(wall_bodies(tried, more), found.thin_px))
         if count > rooms:
@@ -202,6 +217,8 @@ class _Looker:
             return _Closing(one, "a door is drawn there", 2.0 + max(doors), drawn)
         if not outdoors and all(self._is_leafless(each) for each in drawn):
             return _Closing(one, "both faces are drawn on there", 2.0, drawn)
+        if not outdoors and self._is_passage(one, parts):
+            return _Closing(one, "walls face each other across a passage there", 1.0, drawn)
         window = all(each is not None and each.kind != "gap" for each in drawn)
         if one.slanted and outdoors and all(_is_window(each) for each in drawn):
             return _Closing(one, "a window is drawn there", 2.0, drawn)
@@ -241,6 +258,16 @@ class _Looker:
         drawn = judged.seen.faces == 2 and not judged.seen.inner
         return drawn and low <= judged.gap.width_px <= high
 
+    def _is_passage(self, one: Break, parts: Sequence[Polygon]) -> bool:
+        """Whether a wall goes on behind an undrawn way of usual width, with rooms on both sides."""
+        if one.slanted or not one.facing or len(one.gaps) != 1:
+            return False
+        if one.width_px > PASSAGE * self.found.thin_px:
+            return False
+        broad, squares = ROOMY[0] * one.width_px, ROOMY[1] * one.width_px**2
+        roomy = [part for part in parts if part.area >= squares]
+        return sum(not part.buffer(-broad / 2).is_empty for part in roomy) > 1
+
     def _open(self, part: Polygon) -> bool:
         """Whether it reaches the border of the sheet."""
         return bool(part.distance(self._border().exterior) < 1)
@@ -268,8 +295,8 @@ def _usual_door(axes: Sequence[Axis]) -> float | None:
     return float(np.median(widths)) if len(widths) >= 3 else None
 
 
-def _axis(closing: _Closing, thin_px: float) -> Axis:
-    """The wall that closes a break, with the openings in it."""
+def _axis(closing: _Closing, thin_px: float, glazed_px: float) -> Axis:
+    """The wall that closes a break, with the openings in it; nobody leaves a house open."""
     one = closing.broken
     line = Piece(one.start, one.end, one.thickness_px)
     origin: Origin = "inferred" if closing.reason in _UNDRAWN else "measured"
@@ -281,6 +308,11 @@ def _axis(closing: _Closing, thin_px: float) -> Axis:
             judged = Judged(gap, "door", "sliding", "none", "none", 0.4)
         if judged.kind == "window" and closing.reason == "both faces are drawn on there":
             judged = Judged(gap, "door", "unknown", "none", "none", 0.6)
+        way_out = judged.kind == "gap" and closing.reason == "a room is open to the outdoors"
+        if way_out and gap.width_px >= NARROWEST_GAP * thin_px:
+            origin = "invented"
+            door: OpeningType = "sliding" if gap.width_px >= glazed_px else "unknown"
+            judged = Judged(gap, "door", door, "none", "none", 0.2)
         first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))
         if judged.kind == "door" or gap.width_px >= NARROWEST_GAP * thin_px:
             openings.append(OnAxis(judged, float(first), float(last), along=True))

@@ -71,7 +71,7 @@ BESIDE_FACES = np.array([1.3, 1.5, 1.7, 1.9, 2.1])
 
 
 @dataclass(frozen=True)
-class _Ink:
+class Nearness:
     """`away` (h, w): how far pixels are from ink, at most CAP_PX; `drawn`: where there is some."""
 
     away: NDArray[np.float32]
@@ -80,7 +80,7 @@ class _Ink:
 
 
 @dataclass(frozen=True)
-class _Break:
+class Broken:
     """Two ends of a broken wall, (2,) each, the way from the first to the second, and how thick.
 
     `side`: where it is outdoors, 1 to the right of the way, -1 to the left. `drawing`: of the wall.
@@ -96,12 +96,10 @@ class _Break:
 
 def with_bows(found: Found, faint: NDArray[np.bool_]) -> Found:
     """The walls with what is solid of bows; `faint` (h, w) is the mask of thin lines."""
-    drawn = faint | found.solid
-    away = cv2.distanceTransform((~drawn).astype(np.uint8), cv2.DIST_L2, 5)
-    ink = _Ink(np.minimum(away, np.float32(CAP_PX)), drawn, found.solid)
+    ink = nearness(found, faint)
     bows: list[Piece] = []
-    for one in _breaks(found):
-        if any(_spans(one, bow) for bow in bows):
+    for one in broken_walls(found):
+        if any(spans(one, bow) for bow in bows):
             continue
         bow = _bow(one, ink)
         if bow is not None:
@@ -114,7 +112,14 @@ def with_bows(found: Found, faint: NDArray[np.bool_]) -> Found:
     return replace(found, pieces=pieces, curved=[*curved, *stubs])
 
 
-def _breaks(found: Found) -> Iterator[_Break]:
+def nearness(found: Found, faint: NDArray[np.bool_]) -> Nearness:
+    """Of the walls and of the thin lines, (h, w), of a sheet."""
+    drawn = faint | found.solid
+    away = cv2.distanceTransform((~drawn).astype(np.uint8), cv2.DIST_L2, 5)
+    return Nearness(np.minimum(away, np.float32(CAP_PX)), drawn, found.solid)
+
+
+def broken_walls(found: Found) -> Iterator[Broken]:
     """Pairs of ends and corners of walls, opposite each other with nothing solid between them.
 
     The narrowest come first, and only where one sees out between them.
@@ -145,7 +150,7 @@ def _breaks(found: Found) -> Iterator[_Break]:
         drawing = axes[at[one][0].axis].line.drawing
         for side in (1.0, -1.0):
             if _sees_out(first, second, side, found.solid):
-                yield _Break(first, second, way, thick, side, drawing)
+                yield Broken(first, second, way, thick, side, drawing)
 
 
 def _sees_out(
@@ -156,12 +161,12 @@ def _sees_out(
     away = np.arange(2.0, sum(solid.shape), 2.0)
     middle = line.chord_px * np.linspace(0.33, 0.67, 9)
     places = line.at(middle[:, None], side * away[None, :])
-    if bool(_look(solid, places, 0.0).any()):
+    if bool(look(solid, places, 0.0).any()):
         return False
     # A door may lie before a window; beyond the bow nothing is built over all of its breadth.
     beyond = away[away > 0.6 * line.chord_px]
     places = line.at(np.linspace(0.0, line.chord_px, 25)[:, None], side * beyond[None, :])
-    return float(_look(solid, places, 0.0).mean()) < STRAY
+    return float(look(solid, places, 0.0).mean()) < STRAY
 
 
 def _squares(way: NDArray[np.float64], node: int, edges: Sequence[Edge], graph: Graph) -> bool:
@@ -178,10 +183,10 @@ def _squares(way: NDArray[np.float64], node: int, edges: Sequence[Edge], graph: 
     return False
 
 
-def _bow(one: _Break, ink: _Ink) -> Piece | None:
+def _bow(one: Broken, ink: Nearness) -> Piece | None:
     """The arc that is drawn between two ends of a wall; None where there is none."""
     straight = Arc(one.first, one.second)
-    level = _covered(straight, one.thickness_px, ink)
+    level = covered(straight, one.thickness_px, ink)
     if level > STRAIGHT:
         return None
     arc = _likeliest(one, ink)
@@ -197,7 +202,7 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     if before.mean() < LEAST_BEFORE or near[before].mean() < COVERED or near.mean() < COVERED:
         return None
     # Nor does solid wall, which is broad, say how it bends: lines in a window do.
-    free = _look(ink.solid, arc.at(along), 0.0) < 0.5
+    free = look(ink.solid, arc.at(along), 0.0) < 0.5
     edges = np.flatnonzero(np.diff(np.pad(free.astype(np.int8), 1)))
     low, high = max(zip(edges[::2], edges[1::2], strict=True), key=np.ptp, default=(0, 0))
     bend = (high - low) ** 2 / 8.0 / arc.radius_px
@@ -206,7 +211,7 @@ def _bow(one: _Break, ink: _Ink) -> Piece | None:
     return Piece(arc.start, arc.end, one.thickness_px, one.drawing, arc.bulge)
 
 
-def _likeliest(one: _Break, ink: _Ink) -> Arc | None:
+def _likeliest(one: Broken, ink: Nearness) -> Arc | None:
     """The arc of least cost among many; None where no arc is near ink for the most part.
 
     All arcs of the same bulge are one, made larger and moved.
@@ -220,7 +225,7 @@ def _likeliest(one: _Break, ink: _Ink) -> Arc | None:
     # (slides, bulges, places, rows, 2)
     centre = starts[:, None, None] + chords[:, None, None, None] * (unit @ turn)
     across = half * np.array([-1.0, 0.0, 1.0])[:, None] * (right @ turn)[:, :, None]
-    found = _look(ink.away, centre[:, :, :, None] + across, CAP_PX)
+    found = look(ink.away, centre[:, :, :, None] + across, CAP_PX)
     cost = np.minimum(found[..., 1], np.maximum(found[..., 0], found[..., 2])).mean(axis=2)
     cost[np.abs(BULGES) * chords[:, None] / 2 < DEEP * one.thickness_px] = CAP_PX
     cost[chords < SHARE * float((one.second - one.first) @ one.way)] = CAP_PX
@@ -245,7 +250,7 @@ def _unit_arcs() -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     return points, (beside - points) / 0.1
 
 
-def _refined(arc: Arc, one: _Break, ink: _Ink) -> Arc:
+def _refined(arc: Arc, one: Broken, ink: Nearness) -> Arc:
     """The arc nearby with the least cost: a search by steps that are halved."""
     count = max(PLACES, int(arc.length_px / 3))
     best = _cost(arc, one.thickness_px, ink, count)
@@ -265,7 +270,7 @@ def _refined(arc: Arc, one: _Break, ink: _Ink) -> Arc:
     return arc
 
 
-def _cost(arc: Arc, thickness_px: float, ink: _Ink, count: int) -> float:
+def _cost(arc: Arc, thickness_px: float, ink: Nearness, count: int) -> float:
     """How far ink is from where a wall or a window has it, and how much there is beside it."""
     along = (np.arange(count) + 0.5) / count * arc.length_px
     half = thickness_px / 2
@@ -273,25 +278,29 @@ def _cost(arc: Arc, thickness_px: float, ink: _Ink, count: int) -> float:
     beside = np.concatenate([-BESIDE_FACES, BESIDE_FACES]) * half
     # Near its ends other walls are beside it.
     free = along[np.abs(along / arc.length_px - 0.5) < 0.3]
-    stray = _look(ink.drawn, arc.at(free[:, None], beside[None, :]), False)
+    stray = look(ink.drawn, arc.at(free[:, None], beside[None, :]), False)
     return float(away.mean() + stray.mean())
 
 
-def _away(arc: Arc, along: NDArray[np.float64], half_px: float, ink: _Ink) -> NDArray[np.float64]:
+def _away(
+    arc: Arc, along: NDArray[np.float64], half_px: float, ink: Nearness
+) -> NDArray[np.float64]:
     """(n,) distances from ink on the centre line, or on that face where it is farther."""
     places = arc.at(along[:, None], np.array([-half_px, 0.0, half_px])[None, :])
-    found = _look(ink.away, places, CAP_PX)
+    found = look(ink.away, places, CAP_PX)
     return np.asarray(np.minimum(found[:, 1], np.maximum(found[:, 0], found[:, 2])), np.float64)
 
 
-def _covered(arc: Arc, thickness_px: float, ink: _Ink) -> float:
+def covered(arc: Arc, thickness_px: float, ink: Nearness) -> float:
+    """The part of an arc along which ink is where a wall or a window has it."""
     along = np.arange(0.5, max(arc.length_px, 1.0), 1.0)
     return float((_away(arc, along, thickness_px / 2, ink) <= NEAR_PX).mean())
 
 
-def _look(
+def look(
     grid: NDArray[np.float32] | NDArray[np.bool_], points: NDArray[np.float64], outside: float
 ) -> NDArray[np.float32]:
+    """Values (...) of a grid (h, w) at points (..., 2) in pixels; `outside` beyond its border."""
     index = np.floor(points).astype(int)
     x, y = index[..., 0], index[..., 1]
     inside = (x >= 0) & (y >= 0) & (x < grid.shape[1]) & (y < grid.shape[0])
@@ -304,7 +313,7 @@ def _stubs(bow: Piece, found: Found) -> list[Piece]:
     steps = np.arange(0.5, bow.length_px, 1.0)
     beside = np.linspace(-0.35, 0.35, 5) * bow.thickness_px
     places = bow.arc.at(steps[:, None], beside[None, :])
-    filled = _look(found.solid, places, 0.0).mean(axis=1) >= 0.5
+    filled = look(found.solid, places, 0.0).mean(axis=1) >= 0.5
     # At its ends the straight wall is beside it.
     reach = int(0.5 * bow.thickness_px)
     filled[:reach] = filled[len(filled) - reach :] = True
@@ -316,7 +325,7 @@ def _stubs(bow: Piece, found: Found) -> list[Piece]:
     ]
 
 
-def _spans(one: _Break, bow: Piece) -> bool:
+def spans(one: Broken, bow: Piece) -> bool:
     """Whether a bow lies before a break: that was narrower, and is mended by it."""
     along, across = Arc(one.first, one.second).place((bow.start + bow.end) / 2)
     size = float(np.hypot(*(one.second - one.first)))

@@ -17,7 +17,9 @@ from veduta.plan.walls.cells import Cells, find_cells
 from veduta.plan.walls.curved import curved_pieces, lies_in
 from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
+from veduta.plan.walls.jogs import jogs
 from veduta.plan.walls.join import joined
+from veduta.plan.walls.layers import walls_of_a_colour
 from veduta.plan.walls.measure import measured
 from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.outlines import without_half_outline
@@ -82,13 +84,17 @@ PALE = 0.65
 
 @dataclass(frozen=True)
 class Found:
-    """Straight and curved pieces of wall, the mask of them, and how thick walls are."""
+    """Straight and curved pieces of wall, the mask of them, and how thick walls are.
+
+    `by_colour`: they were told by the colour of their lines, so that nothing else is in the mask.
+    """
 
     pieces: list[Piece]
     solid: NDArray[np.bool_]
     thickness: Thickness
     thin_px: float
     curved: list[Piece] = field(default_factory=list)
+    by_colour: bool = False
 
 
 def find_walls(
@@ -102,14 +108,22 @@ def find_walls(
     `known` is the (h, w) mask of all that is wall, where that is known and not looked for. Treads
     of `flights` are no walls.
     """
+    by_colour = False
+    drawing: WallDrawing = "filled"
     if known is None:
         marks = inks.marks(cleaned.ink, cleaned.line_px)
         ink = without_texts(marks | toned_areas(cleaned.ink, cleaned.line_px), texts)
         ink = without_flights(ink, flights, cleaned.line_px)
-        mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
+        coloured = walls_of_a_colour(cleaned.pixels, ink, cleaned.line_px)
+        full = None if coloured is None else wall_thickness(coloured, cleaned.line_px)
+        by_colour = coloured is not None and full is not None
+        if coloured is not None and full is not None:
+            mask, thickness, drawing = coloured, full, "hollow"
+        else:
+            mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     else:
         ink = mask = known
-        thickness, drawing = known_thickness(known), "filled"
+        thickness = known_thickness(known)
     # Of what is known, short piers between openings count, too.
     solid = thick_strokes(mask, thickness) if known is None else known
     if known is None and drawing in ("filled", "single-line"):
@@ -142,9 +156,11 @@ def find_walls(
             [one for one in some if one.thickness_px >= SINGLE_LEAST * thickness.least_px]
             for some in (whole, curved)
         )
+    if known is None:
+        whole = [*whole, *jogs(whole, solid)]
     if not whole and not curved:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
-    return Found(whole, solid, thickness, thin_thickness([*whole, *curved]), curved)
+    return Found(whole, solid, thickness, thin_thickness([*whole, *curved]), curved, by_colour)
 
 
 def choose_drawing(

@@ -20,6 +20,16 @@ HOUSE_SHARE = 0.5
 """The walls of a house hang together: the largest group is so much of all their length."""
 
 ISLAND_SHARE = 0.08
+"""Smaller groups, of all that length, are furniture, unless they are drawn as walls are."""
+
+PIERS_SHARE = 0.15
+"""Walls that stand free make up so much of the length, at least: less may be furniture."""
+
+PIER = 3.0
+"""And the longest of a group is so many times as long as thick."""
+
+AS_THICK = 0.15
+"""They are as thick as the house's walls, up to this part, or a pixel."""
 
 STRAIGHT_RAD = np.radians(15)
 BULGES = 20
@@ -77,15 +87,16 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
                 if first < second:  # of two points that became one, one has moved along the axis
                     low, high = float(first), float(second)
                 edges[key] = Edge(ends[0], ends[1], index, low, high)
-    kept = _without_islands(tuple(edges.values()))
+    kept = _without_islands(tuple(edges.values()), axes)
     types = tuple(_type(node, nodes, kept, axes) for node in range(len(nodes)))
     return Graph(nodes, kept, types)
 
 
-def _without_islands(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
+def _without_islands(edges: tuple[Edge, ...], axes: Sequence[Axis]) -> tuple[Edge, ...]:
     """The edges without small groups that touch no other wall: solid furniture, arrows, bars.
 
-    Where no group is a house, as on plans of load-bearing walls alone, all are kept.
+    Where no group is a house, as on plans of load-bearing walls alone, all are kept; where many
+    stand free that are as thick as the house's walls, those are.
     """
     if not edges:
         return edges
@@ -93,14 +104,32 @@ def _without_islands(edges: tuple[Edge, ...]) -> tuple[Edge, ...]:
     count = int(ends.max()) + 1
     graph = coo_matrix((np.ones(len(ends), np.int8), (ends[:, 0], ends[:, 1])), (count, count))
     label = connected_components(graph, directed=False)[1][ends[:, 0]]
-    length = np.bincount(label, weights=[edge.high - edge.low for edge in edges])
+    own = np.array([edge.high - edge.low for edge in edges])
+    length = np.bincount(label, weights=own)
     if length.max() < HOUSE_SHARE * length.sum():
         return edges
-    return tuple(
-        edge
-        for edge, group in zip(edges, label, strict=True)
-        if length[group] >= ISLAND_SHARE * length.sum()
-    )
+    keep = length >= ISLAND_SHARE * length.sum()
+    thick = np.array([axes[edge.axis].line.thickness_px for edge in edges])
+    piers = ~keep & _as_thick(label, own, thick)
+    if length[piers].sum() >= PIERS_SHARE * length.sum():
+        keep |= piers
+    return tuple(edge for edge, group in zip(edges, label, strict=True) if keep[group])
+
+
+def _as_thick(
+    label: NDArray[np.int32], length: NDArray[np.float64], thick: NDArray[np.float64]
+) -> NDArray[np.bool_]:
+    """(n,) which groups of edges are long and as thick as most walls of the largest group are."""
+    total = np.bincount(label, weights=length)
+    house = label == int(np.argmax(total))
+    order = np.argsort(thick[house])
+    along = np.cumsum(length[house][order])
+    usual = float(thick[house][order][np.searchsorted(along, along[-1] / 2)])
+    alike = np.abs(thick - usual) <= max(1.0, AS_THICK * usual)
+    longest = np.zeros(len(total))
+    np.maximum.at(longest, label[alike], length[alike])
+    of_it = np.bincount(label, weights=length * alike)
+    return np.asarray((longest >= PIER * usual) & (of_it >= HOUSE_SHARE * total), dtype=np.bool_)
 
 
 def edge_line(edge: Edge, graph: Graph, axes: Sequence[Axis]) -> Piece:

@@ -15,6 +15,9 @@ MEET_RAD = np.radians(12)
 REACH = 0.45
 """A wall ends at another one if so many of its thicknesses are missing, or less."""
 
+BESIDE = 0.6
+"""Walls in one line lie beside each other by at most this part of the thicker one's thickness."""
+
 FINE_RAD = np.radians(1.0)
 TANGENT_RAD = np.radians(25.0)
 """Walls that go on into each other differ by less than this in direction where they touch."""
@@ -115,7 +118,7 @@ def end_to_end(one: Piece, other: Piece) -> list[Meeting]:
             beside = abs(float(away[0] * outward[1] - away[1] * outward[0]))
             # Where an arc begins is not seen sharply.
             least = -1.5 if curved else -0.5
-            if least * thick <= ahead <= REACH * thick + 2 and beside <= 0.6 * thick:
+            if least * thick <= ahead <= REACH * thick + 2 and beside <= BESIDE * thick:
                 longer = mine if one.length_px >= other.length_px else its
                 return [Meeting(np.asarray(longer, dtype=float), along, beyond)]
     return []

@@ -8,6 +8,7 @@ What tells a wall from a bed's head, a wardrobe or a pane, in this order:
    line parts from it is an opening, and the next one is wall again.
 3. Between open doors stand pieces of wall that touch nothing: they are as broad as a wall and in
    line with one.
+4. Where much stands free in the rooms that is as broad as walls are, it is walls, too.
 """
 
 from __future__ import annotations
@@ -69,6 +70,12 @@ END = 1.7
 IN_LINE_FARTHEST = 30.0
 """A piece of wall is in line with one that is at most so many times its breadth away."""
 
+FREE = 3.0
+"""Walls that stand free are so many times as long as broad."""
+
+FREE_SHARE = 0.25
+"""They are walls if they are together so long, as a part of the others: less is furniture."""
+
 MOST_ROUNDS = 20
 
 
@@ -106,6 +113,10 @@ class _Sorting:
             if new is None:
                 break
             self.wall[new] = True
+        free = [one for one in fitting if not self.opening[one] and self._stands_free(one)]
+        length = self.cells.length
+        if length[free].sum() >= FREE_SHARE * length[self.wall].sum():
+            self.wall[free] = True
         return self.wall
 
     def _runs_on(self, cell: int) -> bool:
@@ -261,6 +272,14 @@ class _Sorting:
                 if on_wall.sum() >= 3:
                     return True
         return False
+
+    def _stands_free(self, cell: int) -> bool:
+        """Whether one space is all around a straight cell: on plans of bearing walls alone."""
+        cells = self.cells
+        beside = cells.beside.get(cell, [])
+        around = len(beside) == 1 and bool(cells.room[beside[0][0]])
+        long = cells.length[cell] >= FREE * cells.breadth[cell]
+        return bool(around and long and self._is_straight(cell))
 
     def _label(self, point: NDArray[np.float64]) -> int:
         height, width = self.cells.labels.shape
