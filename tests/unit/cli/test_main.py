@@ -8,6 +8,7 @@ import signal
 import subprocess
 import sys
 import types
+import warnings
 from collections.abc import Callable
 from pathlib import Path
 
@@ -186,3 +187,13 @@ def test_the_help_of_grammar_names_every_option() -> None:
     named = {name for name in names if flag(name) in HELP or f"--no-{name}" in HELP}
     missing = names - named
     assert missing == set()
+
+
+def test_sums_of_a_library_that_come_out_right_are_no_warnings(tmp_path: Path) -> None:
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        cli.main(["plan", str(tmp_path / "missing.png"), "-o", str(tmp_path / "out")])
+        warnings.warn("divide by zero encountered in buffer", RuntimeWarning, stacklevel=1)
+        assert told == []
+        warnings.warn("divide by zero encountered in scalar divide", RuntimeWarning, stacklevel=1)
+        assert len(told) == 1
