@@ -72,7 +72,8 @@ def first_of(whole: Path, photos: int) -> Path:
     truth = json.loads((whole / "truth.json").read_text())
     truth["photos"] = truth["photos"][:photos]
     for photo in truth["photos"]:
-        same_file(whole / IMAGES / photo["name"], place / IMAGES / photo["name"])
+        if not (photo_path := place / IMAGES / photo["name"]).exists():
+            same_file(whole / IMAGES / photo["name"], photo_path)
     (place / "truth.json").write_text(json.dumps(truth))
     return place
 

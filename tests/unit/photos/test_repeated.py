@@ -9,7 +9,7 @@ import pycolmap
 import pytest
 
 from veduta.photos.mapping.conflicts import ClosePair
-from veduta.photos.mapping.doubt import doubtful_pairs
+from veduta.photos.mapping.doubt import Doubt, doubtful_pairs
 from veduta.photos.mapping.repeated import there_once
 from veduta.photos.mapping.same_place import different_places
 from veduta.photos.mapping.votes import Matched
@@ -114,3 +114,42 @@ def test_pairs_of_different_places_are_dropped() -> None:
     doubts = doubtful_pairs(pairs, matched, apart=apart)
     assert [(doubt.first, doubt.second) for doubt in doubts] == [(1, 3), (1, 4), (2, 3), (2, 4)]
     assert doubtful_pairs(pairs, matched) == ()
+
+
+def test_what_is_dropped_already_drops_no_more() -> None:
+    structure, matched = photos((0, 0, 1, 1))
+    pairs = close((1, 2), (1, 3), (2, 4), (3, 4))
+    apart = different_places(structure, pairs, matched)
+    earlier = (Doubt(1, 3, FACADE, "told before"), Doubt(2, 4, FACADE, "told before"))
+    assert doubtful_pairs(pairs, matched, earlier, apart) == earlier
+
+
+def test_another_building_is_torn_as_before() -> None:
+    """Nothing of it repeats in what was compared: that says nothing of it."""
+    structure, matched = photos((0, 0, 1, 1))
+    rows = np.arange(200)
+    px = np.random.default_rng(1).uniform((0.0, 0.0), (WIDTH_PX, HEIGHT_PX), (200, 2))
+    both = Matched(
+        {**matched.keypoints_px, 5: px, 6: px},
+        {**matched.matches, (5, 6): np.column_stack([rows, rows])},
+    )
+    pairs = [*close((1, 2), (1, 3), (2, 4), (3, 4)), ClosePair(5, 6, 1.0, 20, 10)]
+    apart = different_places(structure, pairs, both)
+    doubts = doubtful_pairs(pairs, both, apart=apart)
+    assert (5, 6) in {(doubt.first, doubt.second) for doubt in doubts}
+
+
+def test_false_matches_do_not_make_all_repeat() -> None:
+    """Three in a hundred of long tracks: over many links they join everything."""
+    rng = np.random.default_rng(3)
+    sides = (0,) * 12
+    _, matched = photos(sides)
+    stirred = {}
+    for pair, matches in matched.matches.items():
+        false = rng.random(len(matches)) < 0.03
+        other = matches.copy()
+        other[false, 1] = rng.integers(0, FACADE + AROUND, int(false.sum()))
+        stirred[pair] = other
+    stirred[1, 12] = np.column_stack([np.arange(30), np.arange(30)])
+    once = there_once(Matched(matched.keypoints_px, stirred), {(1, 12)})
+    assert min(found.share for pair, found in once.items() if pair != (1, 12)) > 0.8

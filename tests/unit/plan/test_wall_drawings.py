@@ -273,3 +273,15 @@ def test_thin_walls_count_however_thick_others_are() -> None:
     lines = wall_thickness(_filled(32, 2), 2.0)
     assert lines is not None
     assert lines.least_px > 8
+
+
+def test_a_frame_of_a_broad_pen_is_no_thin_wall() -> None:
+    ink = _filled(32, 2)
+    for inset in (20, 60):  # the sheet's frame, and another around the house
+        _box(ink, inset, inset, 1000 - inset, 700 - inset)
+        framed = ink[inset : 700 - inset, inset : 1000 - inset]
+        framed[:6], framed[-6:], framed[:, :6], framed[:, -6:] = True, True, True, True
+    found = wall_thickness(ink, 2.0)
+    assert found is not None
+    assert found.most_px == 32
+    assert found.least_px > 8

@@ -64,12 +64,15 @@ def doubtful_pairs(
     known = {(doubt.first, doubt.second): doubt for doubt in earlier}
     torn = {_ids(pair): pair for pair in close if contradict(pair) or _ids(pair) in apart}
     torn = {pair: torn[pair] for pair in torn if pair in matched.matches and pair not in known}
-    if not torn and not apart:
+    if not torn and not apart - known.keys():
         return tuple(earlier)
     once = there_once(matched, apart) if apart else {}
     sure = {pair for pair in once if once[pair].shows_one_place} - {*known} - apart
     ambiguous = {pair for pair in once if once[pair].is_ambiguous}
-    torn = {pair: found for pair, found in torn.items() if pair not in sure}
+    # What nothing repeats in was not compared with what is around: it is as torn as before.
+    repeats = {pair for pair in sure if once[pair].share < 1.0}
+    torn = {pair: found for pair, found in torn.items() if pair not in repeats}
+    sure -= torn.keys()
     agreeing = {_ids(pair) for pair in close if pair.share <= AGREE} & set(matched.matches)
     agreeing -= {*known, *torn} | ambiguous
     votes = _trust(agreeing | sure, {*torn, *known}, matched)

@@ -15,6 +15,7 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
+import numpy as np
 import pycolmap
 
 from veduta.photos.mapping.grown import Grown, read_grown, write_grown
@@ -33,9 +34,12 @@ MOST_TRIED = 8
 RELAXED = ((100, 16.0), (50, 16.0), (50, 8.0), (25, 8.0), (25, 4.0))
 """What the engine asks of a first pair that it chooses, in turn: agreeing features, and degrees
 between its rays."""
-PLACING_PX = 4.0
-"""How far off what a photo is placed by may lie. The engine's 12 let a photo that shows nothing of
-the model but a distant wall come to lie turned about it, and all that follows with it."""
+PLACING = 0.004
+"""How far off what a photo is placed by may lie, as a share of the photos' longer side. The
+engine's 12 px let a photo of 1000 px that shows nothing of the model but a distant wall come to lie
+turned about it, and all that follows with it."""
+PLACING_PX = (4.0, 12.0)
+"""But no less and no more."""
 WRITING_SHARE = 0.2
 """Share of the time that snapshots may take: where a large model takes long to write, they are
 rarer than one a photo."""
@@ -193,7 +197,9 @@ def _options(growth: Growth) -> pycolmap.IncrementalPipelineOptions:
     options.num_threads = available_cores()
     options.min_model_size = growth.smallest
     options.extract_colors = False
-    options.mapper.abs_pose_max_error = PLACING_PX
+    with pycolmap.Database.open(growth.database) as opened:
+        sides = [max(camera.width, camera.height) for camera in opened.read_all_cameras()]
+    options.mapper.abs_pose_max_error = float(np.clip(PLACING * np.median(sides), *PLACING_PX))
     # The engine warns of a trivial rig in each photo otherwise.
     options.ba_refine_sensor_from_rig = False
     return options

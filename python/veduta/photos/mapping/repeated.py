@@ -1,9 +1,10 @@
 """What of a pair of photos matches is there once, and what is there more than once.
 
-What matches between photos of different places is there at least twice, and so is all that it is
-chained to by further matches. A pair that has little else may show any of these places; one that
-has much else shows one place. (Wilson and Snavely, Network principles for SfM: disambiguating
-repeated structures with local context, ICCV 2013, drop the tracks that join different places.)
+What matches between photos of different places is there at least twice, and so is what matches
+that. (No further: over many links false matches join everything.) A pair that has little else may
+show any of these places; one that has much else shows one place. (Wilson and Snavely, Network
+principles for SfM: disambiguating repeated structures with local context, ICCV 2013, drop the
+tracks that join different places.)
 """
 
 from __future__ import annotations
@@ -13,7 +14,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from veduta.photos.mapping.votes import Matched, Pair, chain, columns
+from veduta.photos.mapping.votes import Matched, Pair
 
 FEWEST = 50
 """Features there once in which a pair must agree to show one place,"""
@@ -44,14 +45,18 @@ class Once:
 
 def there_once(matched: Matched, apart: Set[Pair]) -> Mapping[Pair, Once]:
     """Of each pair. apart: pairs that match, but show different places."""
-    tracks = chain(matched, matched.matches)
-    repeats = np.zeros(len(tracks.voting), dtype=bool)
+    repeats = {image: np.zeros(len(px), dtype=bool) for image, px in matched.keypoints_px.items()}
     for pair in apart & matched.matches.keys():
-        on = tracks.track_of[columns(tracks.first, pair, matched.matches[pair])]
-        repeats[on] = True
+        for side, image in enumerate(pair):
+            repeats[image][matched.matches[pair][:, side]] = True
+    reached = {image: own.copy() for image, own in repeats.items()}
+    for (first, second), matches in matched.matches.items():
+        here, there = matches.T
+        reached[first][here[repeats[second][there]]] = True
+        reached[second][there[repeats[first][here]]] = True
     found = {}
-    for pair, matches in matched.matches.items():
-        on = tracks.track_of[columns(tracks.first, pair, matches)]
-        once = int((~repeats[on[:, 0]]).sum())
-        found[pair] = Once(once, once / max(1, len(matches)))
+    for (first, second), matches in matched.matches.items():
+        here, there = matches.T
+        once = int((~reached[first][here] & ~reached[second][there]).sum())
+        found[first, second] = Once(once, once / max(1, len(matches)))
     return found

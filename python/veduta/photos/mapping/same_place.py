@@ -13,6 +13,7 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.photos.cameras.folding import undistorts
 from veduta.photos.mapping.conflicts import GRID, ClosePair
 from veduta.photos.mapping.votes import Matched, Pair
 from veduta.photos.structure import Structure
@@ -99,13 +100,18 @@ def _compared(
 def _turned_px(
     structure: Structure, rows: Sequence[int], keypoints_px: NDArray[np.float64]
 ) -> NDArray[np.float64]:
-    """(k, 2) where the first photo would show the features of the second; NaN behind it."""
+    """(k, 2) where the first photo would show the features of the second.
+
+    NaN behind it, and where its lens folds over.
+    """
     first, second = (structure.cam_from_world[row][:, :3] for row in rows)
     flat = np.asarray(structure.camera(rows[1]).cam_from_img(keypoints_px))
     rays = np.column_stack([flat, np.ones(len(flat))]) @ second @ first.T
     found = np.full((len(rays), 2), np.nan)
-    ahead = rays[:, 2] > 0
-    found[ahead] = structure.camera(rows[0]).img_from_cam(rays[ahead])
+    camera, ahead = structure.camera(rows[0]), rays[:, 2] > 0
+    places = np.asarray(camera.img_from_cam(rays[ahead]))
+    places[~undistorts(camera, rays[ahead], places)] = np.nan
+    found[ahead] = places
     return found
 
 

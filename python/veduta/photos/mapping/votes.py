@@ -64,7 +64,7 @@ def chain(matched: Matched, trusted: Iterable[Pair]) -> Tracks:
     sizes = [len(matched.keypoints_px[image]) for image in ids]
     starts = np.concatenate([[0], np.cumsum(sizes)])
     first = dict(zip(ids, starts.tolist(), strict=False))
-    links = [columns(first, pair, matched.matches[pair]) for pair in sorted(trusted)]
+    links = [_columns(first, pair, matched.matches[pair]) for pair in sorted(trusted)]
     ends = np.concatenate([np.empty((0, 2), dtype=np.int64), *links])
     count = int(starts[-1])
     graph = coo_array((np.ones(len(ends), dtype=np.int8), (ends[:, 0], ends[:, 1])), (count, count))
@@ -84,7 +84,7 @@ def chain(matched: Matched, trusted: Iterable[Pair]) -> Tracks:
 
 def vote(tracks: Tracks, pair: Pair, matches: NDArray[np.int64]) -> Vote:
     """What the tracks say of the matches of a pair that did not make them."""
-    on = tracks.track_of[columns(tracks.first, pair, matches)]
+    on = tracks.track_of[_columns(tracks.first, pair, matches)]
     on = on[tracks.voting[on].all(axis=1)]
     same = on[:, 0] == on[:, 1]
     here, there = (tracks.shown[on[~same, side]] for side in (0, 1))
@@ -101,7 +101,7 @@ def vote(tracks: Tracks, pair: Pair, matches: NDArray[np.int64]) -> Vote:
     return Vote(int(same.sum()), against)
 
 
-def columns(first: Mapping[int, int], pair: Pair, matches: NDArray[np.int64]) -> NDArray[np.int64]:
+def _columns(first: Mapping[int, int], pair: Pair, matches: NDArray[np.int64]) -> NDArray[np.int64]:
     """(m, 2) the matched features, numbered through all photos."""
     numbers: NDArray[np.int64] = matches + np.array([first[pair[0]], first[pair[1]]])
     return numbers

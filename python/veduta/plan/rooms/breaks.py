@@ -73,7 +73,8 @@ class Break:
     @property
     def key(self) -> tuple[int, ...]:
         """The same break has the same key in the next round."""
-        return tuple(int(value) // 4 for value in (*self.start, *self.end, self.thickness_px))
+        places = tuple(int(value) // 4 for value in (*self.start, *self.end))
+        return (*places, round(self.thickness_px))
 
 
 @dataclass(frozen=True)

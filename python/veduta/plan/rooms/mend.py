@@ -310,7 +310,8 @@ def _axis(closing: _Closing, thin_px: float, glazed_px: float) -> Axis:
             judged = Judged(gap, "door", "unknown", "none", "none", 0.6)
         way_out = judged.kind == "gap" and closing.reason == "a room is open to the outdoors"
         if way_out and gap.width_px >= NARROWEST_GAP * thin_px:
-            origin = "invented"
+            if all(each is None or each.kind == "gap" for each in closing.drawn):
+                origin = "invented"
             door: OpeningType = "sliding" if gap.width_px >= glazed_px else "unknown"
             judged = Judged(gap, "door", door, "none", "none", 0.2)
         first, last = ((point - one.start) @ line.direction for point in (gap.start, gap.end))

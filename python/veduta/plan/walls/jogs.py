@@ -7,10 +7,10 @@ meet; a short piece of wall from one to the other lets them.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from itertools import combinations
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta.plan.walls.join import solid_share
 from veduta.plan.walls.meetings import BESIDE, MEET_RAD
@@ -36,8 +36,19 @@ def jogs(pieces: Sequence[Piece], solid: NDArray[np.bool_]) -> list[Piece]:
     Walls that lie in one line but for a little need none: `meetings` joins these.
     """
     mask = solid.astype(np.uint8)
-    found = (_jog(one, other, mask) for one, other in combinations(pieces, 2))
+    found = (_jog(pieces[one], pieces[other], mask) for one, other in _near(pieces))
     return [one for one in found if one is not None]
+
+
+def _near(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
+    """Pairs of pieces, two ends of which are near enough to touch."""
+    if not pieces:
+        return []
+    ends = np.array([end for piece in pieces for end in (piece.start, piece.end)])
+    thickest = max(piece.thickness_px for piece in pieces)
+    reach = float(np.hypot(APART * thickest + 2, thickest))
+    close = cKDTree(ends).query_pairs(reach, output_type="ndarray") // 2
+    return sorted({(int(a), int(b)) for a, b in np.sort(close, axis=1) if a != b})
 
 
 def _jog(one: Piece, other: Piece, mask: NDArray[np.uint8]) -> Piece | None:

@@ -74,8 +74,11 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
     most = float(thick[-1]) if len(thick) else 0.0
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
-    thin_walls = _thin_walls(lengths, line_px, (THINNEST_COMMON * most, least))
-    if thin_walls is not None and _near(lengths, thin_walls) >= LEAST_SHARE * extent:
+    # Thin walls hang on thick ones; a frame around the sheet, or furniture, is not of the house.
+    counts = np.bincount(thin[_hanging_on(ink, stroke, thin >= least)], minlength=4).astype(float)
+    hanging = counts / np.maximum(1, np.arange(len(counts)))
+    thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, least))
+    if thin_walls is not None and _near(hanging, thin_walls) >= LEAST_SHARE * extent:
         least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
@@ -86,6 +89,17 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     if pens is None and most >= max(2 * line_px, least):
         return Thickness(least, most)
     return pens
+
+
+def _hanging_on(
+    ink: NDArray[np.bool_], stroke: NDArray[np.bool_], thick: NDArray[np.bool_]
+) -> NDArray[np.bool_]:
+    """The strokes of what is one piece of ink with a thick stroke."""
+    count, labels = cv2.connectedComponents(ink.astype(np.uint8), connectivity=8)
+    has_thick = np.zeros(count, dtype=bool)
+    has_thick[labels[stroke & thick]] = True
+    has_thick[0] = False
+    return np.asarray(stroke & has_thick[labels])
 
 
 def _thin_walls(
