@@ -59,13 +59,15 @@ def doubtful_pairs(
     """The pairs to drop, with those that were dropped earlier.
 
     close: of the model that was made without those. apart: those of them that stand in one place
-    and show different ones. Where no others of its photos contradict each other there are no more.
+    and show different ones; where some do that were dropped, others still hold them together.
+    Where no others of its photos contradict each other there are no more.
     """
     known = {(doubt.first, doubt.second): doubt for doubt in earlier}
     torn = {_ids(pair): pair for pair in close if contradict(pair) or _ids(pair) in apart}
     torn = {pair: torn[pair] for pair in torn if pair in matched.matches and pair not in known}
-    if not torn and not apart - known.keys():
+    if not torn and not apart:
         return tuple(earlier)
+    apart |= {pair for pair, doubt in known.items() if doubt.reason == _APART}
     once = there_once(matched, apart) if apart else {}
     sure = {pair for pair in once if once[pair].shows_one_place} - {*known} - apart
     ambiguous = {pair for pair in once if once[pair].is_ambiguous}
