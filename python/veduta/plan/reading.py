@@ -33,7 +33,7 @@ from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.bays import with_bays
-from veduta.plan.walls.bows import with_bows
+from veduta.plan.walls.bows import nearness, with_bows
 from veduta.plan.walls.find import Found, find_walls
 
 
@@ -78,7 +78,8 @@ def read_cleaned(
     found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
-        found = with_bays(with_bows(found, sheet.faint), sheet.faint)
+        near = nearness(found, sheet.faint)
+        found = with_bays(with_bows(found, near), near)
     judged = judge_gaps(found, sheet)
     if (sized := sized_by_doors(found, judged)) is not found:
         found = sized

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pycolmap
 import pytest
+from known_structure import structure_seen
 from numpy.typing import NDArray
 from photos_truth import centre_errors
 from scipy.spatial.transform import Rotation
@@ -35,7 +36,7 @@ def walk(noise_px: float) -> Structure:
         camera_id=1, model="SIMPLE_RADIAL", width=WIDTH_PX, height=HEIGHT_PX,
         params=[FOCAL_PX, WIDTH_PX / 2, HEIGHT_PX / 2, 0.0],
     )  # fmt: skip
-    poses, keypoints, rows, numbers = [], [], [], []
+    poses, keypoints, numbers = [], [], []
     for photo in range(PHOTOS):
         eye = np.array([STEP_M * photo, 0.2 * (photo % 2), 2.0 + 0.3 * (photo % 3)])
         look = (
@@ -46,22 +47,8 @@ def walk(noise_px: float) -> Structure:
         inside = ((seen > 0) & (seen < (WIDTH_PX, HEIGHT_PX))).all(axis=1)
         poses.append(pose)
         keypoints.append(seen + noise_px * rng.standard_normal(seen.shape))
-        rows.append(np.full(inside.sum(), photo))
         numbers.append(np.flatnonzero(inside))
-    ids = tuple(range(1, PHOTOS + 1))
-    found = Structure(
-        cameras={1: camera},
-        camera_of=dict.fromkeys(ids, 1),
-        image_ids=ids,
-        names=tuple(f"{image}.jpg" for image in ids),
-        cam_from_world=np.array(poses),
-        keypoints_px=tuple(keypoints),
-        points=points,
-        colours=np.zeros((len(points), 3), np.uint8),
-        image_of=np.concatenate(rows),
-        keypoint_of=np.concatenate(numbers),
-        point_of=np.concatenate(numbers),
-    )
+    found = structure_seen([camera] * PHOTOS, poses, points, keypoints, numbers)
     return found.with_points(np.bincount(found.point_of, minlength=len(points)) >= 3)
 
 

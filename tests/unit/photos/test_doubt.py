@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 import pycolmap
 import pytest
+from known_structure import structure_seen
 
 from veduta.photos.mapping.conflicts import close_pairs
 from veduta.photos.mapping.doubt import (
@@ -44,7 +45,7 @@ def folded(*, equal: bool = False, seed: int = 0) -> Structure:
         camera_id=1, model="SIMPLE_PINHOLE", width=WIDTH_PX, height=HEIGHT_PX,
         params=[FOCAL_PX, WIDTH_PX / 2, HEIGHT_PX / 2],
     )  # fmt: skip
-    poses, keypoints, images, numbers, places = [], [], [], [], []
+    poses, keypoints, numbers, places = [], [], [], []
     for photo in range(2 * SIDE):
         side = photo // SIDE + 1
         pose = np.column_stack([np.eye(3), [1.5 - photo % SIDE - 0.1 * side, 0.0, 0.0]])
@@ -53,23 +54,9 @@ def folded(*, equal: bool = False, seed: int = 0) -> Structure:
         shown = np.flatnonzero(inside & ((owner == 0) | (owner == (1 if equal else side))))
         poses.append(pose)
         keypoints.append(seen[shown])
-        images.append(np.full(len(shown), photo))
         places.append(np.arange(len(shown)))
         numbers.append(shown)
-    ids = tuple(range(1, 2 * SIDE + 1))
-    return Structure(
-        cameras={1: camera},
-        camera_of=dict.fromkeys(ids, 1),
-        image_ids=ids,
-        names=tuple(f"{image}.jpg" for image in ids),
-        cam_from_world=np.array(poses),
-        keypoints_px=tuple(keypoints),
-        points=points,
-        colours=np.zeros((len(points), 3), dtype=np.uint8),
-        image_of=np.concatenate(images).astype(np.int64),
-        keypoint_of=np.concatenate(places).astype(np.int64),
-        point_of=np.concatenate(numbers).astype(np.int64),
-    )
+    return structure_seen([camera] * len(poses), poses, points, keypoints, numbers, places)
 
 
 def matched(structure: Structure) -> Matched:

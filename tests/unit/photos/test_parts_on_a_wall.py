@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pycolmap
+from known_structure import structure_seen
 from numpy.typing import NDArray
 from photo_scene import Pose
+from photos_truth import centre_errors
 
 from veduta.photos.cameras.component import finish_component
 from veduta.photos.options import CameraOptions
@@ -13,6 +15,7 @@ from veduta.photos.structure import Structure, adjusted
 
 WIDTH_PX, HEIGHT_PX, FOCAL_PX = 1000, 750, 720.0
 SIDE = 5
+RADIUS_M = 16.5
 TURN_DEG = 16.0
 """False matches agree with the second group turned by so much about the wall."""
 
@@ -42,10 +45,14 @@ def two_groups(false: int) -> tuple[Structure, Structure]:
         camera_id=1, model="SIMPLE_PINHOLE", width=WIDTH_PX, height=HEIGHT_PX,
         params=[FOCAL_PX, WIDTH_PX / 2, HEIGHT_PX / 2],
     )  # fmt: skip
-    poses, keypoints, images, numbers = [], [], [], []
+    poses, keypoints, numbers = [], [], []
     turns = np.deg2rad([*np.linspace(10.0, 55.0, SIDE), *np.linspace(-75.0, -30.0, SIDE)])
     for photo, turn in enumerate(turns):
-        eye = (16.5 * float(np.cos(turn)), 16.5 * float(np.sin(turn)), 1.6 + 0.3 * (photo % 3))
+        eye = (
+            RADIUS_M * float(np.cos(turn)),
+            RADIUS_M * float(np.sin(turn)),
+            1.6 + 0.3 * (photo % 3),
+        )
         pose = Pose(eye, (-4.0, 1.5, 4.0))
         cam = np.column_stack([pose.rotation, -pose.rotation @ pose.eye])
         seen = camera.img_from_cam(points @ cam[:, :3].T + cam[:, 3])
@@ -58,34 +65,15 @@ def two_groups(false: int) -> tuple[Structure, Structure]:
         shown = np.flatnonzero(inside & ((owner == 0) | (owner == group)))
         poses.append(cam)
         keypoints.append(seen)
-        images.append(np.full(len(shown), photo))
         numbers.append(shown)
-    ids = tuple(range(1, 2 * SIDE + 1))
-    truth = Structure(
-        cameras={1: camera},
-        camera_of=dict.fromkeys(ids, 1),
-        image_ids=ids,
-        names=tuple(f"{image}.jpg" for image in ids),
-        cam_from_world=np.array(poses),
-        keypoints_px=tuple(keypoints),
-        points=points,
-        colours=np.zeros((len(points), 3), dtype=np.uint8),
-        image_of=np.concatenate(images).astype(np.int64),
-        keypoint_of=np.concatenate(numbers).astype(np.int64),
-        point_of=np.concatenate(numbers).astype(np.int64),
-    )
+    truth = structure_seen([camera] * len(poses), poses, points, keypoints, numbers)
     return adjusted(truth, free_principal_point=False), truth
 
 
 def apart(found: Structure, truth: Structure) -> float:
     """Largest error of a position after the best similarity, as a share of the ring's radius."""
-    ours, theirs = found.centres(), truth.centres()
-    from_, to = ours - ours.mean(axis=0), theirs - theirs.mean(axis=0)
-    left, sizes, right = np.linalg.svd(to.T @ from_)
-    signs = np.array([1.0, 1.0, np.sign(np.linalg.det(left @ right))])
-    scale = (sizes * signs).sum() / (from_**2).sum()
-    off: NDArray[np.float64] = scale * from_ @ (left * signs @ right).T - to
-    return float(np.linalg.norm(off, axis=1).max()) / 16.5
+    ours, theirs = (dict(zip(one.names, one.centres(), strict=True)) for one in (found, truth))
+    return float(centre_errors(ours, theirs).max()) / RADIUS_M
 
 
 def test_false_matches_do_not_turn_a_part_about_the_wall() -> None:

@@ -7,6 +7,7 @@ from itertools import combinations
 import numpy as np
 import pycolmap
 import pytest
+from known_structure import structure_seen
 
 from veduta.photos.mapping.conflicts import ClosePair
 from veduta.photos.mapping.doubt import doubtful_pairs
@@ -59,19 +60,8 @@ def photos(
         )
         for first, second in combinations(ids, 2)
     }
-    structure = Structure(
-        cameras={1: camera},
-        camera_of=dict.fromkeys(ids, 1),
-        image_ids=ids,
-        names=tuple(f"{image}.jpg" for image in ids),
-        cam_from_world=np.array(poses),
-        keypoints_px=tuple(keypoints),
-        points=np.empty((0, 3)),
-        colours=np.empty((0, 3), dtype=np.uint8),
-        image_of=np.empty(0, dtype=np.int64),
-        keypoint_of=np.empty(0, dtype=np.int64),
-        point_of=np.empty(0, dtype=np.int64),
-    )
+    nothing = [np.empty(0, dtype=np.int64)] * len(sides)
+    structure = structure_seen([camera] * len(sides), poses, np.empty((0, 3)), keypoints, nothing)
     return structure, Matched(dict(zip(ids, keypoints, strict=True)), matches)
 
 
@@ -136,9 +126,9 @@ def test_another_building_is_torn_as_before() -> None:
         {**matched.keypoints_px, 5: px, 6: px},
         {**matched.matches, (5, 6): np.column_stack([rows, rows])},
     )
-    pairs = [*close((1, 2), (1, 3), (2, 4), (3, 4)), ClosePair(5, 6, 1.0, 20, 10)]
+    pairs = close((1, 2), (1, 3), (2, 4), (3, 4))
     apart = different_places(structure, pairs, both)
-    doubts = doubtful_pairs(pairs, both, apart=apart)
+    doubts = doubtful_pairs([*pairs, ClosePair(5, 6, 1.0, 20, 10)], both, apart=apart)
     assert (5, 6) in {(doubt.first, doubt.second) for doubt in doubts}
 
 

@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import pycolmap
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.folding import undistorts
@@ -50,6 +51,11 @@ class ClosePair:
     apart_deg: float
     cells: int
     conflicting: int
+
+    @property
+    def ids(self) -> tuple[int, int]:
+        """The two image ids, the lesser first."""
+        return (min(self.first, self.second), max(self.first, self.second))
 
     @property
     def share(self) -> float:
@@ -158,5 +164,11 @@ def cells_of(
     places = camera.img_from_cam(local)
     inside = ((places >= 0) & (places < (camera.width, camera.height))).all(axis=1)
     inside[inside] = undistorts(camera, local[inside], places[inside])
-    across = (places[inside] / (max(camera.width, camera.height) / GRID)).astype(np.int64)
-    return across[:, 1] * GRID + across[:, 0], local[inside, 2]
+    return cell_numbers(camera, places[inside]), local[inside, 2]
+
+
+def cell_numbers(camera: pycolmap.Camera, places: NDArray[np.float64]) -> NDArray[np.int64]:
+    """(k,) the cell of each of (k, 2) places within a camera's photo."""
+    across = (places / (max(camera.width, camera.height) / GRID)).astype(np.int64)
+    numbers: NDArray[np.int64] = across[:, 1] * GRID + across[:, 0]
+    return numbers

@@ -63,7 +63,7 @@ def doubtful_pairs(
     Where no others of its photos contradict each other there are no more.
     """
     known = {(doubt.first, doubt.second): doubt for doubt in earlier}
-    torn = {_ids(pair): pair for pair in close if contradict(pair) or _ids(pair) in apart}
+    torn = {pair.ids: pair for pair in close if contradict(pair) or pair.ids in apart}
     torn = {pair: torn[pair] for pair in torn if pair in matched.matches and pair not in known}
     if not torn and not apart:
         return tuple(earlier)
@@ -75,7 +75,7 @@ def doubtful_pairs(
     repeats = {pair for pair in sure if once[pair].share < 1.0}
     torn = {pair: found for pair, found in torn.items() if pair not in repeats}
     sure -= torn.keys()
-    agreeing = {_ids(pair) for pair in close if pair.share <= AGREE} & set(matched.matches)
+    agreeing = {pair.ids for pair in close if pair.share <= AGREE} & set(matched.matches)
     agreeing -= {*known, *torn} | ambiguous
     votes = _trust(agreeing | sure, {*torn, *known}, matched)
     strongest = _strongest_false({*torn, *known}, matched)
@@ -104,10 +104,6 @@ def _strongest_false(false: Iterable[Pair], matched: Matched) -> dict[int, int]:
         for image in pair:
             most[image] = max(most.get(image, 0), len(matched.matches[pair]))
     return most
-
-
-def _ids(pair: ClosePair) -> Pair:
-    return (min(pair.first, pair.second), max(pair.first, pair.second))
 
 
 def contradict(pair: ClosePair) -> bool:

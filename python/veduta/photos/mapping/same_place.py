@@ -11,10 +11,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 import numpy as np
+import pycolmap
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.folding import undistorts
-from veduta.photos.mapping.conflicts import GRID, ClosePair
+from veduta.photos.mapping.conflicts import GRID, ClosePair, cell_numbers
 from veduta.photos.mapping.votes import Matched, Pair
 from veduta.photos.structure import Structure
 
@@ -40,13 +41,13 @@ def different_places(
     structure: Structure, close: Iterable[ClosePair], matched: Matched
 ) -> frozenset[Pair]:
     """The pairs (image ids) that a model puts in one place, and that show different ones."""
+    near = [one.ids for one in close if one.apart_deg <= SAME_DEG]
+    if not near:
+        return frozenset()
     row_of = {image: row for row, image in enumerate(structure.image_ids)}
     repeated = _repeated(matched)
     found = set()
-    for one in close:
-        pair = (min(one.first, one.second), max(one.first, one.second))
-        if one.apart_deg > SAME_DEG or not {*pair} <= {*row_of}:
-            continue
+    for pair in near:
         rows = (row_of[pair[0]], row_of[pair[1]])
         differing, telling = _compared(structure, rows, pair, matched, repeated)
         if differing >= max(FEWEST, DIFFERS * telling):
@@ -90,8 +91,8 @@ def _compared(
     for side, image in enumerate(pair):
         others = repeated[image].copy()
         others[np.unique(matches[:, side])] -= 1
-        own.append(_cells(places[side][others > 0], camera.width, camera.height))
-    shared = _cells(places[0][matches[:, 0]], camera.width, camera.height)
+        own.append(_counts(camera, places[side][others > 0]))
+    shared = _counts(camera, places[0][matches[:, 0]])
     least = np.minimum(*own)
     differing = (least >= ENOUGH) & (shared < FEW_SHARED * least)
     return int(differing.sum()), int((differing | (shared >= SHARED)).sum())
@@ -115,11 +116,10 @@ def _turned_px(
     return found
 
 
-def _cells(places: NDArray[np.float64], width: int, height: int) -> NDArray[np.int64]:
+def _counts(camera: pycolmap.Camera, places: NDArray[np.float64]) -> NDArray[np.int64]:
     """(GRID²,) how many places lie in each cell of a photo."""
-    inside = ((places >= 0) & (places < (width, height))).all(axis=1)
-    across = (places[inside] / (max(width, height) / GRID)).astype(np.int64)
+    inside = ((places >= 0) & (places < (camera.width, camera.height))).all(axis=1)
     counts: NDArray[np.int64] = np.bincount(
-        across[:, 1] * GRID + across[:, 0], minlength=GRID * GRID
+        cell_numbers(camera, places[inside]), minlength=GRID * GRID
     )
     return counts

@@ -22,7 +22,7 @@ from veduta.plan.document import OpeningType, Origin, Text
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
-from veduta.plan.openings.settle import USUAL_DOOR
+from veduta.plan.openings.settle import USUAL_DOOR, usual_door
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
@@ -112,7 +112,7 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
     now, notes = list(axes), list[str]()
     if len(now) > MOST_WALLS:
         return Mended(now, (TOO_MANY.format(len(now)),))
-    usual = _usual_door(axes)
+    usual = usual_door([one.judged for axis in axes for one in axis.openings])
     glazed_px = GLAZED * (usual or USUAL_DOOR * found.thin_px)
     looker = _Looker(found, sheet, room_labels(texts), usual)
     failed: set[tuple[int, ...]] = set()
@@ -282,17 +282,6 @@ class _Looker:
 
 def _is_window(judged: Judged | None) -> bool:
     return judged is not None and judged.seen is not None and bool(judged.seen.lines)
-
-
-def _usual_door(axes: Sequence[Axis]) -> float | None:
-    """The median width of doors with leaves, in pixels; None where fewer than three are known."""
-    widths = [
-        one.judged.gap.width_px
-        for axis in axes
-        for one in axis.openings
-        if one.judged.kind == "door" and one.judged.type == "swing"
-    ]
-    return float(np.median(widths)) if len(widths) >= 3 else None
 
 
 def _axis(closing: _Closing, thin_px: float, glazed_px: float) -> Axis:

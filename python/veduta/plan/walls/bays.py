@@ -25,8 +25,8 @@ from veduta.plan.walls.bows import (
     Nearness,
     broken_walls,
     covered,
+    filled_along,
     look,
-    nearness,
     spans,
 )
 from veduta.plan.walls.find import Found
@@ -71,9 +71,8 @@ _MOVES = np.concatenate([np.eye(5), -np.eye(5), _TURNS, -_TURNS])
 """Each alone, and where only the foot of a slanted side moves, or all of a bay goes farther out."""
 
 
-def with_bays(found: Found, faint: NDArray[np.bool_]) -> Found:
-    """The walls with what is solid of bays; `faint` (h, w) is the mask of thin lines."""
-    ink = nearness(found, faint)
+def with_bays(found: Found, ink: Nearness) -> Found:
+    """The walls with what is solid of bays."""
     bays: list[Line] = []
     for one in broken_walls(found):
         if any(spans(one, Piece(bay[0], bay[-1], one.thickness_px)) for bay in bays):
@@ -184,9 +183,7 @@ def _is_drawn(bay: Line, thick: float, ink: Nearness) -> bool:
 
 def _stubs(side: Piece, ink: Nearness) -> list[Piece]:
     """What is solid of a side, from its ends on: all of it, or two pieces with a window between."""
-    steps = np.arange(0.5, side.length_px, 1.0)
-    beside = np.linspace(-0.35, 0.35, 5) * side.thickness_px
-    filled = look(ink.solid, side.arc.at(steps[:, None], beside[None, :]), 0.0).mean(axis=1) >= 0.5
+    filled = filled_along(side, ink.solid)
     reach = max(1, int(END * side.thickness_px))
     filled[:reach] = filled[len(filled) - reach :] = True
     free = np.flatnonzero(~filled)

@@ -94,9 +94,8 @@ class Broken:
     drawing: WallDrawing
 
 
-def with_bows(found: Found, faint: NDArray[np.bool_]) -> Found:
-    """The walls with what is solid of bows; `faint` (h, w) is the mask of thin lines."""
-    ink = nearness(found, faint)
+def with_bows(found: Found, ink: Nearness) -> Found:
+    """The walls with what is solid of bows."""
     bows: list[Piece] = []
     for one in broken_walls(found):
         if any(spans(one, bow) for bow in bows):
@@ -308,12 +307,17 @@ def look(
     return np.asarray(np.where(inside, values, outside), np.float32)
 
 
+def filled_along(piece: Piece, solid: NDArray[np.bool_]) -> NDArray[np.bool_]:
+    """(n,) at each pixel along a piece, whether it is solid (h, w) over half of its thickness."""
+    steps = np.arange(0.5, piece.length_px, 1.0)
+    beside = np.linspace(-0.35, 0.35, 5) * piece.thickness_px
+    places = piece.arc.at(steps[:, None], beside[None, :])
+    return np.asarray(look(solid, places, 0.0).mean(axis=1) >= 0.5)
+
+
 def _stubs(bow: Piece, found: Found) -> list[Piece]:
     """What is solid of a bow, from its ends on: all of it, or two pieces and more between them."""
-    steps = np.arange(0.5, bow.length_px, 1.0)
-    beside = np.linspace(-0.35, 0.35, 5) * bow.thickness_px
-    places = bow.arc.at(steps[:, None], beside[None, :])
-    filled = look(found.solid, places, 0.0).mean(axis=1) >= 0.5
+    filled = filled_along(bow, found.solid)
     # At its ends the straight wall is beside it.
     reach = int(0.5 * bow.thickness_px)
     filled[:reach] = filled[len(filled) - reach :] = True

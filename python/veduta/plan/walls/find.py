@@ -116,9 +116,8 @@ def find_walls(
         ink = without_flights(ink, flights, cleaned.line_px)
         coloured = walls_of_a_colour(cleaned.pixels, ink, cleaned.line_px)
         full = None if coloured is None else wall_thickness(coloured, cleaned.line_px)
-        by_colour = coloured is not None and full is not None
         if coloured is not None and full is not None:
-            mask, thickness, drawing = coloured, full, "hollow"
+            mask, thickness, drawing, by_colour = coloured, full, "hollow", True
         else:
             mask, thickness, drawing = choose_drawing(ink, cleaned.line_px)
     else:

@@ -67,16 +67,14 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     across, down = run_lengths(ink), run_lengths_down(ink)
     thin, long = np.minimum(across, down), np.maximum(across, down)
     stroke = ink & (long >= 3 * thin)
-    counts = np.bincount(thin[stroke], minlength=4).astype(float)
-    lengths = counts / np.maximum(1, np.arange(len(counts)))
+    lengths = _lengths(thin[stroke])
     extent = _half_perimeter(ink)
     at_least = np.cumsum(lengths[::-1])[::-1]
     thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
     most = float(thick[-1]) if len(thick) else 0.0
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
     # Thin walls hang on thick ones; a frame around the sheet, or furniture, is not of the house.
-    counts = np.bincount(thin[_hanging_on(ink, stroke, thin >= least)], minlength=4).astype(float)
-    hanging = counts / np.maximum(1, np.arange(len(counts)))
+    hanging = _lengths(thin[_hanging_on(ink, stroke, thin >= least)])
     thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, least))
     if thin_walls is not None and _near(hanging, thin_walls) >= LEAST_SHARE * extent:
         least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
@@ -84,11 +82,16 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
         return Thickness(least, most)
     # A pen that is twice as broad as another draws a wall as one line.
     straight = ink & (long >= 8 * thin) & (long >= SINGLE_LONG * extent)
-    counts = np.bincount(thin[straight], minlength=4).astype(float)
-    pens = two_pens(counts / np.maximum(1, np.arange(len(counts))), LEAST_SHARE * extent)
+    pens = two_pens(_lengths(thin[straight]), LEAST_SHARE * extent)
     if pens is None and most >= max(2 * line_px, least):
         return Thickness(least, most)
     return pens
+
+
+def _lengths(thin: NDArray[np.int32]) -> NDArray[np.float64]:
+    """How long strokes of 0, 1, 2... pixels are; `thin` (n,) is how thick, at each pixel."""
+    counts = np.bincount(thin, minlength=4).astype(np.float64)
+    return np.asarray(counts / np.maximum(1, np.arange(len(counts))))
 
 
 def _hanging_on(
