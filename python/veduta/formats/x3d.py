@@ -193,7 +193,10 @@ def _text(value: object) -> str:
 def _numbers(values: NDArray[np.generic]) -> str:
     if values.dtype.kind in "iu":
         return " ".join(map(str, values.tolist()))
-    return " ".join(map(_number, values.astype(np.float64).tolist()))
+    # Places, normals and texture coordinates of a house repeat: each is put into words once.
+    distinct, which = np.unique(values.astype(np.float64).round(_DIGITS), return_inverse=True)
+    words = np.array([_number(value) for value in distinct.tolist()], dtype=object)
+    return " ".join(words[which].tolist())
 
 
 def _number(value: object) -> str:

@@ -7,11 +7,13 @@ once more by what lies behind them, let the axes meet, and find rooms.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely.geometry import Point, Polygon
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.clean.sheet import clean_sheet
@@ -28,6 +30,7 @@ from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
 from veduta.plan.openings.strip import Sheet
+from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
@@ -35,6 +38,14 @@ from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.bays import with_bays
 from veduta.plan.walls.bows import nearness, with_bows
 from veduta.plan.walls.find import Found, find_walls
+from veduta.plan.walls.ways import Way, known_way, ways_drawn
+from veduta.run.errors import NotFoundError
+
+APART = 0.7
+"""A reading is believed in which so many rooms have a label, as a part of the labels ..."""
+
+FEWEST_LABELS = 4
+"""... where there are so many; otherwise other ways in which walls may be drawn are tried."""
 
 
 @dataclass(frozen=True)
@@ -75,7 +86,50 @@ def read_cleaned(
     `known` walls are not looked for in the ink.
     """
     flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
-    found = find_walls(cleaned, texts, None if known is None else known.solid, flights)
+    if known is not None and known.solid is not None:
+        return replace(_read(cleaned, texts, known_way(known.solid), known), stairs=flights)
+    ways = ways_drawn(cleaned, texts, flights)
+    readings = (partial(_read, cleaned, texts, way, known) for way in ways)
+    return replace(_likeliest(readings, room_labels(texts)), stairs=flights)
+
+
+def _likeliest(
+    readings: Iterable[Callable[[], Drawn]], labels: Sequence[NDArray[np.float64]]
+) -> Drawn:
+    """The first reading in which most labels have a room each, or the best of all.
+
+    Where there are few labels, the first. NotFoundError as that of the first.
+    """
+    best: Drawn | None = None
+    most, fault = -1.0, None
+    for reading in readings:
+        try:
+            drawn = reading()
+        except NotFoundError as error:
+            fault, share = fault or error, -1.0
+        else:
+            share = _with_own_rooms(drawn, labels)
+            if share > most:
+                best, most = drawn, share
+        if share >= APART or len(labels) < FEWEST_LABELS:
+            break
+    if best is None:
+        raise fault or NotFoundError(
+            "walls", "no strokes are thicker than lines", "Give a floor plan."
+        )
+    return best
+
+
+def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> float:
+    """How many rooms have a label, as a part of the labels."""
+    points = [Point(*one) for one in labels]
+    rooms = [Polygon(room.outline_px, room.holes_px) for room in drawn.rooms]
+    named = sum(any(room.contains(point) for point in points) for room in rooms)
+    return named / max(1, len(points))
+
+
+def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls | None) -> Drawn:
+    found = find_walls(cleaned, way)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
         near = nearness(found, sheet.faint)
@@ -98,7 +152,7 @@ def read_cleaned(
     axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes
-    return replace(drawn_from(cleaned, found, laid, texts, whole.notes), stairs=flights)
+    return drawn_from(cleaned, found, laid, texts, whole.notes)
 
 
 def sized_by_doors(found: Found, judged: Sequence[Judged]) -> Found:

@@ -8,13 +8,13 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.plan.walls.cells import common_values, find_cells
-from veduta.plan.walls.find import choose_drawing, connected, outlined_walls
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.solid import two_pens, wall_thickness
 from veduta.plan.walls.tone import toned_areas
+from veduta.plan.walls.ways import connected, outlined_walls, ways_of_ink
 
 Mask = np.ndarray
 LINE = 2
@@ -194,11 +194,11 @@ def test_the_drawing_of_walls_is_told(draw: object, name: str) -> None:
     mask, drawing = outlined_walls(connected(ink), LINE)
     assert drawing == name
     assert (mask & inside).sum() > 0.97 * inside.sum()
-    chosen, thickness, drawing = choose_drawing(ink, LINE)
-    assert drawing == name
-    assert (chosen == mask).all()
+    way = next(ways_of_ink(ink, LINE))
+    assert way.drawing == name
+    assert (way.mask == mask).all()
     # From outside to outside of the outlines.
-    assert thickness.most_px == pytest.approx(26, abs=1)
+    assert way.thickness.most_px == pytest.approx(26, abs=1)
 
 
 @pytest.mark.parametrize("tone", [0.35, 0.6])
