@@ -39,14 +39,15 @@ def open_sky(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> Bas
     parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
     border = around.exterior
     open_sky = unary_union([one for one in parts if one.distance(border) < 1]).buffer(reach + 0.5)
-    named = [
-        Point(*np.mean(text.box_px, axis=0))
-        for text in texts
-        if any(one.use in OPEN_AIR for one in meanings(text.text)[:1])
-    ]
+    named = [Point(*np.mean(text.box_px, axis=0)) for text in texts if names_open_air(text)]
     spaces = [one.polygon() for one in closed_spaces(bodies, thin_px)]
     terraces = [one for one in spaces if any(one.contains(point) for point in named)]
     return unary_union([open_sky, *terraces])
+
+
+def names_open_air(text: Text) -> bool:
+    """Whether a text names a balcony or a terrace."""
+    return any(one.use in OPEN_AIR for one in meanings(text.text)[:1])
 
 
 def _houses(bodies: Sequence[Polygon]) -> BaseGeometry:

@@ -23,9 +23,11 @@ from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.settle import USUAL_DOOR, usual_door
+from veduta.plan.openings.sky import names_open_air
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
+from veduta.plan.rooms.drawn_round import drawn_walls
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
@@ -132,7 +134,29 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
             now, graph, rooms = more, tried, count
             notes.append(_note(best, more[-1]))
             closings = looker.closings(graph, now)
+    for label in room_labels([one for one in texts if not names_open_air(one)]):
+        more, note = _with_drawn(now, found, sheet, label)
+        now += more
+        notes += note
     return Mended(now, tuple(notes))
+
+
+def _with_drawn(
+    axes: Sequence[Axis], found: Found, sheet: Sheet, label: NDArray[np.float64]
+) -> tuple[list[Axis], list[str]]:
+    """Walls that close the space with a label (2,), where no wall does, as lines do; and a note."""
+    name = Point(*label)
+    bodies = wall_bodies(wall_graph(axes), axes)
+    rooms = closed_spaces(bodies, found.thin_px)
+    if any(room.polygon().contains(name) for room in rooms):
+        return [], []
+    more = drawn_walls(axes, found, sheet, label)
+    tried = [*axes, *more]
+    closed = closed_spaces(wall_bodies(wall_graph(tried), tried), found.thin_px)
+    if not any(room.polygon().contains(name) for room in closed):
+        return [], []
+    place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
+    return more, [f"the room {place} is closed along the lines that are drawn around it"]
 
 
 class _Looker:

@@ -1,0 +1,286 @@
+"""Rooms that are named but open to the outdoors, closed along the lines that are drawn round them.
+
+What the walls of a bay, a bow or a corner full of windows show of solid strokes is too short to be
+followed. But lines are drawn all around the room: paper is flooded from its name up to these lines
+and the walls that are known (Soille 2003, section 9.2), and where the flood comes as near to the
+outdoors as a wall is thick, with no known wall between, there is a wall.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from shapely.geometry import LineString, Polygon
+from shapely.geometry import Point as ShapelyPoint
+
+from veduta.plan.document import WallDrawing
+from veduta.plan.openings.strip import Sheet
+from veduta.plan.rooms.close import wall_bodies
+from veduta.plan.walls.arcs import Arc, bulge_through
+from veduta.plan.walls.axes import Axis
+from veduta.plan.walls.find import Found
+from veduta.plan.walls.graph import wall_graph
+from veduta.plan.walls.pieces import Piece
+
+THICKEST = 1.6
+"""Missing walls are at most so many times as thick as the thickest common one."""
+
+NEAR_LABEL = 2.0
+"""Of the flooded paper around a name, in (thin) wall thicknesses, the largest is the room's."""
+
+BESIDE_WALL = 0.3
+"""A known wall so near to a room's outline, in thicknesses of the thickest common one, is there."""
+
+LEAST = 3.0
+"""Missing walls are so many (thin) wall thicknesses long, at least."""
+
+STRAY = 0.15
+"""They stray from lines and arcs by this part of their thickness, or by STRAY_PX."""
+
+STRAY_PX = 1.5
+HOOK = 2.5
+"""They end at a known wall that is no farther than so many of their thicknesses."""
+
+BESIDE = 3.0
+"""What lies beside their line counts so many times as far."""
+
+SHORT = 0.8
+"""Shorter straight parts of an outline, in thicknesses, are no sides of a wall."""
+
+SLIGHT_TURN = 0.15
+"""The sine of a turn; where a line turns less its sides meet between their ends ..."""
+
+FARTHEST = 2.0
+"""... and where they would meet so many thicknesses away."""
+
+AS_THICK = 0.35
+
+STEP_RAD = np.radians(10.0)
+
+LINES = 0.5
+"""Furniture is parted from its room by lines of this part of the thin walls' thickness, at most."""
+
+DEEP = 0.9
+"""It is farther from the outdoors than this part of the thickest common wall's thickness."""
+
+MOST_TURN = 0.9
+"""The bulge of an arc: nearly half a circle."""
+
+SLIGHT = 0.06
+"""What bulges less is straight."""
+
+Mask = NDArray[np.bool_]
+Points = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class _Raster:
+    """`free` (h, w): the number of each pixel's piece of paper, 0 on lines and walls.
+
+    `outdoors`, `walls` (h, w): how far a pixel is from there. All with a margin of MARGIN px.
+    """
+
+    free: NDArray[np.int32]
+    area: NDArray[np.int64]
+    outside: frozenset[int]
+    outdoors: NDArray[np.float32]
+    walls: NDArray[np.float32]
+
+
+MARGIN = 4
+
+
+def drawn_walls(axes: Sequence[Axis], found: Found, sheet: Sheet, label: Points) -> list[Axis]:
+    """Walls around a label (2,) px that are drawn, but not among the axes; none if it is open."""
+    bodies = wall_bodies(wall_graph(axes), axes)
+    raster = _raster(sheet.faint, bodies)
+    thin_px, outer_px = found.thin_px, found.thickness.most_px
+    room = _room(raster, label, thin_px, outer_px)
+    if room is None:
+        return []
+    # Where walls are single lines, windows in them are broader.
+    thickest = max(THICKEST * outer_px, thin_px)
+    walls = []
+    for run in _runs(room, raster, max(2.0, BESIDE_WALL * outer_px), thickest):
+        face = run.astype(np.float64) + 0.5 - MARGIN
+        deep = float(np.median(raster.outdoors[run[:, 1], run[:, 0]]))
+        thick, drawing = _like_the_nearest(axes, LineString(face), deep)
+        middle = _middle(face, room, thick)
+        if middle is None or LineString(middle).length < LEAST * thin_px:
+            continue
+        pieces = _pieces(_hooked(middle, axes, thick), thick, drawing)
+        walls += [Axis(piece, ()) for piece in pieces]
+    return walls
+
+
+def _raster(drawn: Mask, bodies: Sequence[Polygon]) -> _Raster:
+    solid = np.zeros((drawn.shape[0] + 2 * MARGIN, drawn.shape[1] + 2 * MARGIN), np.uint8)
+    for body in bodies:
+        corners = np.round(np.asarray(body.exterior.coords) - 0.5 + MARGIN).astype(np.int32)
+        cv2.fillPoly(solid, [corners], 1)
+    lines = solid.copy()
+    lines[MARGIN:-MARGIN, MARGIN:-MARGIN] |= drawn.astype(np.uint8)
+    lines = cv2.morphologyEx(lines, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    count, free = cv2.connectedComponents(1 - lines, connectivity=4)
+    area = np.bincount(free.ravel(), minlength=count)
+    outside = frozenset({int(free[0, 0])})
+    away = cv2.distanceTransform((free != free[0, 0]).astype(np.uint8), cv2.DIST_L2, 5)
+    from_walls = cv2.distanceTransform(1 - solid, cv2.DIST_L2, 5)
+    return _Raster(
+        np.asarray(free), area, outside,
+        np.asarray(away, np.float32), np.asarray(from_walls, np.float32),
+    )  # fmt: skip
+
+
+def _room(raster: _Raster, label: Points, thin_px: float, outer_px: float) -> Mask | None:
+    """The paper around a label with the furniture in it; None where that is outdoors."""
+    x, y = (int(value) + MARGIN for value in label)
+    reach = max(3, int(NEAR_LABEL * thin_px))
+    near = raster.free[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
+    numbers = [int(one) for one in np.unique(near) if one]
+    if not numbers or raster.outside & set(numbers):
+        return None
+    largest = max(numbers, key=lambda one: raster.area[one])
+    # What lies between the lines of a wall or a window is close to the outdoors: no furniture.
+    shallow = (raster.outdoors < DEEP * outer_px) & (raster.free > 0)
+    inside = np.ones(len(raster.area), np.bool_)
+    inside[[0, *raster.outside, *np.unique(raster.free[shallow])]] = False
+    inside[largest] = True
+    size = 2 * max(1, round(LINES * thin_px / 2)) + 1
+    whole = cv2.morphologyEx(
+        inside[raster.free].astype(np.uint8), cv2.MORPH_CLOSE, np.ones((size, size), np.uint8)
+    )
+    whole[raster.walls == 0] = 0
+    _, labels = cv2.connectedComponents(whole, connectivity=4)
+    number = labels[raster.free == largest][0]
+    outline, _ = cv2.findContours(
+        (labels == number).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+    )
+    filled = np.zeros(raster.free.shape, np.uint8)
+    cv2.drawContours(filled, outline, -1, 1, cv2.FILLED)
+    return np.asarray(filled, dtype=np.bool_)
+
+
+def _runs(
+    room: Mask, raster: _Raster, beside_px: float, thickest_px: float
+) -> list[NDArray[np.int64]]:
+    """Stretches (n, 2) of a room's outline beside which it is outdoors, and no wall is known."""
+    outlines, _ = cv2.findContours(room.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+    found = []
+    for outline in outlines:
+        points = outline[:, 0].astype(np.int64)
+        x, y = points[:, 0], points[:, 1]
+        open_ = (raster.outdoors[y, x] <= thickest_px) & (raster.walls[y, x] > beside_px)
+        if open_.all() or not open_.any():
+            continue
+        start = int(np.flatnonzero(~open_)[0])
+        points, open_ = np.roll(points, -start, axis=0), np.roll(open_, -start)
+        edges = np.flatnonzero(np.diff(np.pad(open_.astype(np.int8), 1)))
+        found += [points[low:high] for low, high in zip(edges[::2], edges[1::2], strict=True)]
+    return [run for run in found if len(run) > 3]
+
+
+def _middle(face: Points, room: Mask, thick_px: float) -> Points | None:
+    """The centre line beside a stretch of outline, half a thickness away from the room."""
+    corners = np.asarray(LineString(face).simplify(max(STRAY_PX, STRAY * thick_px)).coords)
+    # At its ends a stretch goes around the end of a known wall, and blurred ink has steps.
+    long = np.hypot(*np.diff(corners, axis=0).T) >= SHORT * thick_px
+    if not long.any():
+        return None
+    first, last = corners[:-1][long], corners[1:][long]
+    run = last - first
+    run /= np.maximum(np.hypot(*run.T), 1e-9)[:, None]
+    right = np.column_stack([-run[:, 1], run[:, 0]])
+    middles = (first + last) / 2
+    beside = thick_px * right
+    votes = [
+        int(_within(room, one)) - int(_within(room, other))
+        for one, other in zip(middles + beside, middles - beside, strict=True)
+    ]
+    out = (-0.5 if sum(votes) > 0 else 0.5) * beside
+    before, after = first + out, last + out
+    points = [before[0]]
+    for index in range(1, len(run)):
+        between = (after[index - 1] + before[index]) / 2
+        met = _meeting(after[index - 1], run[index - 1], before[index], run[index])
+        far = met is None or np.hypot(*(met - between)) > FARTHEST * thick_px
+        points.append(between if met is None or far else met)
+    return np.array([*points, after[-1]])
+
+
+def _within(room: Mask, point: Points) -> bool:
+    x, y = (int(np.floor(value)) + MARGIN for value in point)
+    return bool(0 <= y < room.shape[0] and 0 <= x < room.shape[1] and room[y, x])
+
+
+def _meeting(one: Points, way: Points, other: Points, its_way: Points) -> Points | None:
+    """Where two lines meet; None where they nearly run along each other."""
+    cross = float(way[0] * its_way[1] - way[1] * its_way[0])
+    apart = other - one
+    if abs(cross) < SLIGHT_TURN:
+        return None
+    along = float(apart[0] * its_way[1] - apart[1] * its_way[0]) / cross
+    return np.asarray(one + along * way)
+
+
+def _like_the_nearest(
+    axes: Sequence[Axis], face: LineString, deep_px: float
+) -> tuple[float, WallDrawing]:
+    """Thickness and drawing of the nearest wall; the thickness that is seen where they differ."""
+    nearest = min(
+        (axis.line for axis in axes),
+        key=lambda one: face.distance(LineString(one.arc.points(STEP_RAD))),
+    )
+    alike = abs(nearest.thickness_px - deep_px) <= AS_THICK * nearest.thickness_px + 3.0
+    return (nearest.thickness_px if alike else deep_px), nearest.drawing
+
+
+def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:
+    """The line with both ends on centre lines of known walls ahead of it, where these are near."""
+    reach = HOOK * thick_px
+    lines = [LineString(axis.line.arc.points(STEP_RAD)) for axis in axes]
+    ends = np.array([end for axis in axes for end in (axis.line.start, axis.line.end)])
+    done = points.copy()
+    for end, ahead in ((0, 1), (-1, -2)):
+        way = points[end] - points[ahead]
+        way = way / max(float(np.hypot(*way)), 1e-9)
+        ray = LineString([points[end] - 0.5 * thick_px * way, points[end] + reach * way])
+        met = [ray.intersection(line) for line in lines]
+        crossings = [
+            np.array([one.x, one.y])
+            for each in met
+            for one in getattr(each, "geoms", [each])
+            if isinstance(one, ShapelyPoint)
+        ]
+        spots = np.array([*crossings, *ends[np.hypot(*(ends - points[end]).T) <= reach]])
+        if len(spots) == 0:
+            continue
+        apart = spots - points[end]
+        beside = np.abs(apart @ np.array([-way[1], way[0]]))
+        done[end] = spots[int(np.argmin(np.hypot(*apart.T) + BESIDE * beside))]
+    return done
+
+
+def _pieces(points: Points, thick_px: float, drawing: WallDrawing) -> list[Piece]:
+    """Straight pieces of a line, or one arc where it bows evenly."""
+    stray = max(STRAY_PX, STRAY * thick_px)
+    line = LineString(points)
+    places = np.array(
+        [
+            [one.x, one.y]
+            for one in (line.interpolate(share, normalized=True) for share in np.linspace(0, 1, 41))
+        ]
+    )
+    bulge = bulge_through(points[0], places[20], points[-1])
+    if SLIGHT < abs(bulge) < MOST_TURN and len(points) > 4:
+        across = np.abs(Arc(points[0], points[-1], bulge).place(places)[1])
+        if float(across.max()) <= stray:
+            return [Piece(points[0], points[-1], thick_px, drawing, bulge)]
+    corners = np.asarray(line.simplify(stray).coords)
+    return [
+        Piece(one, two, thick_px, drawing) for one, two in zip(corners, corners[1:], strict=False)
+    ]
