@@ -59,6 +59,8 @@ _USUAL: dict[RoomUse, _Usual] = {
     "garage": _Usual(0.2, 26.0, 0.35, 1.5, 0.3),
     "technical": _Usual(0.1, 3.5, 0.50, 1.0, 0.1),
 }
+_STAIRWELL_M2 = 16.0  # with stairs that turn, and the way to them
+_WITH_STAIRS: tuple[RoomUse, ...] = ("living", "hall", "corridor", "dining")  # ways through
 _ONLY_ONE: tuple[RoomUse, ...] = ("living", "kitchen", "dining", "garage", "utility")
 _SECOND = 0.15  # how much less likely a second one of these is
 _FIRST_NEEDED: tuple[RoomUse, ...] = ("living", "kitchen", "bathroom")
@@ -119,9 +121,10 @@ def _likeliest(
     if room.outdoors:
         # A balcony is narrow and small; nothing else is said by its shape.
         return (0.6, "balcony") if room.area_m2 < 12.0 else (0.6, "terrace")
-    if room.stairs and room.area_m2 < 12.0:
+    if room.stairs and room.area_m2 < _STAIRWELL_M2:
         return (0.7, "stairs")
-    weights = {use: math.exp(_log_weight(use, room, around, uses)) for use in _USUAL}
+    possible = _WITH_STAIRS if room.stairs else tuple(_USUAL)
+    weights = {use: math.exp(_log_weight(use, room, around, uses)) for use in possible}
     total = sum(weights.values())
     best = max(weights, key=lambda use: weights[use])
     return (weights[best] / total, best) if total > 0 else (0.0, "unknown")

@@ -13,6 +13,8 @@ from shapely.geometry.base import BaseGeometry
 
 FINE = 2
 SHIFT = 4
+EDGE = 0.69
+"""What OpenCV fills with soft edges reaches so many pixels farther than it is told."""
 Colour = tuple[int, int, int]
 Image = NDArray[np.uint8]
 FontName = str
@@ -85,7 +87,7 @@ class Canvas:
     def fill(self, area: BaseGeometry, colour: Colour) -> None:
         """Polygons with holes, filled."""
         if not area.is_empty:
-            cv2.fillPoly(self.pixels, self._rings(area), colour, cv2.LINE_AA, SHIFT)
+            cv2.fillPoly(self.pixels, self._inner(area), colour, cv2.LINE_AA, SHIFT)
 
     def outline(self, area: BaseGeometry, width_px: float, colour: Colour = BLACK) -> None:
         """The rings of polygons."""
@@ -104,7 +106,7 @@ class Canvas:
     ) -> None:
         """Lines at 45 degrees within polygons."""
         mask = np.zeros(self.pixels.shape[:2], np.uint8)
-        cv2.fillPoly(mask, self._rings(area), 255, cv2.LINE_AA, SHIFT)
+        cv2.fillPoly(mask, self._inner(area), 255, cv2.LINE_AA, SHIFT)
         lines = self.pixels.copy()
         height, width = self.pixels.shape[:2]
         gap = gap_m * FINE / self.metres_per_px * math.sqrt(2.0)
@@ -118,6 +120,10 @@ class Canvas:
         share = mask[inside][:, None].astype(np.float32) / 255.0
         mixed = share * lines[inside] + (1 - share) * self.pixels[inside]
         self.pixels[inside] = np.round(mixed).astype(np.uint8)
+
+    def _inner(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
+        """The rings between which polygons are filled, so that they cover as much as they are."""
+        return self._rings(area.buffer(-EDGE * self.metres_per_px / FINE, join_style="mitre"))
 
     def _rings(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
         parts: Sequence[BaseGeometry] = (
