@@ -90,15 +90,16 @@ def read_cleaned(
         return replace(_read(cleaned, texts, known_way(known.solid), known), stairs=flights)
     ways = ways_drawn(cleaned, texts, flights)
     readings = (partial(_read, cleaned, texts, way, known) for way in ways)
-    return replace(_likeliest(readings, room_labels(texts)), stairs=flights)
+    return replace(likeliest(readings, room_labels(texts, indoors=True)), stairs=flights)
 
 
-def _likeliest(
+def likeliest(
     readings: Iterable[Callable[[], Drawn]], labels: Sequence[NDArray[np.float64]]
 ) -> Drawn:
     """The first reading in which most labels have a room each, or the best of all.
 
-    Where there are few labels, the first. NotFoundError as that of the first.
+    `labels` are middles (2,) px. Where there are fewer than FEWEST_LABELS, the first reading
+    stands. Raises NotFoundError as the first does, if none is one.
     """
     best: Drawn | None = None
     most, fault = -1.0, None
@@ -144,11 +145,11 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
         found = replace(found, pieces=walls)
         judged = judge_gaps(found, sheet)
     axes = axes_of([*found.pieces, *found.curved], judged)
-    whole = mended(axes, found, sheet, texts)
-    sky = open_sky(whole.axes, found.thin_px, texts)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
     told = known is not None or found.by_colour
+    whole = mended(axes, found, sheet, texts, by_lines=not told)
+    sky = open_sky(whole.axes, found.thin_px, texts)
     axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes

@@ -102,3 +102,9 @@ def test_any_rooms_get_a_use_and_a_probability(facts: list[RoomFacts]) -> None:
 
 def test_what_is_known_is_kept() -> None:
     assert guess_uses([RoomFacts(12.0)], [], ["sauna"]) == [("sauna", 1.0)]
+
+
+@pytest.mark.parametrize(("area_m2", "uses"), [(13.0, ["stairs"]), (26.0, ["living", "hall"])])
+def test_nobody_sleeps_where_stairs_are(area_m2: float, uses: list[str]) -> None:
+    (named,) = name_rooms([_box(0, 0, 400, 300)], [], [RoomFacts(area_m2, stairs=True)], [])
+    assert named.use in uses

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import pytest
 
 from veduta.plan.document import Text
-from veduta.plan.reading import read_storey
+from veduta.plan.drawn import Cleaned, Drawn, DrawnRoom
+from veduta.plan.reading import likeliest, read_storey
+from veduta.run.errors import NotFoundError
 from veduta.synthetic.plans.degrade import DEGRADATIONS
 from veduta.synthetic.plans.sets import sheets_of
 from veduta.synthetic.plans.styles import BY_NAME
@@ -32,8 +32,47 @@ def names(truth: SheetTruth) -> list[Text]:
 def test_names_that_lie_in_one_room_speak_against_a_reading(seed: int, style: str) -> None:
     """A flight's sides look like hollow walls there, and the space between lines of dimensions."""
     picture, truth = next(iter(sheets_of(seed, BY_NAME[style], CLEAN)))
-    read = partial(read_storey, np.asarray(picture))
-    named = read(names(truth))
     rooms = len(truth.storey.rooms)
-    assert rooms - 1 <= len(named.rooms) <= rooms + 1
-    assert len(read().rooms) < rooms / 2  # nothing else tells
+    assert rooms - 1 <= len(read_storey(np.asarray(picture), names(truth)).rooms) <= rooms + 1
+
+
+LABELS = [np.array([x, 5.0]) for x in (5.0, 15.0, 25.0, 35.0)]
+
+
+def drawn(*widths: float) -> Drawn:
+    """Rooms side by side, ten pixels deep."""
+    ends = np.cumsum([0.0, *widths])
+    rooms = [
+        DrawnRoom(
+            str(low), np.array([(low, 0.0), (high, 0.0), (high, 10.0), (low, 10.0)]),
+            (), (), (), False, 0.9,
+        )
+        for low, high in zip(ends, ends[1:], strict=False)
+    ]  # fmt: skip
+    blank = np.zeros((10, 40), np.float32)
+    cleaned = Cleaned(np.zeros((10, 40, 3), np.uint8), blank, np.eye(3), False, 0.0, 1.0)
+    return Drawn(cleaned, (), (), (), tuple(rooms))
+
+
+def none() -> Drawn:
+    raise NotFoundError("walls", "there are none", "Give some.")
+
+
+def test_the_first_reading_stands_where_names_have_rooms() -> None:
+    first, second = drawn(10, 10, 20), drawn(10, 10, 10, 10)
+    assert likeliest([lambda: first, lambda: second], LABELS) is first
+
+
+def test_the_best_reading_is_taken_where_they_have_none() -> None:
+    one, two, three = drawn(40), drawn(20, 20), drawn(30, 10)
+    assert likeliest([lambda: one, none, lambda: two, lambda: three], LABELS) is two
+    assert likeliest([none, lambda: one], LABELS) is one
+
+
+def test_few_names_say_nothing() -> None:
+    one, two = drawn(40), drawn(20, 20)
+    assert likeliest([lambda: one, lambda: two], LABELS[:3]) is one
+    with pytest.raises(NotFoundError, match="there are none"):
+        likeliest([none, lambda: one], LABELS[:3])
+    with pytest.raises(NotFoundError, match="there are none"):
+        likeliest([none, none], LABELS)

@@ -40,7 +40,10 @@ FEWEST = 5
 def different_places(
     structure: Structure, close: Iterable[ClosePair], matched: Matched
 ) -> frozenset[Pair]:
-    """The pairs (image ids) that a model puts in one place, and that show different ones."""
+    """The pairs (image ids) that a model puts in one place, and that show different ones.
+
+    `close` are pairs of photos of this structure.
+    """
     near = [one.ids for one in close if one.apart_deg <= SAME_DEG]
     if not near:
         return frozenset()

@@ -56,6 +56,11 @@ def meanings(label: str) -> list[Meaning]:
     return sorted(found, key=lambda one: (-one.score, -len(one.word)))
 
 
+def names_open_air(label: str) -> bool:
+    """Whether a label most likely names a balcony or a terrace."""
+    return any(one.use in ("balcony", "terrace") for one in meanings(label)[:1])
+
+
 def folded(label: str) -> str:
     """A label in lower case without accents, numbers, sizes and outer punctuation."""
     plain = unicodedata.normalize("NFKD", label.replace("ß", "ss").casefold())

@@ -10,7 +10,7 @@ from shapely.geometry import Point, Polygon, box
 from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.document import Text
-from veduta.plan.names.vocabulary import meanings
+from veduta.plan.names.vocabulary import names_open_air
 from veduta.plan.rooms.close import closed_spaces, wall_bodies
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import wall_graph
@@ -21,8 +21,6 @@ WIDEST_LEAK = 12.0
 
 LEAST_HOUSE = 0.1
 """Groups of walls that enclose less than this part of the largest are no houses."""
-
-OPEN_AIR = ("balcony", "terrace")
 
 
 def open_sky(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> BaseGeometry:
@@ -39,15 +37,10 @@ def open_sky(axes: Sequence[Axis], thin_px: float, texts: Sequence[Text]) -> Bas
     parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
     border = around.exterior
     open_sky = unary_union([one for one in parts if one.distance(border) < 1]).buffer(reach + 0.5)
-    named = [Point(*np.mean(text.box_px, axis=0)) for text in texts if names_open_air(text)]
+    named = [Point(*np.mean(text.box_px, axis=0)) for text in texts if names_open_air(text.text)]
     spaces = [one.polygon() for one in closed_spaces(bodies, thin_px)]
     terraces = [one for one in spaces if any(one.contains(point) for point in named)]
     return unary_union([open_sky, *terraces])
-
-
-def names_open_air(text: Text) -> bool:
-    """Whether a text names a balcony or a terrace."""
-    return any(one.use in OPEN_AIR for one in meanings(text.text)[:1])
 
 
 def _houses(bodies: Sequence[Polygon]) -> BaseGeometry:

@@ -13,12 +13,12 @@ from dataclasses import dataclass
 
 import cv2
 import numpy as np
+import shapely
 from numpy.typing import NDArray
-from shapely.geometry import LineString, Polygon
+from shapely.geometry import LineString
 from shapely.geometry import Point as ShapelyPoint
 
 from veduta.plan.document import WallDrawing
-from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.close import wall_bodies
 from veduta.plan.walls.arcs import Arc, bulge_through
 from veduta.plan.walls.axes import Axis
@@ -26,11 +26,14 @@ from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import wall_graph
 from veduta.plan.walls.pieces import Piece
 
+THINNEST = 0.5
+"""Missing walls are at least this part as thick as the thinnest that counts: no railings."""
+
 THICKEST = 1.6
 """Missing walls are at most so many times as thick as the thickest common one."""
 
 NEAR_LABEL = 2.0
-"""Of the flooded paper around a name, in (thin) wall thicknesses, the largest is the room's."""
+"""So near to a name, in (thin) wall thicknesses, most of the paper is that of its room."""
 
 BESIDE_WALL = 0.3
 """A known wall so near to a room's outline, in thicknesses of the thickest common one, is there."""
@@ -42,6 +45,7 @@ STRAY = 0.15
 """They stray from lines and arcs by this part of their thickness, or by STRAY_PX."""
 
 STRAY_PX = 1.5
+
 HOOK = 2.5
 """They end at a known wall that is no farther than so many of their thicknesses."""
 
@@ -58,8 +62,10 @@ FARTHEST = 2.0
 """... and where they would meet so many thicknesses away."""
 
 AS_THICK = 0.35
+"""A wall is as thick as its nearest one where both differ by less than this, or by three pixels."""
 
 STEP_RAD = np.radians(10.0)
+"""Curved walls are followed in steps that turn so much."""
 
 LINES = 0.5
 """Furniture is parted from its room by lines of this part of the thin walls' thickness, at most."""
@@ -73,31 +79,34 @@ MOST_TURN = 0.9
 SLIGHT = 0.06
 """What bulges less is straight."""
 
+MARGIN = 4
+"""Paper around the sheet, in pixels."""
+
 Mask = NDArray[np.bool_]
 Points = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class _Raster:
-    """`free` (h, w): the number of each pixel's piece of paper, 0 on lines and walls.
+class Raster:
+    """A sheet with a margin of MARGIN px: paper, how far it is from the outdoors and from walls.
 
-    `outdoors`, `walls` (h, w): how far a pixel is from there. All with a margin of MARGIN px.
+    `free` (h, w): the number of each pixel's piece of paper, of `count`; 0 on lines and walls, and
+    `outside` around the house. `outdoors`, `walls` (h, w): how far a pixel is from there.
     """
 
     free: NDArray[np.int32]
-    area: NDArray[np.int64]
-    outside: frozenset[int]
+    count: int
+    outside: int
     outdoors: NDArray[np.float32]
     walls: NDArray[np.float32]
 
 
-MARGIN = 4
+def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Points) -> list[Axis]:
+    """Walls around a label (2,) px that are drawn, but not among the axes; none if it is open.
 
-
-def drawn_walls(axes: Sequence[Axis], found: Found, sheet: Sheet, label: Points) -> list[Axis]:
-    """Walls around a label (2,) px that are drawn, but not among the axes; none if it is open."""
-    bodies = wall_bodies(wall_graph(axes), axes)
-    raster = _raster(sheet.faint, bodies)
+    `raster` is that of the axes. What is as thick as lines alone is no wall. The thickness is that
+    of the nearest wall, so that the walls are `inferred`.
+    """
     thin_px, outer_px = found.thin_px, found.thickness.most_px
     room = _room(raster, label, thin_px, outer_px)
     if room is None:
@@ -110,53 +119,62 @@ def drawn_walls(axes: Sequence[Axis], found: Found, sheet: Sheet, label: Points)
         deep = float(np.median(raster.outdoors[run[:, 1], run[:, 0]]))
         thick, drawing = _like_the_nearest(axes, LineString(face), deep)
         middle = _middle(face, room, thick)
-        if middle is None or LineString(middle).length < LEAST * thin_px:
+        if middle is None or deep < THINNEST * found.thickness.least_px:
             continue
-        pieces = _pieces(_hooked(middle, axes, thick), thick, drawing)
-        walls += [Axis(piece, ()) for piece in pieces]
+        line = _hooked(middle, axes, thick)
+        if min(LineString(one).length for one in (middle, line)) < LEAST * thin_px:
+            continue
+        walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
     return walls
 
 
-def _raster(drawn: Mask, bodies: Sequence[Polygon]) -> _Raster:
+def raster_of(axes: Sequence[Axis], drawn: Mask) -> Raster:
+    """Of what is drawn on a sheet (h, w), and of walls, their openings closed."""
+    bodies = wall_bodies(wall_graph(axes), axes)
     solid = np.zeros((drawn.shape[0] + 2 * MARGIN, drawn.shape[1] + 2 * MARGIN), np.uint8)
     for body in bodies:
         corners = np.round(np.asarray(body.exterior.coords) - 0.5 + MARGIN).astype(np.int32)
         cv2.fillPoly(solid, [corners], 1)
+    # One can go all around, whatever is drawn at the border.
+    border = np.ones(solid.shape, np.bool_)
+    border[MARGIN:-MARGIN, MARGIN:-MARGIN] = False
+    solid[border] = 0
     lines = solid.copy()
     lines[MARGIN:-MARGIN, MARGIN:-MARGIN] |= drawn.astype(np.uint8)
     lines = cv2.morphologyEx(lines, cv2.MORPH_CLOSE, np.ones((3, 3), np.uint8))
+    lines[border] = 0
     count, free = cv2.connectedComponents(1 - lines, connectivity=4)
-    area = np.bincount(free.ravel(), minlength=count)
-    outside = frozenset({int(free[0, 0])})
-    away = cv2.distanceTransform((free != free[0, 0]).astype(np.uint8), cv2.DIST_L2, 5)
+    outside = int(free[0, 0])
+    away = cv2.distanceTransform((free != outside).astype(np.uint8), cv2.DIST_L2, 5)
     from_walls = cv2.distanceTransform(1 - solid, cv2.DIST_L2, 5)
-    return _Raster(
-        np.asarray(free), area, outside,
+    return Raster(
+        np.asarray(free), count, outside,
         np.asarray(away, np.float32), np.asarray(from_walls, np.float32),
     )  # fmt: skip
 
 
-def _room(raster: _Raster, label: Points, thin_px: float, outer_px: float) -> Mask | None:
+def _room(raster: Raster, label: Points, thin_px: float, outer_px: float) -> Mask | None:
     """The paper around a label with the furniture in it; None where that is outdoors."""
     x, y = (int(value) + MARGIN for value in label)
     reach = max(3, int(NEAR_LABEL * thin_px))
     near = raster.free[max(0, y - reach) : y + reach + 1, max(0, x - reach) : x + reach + 1]
-    numbers = [int(one) for one in np.unique(near) if one]
-    if not numbers or raster.outside & set(numbers):
+    shares = np.bincount(near.ravel(), minlength=raster.count)
+    shares[0] = 0
+    own = int(shares.argmax()) if shares.size else 0
+    if not shares.any() or own == raster.outside:
         return None
-    largest = max(numbers, key=lambda one: raster.area[one])
     # What lies between the lines of a wall or a window is close to the outdoors: no furniture.
     shallow = (raster.outdoors < DEEP * outer_px) & (raster.free > 0)
-    inside = np.ones(len(raster.area), np.bool_)
-    inside[[0, *raster.outside, *np.unique(raster.free[shallow])]] = False
-    inside[largest] = True
+    inside = np.ones(raster.count, np.bool_)
+    inside[[0, raster.outside, *np.unique(raster.free[shallow])]] = False
+    inside[own] = True
     size = 2 * max(1, round(LINES * thin_px / 2)) + 1
     whole = cv2.morphologyEx(
         inside[raster.free].astype(np.uint8), cv2.MORPH_CLOSE, np.ones((size, size), np.uint8)
     )
     whole[raster.walls == 0] = 0
     _, labels = cv2.connectedComponents(whole, connectivity=4)
-    number = labels[raster.free == largest][0]
+    number = labels[raster.free == own][0]
     outline, _ = cv2.findContours(
         (labels == number).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
     )
@@ -166,9 +184,12 @@ def _room(raster: _Raster, label: Points, thin_px: float, outer_px: float) -> Ma
 
 
 def _runs(
-    room: Mask, raster: _Raster, beside_px: float, thickest_px: float
+    room: Mask, raster: Raster, beside_px: float, thickest_px: float
 ) -> list[NDArray[np.int64]]:
-    """Stretches (n, 2) of a room's outline beside which it is outdoors, and no wall is known."""
+    """Stretches (n, 2) of a room's outline beside which it is outdoors, and no wall is known.
+
+    None of an outline that is so all around: nothing says how thick its walls are.
+    """
     outlines, _ = cv2.findContours(room.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     found = []
     for outline in outlines:
@@ -261,7 +282,10 @@ def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:
             continue
         apart = spots - points[end]
         beside = np.abs(apart @ np.array([-way[1], way[0]]))
-        done[end] = spots[int(np.argmin(np.hypot(*apart.T) + BESIDE * beside))]
+        cost = np.hypot(*apart.T) + BESIDE * beside
+        cost[apart @ way < -thick_px] = np.inf
+        if np.isfinite(cost).any():
+            done[end] = spots[int(np.argmin(cost))]
     return done
 
 
@@ -269,11 +293,9 @@ def _pieces(points: Points, thick_px: float, drawing: WallDrawing) -> list[Piece
     """Straight pieces of a line, or one arc where it bows evenly."""
     stray = max(STRAY_PX, STRAY * thick_px)
     line = LineString(points)
-    places = np.array(
-        [
-            [one.x, one.y]
-            for one in (line.interpolate(share, normalized=True) for share in np.linspace(0, 1, 41))
-        ]
+    # With both ends, the middle and what lies between.
+    places = shapely.get_coordinates(
+        shapely.line_interpolate_point(line, np.linspace(0.0, 1.0, 41), normalized=True)
     )
     bulge = bulge_through(points[0], places[20], points[-1])
     if SLIGHT < abs(bulge) < MOST_TURN and len(points) > 4:

@@ -8,24 +8,32 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
-from veduta.plan.names.vocabulary import meanings
+from veduta.plan.names.vocabulary import meanings, names_open_air
 from veduta.plan.scale.quantities import read_quantities
 
 LINE_GAP = 1.2
 """Heights of text between two lines of one label."""
 
 
-def room_labels(texts: Sequence[Text]) -> list[NDArray[np.float64]]:
-    """The middles (2,) of labels, in pixels of the texts; lines over each other are one label."""
-    boxes = [np.array(one.box_px, dtype=float) for one in texts if _says_room(one)]
-    groups: list[list[NDArray[np.float64]]] = []
-    for box in sorted(boxes, key=lambda one: float(one[:, 1].min())):
-        home = next((group for group in groups if any(_one_label(box, x) for x in group)), None)
+def room_labels(texts: Sequence[Text], *, indoors: bool = False) -> list[NDArray[np.float64]]:
+    """The middles (2,) of labels, in pixels of the texts; lines over each other are one label.
+
+    `indoors`: without those that name a terrace or a balcony.
+    """
+    said = [(np.array(one.box_px, dtype=float), one) for one in texts if _says_room(one)]
+    groups: list[list[tuple[NDArray[np.float64], Text]]] = []
+    for box, text in sorted(said, key=lambda one: float(one[0][:, 1].min())):
+        home = next((group for group in groups if any(_one_label(box, x) for x, _ in group)), None)
         if home is None:
-            groups.append([box])
+            groups.append([(box, text)])
         else:
-            home.append(box)
-    return [np.asarray(np.concatenate(group).mean(axis=0)) for group in groups]
+            home.append((box, text))
+    kept = [
+        group
+        for group in groups
+        if not (indoors and any(names_open_air(text.text) for _, text in group))
+    ]
+    return [np.asarray(np.concatenate([box for box, _ in group]).mean(axis=0)) for group in kept]
 
 
 def _says_room(text: Text) -> bool:

@@ -23,11 +23,10 @@ from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.settle import USUAL_DOOR, usual_door
-from veduta.plan.openings.sky import names_open_air
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
-from veduta.plan.rooms.drawn_round import drawn_walls
+from veduta.plan.rooms.drawn_round import drawn_walls, raster_of
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
@@ -109,8 +108,19 @@ class _Closing:
     drawn: tuple[Judged | None, ...] = ()
 
 
-def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Text] = ()) -> Mended:
-    """Close what is broken, the best break first, as long as that makes another room."""
+def mended(
+    axes: Sequence[Axis],
+    found: Found,
+    sheet: Sheet,
+    texts: Sequence[Text] = (),
+    *,
+    by_lines: bool = True,
+) -> Mended:
+    """Close what is broken, the best break first, as long as that makes another room.
+
+    `by_lines`: rooms with a name that are open even then are closed along lines around them; not
+    where walls are known, so that other lines are no walls.
+    """
     now, notes = list(axes), list[str]()
     if len(now) > MOST_WALLS:
         return Mended(now, (TOO_MANY.format(len(now)),))
@@ -134,29 +144,38 @@ def mended(axes: Sequence[Axis], found: Found, sheet: Sheet, texts: Sequence[Tex
             now, graph, rooms = more, tried, count
             notes.append(_note(best, more[-1]))
             closings = looker.closings(graph, now)
-    for label in room_labels([one for one in texts if not names_open_air(one)]):
-        more, note = _with_drawn(now, found, sheet, label)
-        now += more
-        notes += note
+    if by_lines and now:
+        more, said = _along_lines(now, found, sheet, room_labels(texts, indoors=True))
+        return Mended([*now, *more], (*notes, *said))
     return Mended(now, tuple(notes))
 
 
-def _with_drawn(
-    axes: Sequence[Axis], found: Found, sheet: Sheet, label: NDArray[np.float64]
+def _along_lines(
+    axes: Sequence[Axis], found: Found, sheet: Sheet, labels: Sequence[NDArray[np.float64]]
 ) -> tuple[list[Axis], list[str]]:
-    """Walls that close the space with a label (2,), where no wall does, as lines do; and a note."""
-    name = Point(*label)
+    """Walls that close spaces with a label where lines do, and a note for each space."""
+    more, notes = list[Axis](), list[str]()
+    rooms = _rooms(axes, found.thin_px)
+    raster = None
+    for label in labels:
+        name = Point(*label)
+        if any(room.contains(name) for room in rooms):
+            continue
+        if raster is None:
+            raster = raster_of([*axes, *more], sheet.faint)
+        walls = drawn_walls([*axes, *more], found, raster, label)
+        tried = _rooms([*axes, *more, *walls], found.thin_px) if walls else []
+        if len(tried) <= len(rooms) or not any(room.contains(name) for room in tried):
+            continue
+        more, rooms, raster = [*more, *walls], tried, None
+        place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
+        notes.append(f"the room {place} is closed along the lines that are drawn around it")
+    return more, notes
+
+
+def _rooms(axes: Sequence[Axis], thin_px: float) -> list[Polygon]:
     bodies = wall_bodies(wall_graph(axes), axes)
-    rooms = closed_spaces(bodies, found.thin_px)
-    if any(room.polygon().contains(name) for room in rooms):
-        return [], []
-    more = drawn_walls(axes, found, sheet, label)
-    tried = [*axes, *more]
-    closed = closed_spaces(wall_bodies(wall_graph(tried), tried), found.thin_px)
-    if not any(room.polygon().contains(name) for room in closed):
-        return [], []
-    place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
-    return more, [f"the room {place} is closed along the lines that are drawn around it"]
+    return [space.polygon() for space in closed_spaces(bodies, thin_px)]
 
 
 class _Looker:

@@ -33,6 +33,7 @@ MOSTLY_PAPER = 0.45
 """Layered walls with so much paper in them are hollow; with less, hatched."""
 
 SMALL_MARK = 0.05
+"""Marks of less than this part of the drawing are letters and specks."""
 
 AS_HATCHED = 0.5
 """What has this part of the strokes that walls have, or more, is wall."""
@@ -108,13 +109,13 @@ def ways_drawn(
 def ways_of_ink(ink: NDArray[np.bool_], line_px: float) -> Iterator[Way]:
     """As `ways_drawn`, of ink alone."""
     lines = connected(ink)
-    outlined: list[NDArray[np.bool_]] = []
-    for ends_open in (True, False):
-        mask, drawing = outlined_walls(lines, line_px, ends_open=ends_open)
-        full = _more_wall(mask, ink & ~mask, line_px)
-        if full is not None and not any(np.array_equal(mask, one) for one in outlined):
-            outlined.append(mask)
-            yield Way(ink, mask, full, drawing)
+    outlined = _outlined(ink, lines, line_px, ends_open=True)
+    if outlined is not None:
+        yield outlined
+        # Where ends of walls are closed, parting them from rooms may take what is none.
+        closed = _outlined(ink, lines, line_px, ends_open=False)
+        if closed is not None and not np.array_equal(closed.mask, outlined.mask):
+            yield closed
     layered = fill_cells(lines, line_px)
     full = _more_wall(layered, ink, line_px)
     if full is not None:
@@ -124,6 +125,14 @@ def ways_of_ink(ink: NDArray[np.bool_], line_px: float) -> Iterator[Way]:
     if plain is not None:
         single = plain.most_px < SINGLE_LINE * line_px
         yield Way(ink, ink, plain, "single-line" if single else "filled")
+
+
+def _outlined(
+    ink: NDArray[np.bool_], lines: NDArray[np.bool_], line_px: float, *, ends_open: bool
+) -> Way | None:
+    mask, drawing = outlined_walls(lines, line_px, ends_open=ends_open)
+    full = _more_wall(mask, ink & ~mask, line_px)
+    return None if full is None else Way(ink, mask, full, drawing)
 
 
 def _more_wall(

@@ -14,7 +14,7 @@ from shapely.geometry.base import BaseGeometry
 FINE = 2
 SHIFT = 4
 EDGE = 0.69
-"""What OpenCV fills with soft edges reaches so many pixels farther than it is told."""
+"""What OpenCV fills with soft edges reaches so many (fine) pixels farther than it is told."""
 Colour = tuple[int, int, int]
 Image = NDArray[np.uint8]
 FontName = str
@@ -123,7 +123,8 @@ class Canvas:
 
     def _inner(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
         """The rings between which polygons are filled, so that they cover as much as they are."""
-        return self._rings(area.buffer(-EDGE * self.metres_per_px / FINE, join_style="mitre"))
+        inner = area.buffer(-EDGE * self.metres_per_px / FINE, join_style="mitre")
+        return self._rings(area if inner.is_empty else inner)
 
     def _rings(self, area: BaseGeometry) -> list[NDArray[np.int32]]:
         parts: Sequence[BaseGeometry] = (
