@@ -47,6 +47,9 @@ APART = 0.7
 FEWEST_LABELS = 4
 """... where there are so many; otherwise other ways in which walls may be drawn are tried."""
 
+MOST_WALLS = 250
+"""A reading with more stands: each takes a minute, and most of them are noise."""
+
 
 @dataclass(frozen=True)
 class KnownWalls:
@@ -112,7 +115,8 @@ def likeliest(
             share = _with_own_rooms(drawn, labels)
             if share > most:
                 best, most = drawn, share
-        if share >= APART or len(labels) < FEWEST_LABELS:
+        large = best is not None and len(best.walls) > MOST_WALLS
+        if share >= APART or len(labels) < FEWEST_LABELS or large:
             break
     if best is None:
         raise fault or NotFoundError(

@@ -12,6 +12,7 @@ from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn
 from veduta.plan.openings.gaps import Gap, parted
 from veduta.plan.reading import read_storey
+from veduta.plan.rooms import mend
 from veduta.plan.rooms.labels import room_labels
 
 Image = NDArray[np.uint8]
@@ -78,6 +79,13 @@ def without_arc() -> Image:
     image = house()
     cv2.rectangle(image, (116, 392), (403, 399), BLACK, -1)
     return image
+
+
+def test_noise_is_not_looked_at_for_ever(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The bound counts breaks of all rounds: beyond it nothing more is closed."""
+    whole = read_storey(corner_door())
+    monkeypatch.setattr(mend, "MOST_LOOKED_AT", -1)
+    assert len(read_storey(corner_door()).rooms) < len(whole.rooms)
 
 
 def test_a_way_without_a_drawing_stays_open_in_one_room() -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -67,6 +69,12 @@ def test_the_best_reading_is_taken_where_they_have_none() -> None:
     one, two, three = drawn(40), drawn(20, 20), drawn(30, 10)
     assert likeliest([lambda: one, none, lambda: two, lambda: three], LABELS) is two
     assert likeliest([none, lambda: one], LABELS) is one
+
+
+def test_noise_is_read_once() -> None:
+    one, two = drawn(40), drawn(10, 10, 10, 10)
+    noise = replace(one, walls=(None,) * 1000)  # type: ignore[arg-type]
+    assert likeliest([lambda: noise, lambda: two], LABELS) is noise
 
 
 def test_few_names_say_nothing() -> None:

@@ -65,6 +65,8 @@ GLAZED = 1.5
 """Ways out that are so many times as wide as a door are taken for glazed doors that slide."""
 
 MOST_ROUNDS = 24
+MOST_LOOKED_AT = 5000
+"""Breaks that are looked at in all rounds together: drawings of noise have hundreds in each."""
 MOST_WALLS = 500
 """Of a drawing that is not noise: more leave thousands of breaks, none of which says anything."""
 TOO_MANY = (
@@ -133,7 +135,7 @@ def mended(
     closings = looker.closings(graph, now)
     for _ in range(MOST_ROUNDS):
         left = [one for one in closings if one.broken.key not in failed]
-        if not left:
+        if not left or looker.looked_at > MOST_LOOKED_AT:
             break
         best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
@@ -196,6 +198,7 @@ class _Looker:
         self.door_px = (low * unit, high * unit)
         self.leaking: list[Point] = []
         self.seen: dict[tuple[int, ...], Judged | None] = {}
+        self.looked_at = 0
 
     def closings(self, graph: Graph, axes: Sequence[Axis]) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
@@ -204,7 +207,9 @@ class _Looker:
         self.leaking = self._leaking(bodies)
         tree = STRtree([space for space, _ in spaces])
         found = []
-        for one in find_breaks(graph, axes, self.found.solid, self.found.thin_px):
+        breaks = find_breaks(graph, axes, self.found.solid, self.found.thin_px)
+        self.looked_at += len(breaks)
+        for one in breaks:
             body = wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)).buffer(0.7)
             for index in tree.query(body, predicate="intersects"):
                 space, outdoors = spaces[int(index)]
