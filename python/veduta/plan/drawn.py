@@ -103,7 +103,11 @@ class DrawnRoom:
     @property
     def area_px2(self) -> float:
         """Its area without its holes."""
-        return float(Polygon(self.outline_px, self.holes_px).area)
+        return float(self.polygon().area)
+
+    def polygon(self) -> Polygon:
+        """As a polygon in pixels, with its holes."""
+        return Polygon(self.outline_px, self.holes_px)
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely.geometry import Point, Polygon
+from shapely.geometry import Point
 
 from veduta.plan.clean import ink as inks
 from veduta.plan.clean.sheet import clean_sheet
@@ -128,7 +128,7 @@ def likeliest(
 def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> float:
     """How many rooms have a label, as a part of the labels."""
     points = [Point(*one) for one in labels]
-    rooms = [Polygon(room.outline_px, room.holes_px) for room in drawn.rooms]
+    rooms = [room.polygon() for room in drawn.rooms]
     named = sum(any(room.contains(point) for point in points) for room in rooms)
     return named / max(1, len(points))
 

@@ -47,7 +47,8 @@ def found_of(axes: list[Axis], sheet: Sheet) -> Found:
 
 
 def walls_around(axes: list[Axis], sheet: Sheet, label: NDArray[np.float64] = LABEL) -> list[Axis]:
-    return drawn_walls(axes, found_of(axes, sheet), raster_of(axes, sheet.faint), label)
+    bodies = wall_bodies(wall_graph(axes), axes)
+    return drawn_walls(axes, found_of(axes, sheet), raster_of(bodies, sheet.faint), label)
 
 
 def text(words: str, x: float = 300.0, y: float = 250.0) -> Text:

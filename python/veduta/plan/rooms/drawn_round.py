@@ -15,15 +15,14 @@ import cv2
 import numpy as np
 import shapely
 from numpy.typing import NDArray
-from shapely.geometry import LineString
-from shapely.geometry import Point as ShapelyPoint
+from shapely.geometry import LineString, Point, Polygon
 
 from veduta.plan.document import WallDrawing
-from veduta.plan.rooms.close import wall_bodies
+from veduta.plan.openings.lines import runs
 from veduta.plan.walls.arcs import Arc, bulge_through
 from veduta.plan.walls.axes import Axis
+from veduta.plan.walls.bows import look
 from veduta.plan.walls.find import Found
-from veduta.plan.walls.graph import wall_graph
 from veduta.plan.walls.pieces import Piece
 
 THINNEST = 0.5
@@ -128,9 +127,8 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
     return walls
 
 
-def raster_of(axes: Sequence[Axis], drawn: Mask) -> Raster:
-    """Of what is drawn on a sheet (h, w), and of walls, their openings closed."""
-    bodies = wall_bodies(wall_graph(axes), axes)
+def raster_of(bodies: Sequence[Polygon], drawn: Mask) -> Raster:
+    """Of what is drawn on a sheet (h, w), and of the bodies of walls, their openings closed."""
     solid = np.zeros((drawn.shape[0] + 2 * MARGIN, drawn.shape[1] + 2 * MARGIN), np.uint8)
     for body in bodies:
         corners = np.round(np.asarray(body.exterior.coords) - 0.5 + MARGIN).astype(np.int32)
@@ -200,8 +198,7 @@ def _runs(
             continue
         start = int(np.flatnonzero(~open_)[0])
         points, open_ = np.roll(points, -start, axis=0), np.roll(open_, -start)
-        edges = np.flatnonzero(np.diff(np.pad(open_.astype(np.int8), 1)))
-        found += [points[low:high] for low, high in zip(edges[::2], edges[1::2], strict=True)]
+        found += [points[low:high] for low, high in zip(*runs(open_), strict=True)]
     return [run for run in found if len(run) > 3]
 
 
@@ -218,11 +215,9 @@ def _middle(face: Points, room: Mask, thick_px: float) -> Points | None:
     right = np.column_stack([-run[:, 1], run[:, 0]])
     middles = (first + last) / 2
     beside = thick_px * right
-    votes = [
-        int(_within(room, one)) - int(_within(room, other))
-        for one, other in zip(middles + beside, middles - beside, strict=True)
-    ]
-    out = (-0.5 if sum(votes) > 0 else 0.5) * beside
+    sides = np.stack([middles + beside, middles - beside]) + MARGIN
+    right_of, left_of = look(room, sides, 0.0).sum(axis=1)
+    out = (-0.5 if right_of > left_of else 0.5) * beside
     before, after = first + out, last + out
     points = [before[0]]
     for index in range(1, len(run)):
@@ -231,11 +226,6 @@ def _middle(face: Points, room: Mask, thick_px: float) -> Points | None:
         far = met is None or np.hypot(*(met - between)) > FARTHEST * thick_px
         points.append(between if met is None or far else met)
     return np.array([*points, after[-1]])
-
-
-def _within(room: Mask, point: Points) -> bool:
-    x, y = (int(np.floor(value)) + MARGIN for value in point)
-    return bool(0 <= y < room.shape[0] and 0 <= x < room.shape[1] and room[y, x])
 
 
 def _meeting(one: Points, way: Points, other: Points, its_way: Points) -> Points | None:
@@ -275,7 +265,7 @@ def _hooked(points: Points, axes: Sequence[Axis], thick_px: float) -> Points:
             np.array([one.x, one.y])
             for each in met
             for one in getattr(each, "geoms", [each])
-            if isinstance(one, ShapelyPoint)
+            if isinstance(one, Point)
         ]
         spots = np.array([*crossings, *ends[np.hypot(*(ends - points[end]).T) <= reach]])
         if len(spots) == 0:

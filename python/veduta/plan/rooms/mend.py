@@ -156,28 +156,34 @@ def _along_lines(
     axes: Sequence[Axis], found: Found, sheet: Sheet, labels: Sequence[NDArray[np.float64]]
 ) -> tuple[list[Axis], list[str]]:
     """Walls that close spaces with a label where lines do, and a note for each space."""
-    more, notes = list[Axis](), list[str]()
-    rooms = _rooms(axes, found.thin_px)
+    now, notes = list(axes), list[str]()
+    if not labels:
+        return [], notes
+    bodies = wall_bodies(wall_graph(now), now)
+    rooms = _rooms(bodies, found.thin_px)
     raster = None
     for label in labels:
         name = Point(*label)
         if any(room.contains(name) for room in rooms):
             continue
         if raster is None:
-            raster = raster_of([*axes, *more], sheet.faint)
-        walls = drawn_walls([*axes, *more], found, raster, label)
-        tried = _rooms([*axes, *more, *walls], found.thin_px) if walls else []
-        if len(tried) <= len(rooms) or not any(room.contains(name) for room in tried):
+            raster = raster_of(bodies, sheet.faint)
+        walls = drawn_walls(now, found, raster, label)
+        if not walls:
             continue
-        more, rooms, raster = [*more, *walls], tried, None
+        more = [*now, *walls]
+        tried = wall_bodies(wall_graph(more), more)
+        closed = _rooms(tried, found.thin_px)
+        if len(closed) <= len(rooms) or not any(room.contains(name) for room in closed):
+            continue
+        now, bodies, rooms, raster = more, tried, closed, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
         notes.append(f"the room {place} is closed along the lines that are drawn around it")
-    return more, notes
+    return now[len(axes) :], notes
 
 
-def _rooms(axes: Sequence[Axis], thin_px: float) -> list[Polygon]:
-    bodies = wall_bodies(wall_graph(axes), axes)
-    return [space.polygon() for space in closed_spaces(bodies, thin_px)]
+def _rooms(bodies: Sequence[Polygon], thin_px: float) -> list[Polygon]:
+    return [space.polygon() for space in closed_spaces(list(bodies), thin_px)]
 
 
 class _Looker:
@@ -221,7 +227,7 @@ class _Looker:
 
     def _spaces(self, bodies: Sequence[Polygon]) -> list[tuple[Polygon, bool]]:
         """Rooms, and what is outdoors, which alone reaches the border of the sheet."""
-        rooms = [(one.polygon(), False) for one in closed_spaces(list(bodies), self.found.thin_px)]
+        rooms = [(room, False) for room in _rooms(bodies, self.found.thin_px)]
         around = self._border()
         free = around.difference(unary_union([one.buffer(0.6) for one in bodies]))
         border = around.exterior

@@ -28,10 +28,8 @@ from veduta.run.errors import NotFoundError
 MOST_PIECES = 1500
 """More short strokes are a photo or a texture, and would take minutes."""
 
-
 SINGLE_LEAST = 0.9
 """Leaves of doors are drawn as lines that are thinner than walls by this factor, or more."""
-
 
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
