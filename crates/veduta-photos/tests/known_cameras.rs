@@ -16,9 +16,11 @@ use veduta_photos::robust::{
 use veduta_photos::two_views::{fundamental, judge, judge_all, Kind, Settings};
 use veduta_photos::{Match, MatchError};
 
+/// The draws that `veduta` takes. With these every seed from 0 to 30,000 passes the tests below; with
+/// 600 draws of eight one in 5,000 had only poor ones among those without a false match.
 const SETTINGS: Settings = Settings {
-    draws: 600,
-    plane_draws: 200,
+    draws: 1500,
+    plane_draws: 300,
     seven: false,
     band: Band {
         least_px: 1.0,
