@@ -53,10 +53,12 @@ class Found:
 def find_walls(cleaned: Cleaned, way: Way) -> Found:
     """Find the pieces, as they are drawn; NotFoundError where no strokes are walls."""
     drawing, thickness = way.drawing, way.thickness
-    known = way.told == "known"
+    known, alone = way.told == "known", way.told in ("known", "by pen")
     # Of what is known, short piers between openings count, too.
-    solid = way.mask if known else thick_strokes(way.mask, thickness)
-    if not known and drawing in ("filled", "single-line"):
+    solid = way.mask if alone else thick_strokes(way.mask, thickness)
+    if way.told == "by pen":
+        solid = without_marks(solid, way.mask, thickness)
+    elif not known and drawing in ("filled", "single-line"):
         # Shaded panes are thick strokes, too, but paler than the walls.
         solid = without_marks(solid, way.mask, thickness)
         level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0

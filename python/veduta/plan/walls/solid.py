@@ -32,12 +32,12 @@ BELOW_COMMON = 0.75
 LEAST_OVER_LINE = 1.6
 """Walls are at least so many times as thick as lines."""
 
-
 SINGLE_LINE = 4.0
 """Walls that are thinner than so many lines may be lines themselves, of a broader pen."""
 
-SINGLE_LONG = 0.02
-"""Strokes that tell pens apart are so long, as a share of the half perimeter: no letters."""
+ACROSS, SINGLE_LONG = 8, 0.02
+"""Strokes that tell pens apart are so many times as long as broad, and so long as a share of the
+half perimeter: no letters."""
 
 PEN_EDGE = 0.65
 """Lines are walls if they are nearer to the broad pen than to the thin one: leaves of doors may be
@@ -68,7 +68,7 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     thin, long = np.minimum(across, down), np.maximum(across, down)
     stroke = ink & (long >= 3 * thin)
     lengths = _lengths(thin[stroke])
-    extent = _half_perimeter(ink)
+    extent = half_perimeter(ink)
     at_least = np.cumsum(lengths[::-1])[::-1]
     thick = np.flatnonzero(at_least >= LEAST_SHARE * extent)
     most = float(thick[-1]) if len(thick) else 0.0
@@ -81,7 +81,7 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
     # A pen that is twice as broad as another draws a wall as one line.
-    straight = ink & (long >= 8 * thin) & (long >= SINGLE_LONG * extent)
+    straight = ink & (long >= ACROSS * thin) & (long >= SINGLE_LONG * extent)
     pens = two_pens(_lengths(thin[straight]), LEAST_SHARE * extent)
     if pens is None and most >= max(2 * line_px, least):
         return Thickness(least, most)
@@ -168,7 +168,7 @@ def without_marks(
     strokes: NDArray[np.bool_], ink: NDArray[np.bool_], thickness: Thickness
 ) -> NDArray[np.bool_]:
     """Thick strokes of connected ink that is large enough for a house."""
-    return strokes & _large(ink, LEAST_MARK * thickness.most_px)
+    return strokes & marks_of_size(ink, LEAST_MARK * thickness.most_px)
 
 
 def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:
@@ -179,15 +179,19 @@ def stroke_length(mask: NDArray[np.bool_], least_px: float) -> float:
     return float((1.0 / np.maximum(thin[stroke], 1)).sum())
 
 
-def _large(ink: NDArray[np.bool_], least_px: float) -> NDArray[np.bool_]:
-    """Connected ink of at least that size: letters, arrows and specks are smaller."""
+def marks_of_size(
+    ink: NDArray[np.bool_], least_px: float, *, both_ways: bool = False
+) -> NDArray[np.bool_]:
+    """Connected ink of at least that size, one way or both: letters and specks are smaller."""
     _, labels, stats, _ = cv2.connectedComponentsWithStats(ink.astype(np.uint8), connectivity=8)
-    keep = np.maximum(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT]) >= least_px
+    size = np.minimum if both_ways else np.maximum
+    keep = size(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT]) >= least_px
     keep[0] = False
     return np.asarray(keep[labels], dtype=np.bool_)
 
 
-def _half_perimeter(ink: NDArray[np.bool_]) -> float:
+def half_perimeter(ink: NDArray[np.bool_]) -> float:
+    """Of the box around all ink, px; 1 where there is none."""
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     if len(rows) == 0:
         return 1.0

@@ -19,6 +19,7 @@ from veduta.plan.walls.fill import fill_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.layers import walls_of_a_colour
 from veduta.plan.walls.outlined import wall_cells
+from veduta.plan.walls.pens import broader_pens
 from veduta.plan.walls.solid import SINGLE_LINE, Thickness, stroke_length, wall_thickness
 from veduta.plan.walls.tone import toned_areas
 from veduta.run.errors import NotFoundError
@@ -66,14 +67,14 @@ class Way:
 
     `mask` (h, w): where walls are solid, with other strokes; `ink` (h, w): what is drawn, without
     texts and flights. `told`: whether walls are looked for in the ink, are all that has their
-    colour, or are known.
+    colour or that their pen drew, or are known.
     """
 
     ink: NDArray[np.bool_]
     mask: NDArray[np.bool_]
     thickness: Thickness
     drawing: WallDrawing
-    told: Literal["by ink", "by colour", "known"] = "by ink"
+    told: Literal["by ink", "by colour", "by pen", "known"] = "by ink"
 
 
 def known_way(solid: NDArray[np.bool_]) -> Way:
@@ -103,11 +104,13 @@ def ways_drawn(
     full = None if coloured is None else wall_thickness(coloured, line_px)
     if coloured is not None and full is not None:
         yield Way(ink, coloured, full, "hollow", "by colour")
-    yield from ways_of_ink(ink, line_px)
+    yield from ways_of_ink(ink, line_px, cleaned.ink)
 
 
-def ways_of_ink(ink: NDArray[np.bool_], line_px: float) -> Iterator[Way]:
-    """As `ways_drawn`, of ink alone."""
+def ways_of_ink(
+    ink: NDArray[np.bool_], line_px: float, soft: NDArray[np.float32] | None = None
+) -> Iterator[Way]:
+    """As `ways_drawn`, of ink alone; `soft` (h, w) is how dark it is, 0 to 1."""
     lines = connected(ink)
     outlined = _outlined(ink, lines, line_px, ends_open=True)
     if outlined is not None:
@@ -122,8 +125,11 @@ def ways_of_ink(ink: NDArray[np.bool_], line_px: float) -> Iterator[Way]:
         paper = float((layered & ~ink).sum() / max(1, layered.sum()))
         yield Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
     plain = wall_thickness(ink, line_px)
+    single = plain is None or plain.most_px < SINGLE_LINE * line_px
+    if single and soft is not None:
+        for pen in broader_pens(soft, ink):
+            yield Way(ink, pen.mask, pen.thickness, "single-line", "by pen")
     if plain is not None:
-        single = plain.most_px < SINGLE_LINE * line_px
         yield Way(ink, ink, plain, "single-line" if single else "filled")
 
 
