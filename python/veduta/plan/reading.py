@@ -47,6 +47,9 @@ APART = 0.7
 FEWEST_LABELS = 4
 """... where there are so many; otherwise other ways in which walls may be drawn are tried."""
 
+SIZINGS = 2
+"""More doors are found where their usual width is known, and say it better."""
+
 MOST_WALLS = 250
 """A reading with more stands: each takes a minute, and most of them are noise."""
 
@@ -140,7 +143,9 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
         near = nearness(found, sheet.faint)
         found = with_bays(with_bows(found, near), near)
     judged = judge_gaps(found, sheet)
-    if (sized := sized_by_doors(found, judged)) is not found:
+    for _ in range(SIZINGS):
+        if (sized := sized_by_doors(found, judged)) is found:
+            break
         found = sized
         judged = judge_gaps(found, sheet)
     leaves = leaf_pieces(found.pieces, judged)
@@ -166,7 +171,8 @@ def sized_by_doors(found: Found, judged: Sequence[Judged]) -> Found:
     How broad these are says nothing of how wide openings are, which count in thin walls.
     """
     single = all(one.drawing == "single-line" for one in [*found.pieces, *found.curved])
-    door_px = usual_door(judged)
+    # One door says more of it than the breadth of a pen does.
+    door_px = usual_door(judged, fewest=1)
     if not single or door_px is None:
         return found
     thin_px = door_px / USUAL_DOOR

@@ -181,6 +181,23 @@ def test_a_filled_wall_is_pierced_by_a_window_and_not_by_a_bench_beside_it(pierc
         assert found == []
 
 
+@pytest.mark.parametrize("above", [0, 2])
+@pytest.mark.parametrize("below", [0, 2])
+def test_a_bar_over_a_wall_of_one_line_is_a_window(above: int, below: int) -> None:
+    sheet = np.zeros((300, 400), np.uint8)
+    cv2.rectangle(sheet, (20, Y - 3), (380, Y + 3), 255, -1)
+    bare = profile(cut_strip(*ends(), 6.0, as_sheet(sheet)))
+    cv2.rectangle(sheet, (140, Y - 3 - above), (240, Y + 3 + below), 255, -1)
+    own = profile(cut_strip(*ends(), 6.0, as_sheet(sheet)))
+    assert changed_stretches(own, usual_profile([bare]), 30) == []
+    found = changed_stretches(own, usual_profile([bare]), 30, bars=True)
+    if above and below:
+        ((low, high),) = found
+        assert (low + 40, high + 40) == pytest.approx((140, 240), abs=4)
+    else:
+        assert found == []
+
+
 def test_av3d_pairs_the_edges_of_a_window() -> None:
     sheet = as_sheet(hollow((140, 240)))
     edges = [one.at + 40 for one in side_edges(cut_strip(*ends(), 2 * HALF, sheet))]

@@ -24,6 +24,7 @@ from veduta.plan.openings.sky import leads_out
 from veduta.plan.openings.strip import Sheet, Strip, cut_strip
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.join import SAME_THICKNESS
+from veduta.plan.walls.pieces import Piece
 
 ROWS = np.linspace(-1.2, 1.2, 13)
 """Where across the wall ink is compared, in half thicknesses."""
@@ -47,6 +48,10 @@ SOLID = 0.7
 PIERCED = 0.6
 """An opening in a filled wall shows a row that is at most so dark, as a part of the wall there."""
 
+BAR, BAR_SIDE = 0.1, 0.03
+"""Where the lines of a window run into the one that a wall is drawn as, this is so much darker
+beside both faces together, in the mean, and beside each, as a part of its darkest row."""
+
 STEADY = 0.16
 """Across an opening its own drawing is the same, up to this part of the darkest row."""
 
@@ -55,29 +60,56 @@ def with_unbroken(
     axes: Sequence[Axis], sheet: Sheet, thin_px: float, sky: BaseGeometry
 ) -> list[Axis]:
     """The axes with windows and doors that lead outdoors where their walls are not interrupted."""
-    profiles = [_own(axis, sheet) for axis in axes]
+    pen_px = _pen(axes)
+    profiles = [_own(axis, sheet, pen_px) for axis in axes]
     walls = [_without(axis, own) for axis, own in zip(axes, profiles, strict=True)]
     done = []
     for axis, own in zip(axes, profiles, strict=True):
-        thick = axis.line.thickness_px
         alike = [
-            wall
-            for wall, other in zip(walls, axes, strict=True)
-            if max(thick, other.line.thickness_px)
-            <= SAME_THICKNESS * min(thick, other.line.thickness_px)
+            wall for wall, other in zip(walls, axes, strict=True) if _alike(axis.line, other.line)
         ]
         more = []
         if not axis.closing and sum(wall.shape[1] for wall in alike) > 0:
             usual = usual_profile(alike)
-            spans = changed_stretches(own, usual, LEAST_WIDTH * thin_px)
+            bars = axis.line.drawing == "single-line"
+            spans = changed_stretches(own, usual, LEAST_WIDTH * thin_px, bars=bars)
             more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
         done.append(replace(axis, openings=(*axis.openings, *more)))
     return done
 
 
-def _own(axis: Axis, sheet: Sheet) -> NDArray[np.float64]:
+def _alike(one: Piece, other: Piece) -> bool:
+    """Whether walls are drawn in the same way: as lines of one pen, or as thick as each other."""
+    if one.drawing == other.drawing == "single-line":
+        return True
+    thick = sorted((one.thickness_px, other.thickness_px))
+    return thick[1] <= SAME_THICKNESS * thick[0]
+
+
+def _own(axis: Axis, sheet: Sheet, pen_px: float) -> NDArray[np.float64]:
     line = axis.line
-    return profile(cut_strip(line.start, line.end, line.thickness_px, sheet, 0.0, line.bulge))
+    if line.drawing != "single-line":
+        return profile(cut_strip(line.start, line.end, line.thickness_px, sheet, 0.0, line.bulge))
+    # The line of a wall that is mostly windows, which broaden it, is no broader than others, and
+    # half a pixel off its middle is much of a line.
+    strip = cut_strip(line.start, line.end, pen_px, sheet, 0.0, line.bulge)
+    return profile(strip, _middle(strip))
+
+
+def _middle(strip: Strip) -> float:
+    """Where across a strip its ink has its middle, in most columns, px."""
+    ink = np.maximum(strip.ink - strip.paper, 0.0)
+    total = ink.sum(axis=0)
+    drawn = total > 0
+    return float(np.median((strip.steps @ ink)[drawn] / total[drawn])) if drawn.any() else 0.0
+
+
+def _pen(axes: Sequence[Axis]) -> float:
+    """How broad walls that are single lines are drawn, usually; 0 where there are none."""
+    lines = [axis.line for axis in axes if axis.line.drawing == "single-line"]
+    lengths = [max(1, round(line.length_px)) for line in lines]
+    widths = np.repeat([line.thickness_px for line in lines], lengths)
+    return float(np.median(widths)) if len(widths) else 0.0
 
 
 def _without(axis: Axis, own: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -106,9 +138,9 @@ def _opening(
     return OnAxis(seen, low, high, along=True)
 
 
-def profile(strip: Strip) -> NDArray[np.float64]:
-    """Ink above the paper at ROWS for each column, (rows, columns)."""
-    at = ROWS * strip.half_px
+def profile(strip: Strip, middle_px: float = 0.0) -> NDArray[np.float64]:
+    """Ink above the paper at ROWS, about a middle, for each column: (rows, columns)."""
+    at = middle_px + ROWS * strip.half_px
     order = np.clip(np.searchsorted(strip.steps, at), 1, len(strip.steps) - 1)
     low = strip.steps[order - 1]
     share = ((at - low) / (strip.steps[order] - low))[:, None]
@@ -123,9 +155,12 @@ def usual_profile(profiles: Sequence[NDArray[np.float64]]) -> NDArray[np.float64
 
 
 def changed_stretches(
-    own: NDArray[np.float64], usual: NDArray[np.float64], least_px: float
+    own: NDArray[np.float64], usual: NDArray[np.float64], least_px: float, *, bars: bool = False
 ) -> list[tuple[int, int]]:
-    """Columns from and to which a wall is drawn in another way, at least `least_px` long."""
+    """Columns from and to which a wall is drawn in another way, at least `least_px` long.
+
+    `bars`: whether a broader line counts, which in walls of some breadth is a bench beside them.
+    """
     level = max(float(usual.max()), 0.1)
     changed = np.abs(own - usual[:, None]).mean(axis=0) > CHANGE * level
     starts, ends = runs(~changed)
@@ -138,7 +173,8 @@ def changed_stretches(
         if high - low < max(least_px, 6):
             continue
         stray = np.abs(inside - np.median(inside, axis=1)[:, None]).mean()
-        if stray <= STEADY * level and _pierced(inside, usual, level):
+        drawn = _pierced(inside, usual, level) or (bars and _barred(inside, usual, level))
+        if stray <= STEADY * level and drawn:
             found.append((int(low), int(high)))
     return found
 
@@ -153,3 +189,10 @@ def _pierced(inside: NDArray[np.float64], usual: NDArray[np.float64], level: flo
         return True
     rows = np.median(inside[within], axis=1)
     return bool((rows < PIERCED * usual[within]).any())
+
+
+def _barred(inside: NDArray[np.float64], usual: NDArray[np.float64], level: float) -> bool:
+    """Whether a line is broader there on both of its sides."""
+    beyond = np.median(inside, axis=1) - usual
+    sides = beyond[:2].mean() / level, beyond[-2:].mean() / level
+    return bool(min(sides) > BAR_SIDE and sum(sides) > 2 * BAR)

@@ -121,10 +121,10 @@ def _is_slit(judged: Judged, least_px: float) -> bool:
     return judged.kind != "window" and judged.gap.width_px < narrow
 
 
-def usual_door(judged: Sequence[Judged]) -> float | None:
-    """The median width of doors with leaves, in pixels; None where fewer than three are known."""
+def usual_door(judged: Sequence[Judged], fewest: int = 3) -> float | None:
+    """The median width of doors with leaves, in pixels; None where fewer are known."""
     widths = [one.gap.width_px for one in judged if one.type == "swing"]
-    return float(np.median(widths)) if len(widths) >= 3 else None
+    return float(np.median(widths)) if len(widths) >= fewest else None
 
 
 def _usual_leaf(judged: Sequence[Judged]) -> float | None:
