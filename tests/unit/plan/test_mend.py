@@ -94,6 +94,30 @@ def test_a_way_without_a_drawing_stays_open_in_one_room() -> None:
     assert not drawn.notes
 
 
+def test_a_way_to_a_stub_is_one_between_ends() -> None:
+    image = house()
+    cv2.rectangle(image, (396, 476), (403, 483), BLACK, -1)
+    assert areas(read_storey(image, [])) == pytest.approx([280 * 368, 280 * 368], rel=0.03)
+
+
+def corridor() -> Image:
+    """As `house`, with a corridor of 70 px across it, and the inner wall above and below it."""
+    image = house()
+    for top in (257, 335):
+        cv2.rectangle(image, (116, top), (683, top + 7), BLACK, -1)
+    cv2.rectangle(image, (396, 265), (403, 334), WHITE, -1)
+    cv2.rectangle(image, (396, 343), (403, 483), BLACK, -1)
+    return image
+
+
+def test_a_corridor_is_one_room_where_walls_meet_it_from_both_sides(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    assert len(read_storey(corridor(), []).rooms) == 5
+    monkeypatch.setattr(mend, "ROOM", 0.0)
+    assert len(read_storey(corridor(), []).rooms) == 6
+
+
 def test_two_names_in_one_space_close_it_and_that_is_said() -> None:
     texts = [text("Bedroom", 250, 250), text("Hall", 250, 445), text("Living room", 550, 250)]
     drawn = read_storey(without_arc(), texts)
@@ -142,10 +166,10 @@ def test_a_room_that_is_open_to_the_outdoors_is_closed() -> None:
 
 
 def facing() -> Image:
-    """As `house`, but the inner wall is parted by 250 px: 16 times as wide as walls."""
+    """As `house`, but the inner wall is parted by 270 px: 17 times as wide as walls."""
     image = house()
     cv2.rectangle(image, (396, 116), (403, 483), BLACK, -1)
-    cv2.rectangle(image, (396, 175), (403, 424), WHITE, -1)
+    cv2.rectangle(image, (396, 165), (403, 434), WHITE, -1)
     return image
 
 

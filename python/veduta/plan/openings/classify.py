@@ -19,11 +19,15 @@ CENTRED = 0.3
 """Panels that slide past each other meet in a line so near to the wall's middle (half
 thicknesses)."""
 
-PLAIN_WIDTH = 14.0
-"""Passages without any drawing are at most so many (thin) wall thicknesses wide between ends."""
+PLAIN_WIDTH = 16.0
+"""Passages without any drawing are at most so many (thin) wall thicknesses wide between ends, as
+those to open stairs are: two doors."""
 
 PLAIN_TO_SIDE = 9.0
-"""And so many from an end to the side of a wall."""
+"""And so many from an end to the side of a wall ..."""
+
+STUB = 0.4
+"""... where no stub stands there: one of so many thicknesses is an end."""
 
 WIDEST_DOOR = 22.0
 """Leaves are at most so many (thin) wall thicknesses wide, both of a double door together."""
@@ -69,7 +73,9 @@ def _drawn(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judg
             kind: OpeningType = "plain" if not seen.lines else "unknown"
             return Judged(gap, "door", kind, "none", "none", 0.6)
         return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
-    limit = PLAIN_TO_SIDE if gap.to_side else PLAIN_WIDTH
+    stub_px = float(np.hypot(*(gap.far - gap.end)))
+    to_side = gap.to_side and stub_px < STUB * gap.thickness_px
+    limit = PLAIN_TO_SIDE if to_side else PLAIN_WIDTH
     if gap.width_px > limit * thin_px:
         return None
     return Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)

@@ -61,6 +61,10 @@ ROOMY = (0.9, 2.0)
 """On both sides of a passage a space is so many times as broad, and holds so many squares of its
 width: a corridor is hardly broader, a niche holds less."""
 
+ROOM = 1.2
+"""On one side it is so many times as broad: in the middle of a corridor there is no passage, where
+walls of rooms on both its sides face each other."""
+
 GLAZED = 1.5
 """Ways out that are so many times as wide as a door are taken for glazed doors that slide."""
 
@@ -318,9 +322,12 @@ class _Looker:
             return False
         if one.width_px > PASSAGE * self.found.thin_px:
             return False
-        broad, squares = ROOMY[0] * one.width_px, ROOMY[1] * one.width_px**2
-        roomy = [part for part in parts if part.area >= squares]
-        return sum(not part.buffer(-broad / 2).is_empty for part in roomy) > 1
+        roomy = [part for part in parts if part.area >= ROOMY[1] * one.width_px**2]
+
+        def as_broad(factor: float) -> int:
+            return sum(not part.buffer(-factor * one.width_px / 2).is_empty for part in roomy)
+
+        return as_broad(ROOMY[0]) > 1 and as_broad(ROOM) > 0
 
     def _open(self, part: Polygon) -> bool:
         """Whether it reaches the border of the sheet."""
