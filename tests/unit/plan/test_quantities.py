@@ -73,6 +73,28 @@ def test_both_units_of_one_size() -> None:
 
 
 @pytest.mark.parametrize(
+    ("text", "feet"),
+    [
+        ("39'5°×4'10\"", (39 + 5 / 12, 4 + 10 / 12)),
+        ("102°×4'10", (10 + 2 / 12, 4 + 10 / 12)),
+        ("103°×88°", (10 + 3 / 12, 8 + 8 / 12)),
+        ('125" ×117°', (12 + 5 / 12, 11 + 7 / 12)),
+        ("67*×8'8", (6 + 7 / 12, 8 + 8 / 12)),
+        ("12'11'×10'2", (12 + 11 / 12, 10 + 2 / 12)),
+    ],
+)
+def test_marks_of_feet_and_inches_that_were_misread(text: str, feet: tuple[float, float]) -> None:
+    found = _kinds(text, "size")
+    likeliest = max(found, key=lambda one: one.trust)
+    assert likeliest.values == pytest.approx([0.3048 * one for one in feet])
+
+
+@pytest.mark.parametrize("text", ['36"', "90°", "20 °C"])
+def test_inches_and_degrees_alone_are_no_lengths(text: str) -> None:
+    assert read_quantities(text) == []
+
+
+@pytest.mark.parametrize(
     ("text", "metres"),
     [
         ("3450", 3.45),

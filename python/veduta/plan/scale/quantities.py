@@ -61,12 +61,12 @@ _METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m(?=\W|x|$))?"
 _FEET = (
     r"(?P<{0}f>\d{{1,3}})\s*(?:'|ft(?![a-wyz])\.?)\s*-?\s*"
     r"(?:(?P<{0}i>\d{{1,2}}(?:[.]\d+)?)(?!\d)(?:\s*(?P<{0}p>\d)/(?P<{0}q>\d{{1,2}}))?"
-    r"\s*(?:\"|''|in(?![a-wyz])\.?)?)?"
+    r"\s*(?:\"|''?|in(?![a-wyz])\.?)?)?"
 )
-_WHOLE = r"(?P<{0}n>\d{{2,5}})\s*(?P<{0}u>mm|cm)?"
+_WHOLE = r"(?P<{0}n>\d{{2,5}})\s*(?:(?P<{0}u>mm|cm)|(?P<{0}k>\"))?"
 _SIDE = rf"(?:{_METRIC}|{_FEET}|{_WHOLE})"
 _SIZE = re.compile(
-    rf"(?<![\d.=]){_SIDE.format('a')}\s*x\s*{_SIDE.format('b')}(?![\d.])", re.IGNORECASE
+    rf"(?<![\d.=]){_SIDE.format('a')}\s*x+\s*{_SIDE.format('b')}(?![\d.])", re.IGNORECASE
 )
 _ALONE = re.compile(rf"^\W*{_SIDE.format('a')}\W*$", re.IGNORECASE)
 _WITH_UNIT = re.compile(r"(?<![\d.=])(\d{1,3}(?:[.]\d{1,3})?)\s*m(?![\w²?*])", re.IGNORECASE)
@@ -96,7 +96,8 @@ def _plain(text: str) -> str:
     """One character for each meaning: of times, feet, inches, decimals and thousands."""
     plain = re.sub(r"[×хХ✕*]|\bby\b", "x", text)
     plain = re.sub(r"[’‘′`´ʹ]", "'", plain)
-    plain = re.sub(r"[”“″ʺ]|''", '"', plain)
+    # In small print the mark of inches is read as that of degrees.
+    plain = re.sub(r"[”“″ʺ]|''|(?<=\d)\s?[°º]", '"', plain)
     plain = re.sub(r"[–—−]", "-", plain)
     plain = re.sub(r"(?<=\d)\s?[,.]\s?(?=\d)", ".", plain)
     plain = re.sub(r"(?<=[\d.'])[oO](?=[\d.'\" ]|$)", "0", plain)
@@ -159,21 +160,31 @@ def _side(match: re.Match[str], which: str) -> Iterator[tuple[str, float, float,
         if inches < 12.0:
             yield "ft", int(feet) * FOOT_M + inches * INCH_M, INCH_M, 1.0
     else:
-        yield from _whole(whole, match[which + "u"])
+        yield from _whole(whole, match[which + "u"], bool(match[which + "k"]))
 
 
-def _whole(digits: str, unit: str | None) -> Iterator[tuple[str, float, float, float]]:
+def _whole(
+    digits: str, unit: str | None, inches_marked: bool = False
+) -> Iterator[tuple[str, float, float, float]]:
     """What a whole number can mean. Trusts follow what draughtsmen write, not a measurement."""
     number = int(digits)
+    if inches_marked:
+        yield from _feet_of(digits, 0.8)
+        return
     if unit == "mm" or (unit is None and len(digits) >= 3):
         yield "mm", number / 1000.0, 0.005, 0.9 if len(digits) >= 4 or unit else 0.4
     if unit == "cm" or (unit is None and 2 <= len(digits) <= 4):
         yield "cm", number / 100.0, 0.01, 0.9 if unit else (0.5 if len(digits) == 3 else 0.2)
     if unit is None:
-        for cut in range(1, min(3, len(digits))):
-            inches = digits[cut:]
-            if len(inches) <= 2 and int(inches) < 12 and (len(inches) == 1 or inches[0] != "0"):
-                yield "ft", int(digits[:cut]) * FOOT_M + int(inches) * INCH_M, INCH_M, 0.5
+        yield from _feet_of(digits, 0.5)
+
+
+def _feet_of(digits: str, trust: float) -> Iterator[tuple[str, float, float, float]]:
+    """Feet and inches whose mark between was lost."""
+    for cut in range(1, min(3, len(digits))):
+        inches = digits[cut:]
+        if len(inches) <= 2 and int(inches) < 12 and (len(inches) == 1 or inches[0] != "0"):
+            yield "ft", int(digits[:cut]) * FOOT_M + int(inches) * INCH_M, INCH_M, trust
 
 
 def _within(kind: Kind, values: tuple[float, ...], step: float, trust: float) -> Iterator[Quantity]:
