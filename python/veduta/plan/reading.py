@@ -21,7 +21,7 @@ from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
 from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.along import with_unbroken
-from veduta.plan.openings.classify import Judged, judge
+from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judge
 from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import find_gaps, trimmed
@@ -46,6 +46,9 @@ APART = 0.7
 
 FEWEST_LABELS = 4
 """... where there are so many; otherwise other ways in which walls may be drawn are tried."""
+
+SURE_DOOR = 0.8
+"""One or two doors say how wide they are if their leaves are drawn so well."""
 
 SIZINGS = 2
 """More doors are found where their usual width is known, and say it better."""
@@ -143,8 +146,9 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
         near = nearness(found, sheet.faint)
         found = with_bays(with_bows(found, near), near)
     judged = judge_gaps(found, sheet)
+    pen_px = found.thin_px
     for _ in range(SIZINGS):
-        if (sized := sized_by_doors(found, judged)) is found:
+        if (sized := sized_by_doors(found, judged, pen_px)) is found:
             break
         found = sized
         judged = judge_gaps(found, sheet)
@@ -165,18 +169,19 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
     return drawn_from(cleaned, found, laid, texts, whole.notes)
 
 
-def sized_by_doors(found: Found, judged: Sequence[Judged]) -> Found:
+def sized_by_doors(found: Found, judged: Sequence[Judged], pen_px: float) -> Found:
     """The walls with `thin_px` as the usual door has it, where lines stand for walls.
 
-    How broad these are says nothing of how wide openings are, which count in thin walls.
+    How broad these are, at least `pen_px`, says nothing of how wide openings are, which count in
+    thin walls. One door that is drawn well says more of it, and three say more than one.
     """
     single = all(one.drawing == "single-line" for one in [*found.pieces, *found.curved])
-    # One door says more of it than the breadth of a pen does.
-    door_px = usual_door(judged, fewest=1)
+    sure = [one for one in judged if one.score >= SURE_DOOR]
+    door_px = usual_door(judged) or usual_door(sure, fewest=1)
     if not single or door_px is None:
         return found
-    thin_px = door_px / USUAL_DOOR
-    return replace(found, thin_px=thin_px) if thin_px > found.thin_px else found
+    thin_px = max(pen_px, door_px / USUAL_DOOR)
+    return found if thin_px == found.thin_px else replace(found, thin_px=thin_px, sized=True)
 
 
 def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
@@ -187,12 +192,15 @@ def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
     ]
     gaps = [one for gap in ahead if (one := trimmed(gap, found.solid))]
     seen = [look_at(gap, sheet) for gap in gaps]
-    first = [judge(gap, view, found.thin_px, None) for gap, view in zip(gaps, seen, strict=True)]
+    plain = PLAIN_DOORS * USUAL_DOOR if found.sized else PLAIN_WIDTH
+    first = [
+        judge(gap, view, found.thin_px, None, plain) for gap, view in zip(gaps, seen, strict=True)
+    ]
     kept = [one.gap for one in first if one is not None]
     walls = [*found.pieces, *found.curved]
     outer = leads_outdoors(gaps, walls, kept, sheet.ink.shape)
     second = [
-        judge(gap, view, found.thin_px, out)
+        judge(gap, view, found.thin_px, out, plain)
         for gap, view, out in zip(gaps, seen, outer, strict=True)
     ]
     return [one for one in second if one is not None]

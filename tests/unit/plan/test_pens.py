@@ -109,3 +109,14 @@ def test_one_pen_draws_no_walls() -> None:
 def test_a_blank_sheet_has_no_pens() -> None:
     ink = np.zeros((100, 100), np.float32)
     assert broader_pens(ink, ink > 0.4) == []
+
+
+@pytest.mark.parametrize("frame", [4.0, 4.5])
+def test_the_border_of_a_sheet_is_no_house(frame: float) -> None:
+    image = sheet()
+    draw(image, HOUSE, 3.0)
+    draw(image, LINES, 3.0)
+    corners = [(20, 20), (580, 20), (580, 460), (20, 460)]
+    draw(image, tuple(zip(corners, corners[1:] + corners[:1], strict=True)), frame)
+    ink = seen(image, 0.5)
+    assert broader_pens(ink, marks(ink, 3.0)) == []

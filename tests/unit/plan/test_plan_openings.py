@@ -8,9 +8,10 @@ import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from shapely.geometry import box
 
 from veduta.plan.document import OpeningType
-from veduta.plan.openings.along import changed_stretches, profile, usual_profile
+from veduta.plan.openings.along import changed_stretches, profile, usual_profile, with_unbroken
 from veduta.plan.openings.av3d import search_wall, side_edges
 from veduta.plan.openings.classify import Judged, judge
 from veduta.plan.openings.evidence import look_at
@@ -196,6 +197,41 @@ def test_a_bar_over_a_wall_of_one_line_is_a_window(above: int, below: int) -> No
         assert (low + 40, high + 40) == pytest.approx((140, 240), abs=4)
     else:
         assert found == []
+
+
+def lines_of_two_pens(bar: bool, off_px: float) -> tuple[Sheet, list[Axis]]:
+    """A house of lines of 7 px with inner walls of 4 px; a window of two lines in the upper wall.
+
+    The axes lie `off_px` beside the middles of the lines.
+    """
+    sheet = np.zeros((400, 600), np.uint8)
+    outer = [(50, 50, 550, 50), (550, 50, 550, 350), (50, 350, 550, 350), (50, 50, 50, 350)]
+    inner = [(x, 50, x, 350) for x in (130, 210, 290, 370, 450)]
+    inner += [(50, y, 550, y) for y in (150, 250)]
+    axes = []
+    for lines, thick in ((outer, 7), (inner, 4)):
+        for x, y, right, bottom in lines:
+            sheet[y - thick // 2 : bottom + (thick + 1) // 2,
+                  x - thick // 2 : right + (thick + 1) // 2] = 255  # fmt: skip
+            middle = (thick % 2) / 2 + off_px
+            start, end = np.array([x, y]) + middle, np.array([right, bottom]) + middle
+            axes.append(Axis(Piece(start, end, float(thick), "single-line"), ()))
+    if bar:
+        sheet[45:57, 220:280] = 255
+    return as_sheet(sheet), axes
+
+
+@pytest.mark.parametrize("off_px", [0.0, 0.6])
+@pytest.mark.parametrize("bar", [False, True])
+def test_outer_walls_of_a_broader_pen_are_no_windows(bar: bool, off_px: float) -> None:
+    sheet, axes = lines_of_two_pens(bar, off_px)
+    sky = box(-100, -100, 700, 500).difference(box(46, 46, 554, 354))
+    found = with_unbroken(axes, sheet, 10.0, sky)
+    spans = [(one.first + 50, one.last + 50) for axis in found for one in axis.openings]
+    if bar:
+        assert spans == [pytest.approx((220, 280), abs=4)]
+    else:
+        assert spans == []
 
 
 def test_av3d_pairs_the_edges_of_a_window() -> None:

@@ -89,9 +89,15 @@ def test_marks_of_feet_and_inches_that_were_misread(text: str, feet: tuple[float
     assert likeliest.values == pytest.approx([0.3048 * one for one in feet])
 
 
-@pytest.mark.parametrize("text", ['36"', "90°", "20 °C"])
-def test_inches_and_degrees_alone_are_no_lengths(text: str) -> None:
+@pytest.mark.parametrize("text", ['36" x 24"', '12" x 12"', "20° x 30°"])
+def test_inches_of_a_hob_or_a_tile_are_no_room(text: str) -> None:
     assert read_quantities(text) == []
+
+
+def test_inches_of_a_room_are_a_reading() -> None:
+    sizes = [one.values for one in _kinds('133" x 117"', "size")]
+    assert pytest.approx((133 * 0.0254, 117 * 0.0254)) in sizes
+    assert pytest.approx(((13 + 3 / 12) * 0.3048, (11 + 7 / 12) * 0.3048)) in sizes
 
 
 @pytest.mark.parametrize(
@@ -106,6 +112,9 @@ def test_inches_and_degrees_alone_are_no_lengths(text: str) -> None:
         ("12'-6 1/2\"", 3.8227),
         ("2700 mm", 2.7),
         ("270 cm", 2.7),
+        ('3450"', 3.45),
+        ("3450°", 3.45),
+        ("345°", 3.45),
     ],
 )
 def test_lengths_of_dimension_lines(text: str, metres: float) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import cv2
 import numpy as np
 import pytest
@@ -10,8 +12,13 @@ from numpy.typing import NDArray
 from veduta.plan.compose import compose_storey
 from veduta.plan.document import Scale
 from veduta.plan.drawn import Drawn
-from veduta.plan.reading import read_storey
+from veduta.plan.openings.classify import Judged
+from veduta.plan.openings.gaps import Gap
+from veduta.plan.reading import read_storey, sized_by_doors
 from veduta.plan.rooms import mend
+from veduta.plan.walls.find import Found
+from veduta.plan.walls.pieces import Piece
+from veduta.plan.walls.solid import Thickness
 from veduta.run.errors import NotFoundError
 
 Image = NDArray[np.uint8]
@@ -170,3 +177,22 @@ def test_a_drawing_of_which_all_is_taken_for_walls_is_not_mended(
     notes = " ".join(read_storey(two_rooms()).notes)
     assert "pieces of wall were found" in notes
     assert "a cleaner or a sharper scan" in notes
+
+
+def _door(width: float, score: float) -> Judged:
+    gap = Gap(0, True, 1, False, np.zeros(2), np.array([width, 0.0]), 5.0, np.array([width, 0.0]))
+    return Judged(gap, "door", "swing", "start", "left", score)
+
+
+def test_one_sure_door_sizes_walls_that_are_lines_and_more_doors_say_it_better() -> None:
+    wall = Piece(np.zeros(2), np.array([500.0, 0.0]), 5.0, "single-line")
+    found = Found([wall], np.ones((2, 2), np.bool_), Thickness(4.0, 5.0), 5.0)
+    assert sized_by_doors(found, [_door(160.0, 0.7)], 5.0) is found
+    sized = sized_by_doors(found, [_door(160.0, 0.9)], 5.0)
+    assert sized.sized
+    assert sized.thin_px == pytest.approx(20.0)
+    assert sized_by_doors(sized, [_door(160.0, 0.9)], 5.0) is sized
+    again = sized_by_doors(sized, [_door(160.0, 0.9), _door(88.0, 0.7), _door(80.0, 0.7)], 5.0)
+    assert again.thin_px == pytest.approx(11.0)
+    filled = replace(found, pieces=[replace(wall, drawing="filled")])
+    assert sized_by_doors(filled, [_door(160.0, 0.9)], 5.0) is filled

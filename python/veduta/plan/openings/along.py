@@ -24,7 +24,6 @@ from veduta.plan.openings.sky import leads_out
 from veduta.plan.openings.strip import Sheet, Strip, cut_strip
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.join import SAME_THICKNESS
-from veduta.plan.walls.pieces import Piece
 
 ROWS = np.linspace(-1.2, 1.2, 13)
 """Where across the wall ink is compared, in half thicknesses."""
@@ -52,6 +51,9 @@ BAR, BAR_SIDE = 0.1, 0.03
 """Where the lines of a window run into the one that a wall is drawn as, this is so much darker
 beside both faces together, in the mean, and beside each, as a part of its darkest row."""
 
+MOST_WINDOW = 0.8
+"""Less than this part of a wall that is a single line is window."""
+
 STEADY = 0.16
 """Across an opening its own drawing is the same, up to this part of the darkest row."""
 
@@ -60,48 +62,79 @@ def with_unbroken(
     axes: Sequence[Axis], sheet: Sheet, thin_px: float, sky: BaseGeometry
 ) -> list[Axis]:
     """The axes with windows and doors that lead outdoors where their walls are not interrupted."""
-    pen_px = _pen(axes)
-    profiles = [_own(axis, sheet, pen_px) for axis in axes]
-    walls = [_without(axis, own) for axis, own in zip(axes, profiles, strict=True)]
+    spans = _changed_by_pen(axes, sheet, LEAST_WIDTH * thin_px)
     done = []
-    for axis, own in zip(axes, profiles, strict=True):
-        alike = [
-            wall for wall, other in zip(walls, axes, strict=True) if _alike(axis.line, other.line)
-        ]
-        more = []
-        if not axis.closing and sum(wall.shape[1] for wall in alike) > 0:
-            usual = usual_profile(alike)
-            bars = axis.line.drawing == "single-line"
-            spans = changed_stretches(own, usual, LEAST_WIDTH * thin_px, bars=bars)
-            more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
+    for axis, own in zip(axes, spans, strict=True):
+        more = [one for span in own if (one := _opening(axis, span, sheet, thin_px, sky))]
         done.append(replace(axis, openings=(*axis.openings, *more)))
     return done
 
 
-def _alike(one: Piece, other: Piece) -> bool:
-    """Whether walls are drawn in the same way: as lines of one pen, or as thick as each other."""
-    if one.drawing == other.drawing == "single-line":
-        return True
-    thick = sorted((one.thickness_px, other.thickness_px))
-    return thick[1] <= SAME_THICKNESS * thick[0]
+def _changed_by_pen(
+    axes: Sequence[Axis], sheet: Sheet, least_px: float
+) -> list[list[tuple[int, int]]]:
+    """The stretches of each wall that are drawn in another way than walls.
+
+    Walls that are single lines are compared with all of these, and as broad as the pen of most:
+    what is mostly windows is broadened by them. One that differs from end to end is of another pen.
+    """
+    thick = [axis.line.thickness_px for axis in axes]
+    lines = [axis.line.drawing == "single-line" for axis in axes]
+    pen_px = _pen(axes)
+    as_thick = [_own(axis, sheet, px) for axis, px in zip(axes, thick, strict=True)]
+    as_pen = [
+        _own(axis, sheet, pen_px) if single else own
+        for axis, own, single in zip(axes, as_thick, lines, strict=True)
+    ]
+    found = []
+    for number, axis in enumerate(axes):
+        alike = [
+            max(one, thick[number]) <= SAME_THICKNESS * min(one, thick[number]) for one in thick
+        ]
+        spans: list[tuple[int, int]] = []
+        for owns, chosen in ((as_pen, lines), (as_thick, alike))[0 if lines[number] else 1 :]:
+            spans = _changed(number, axes, owns, chosen, least_px)
+            if sum(high - low for low, high in spans) < MOST_WINDOW * owns[number].shape[1]:
+                break
+            spans = [] if lines[number] else spans
+        found.append([] if axis.closing else spans)
+    return found
 
 
-def _own(axis: Axis, sheet: Sheet, pen_px: float) -> NDArray[np.float64]:
+def _changed(
+    number: int,
+    axes: Sequence[Axis],
+    owns: Sequence[NDArray[np.float64]],
+    chosen: Sequence[bool],
+    least_px: float,
+) -> list[tuple[int, int]]:
+    """Where a wall differs from the chosen ones, whose profiles are `owns`."""
+    walls = [
+        _without(axis, own) for axis, own, taken in zip(axes, owns, chosen, strict=True) if taken
+    ]
+    if sum(wall.shape[1] for wall in walls) == 0:
+        return []
+    bars = axes[number].line.drawing == "single-line"
+    return changed_stretches(owns[number], usual_profile(walls), least_px, bars=bars)
+
+
+def _own(axis: Axis, sheet: Sheet, thick_px: float) -> NDArray[np.float64]:
+    """The ink across a wall; half a pixel off its middle is much of a line."""
     line = axis.line
-    if line.drawing != "single-line":
-        return profile(cut_strip(line.start, line.end, line.thickness_px, sheet, 0.0, line.bulge))
-    # The line of a wall that is mostly windows, which broaden it, is no broader than others, and
-    # half a pixel off its middle is much of a line.
-    strip = cut_strip(line.start, line.end, pen_px, sheet, 0.0, line.bulge)
-    return profile(strip, _middle(strip))
+    strip = cut_strip(line.start, line.end, thick_px, sheet, 0.0, line.bulge)
+    return profile(strip, _middle(strip) if line.drawing == "single-line" else 0.0)
 
 
 def _middle(strip: Strip) -> float:
-    """Where across a strip its ink has its middle, in most columns, px."""
-    ink = np.maximum(strip.ink - strip.paper, 0.0)
+    """Where across a strip the ink of its line has its middle, in most columns, px."""
+    near = np.abs(strip.steps) <= strip.half_px + 1.0
+    ink = np.maximum(strip.ink[near] - strip.paper, 0.0)
     total = ink.sum(axis=0)
     drawn = total > 0
-    return float(np.median((strip.steps @ ink)[drawn] / total[drawn])) if drawn.any() else 0.0
+    if not drawn.any():
+        return 0.0
+    middle = np.median((strip.steps[near] @ ink)[drawn] / total[drawn])
+    return float(np.clip(middle, -1.0, 1.0))
 
 
 def _pen(axes: Sequence[Axis]) -> float:

@@ -19,9 +19,11 @@ CENTRED = 0.3
 """Panels that slide past each other meet in a line so near to the wall's middle (half
 thicknesses)."""
 
-PLAIN_WIDTH = 16.0
-"""Passages without any drawing are at most so many (thin) wall thicknesses wide between ends, as
-those to open stairs are: two doors."""
+PLAIN_WIDTH = 14.0
+"""Passages without any drawing are at most so many (thin) wall thicknesses wide between ends."""
+
+PLAIN_DOORS = 2.0
+"""Or so many usual doors, as those to open stairs are, where walls are sized by these."""
 
 PLAIN_TO_SIDE = 9.0
 """And so many from an end to the side of a wall ..."""
@@ -52,17 +54,25 @@ class Judged:
     seen: Evidence | None = None
 
 
-def judge(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judged | None:
+def judge(
+    gap: Gap,
+    seen: Evidence,
+    thin_px: float,
+    outer: bool | None,
+    widest_plain: float = PLAIN_WIDTH,
+) -> Judged | None:
     """The kind of a gap, or None where nothing says that the wall goes on behind it.
 
     `thin_px` is the usual thickness of thin walls, `outer` whether it leads outdoors (None: not
-    known yet).
+    known yet). `widest_plain`: passages between ends of walls, in these thicknesses.
     """
-    judged = _drawn(gap, seen, thin_px, outer)
+    judged = _drawn(gap, seen, thin_px, outer, widest_plain)
     return None if judged is None else replace(judged, seen=seen)
 
 
-def _drawn(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judged | None:
+def _drawn(
+    gap: Gap, seen: Evidence, thin_px: float, outer: bool | None, widest_plain: float
+) -> Judged | None:
     door = _door(gap, seen) if gap.width_px < WIDEST_DOOR * thin_px else None
     if door is not None:
         return door
@@ -75,7 +85,7 @@ def _drawn(gap: Gap, seen: Evidence, thin_px: float, outer: bool | None) -> Judg
         return Judged(gap, "window", window_type(seen), "none", "none", _window_score(seen))
     stub_px = float(np.hypot(*(gap.far - gap.end)))
     to_side = gap.to_side and stub_px < STUB * gap.thickness_px
-    limit = PLAIN_TO_SIDE if to_side else PLAIN_WIDTH
+    limit = PLAIN_TO_SIDE if to_side else widest_plain
     if gap.width_px > limit * thin_px:
         return None
     return Judged(gap, "gap", "plain", "none", "none", 0.5 * seen.empty + 0.2)

@@ -57,6 +57,12 @@ _RATIOS = (
     1000,
 )
 
+MARKED_TRUST = 0.6
+"""Of `103"`, which is 10'3" where the mark of feet was lost, if rooms are so large ..."""
+
+LEAST_ROOM_M, LEAST_INCHES = 1.2, 48
+"""... and may be inches in all, of rooms."""
+
 _METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m(?=\W|x|$))?"
 _FEET = (
     r"(?P<{0}f>\d{{1,3}})\s*(?:'|ft(?![a-wyz])\.?)\s*-?\s*"
@@ -128,8 +134,11 @@ def _sizes(plain: str) -> Iterator[Quantity]:
         first, second = list(_side(match, "a")), list(_side(match, "b"))
         for unit, a, step, trust_a in first:
             for other, b, _, trust_b in second:
-                if unit == other:
-                    yield from _within("size", (a, b), step, min(trust_a, trust_b))
+                trust = min(trust_a, trust_b)
+                # A hob or a tile of 24" x 36" is no room of two feet four by three feet six.
+                no_room = trust == MARKED_TRUST and min(a, b) < LEAST_ROOM_M
+                if unit == other and not no_room:
+                    yield from _within("size", (a, b), step, trust)
 
 
 def _lengths(plain: str) -> Iterator[Quantity]:
@@ -139,7 +148,8 @@ def _lengths(plain: str) -> Iterator[Quantity]:
         yield from _within("area", (float(match[1]),), step, 0.3)
     alone = _ALONE.match(plain)
     if alone:
-        for unit, value, step, trust in _side(alone, "a"):
+        readings = _side(alone, "a") if alone["an"] is None else _whole(alone["an"], alone["au"])
+        for unit, value, step, trust in readings:
             if alone["an"] is None or unit != "ft":  # `157` alone is not taken for 15 feet 7
                 yield from _within("length", (value,), step, trust)
         return
@@ -169,8 +179,11 @@ def _whole(
     """What a whole number can mean. Trusts follow what draughtsmen write, not a measurement."""
     number = int(digits)
     if inches_marked:
-        yield from _feet_of(digits, 0.8)
-        return
+        yield from _feet_of(digits, MARKED_TRUST)
+        if number >= LEAST_INCHES:
+            yield "ft", number * INCH_M, INCH_M, 0.4
+        if len(digits) < 4:
+            return
     if unit == "mm" or (unit is None and len(digits) >= 3):
         yield "mm", number / 1000.0, 0.005, 0.9 if len(digits) >= 4 or unit else 0.4
     if unit == "cm" or (unit is None and 2 <= len(digits) <= 4):

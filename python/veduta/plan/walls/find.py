@@ -40,6 +40,7 @@ class Found:
     """Straight and curved pieces of wall, the mask of them, and how thick walls are.
 
     `by_colour`: they were told by the colour of their lines, so that nothing else is in the mask.
+    `sized`: `thin_px` is not measured but follows from how wide doors are.
     """
 
     pieces: list[Piece]
@@ -48,13 +49,14 @@ class Found:
     thin_px: float
     curved: list[Piece] = field(default_factory=list)
     by_colour: bool = False
+    sized: bool = False
 
 
 def find_walls(cleaned: Cleaned, way: Way) -> Found:
     """Find the pieces, as they are drawn; NotFoundError where no strokes are walls."""
     drawing, thickness = way.drawing, way.thickness
     known, alone = way.told == "known", way.told in ("known", "by pen")
-    # Of what is known, short piers between openings count, too.
+    # Of what is known, short piers between openings count, too; a pen's strokes may be thin.
     solid = way.mask if alone else thick_strokes(way.mask, thickness)
     if way.told == "by pen":
         solid = without_marks(solid, way.mask, thickness)

@@ -40,6 +40,10 @@ SAME = 0.05
 MEETING = 0.5
 """Walls meet: so much of what their pen draws, or more, is in pieces that have a corner."""
 
+FRAME, BARE = 0.8, 1.25
+"""A piece that is this part of all, and has no more ink than lines around its bounds by this
+factor, is the border of the sheet."""
+
 CORNER = 3.0
 """A piece has one if it is so many times as broad as its pen, both ways."""
 
@@ -85,7 +89,7 @@ def broader_pens(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> list[Pen]
     for cut, broad in _cuts(strokes.width[at], 1.0 / strokes.thin[at], extent):
         drawn = _drawn_by(strokes, cut)
         new = all((drawn ^ one.mask).sum() > SAME * drawn.sum() for one in pens)
-        if new and _meet(drawn, CORNER * broad):
+        if new and _meet(drawn, CORNER * broad) and not _is_frame(drawn, broad):
             pens.append(Pen(drawn, Thickness(cut, broad)))
     return pens
 
@@ -173,7 +177,8 @@ def _drawn_by(strokes: _Strokes, cut: float) -> NDArray[np.bool_]:
     size = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
     long = np.flatnonzero(size >= SLANTED * cut)
     thick = np.zeros(count, dtype=bool)
-    thick[long] = ndimage.median(strokes.width, np.asarray(labels), long) >= cut
+    at = labels > 0
+    thick[long] = ndimage.median(strokes.width[at], np.asarray(labels[at]), long) >= cut
     touched = np.zeros(count, dtype=bool)
     touched[labels[cv2.dilate(broad.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0]] = True
     keep = np.where(size >= SLANTED * cut, thick, touched)
@@ -185,3 +190,13 @@ def _meet(mask: NDArray[np.bool_], least_px: float) -> bool:
     """Whether most of a mask lies in pieces that run both across and down."""
     cornered = marks_of_size(mask, least_px, both_ways=True)
     return bool(cornered.sum() >= MEETING * mask.sum())
+
+
+def _is_frame(mask: NDArray[np.bool_], broad_px: float) -> bool:
+    """Whether most of a mask is a rectangle of lines around the rest, as of a sheet's border."""
+    _, _, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+    largest = stats[1:][np.argmax(stats[1:, cv2.CC_STAT_AREA])]
+    around = largest[cv2.CC_STAT_WIDTH] + largest[cv2.CC_STAT_HEIGHT]
+    area = largest[cv2.CC_STAT_AREA]
+    alone = area >= FRAME * mask.sum()
+    return bool(alone and area <= BARE * 2 * around * broad_px)
