@@ -18,8 +18,12 @@ from scipy.spatial import KDTree
 from veduta.photos.city.facades import Facades
 from veduta.photos.world.columns import Complex, Placements, WallColumns, complex_of
 from veduta.photos.world.eye_height import Feet
+from veduta.photos.world.gauss_newton import BEHIND_M, BEHIND_SD_M
 
 PLANE_SD_M, EDGE_SD_M, TOP_SD_M = 0.25, 0.4, 0.6
+EXACT_PLANE_SD_M, EXACT_EDGE_SD_M = 0.08, 0.15
+"""Some walls are mapped and modelled well, others roughly: each deviation holds for half of them.
+On rendered streets the planes of walls that are seen well lie .05 m off those of the model."""
 PLANES_PER_M, EDGES_PER_M, TOPS_PER_M = 0.1, 0.12, 0.12
 """How densely planes, edges and tops of facades lie, for a wall that is not one of them."""
 IN_MODEL, EDGE_SEEN, TOP_SEEN = 0.85, 0.6, 0.6
@@ -143,7 +147,7 @@ def _matched(walls: WallColumns, index: FacadeIndex, placements: Placements) -> 
     tops = np.where(known, index.facades.top[facade], -np.inf).max(axis=-1)
     tops = np.where(known.any(axis=-1), tops - scale * walls.top, np.nan)
     lift = _mode(tops)
-    evidence = _evidence(off, edges, tops - lift[:, None])
+    evidence = _evidence(off + _behind(off)[:, None, None], edges, tops - lift[:, None])
     return Matches(facade, off, edges, lift, evidence)
 
 
@@ -182,18 +186,42 @@ def _mode(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
+def _behind(off: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(h,) how far walls lie behind their facades, by the median of (h, w, 3) and what is usual.
+
+    Points of windows and reveals draw all walls of a street back by as much (`gauss_newton`).
+    """
+    middle = off[..., 1]
+    near = np.abs(middle) < 3.0 * PLANE_SD_M
+    count = near.sum(axis=1)
+    order = np.sort(np.where(near, middle, np.inf), axis=1)
+    at = np.maximum(count - 1, 0)
+    row = np.arange(len(off))
+    median = np.where(count > 0, (order[row, at // 2] + order[row, (at + 1) // 2]) / 2.0, 0.0)
+    seen, known = count / EXACT_PLANE_SD_M**2, 1.0 / BEHIND_SD_M**2
+    found: NDArray[np.float64] = (known * BEHIND_M - seen * median) / (known + seen)
+    return found
+
+
 def _evidence(
     off: NDArray[np.float64], edges: NDArray[np.float64], tops: NDArray[np.float64]
 ) -> NDArray[np.float64]:
     """(h, w) nats: the plane at three places, the edges, the top."""
-    plane = np.log(IN_MODEL * _normal(off, PLANE_SD_M) / PLANES_PER_M + 1.0 - IN_MODEL)
+    planes = _mixed(off, EXACT_PLANE_SD_M, PLANE_SD_M)
+    plane = np.log(IN_MODEL * planes / PLANES_PER_M + 1.0 - IN_MODEL)
     found: NDArray[np.float64] = plane.mean(axis=-1)
     on = np.abs(off) < 3.0 * PLANE_SD_M
-    edge = np.log(EDGE_SEEN * _normal(edges, EDGE_SD_M) / EDGES_PER_M + 1.0 - EDGE_SEEN)
+    near = _mixed(edges, EXACT_EDGE_SD_M, EDGE_SD_M)
+    edge = np.log(EDGE_SEEN * near / EDGES_PER_M + 1.0 - EDGE_SEEN)
     found += np.where(on[..., [0, 2]], edge, 0.0).sum(axis=-1)
     top = np.log(TOP_SEEN * _normal(tops, TOP_SD_M) / TOPS_PER_M + 1.0 - TOP_SEEN)
     found += np.where(on.any(axis=-1), top, 0.0)
     return found
+
+
+def _mixed(values: NDArray[np.float64], exact_sd: float, sd: float) -> NDArray[np.float64]:
+    """The density of which one half has each deviation."""
+    return 0.5 * (_normal(values, exact_sd) + _normal(values, sd))
 
 
 def _normal(values: NDArray[np.float64], sd: float) -> NDArray[np.float64]:
