@@ -9,7 +9,9 @@ from veduta.photos.world.evidence import (
     EDGE_SD_M,
     EXACT_EDGE_SD_M,
     EXACT_PLANE_SD_M,
+    EXACT_TOP_SD_M,
     PLANE_SD_M,
+    TOP_SD_M,
     _behind,
     _evidence,
     _mixed,
@@ -17,7 +19,12 @@ from veduta.photos.world.evidence import (
 
 
 @pytest.mark.parametrize(
-    ("exact", "rough"), [(EXACT_PLANE_SD_M, PLANE_SD_M), (EXACT_EDGE_SD_M, EDGE_SD_M)]
+    ("exact", "rough"),
+    [
+        (EXACT_PLANE_SD_M, PLANE_SD_M),
+        (EXACT_EDGE_SD_M, EDGE_SD_M),
+        (EXACT_TOP_SD_M, TOP_SD_M),
+    ],
 )
 def test_the_density_of_both_deviations_is_one(exact: float, rough: float) -> None:
     places = np.arange(-5.0, 5.0, 0.001)

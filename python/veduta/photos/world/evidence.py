@@ -21,9 +21,10 @@ from veduta.photos.world.eye_height import Feet
 from veduta.photos.world.gauss_newton import BEHIND_M, BEHIND_SD_M
 
 PLANE_SD_M, EDGE_SD_M, TOP_SD_M = 0.25, 0.4, 0.6
-EXACT_PLANE_SD_M, EXACT_EDGE_SD_M = 0.08, 0.15
+EXACT_PLANE_SD_M, EXACT_EDGE_SD_M, EXACT_TOP_SD_M = 0.08, 0.15, 0.15
 """Some walls are mapped and modelled well, others roughly: each deviation holds for half of them.
-On rendered streets the planes of walls that are seen well lie .05 m off those of the model."""
+On rendered streets the planes of walls that are seen well lie .05 m off those of the model, and
+half of the tops that are the facades' own .1 m."""
 PLANES_PER_M, EDGES_PER_M, TOPS_PER_M = 0.1, 0.12, 0.12
 """How densely planes, edges and tops of facades lie, for a wall that is not one of them."""
 IN_MODEL, EDGE_SEEN, TOP_SEEN = 0.85, 0.6, 0.6
@@ -214,7 +215,8 @@ def _evidence(
     near = _mixed(edges, EXACT_EDGE_SD_M, EDGE_SD_M)
     edge = np.log(EDGE_SEEN * near / EDGES_PER_M + 1.0 - EDGE_SEEN)
     found += np.where(on[..., [0, 2]], edge, 0.0).sum(axis=-1)
-    top = np.log(TOP_SEEN * _normal(tops, TOP_SD_M) / TOPS_PER_M + 1.0 - TOP_SEEN)
+    high = _mixed(tops, EXACT_TOP_SD_M, TOP_SD_M)
+    top = np.log(TOP_SEEN * high / TOPS_PER_M + 1.0 - TOP_SEEN)
     found += np.where(on.any(axis=-1), top, 0.0)
     return found
 
