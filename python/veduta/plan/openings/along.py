@@ -9,7 +9,8 @@ it differs over the width of an opening there is one. AV3D looks for lines acros
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -62,67 +63,92 @@ def with_unbroken(
     axes: Sequence[Axis], sheet: Sheet, thin_px: float, sky: BaseGeometry
 ) -> list[Axis]:
     """The axes with windows and doors that lead outdoors where their walls are not interrupted."""
-    spans = _changed_by_pen(axes, sheet, LEAST_WIDTH * thin_px)
+    walls = _Walls(axes, sheet)
     done = []
-    for axis, own in zip(axes, spans, strict=True):
-        more = [one for span in own if (one := _opening(axis, span, sheet, thin_px, sky))]
+    for number, axis in enumerate(axes):
+        spans = [] if axis.closing else walls.changed(number, LEAST_WIDTH * thin_px)
+        more = [one for span in spans if (one := _opening(axis, span, sheet, thin_px, sky))]
         done.append(replace(axis, openings=(*axis.openings, *more)))
     return done
 
 
-def _changed_by_pen(
-    axes: Sequence[Axis], sheet: Sheet, least_px: float
-) -> list[list[tuple[int, int]]]:
-    """The stretches of each wall that are drawn in another way than walls.
+@dataclass(frozen=True)
+class _Walls:
+    """The walls of a sheet, with the ink across each."""
 
-    Walls that are single lines are compared with all of these, and as broad as the pen of most:
-    what is mostly windows is broadened by them. One that differs from end to end is of another pen.
-    """
-    thick = [axis.line.thickness_px for axis in axes]
-    lines = [axis.line.drawing == "single-line" for axis in axes]
-    pen_px = _pen(axes)
-    as_thick = [_own(axis, sheet, px) for axis, px in zip(axes, thick, strict=True)]
-    as_pen = [
-        _own(axis, sheet, pen_px) if single else own
-        for axis, own, single in zip(axes, as_thick, lines, strict=True)
-    ]
-    found = []
-    for number, axis in enumerate(axes):
-        alike = [
-            max(one, thick[number]) <= SAME_THICKNESS * min(one, thick[number]) for one in thick
+    axes: Sequence[Axis]
+    sheet: Sheet
+
+    @cached_property
+    def _as_thick(self) -> list[_Across]:
+        """Of each wall, as broad as it is."""
+        return [_across(one, self.sheet, one.line.thickness_px) for one in self.axes]
+
+    @cached_property
+    def _as_pen(self) -> dict[int, _Across]:
+        """Of those that are single lines, as broad as the pen of most."""
+        pen_px = _pen(self.axes)
+        return {
+            number: _across(one, self.sheet, pen_px)
+            for number, one in enumerate(self.axes)
+            if one.line.drawing == "single-line"
+        }
+
+    def changed(self, number: int, least_px: float) -> list[tuple[int, int]]:
+        """The stretches of a wall that are drawn in another way than walls.
+
+        A single line is compared with all of these, as what is mostly windows is broadened by them.
+        One that differs from end to end is of another pen: it is compared with those as broad.
+        """
+        if self.axes[number].line.drawing != "single-line":
+            return _changed(self._as_thick[number], self._alike(number), least_px, bars=False)
+        own = self._as_pen[number]
+        spans = _changed(own, list(self._as_pen.values()), least_px, bars=True)
+        if _mostly(spans, own):
+            own = self._as_thick[number]
+            spans = _changed(own, self._alike(number), least_px, bars=True)
+        return [] if _mostly(spans, own) else spans
+
+    def _alike(self, number: int) -> list[_Across]:
+        """Walls that are as thick."""
+        own = self.axes[number].line.thickness_px
+        thick = [one.line.thickness_px for one in self.axes]
+        return [
+            wall
+            for wall, one in zip(self._as_thick, thick, strict=True)
+            if max(one, own) <= SAME_THICKNESS * min(one, own)
         ]
-        spans: list[tuple[int, int]] = []
-        for owns, chosen in ((as_pen, lines), (as_thick, alike))[0 if lines[number] else 1 :]:
-            spans = _changed(number, axes, owns, chosen, least_px)
-            if sum(high - low for low, high in spans) < MOST_WINDOW * owns[number].shape[1]:
-                break
-            spans = [] if lines[number] else spans
-        found.append([] if axis.closing else spans)
-    return found
+
+
+@dataclass(frozen=True)
+class _Across:
+    """The ink across a wall, (rows, columns): of all its columns, and of those without openings."""
+
+    all: NDArray[np.float64]
+    bare: NDArray[np.float64]
+
+
+def _across(axis: Axis, sheet: Sheet, thick_px: float) -> _Across:
+    """Half a pixel off its middle is much of a line."""
+    line = axis.line
+    strip = cut_strip(line.start, line.end, thick_px, sheet, 0.0, line.bulge)
+    own = profile(strip, _middle(strip) if line.drawing == "single-line" else 0.0)
+    return _Across(own, _without(axis, own))
 
 
 def _changed(
-    number: int,
-    axes: Sequence[Axis],
-    owns: Sequence[NDArray[np.float64]],
-    chosen: Sequence[bool],
-    least_px: float,
+    own: _Across, walls: Sequence[_Across], least_px: float, *, bars: bool
 ) -> list[tuple[int, int]]:
-    """Where a wall differs from the chosen ones, whose profiles are `owns`."""
-    walls = [
-        _without(axis, own) for axis, own, taken in zip(axes, owns, chosen, strict=True) if taken
-    ]
-    if sum(wall.shape[1] for wall in walls) == 0:
+    """Where a wall differs from walls."""
+    bare = [wall.bare for wall in walls]
+    if sum(one.shape[1] for one in bare) == 0:
         return []
-    bars = axes[number].line.drawing == "single-line"
-    return changed_stretches(owns[number], usual_profile(walls), least_px, bars=bars)
+    return changed_stretches(own.all, usual_profile(bare), least_px, bars=bars)
 
 
-def _own(axis: Axis, sheet: Sheet, thick_px: float) -> NDArray[np.float64]:
-    """The ink across a wall; half a pixel off its middle is much of a line."""
-    line = axis.line
-    strip = cut_strip(line.start, line.end, thick_px, sheet, 0.0, line.bulge)
-    return profile(strip, _middle(strip) if line.drawing == "single-line" else 0.0)
+def _mostly(spans: Sequence[tuple[int, int]], own: _Across) -> bool:
+    """Whether more of a wall is in these stretches than can be window."""
+    return bool(sum(high - low for low, high in spans) >= MOST_WINDOW * own.all.shape[1])
 
 
 def _middle(strip: Strip) -> float:

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from veduta.plan.walls.runs import run_lengths, run_lengths_down
+from veduta.plan.walls.runs import run_lengths, run_lengths_down, run_sums
 from veduta.plan.walls.solid import (
     ACROSS,
     LEAST_SHARE,
@@ -66,13 +66,16 @@ class Pen:
 class _Strokes:
     """Marks, those of long upright strokes, and the ink across each of them: (h, w), px.
 
-    `thin` (h, w): how broad they look.
+    `thin` (h, w): how broad they look. `rest` (h, w): the pieces of what is not straight, 0 where
+    there is none; `rest_size` and `rest_width` (p + 1,) their diagonals and the ink across, px.
     """
 
-    mask: NDArray[np.bool_]
     straight: NDArray[np.bool_]
     width: NDArray[np.float32]
     thin: NDArray[np.int32]
+    rest: NDArray[np.int32]
+    rest_size: NDArray[np.float64]
+    rest_width: NDArray[np.float64]
 
 
 def broader_pens(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> list[Pen]:
@@ -100,10 +103,24 @@ def _strokes(ink: NDArray[np.float32], mask: NDArray[np.bool_], extent: float) -
     thin, long = np.minimum(across, down), np.maximum(across, down)
     straight = mask & (long >= ACROSS * thin) & (long >= SINGLE_LONG * extent)
     turned = np.ascontiguousarray(gathered.T), np.ascontiguousarray(mask.T)
-    row, column = _run_sums(gathered, mask), _run_sums(*turned).T
+    row, column = run_sums(gathered, mask), run_sums(*turned).T
     # Through a stroke of width w that is turned by t, these are w / sin t and w / cos t.
-    width = row * column / np.maximum(np.hypot(row, column), 1e-9)
-    return _Strokes(mask, straight, width.astype(np.float32), thin)
+    width = (row * column / np.maximum(np.hypot(row, column), 1e-9)).astype(np.float32)
+    return _Strokes(straight, width, thin, *_pieces(mask & ~straight, width))
+
+
+def _pieces(
+    mask: NDArray[np.bool_], width: NDArray[np.float32]
+) -> tuple[NDArray[np.int32], NDArray[np.float64], NDArray[np.float64]]:
+    """The connected pieces of a mask (h, w), with their diagonals and median widths (p + 1,)."""
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(
+        mask.astype(np.uint8), connectivity=8
+    )
+    size = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
+    median = np.zeros(count)
+    if count > 1:
+        median[1:] = ndimage.median(width[mask], np.asarray(labels[mask]), np.arange(1, count))
+    return np.asarray(labels, dtype=np.int32), size, median
 
 
 def _gathered(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
@@ -114,17 +131,6 @@ def _gathered(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.f
     near = away <= HALO_PX
     sums = np.bincount(nearest[near], weights=ink[near], minlength=int(nearest.max()) + 1)
     return np.where(mask, sums[nearest], 0.0).astype(np.float32)
-
-
-def _run_sums(values: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
-    """(h, w) the sum of values over the horizontal run of True that each pixel lies in."""
-    edges = np.diff(np.pad(mask.astype(np.int8), ((0, 0), (1, 1))), axis=1)
-    row, start = np.nonzero(edges == 1)
-    end = np.nonzero(edges == -1)[1]
-    total = np.pad(np.cumsum(values, axis=1, dtype=np.float64), ((0, 0), (1, 0)))
-    found = np.zeros(mask.shape, np.float32)
-    found[mask] = np.repeat(total[row, end] - total[row, start], end - start)
-    return found
 
 
 def _cuts(
@@ -172,18 +178,12 @@ def _valleys(counts: NDArray[np.float64]) -> list[int]:
 def _drawn_by(strokes: _Strokes, cut: float) -> NDArray[np.bool_]:
     """The mask of strokes that have so much ink across, and of what joins them."""
     broad = strokes.straight & (strokes.width >= cut)
-    rest = (strokes.mask & ~strokes.straight).astype(np.uint8)
-    count, labels, stats, _ = cv2.connectedComponentsWithStats(rest, connectivity=8)
-    size = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
-    long = np.flatnonzero(size >= SLANTED * cut)
-    thick = np.zeros(count, dtype=bool)
-    at = labels > 0
-    thick[long] = ndimage.median(strokes.width[at], np.asarray(labels[at]), long) >= cut
-    touched = np.zeros(count, dtype=bool)
-    touched[labels[cv2.dilate(broad.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0]] = True
-    keep = np.where(size >= SLANTED * cut, thick, touched)
+    touched = np.zeros(len(strokes.rest_size), dtype=bool)
+    near = cv2.dilate(broad.astype(np.uint8), np.ones((3, 3), np.uint8)) > 0
+    touched[strokes.rest[near]] = True
+    keep = np.where(strokes.rest_size >= SLANTED * cut, strokes.rest_width >= cut, touched)
     keep[0] = False
-    return np.asarray(broad | keep[labels], dtype=np.bool_)
+    return np.asarray(broad | keep[strokes.rest], dtype=np.bool_)
 
 
 def _meet(mask: NDArray[np.bool_], least_px: float) -> bool:
