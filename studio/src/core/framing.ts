@@ -91,14 +91,16 @@ export function boxOfPoints(points: readonly Vec3[]): Box {
 }
 
 /**
- * Where the camera looks to at first: into the facade, a little from the left and above; from higher
- * above where the place goes far back for its height, as towns do, so that no row hides the next.
+ * Where the camera looks to at first: to where the photos do (`outlook`: unit, level), else into the
+ * facade, a little from the left; a little from above, and from higher where the place goes far back
+ * for its height, as towns do, so that no row hides the next.
  */
-export function homeDirection(box: Box): Vec3 {
+export function homeDirection(box: Box, outlook: Vec3 | null = null): Vec3 {
   const [x, y, height] = subtract(box.max, box.min);
   const depths = Math.min(x, y) / Math.max(height, 1e-6);
   const down = Math.min(0.75, 0.12 + 0.06 * Math.max(0, depths - 2));
-  const direction: Vec3 = [0.5, 0.86, -down];
+  const [east, north] = outlook ?? [0.5, 0.86];
+  const direction: Vec3 = [east, north, -down];
   return scale(direction, 1 / length(direction));
 }
 

@@ -1,9 +1,12 @@
 /** Photos in space: their corners, and the view that shows one whole. */
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
+import { axesOf } from "./pinhole.ts";
 import type { Cloud, Shot } from "./place.ts";
 import { length, subtract, type Vec3 } from "./vector.ts";
 
+/** Least length of the mean of the photos' level directions that says where they look to. */
+const AGREED = 0.2;
 /** Share of the screen that stays free around a photo. */
 const MARGIN = 0.06;
 /** How deep a pyramid is, in shares of the place's size, and of the way to the nearest other one. */
@@ -46,6 +49,15 @@ export function fovOfShot(shot: Shot, aspect: number): { fov_deg: number; shift:
   const x = (shot.centre_px[0] - shot.width_px / 2) / shot.focal_px[0] / (shown * aspect);
   const y = (shot.centre_px[1] - shot.height_px / 2) / shot.focal_px[1] / shown;
   return { fov_deg: (2 * Math.atan(shown / 2) * 180) / Math.PI, shift: [x, y] };
+}
+
+/** Where the photos look to in the mean (unit, level); null where they look all about. */
+export function outlookOf(shots: readonly Shot[]): Vec3 | null {
+  const [x, y] = shots
+    .map((shot) => axesOf(shot).ahead)
+    .reduce<readonly [number, number]>((sum, ahead) => [sum[0] + ahead[0], sum[1] + ahead[1]], [0, 0]);
+  const size = Math.hypot(x, y);
+  return size > 0 && size >= AGREED * shots.length ? [x / size, y / size, 0] : null;
 }
 
 /** The box around the clouds (nearly all of their points) and the places of the photos. */

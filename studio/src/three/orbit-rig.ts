@@ -5,6 +5,7 @@ import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import { type Box, framePoints, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import type { Pose } from "./flight.ts";
+import type { Stage } from "./stage.ts";
 
 export const ORBIT_FOV_DEG = 28;
 const KEY_TURN_RAD_S = 1.1;
@@ -14,24 +15,28 @@ export class OrbitRig {
   readonly #camera: PerspectiveCamera;
   readonly #bounds: Box;
   readonly #corners: readonly Vec3[];
+  readonly #direction: Vec3;
 
-  /** `corners` are those of what is to be seen, `bounds` the box around them. */
+  /**
+   * `corners` are those of what is to be `seen`, and that the box around them; `outlook` is where the
+   * photos of it look to.
+   */
   constructor(
     camera: PerspectiveCamera,
     canvas: HTMLElement,
-    corners: readonly Vec3[],
-    bounds: Box,
+    { corners, seen, outlook }: Pick<Stage, "corners" | "seen" | "outlook">,
     onChange: () => void,
   ) {
     this.#camera = camera;
-    this.#bounds = bounds;
+    this.#bounds = seen;
     this.#corners = corners;
+    this.#direction = homeDirection(seen, outlook);
     this.#controls = new OrbitControls(camera, canvas);
     this.#controls.enableDamping = true;
     this.#controls.dampingFactor = 0.09;
     this.#controls.zoomToCursor = true;
     this.#controls.minDistance = 1;
-    this.#controls.maxDistance = 12 * length(subtract(bounds.max, bounds.min));
+    this.#controls.maxDistance = 12 * length(subtract(seen.max, seen.min));
     this.#controls.maxPolarAngle = 0.495 * Math.PI;
     this.#controls.addEventListener("change", onChange);
   }
@@ -46,9 +51,8 @@ export class OrbitRig {
 
   /** The pose that shows the whole place in the free part of the picture. */
   home(aspect: number, insets: Insets): { pose: Pose; target: Vector3 } {
-    const direction = homeDirection(this.#bounds);
     const fov_rad = MathUtils.degToRad(ORBIT_FOV_DEG);
-    const view = framePoints(this.#corners, direction, fov_rad, aspect, insets);
+    const view = framePoints(this.#corners, this.#direction, fov_rad, aspect, insets);
     const target = new Vector3(...drawnFromWorld(view.target));
     const camera = this.#camera.clone();
     camera.position.set(...drawnFromWorld(view.eye));

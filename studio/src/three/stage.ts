@@ -6,7 +6,7 @@ import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
-import { boundsOfShots } from "../core/shots.ts";
+import { boundsOfShots, outlookOf } from "../core/shots.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Appearance } from "./appearance.ts";
@@ -51,6 +51,8 @@ export class Stage {
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
   readonly seen: Box;
+  /** Where the photos look to; null where they look all about, or where there are none. */
+  readonly outlook: Vec3 | null;
   readonly household: Household;
   /** The photos that lie on the place; null where it has none. */
   readonly photos: PhotoShow | null;
@@ -78,6 +80,7 @@ export class Stage {
     const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
     this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
     this.seen = boxOfPoints([...this.corners, ...told]);
+    this.outlook = outlookOf(place.shots);
     const buildings = parts.filter(({ part }) => !part.isGround && !part.isBackdrop);
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
     this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown });

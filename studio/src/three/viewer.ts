@@ -71,10 +71,10 @@ export class Viewer {
     this.#town = town;
     this.#frusta = frusta;
     this.#stage = new Stage(place, content, () => this.invalidate());
-    const { solid, corners, seen } = this.#stage;
+    const { solid } = this.#stage;
     const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
-    this.#orbit = new OrbitRig(this.#camera, canvas, corners, seen, () => this.invalidate());
+    this.#orbit = new OrbitRig(this.#camera, canvas, this.#stage, () => this.invalidate());
     this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
     this.#guide = place.tours.length === 0 ? null : new TourGuide(place.tours, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);

@@ -50,6 +50,13 @@ describe("framing", () => {
     expect(down([400, 300, 40])).toBeLessThan(down([400, 300, 30]));
   });
 
+  it("looks to where the photos do, as much from above as else", () => {
+    const [usual, direction] = [homeDirection(box), homeDirection(box, [-0.6, 0.8, 0])];
+    expect(length(direction)).toBeCloseTo(1);
+    expect(direction[0] / direction[1]).toBeCloseTo(-0.75);
+    expect(direction[2]).toBeCloseTo(usual[2], 2);
+  });
+
   it.each([16 / 9, 1, 9 / 19])("has all corners in the free part and one near its edge, aspect %f", (aspect) => {
     for (const free of [NO_INSETS, insets]) {
       const { eye } = framePoints(cornersOf(box), direction, 0.6, aspect, free);

@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
 import { readPlace, type Shot } from "../../src/core/place.ts";
-import { boundsOfShots, cornersOfShot, depthOfFrusta, fovOfShot } from "../../src/core/shots.ts";
+import { boundsOfShots, cornersOfShot, depthOfFrusta, fovOfShot, outlookOf } from "../../src/core/shots.ts";
 
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
 
@@ -72,6 +72,28 @@ describe("the pyramids", () => {
       bounds: { min: [0, 0, 0], max: [1, 2, 3] },
     } as const;
     expect(boundsOfShots([cloud], [at(-5, 0, 7)])).toEqual({ min: [-5, 0, 0], max: [11, 2, 7] });
+  });
+});
+
+describe("where photos look to", () => {
+  /** Its axis at an angle from east towards north, dipped by 30 degrees. */
+  const towards = (degrees: number): Shot => {
+    const [c, s] = [Math.cos((degrees * Math.PI) / 180), Math.sin((degrees * Math.PI) / 180)];
+    const [level, dip] = [Math.sqrt(3) / 2, 0.5];
+    const axes = [s, -c, 0, 0, -dip * c, -dip * s, -level, 0, level * c, level * s, -dip, 0];
+    return shot({ worldFromCamera: [...axes, 7, 8, 9, 1] });
+  };
+
+  it("is level, and in the middle of them", () => {
+    const outlook = outlookOf([towards(100), towards(160), towards(130)]);
+    expect(outlook?.[0]).toBeCloseTo(Math.cos((130 * Math.PI) / 180), 9);
+    expect(outlook?.[1]).toBeCloseTo(Math.sin((130 * Math.PI) / 180), 9);
+    expect(outlook?.[2]).toBe(0);
+  });
+
+  it("is nowhere where they look all about, or where there are none", () => {
+    expect(outlookOf([0, 90, 180, 270].map(towards))).toBeNull();
+    expect(outlookOf([])).toBeNull();
   });
 });
 
