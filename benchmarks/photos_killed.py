@@ -17,6 +17,7 @@ import subprocess
 import sys
 import tempfile
 import time
+from contextlib import suppress
 from pathlib import Path
 
 import numpy as np
@@ -51,7 +52,11 @@ def whole_run(out: Path) -> float:
 def features(out: Path) -> dict[str, int]:
     """The files of features with the times at which they were written."""
     stages = out / ".veduta" / "photos"
-    return {path.name: path.stat().st_mtime_ns for path in stages.glob("features-*.npz")}
+    found = {}
+    for path in stages.glob("features-*.npz"):
+        with suppress(FileNotFoundError):  # a run that ends takes its files away
+            found[path.name] = path.stat().st_mtime_ns
+    return found
 
 
 def mapped(out: Path) -> int:
