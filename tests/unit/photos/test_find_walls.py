@@ -16,6 +16,7 @@ from veduta.photos.options import WallOptions
 from veduta.photos.structure import Structure
 from veduta.photos.walls.find_walls import find_walls
 from veduta.photos.walls.point_quality import point_covariances
+from veduta.photos.walls.spans import filled_height
 from veduta.photos.walls.wall import Wall
 from veduta.synthetic.streets.simulated import SimulatedStructure
 
@@ -80,6 +81,33 @@ def test_scattered_points_are_no_walls() -> None:
     low, high = structure.seen_box()
     scattered = replace(structure, points=rng.uniform(low, high, structure.points.shape))
     assert len(find_walls(scattered, OPTIONS, 0)) <= 1
+
+
+def test_the_ridge_of_a_roof_is_no_wall() -> None:
+    """Of the points about a facade, those along its top and on a mast that reaches down."""
+    structure = street(1)[1]
+    facade = walls(1)[0]
+    arm = structure.points - [*facade.start, facade.bottom]
+    along, up = arm[:, :2] @ facade.along / facade.width, arm[:, 2] / facade.height
+    about = np.abs(arm[:, :2] @ facade.outward) < 0.2 * facade.width
+    about &= (np.abs(along - 0.5) < 0.6) & (up < 1.3)
+    own = np.isin(np.arange(len(arm)), facade.point_rows)
+    ridge = own & (up > 0.92) & (np.abs(along - 0.5) > 0.01)
+    kept = ~about | ridge | (own & (np.abs(along - 0.5) < 0.01))
+    left = structure.with_points(kept)
+    for wall in find_walls(left, OPTIONS, 0):
+        assert ridge[kept][wall.point_rows].sum() < 0.5 * ridge.sum()
+
+
+def test_points_fill_the_height_of_a_wall_and_not_of_a_ridge() -> None:
+    rng = np.random.default_rng(2)
+    along, up = rng.uniform(0, 12, 400), rng.uniform(0, 9, 400)
+    assert filled_height(along, up) > 0.8
+    low = np.where(np.abs(along - 6) < 0.5, up, 0.9 * up / 9)
+    assert filled_height(along, low) == pytest.approx(0.1, abs=0.02)
+    # Two rows, as of a plinth and a cornice, stand for what is between them.
+    rows = np.where(rng.random(400) < 0.5, 0.0, 9.0)
+    assert filled_height(along, rows) == 1.0
 
 
 def test_too_few_points_give_no_walls() -> None:

@@ -19,7 +19,7 @@ from veduta.photos.walls.lines import Line, best_line, fitted
 from veduta.photos.walls.plan_view import TURNED, PlanView, plan_view
 from veduta.photos.walls.point_quality import NEIGHBOURS, point_quality, typical_reach
 from veduta.photos.walls.sight import Sights, share_seen_through, sights_of
-from veduta.photos.walls.spans import Bounds, spans
+from veduta.photos.walls.spans import Bounds, filled_height, spans
 from veduta.photos.walls.steps import parting
 from veduta.photos.walls.wall import Wall
 
@@ -52,6 +52,8 @@ FACES = 0.906
 A line askew through many things has points on each, that face elsewhere."""
 SEEN_THROUGH = 0.3
 """Share of the lines of sight that may pass a wall and end behind it."""
+FILLED = 0.3
+"""Least share of a wall's height that its points fill in the middle one of stretches along it."""
 
 
 @dataclass(frozen=True)
@@ -260,9 +262,11 @@ def _relief_of(view: PlanView, wall: _Candidate) -> NDArray[np.int64]:
 
 
 def _is_wall(view: PlanView, candidate: _Candidate, sights: Sights) -> bool:
-    """Whether its points face as it does, and the photos do not see through it."""
-    facing = view.facing[candidate.members] @ candidate.line.normal
-    if float(np.median(facing)) < FACES:
+    """Whether its points face as it does and fill it, and the photos do not see through it."""
+    own = view.only(candidate.members)
+    if float(np.median(own.facing @ candidate.line.normal)) < FACES:
+        return False
+    if filled_height(own.xy @ candidate.line.along, own.z) < FILLED:
         return False
     wall = _wall(view, candidate)
     return share_seen_through(wall, sights, RELIEF * view.reach) <= SEEN_THROUGH

@@ -16,6 +16,8 @@ CHANCE = 6.0
 """How much rarer than once a gap has to be, as an exponent, if points lay about evenly."""
 CLUSTERED = 2.0
 """Points come in clusters: gaps are wider by this than those of even ones."""
+STRETCH, MOST_STRETCHES = 8, 12
+"""Points of a stretch of a wall in the mean, at least; stretches, at most."""
 
 
 @dataclass(frozen=True)
@@ -46,6 +48,19 @@ def spans(
         whole = settled + 1 if len(runs) == 1 else 0
         waiting += [(run, 1 - axis, whole) for run in runs]
     return found
+
+
+def filled_height(along: NDArray[np.float64], up: NDArray[np.float64]) -> float:
+    """Share of the height of points that they fill in the middle one of stretches along them.
+
+    (n,) places along a wall and heights; stretches have as many points each. Most points of a wall
+    are where it is seen as high as it is, though something may hide its foot for most of its width.
+    Those of what ends in the sky are not, such as of the ridge of a roof with a turret on it: they
+    lie on a line, and something stands up here or there.
+    """
+    stretches = int(np.clip(len(along) // STRETCH, 1, MOST_STRETCHES))
+    rows = np.array_split(np.argsort(along, kind="stable"), stretches)
+    return float(np.median([np.ptp(up[own]) for own in rows]) / np.ptp(up))
 
 
 def widest_chance_gap(count: int, extent: float) -> float:
