@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
+from itertools import combinations
+
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import wall_graph
 from veduta.plan.walls.jogs import jogs
+from veduta.plan.walls.meetings import meetings, pairs_in_reach
 from veduta.plan.walls.pieces import Piece
 
 
@@ -83,3 +88,28 @@ def test_one_bar_and_furniture_of_other_thicknesses_are_left_out() -> None:
     assert len(wall_graph([Axis(one, ()) for one in [*_core(), *bar]]).edges) == 4
     things = [_piece(500, 50 + 60 * row, 600, 50 + 60 * row, 14 + 4 * row) for row in range(4)]
     assert len(wall_graph([Axis(one, ()) for one in [*_core(), *things]]).edges) == 4
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.integers(0, 2**32 - 1))
+def test_no_pair_of_walls_that_meets_is_passed_over(seed: int) -> None:
+    """Walls at corners, askew at small angles, in one line, and curved, thick and thin."""
+    rng = np.random.default_rng(seed)
+    pieces = []
+    for _ in range(24):
+        start = rng.integers(0, 12, 2) * 50 + rng.normal(0, 3, 2)
+        angle = np.pi / 2 * rng.integers(0, 4) + rng.choice([0.0, 0.24, rng.uniform(0, np.pi)])
+        end = start + rng.uniform(20, 300) * np.array([np.cos(angle), np.sin(angle)])
+        bulge = rng.uniform(-0.8, 0.8) * (rng.random() < 0.2)
+        pieces.append(Piece(start, end, rng.uniform(1, 40), bulge=bulge))
+    every = list(combinations(range(len(pieces)), 2))
+    pairs = pairs_in_reach(pieces)
+    assert pairs == [pair for pair in every if pair in set(pairs)]
+    met = [pair for pair in every if meetings(pieces[pair[0]], pieces[pair[1]])]
+    assert met
+    assert set(met) <= set(pairs)
+
+
+def test_walls_far_from_each_other_are_no_pair() -> None:
+    assert pairs_in_reach([_piece(0, 0, 100, 0), _piece(400, 0, 400, 90)]) == []
+    assert pairs_in_reach([]) == []

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import coo_array
 from scipy.sparse.csgraph import connected_components
+from shapely import STRtree
 from shapely.geometry import Point
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
@@ -115,6 +116,7 @@ class WallNames:
 
     def __init__(self, space: Space) -> None:
         self._space = space
+        self._outlines = STRtree([hole.outline.buffer(_NEAR_M) for hole in space.holes])
 
     def of(self, middle: NDArray[np.float64], normal: NDArray[np.float64]) -> tuple[str, str]:
         """The name of a face's feature and its look, by a point on it and its unit normal."""
@@ -132,9 +134,10 @@ class WallNames:
 
     def _hole_at(self, middle: NDArray[np.float64]) -> Hole | None:
         at = Point(middle[:2])
-        for hole in self._space.holes:
+        for row in sorted(self._outlines.query(at, predicate="covered_by").tolist()):
+            hole: Hole = self._space.holes[row]
             upright = hole.low_m - _NEAR_M <= middle[2] <= hole.high_m + _NEAR_M
-            if upright and hole.outline.buffer(_NEAR_M).covers(at) and _is_inside(hole, at):
+            if upright and _is_inside(hole, at):
                 return hole
         return None
 

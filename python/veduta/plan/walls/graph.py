@@ -13,7 +13,7 @@ from scipy.sparse.csgraph import connected_components
 from veduta.plan.document import JunctionType
 from veduta.plan.walls.arcs import bulge_through
 from veduta.plan.walls.axes import Axis, OnAxis
-from veduta.plan.walls.meetings import crossing, meetings
+from veduta.plan.walls.meetings import crossing, meetings, pairs_in_reach
 from veduta.plan.walls.pieces import FACET_RAD, Piece
 
 HOUSE_SHARE = 0.5
@@ -63,12 +63,12 @@ def wall_graph(axes: Sequence[Axis]) -> Graph:
     """Let axes end at those that they reach, and part them where they meet."""
     stops: list[list[tuple[float, int]]] = [[] for _ in axes]
     points: list[NDArray[np.float64]] = []
-    for first in range(len(axes)):
-        for second in range(first + 1, len(axes)):
-            for point, along_first, along_second in meetings(axes[first].line, axes[second].line):
-                stops[first].append((along_first, len(points)))
-                stops[second].append((along_second, len(points)))
-                points.append(point)
+    lines = [axis.line for axis in axes]
+    for first, second in pairs_in_reach(lines):
+        for point, along_first, along_second in meetings(lines[first], lines[second]):
+            stops[first].append((along_first, len(points)))
+            stops[second].append((along_second, len(points)))
+            points.append(point)
     for index, axis in enumerate(axes):
         _with_ends(axis, stops[index], points)
         _with_middles(axis, stops[index], points)

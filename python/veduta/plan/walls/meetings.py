@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
+from shapely import STRtree, box
 from shapely.geometry import LineString, MultiPoint, Point
 
 from veduta.plan.walls.arcs import Arc
@@ -29,6 +31,24 @@ class Meeting(NamedTuple):
     point: NDArray[np.float64]
     first: float
     second: float
+
+
+def pairs_in_reach(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
+    """Rows of all pairs of walls that may meet, the first before the second, in order.
+
+    What meets a straight wall lies no farther from it than the flattest angle lets it reach. Of
+    curved walls all are told.
+    """
+    low = np.array([np.minimum(one.start, one.end) for one in pieces]).reshape(-1, 2)
+    high = np.array([np.maximum(one.start, one.end) for one in pieces]).reshape(-1, 2)
+    thick = np.array([one.thickness_px for one in pieces])
+    # Of two walls the thicker one says how far each reaches.
+    reach = 2.0 * ((0.5 + REACH) * thick / np.sin(MEET_RAD) + 2.0)
+    reach[[bool(one.bulge) for one in pieces]] = np.ptp([low, high]) if len(pieces) else 0.0
+    low, high = low - reach[:, None], high + reach[:, None]
+    around = box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])
+    first, second = STRtree(around).query(around, predicate="intersects")
+    return sorted(zip(*(row[first < second].tolist() for row in (first, second)), strict=True))
 
 
 def meetings(one: Piece, other: Piece) -> list[Meeting]:
