@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.walls.cells import common_values, find_cells
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.outlined import wall_cells
@@ -14,7 +15,8 @@ from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.solid import two_pens, wall_thickness
 from veduta.plan.walls.tone import toned_areas
-from veduta.plan.walls.ways import connected, outlined_walls, ways_of_ink
+from veduta.plan.walls.ways import connected, outlined_walls, ways_drawn, ways_of_ink
+from veduta.synthetic.plans.sets import sheets_of
 
 Mask = np.ndarray
 LINE = 2
@@ -199,6 +201,13 @@ def test_the_drawing_of_walls_is_told(draw: object, name: str) -> None:
     assert (way.mask == mask).all()
     # From outside to outside of the outlines.
     assert way.thickness.most_px == pytest.approx(26, abs=1)
+
+
+def test_furniture_beside_solid_walls_does_not_make_them_hatched() -> None:
+    """Filled in, desks and wardrobes are more than the thick walls of this sheet."""
+    pixels, truth = next(iter(sheets_of(4064)))
+    assert truth.walls_drawn == "filled"
+    assert next(ways_drawn(clean_sheet(pixels), [], [])).drawing == "filled"
 
 
 @pytest.mark.parametrize("tone", [0.35, 0.6])

@@ -121,11 +121,12 @@ def ways_of_ink(
             yield closed
     layered = fill_cells(lines, line_px)
     full = _more_wall(layered, ink, line_px)
-    if full is not None:
-        paper = float((layered & ~ink).sum() / max(1, layered.sum()))
-        yield Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
     plain = wall_thickness(ink, line_px)
     single = plain is None or plain.most_px < SINGLE_LINE * line_px
+    # Furniture that is filled in may be more than thick walls are, but not than all walls.
+    if full is not None and (single or plain is None or _exceeds(layered, ink, plain.least_px)):
+        paper = float((layered & ~ink).sum() / max(1, layered.sum()))
+        yield Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
     if single and soft is not None:
         for pen in broader_pens(soft, ink):
             yield Way(ink, pen.mask, pen.thickness, "single-line", "by pen")
@@ -151,8 +152,12 @@ def _more_wall(
     # Where thin walls are no thicker than letters and double lines, the thick ones are compared.
     fine = full.least_px < FINE * line_px
     least = THICK * full.most_px if fine else 0.9 * full.least_px
-    more = stroke_length(filled, least) > MORE_WALL * stroke_length(solid, least)
-    return full if more else None
+    return full if _exceeds(filled, solid, least) else None
+
+
+def _exceeds(filled: NDArray[np.bool_], solid: NDArray[np.bool_], least_px: float) -> bool:
+    """Whether filling makes much more of what is at least so thick."""
+    return stroke_length(filled, least_px) > MORE_WALL * stroke_length(solid, least_px)
 
 
 def outlined_walls(
