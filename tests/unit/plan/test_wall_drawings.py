@@ -298,6 +298,13 @@ def test_thin_walls_count_however_thick_others_are() -> None:
     assert found is not None
     assert found.most_px == 32
     assert 2.0 * 1.6 < found.least_px < 8
+    # Leaves of doors are far shorter than the walls on which they hang.
+    leaves = _filled(40, 14)
+    for left in (140, 300, 540, 700):
+        leaves[560 - 110 : 560, left : left + 7] = True
+    doors = wall_thickness(leaves, 2.0)
+    assert doors is not None
+    assert 7 < doors.least_px < 14
     # Lines alone are no thin walls.
     lines = wall_thickness(_filled(32, 2), 2.0)
     assert lines is not None

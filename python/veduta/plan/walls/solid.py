@@ -26,6 +26,9 @@ OVER_LINE = 2.2
 PARTED = 0.2
 """... and parted from these by thicknesses that are this rare beside theirs."""
 
+OF_THICKER = 0.25
+"""And so long, as a part of all that is thicker: leaves of doors and frames of windows are not."""
+
 BELOW_COMMON = 0.75
 """What is thinner than them by this factor is no wall."""
 
@@ -76,7 +79,8 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     # Thin walls hang on thick ones; a frame around the sheet, or furniture, is not of the house.
     hanging = _lengths(thin[_hanging_on(ink, stroke, thin >= least)])
     thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, least))
-    if thin_walls is not None and _near(hanging, thin_walls) >= LEAST_SHARE * extent:
+    enough = max(LEAST_SHARE * extent, OF_THICKER * hanging[math.ceil(least) :].sum())
+    if thin_walls is not None and _near(hanging, thin_walls) >= enough:
         least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
