@@ -8,16 +8,14 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.plan.clean.sheet import clean_sheet
-from veduta.plan.drawn import Cleaned
 from veduta.plan.walls.cells import common_values, find_cells
-from veduta.plan.walls.find import find_walls
 from veduta.plan.walls.hatching import hatch_strokes, hatched_areas
 from veduta.plan.walls.outlined import wall_cells
 from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece
-from veduta.plan.walls.solid import Thickness, two_pens, wall_thickness
+from veduta.plan.walls.solid import two_pens, wall_thickness
 from veduta.plan.walls.tone import toned_areas
-from veduta.plan.walls.ways import Way, connected, outlined_walls, ways_drawn, ways_of_ink
+from veduta.plan.walls.ways import connected, outlined_walls, ways_drawn, ways_of_ink
 from veduta.synthetic.plans.sets import sheets_of
 
 Mask = np.ndarray
@@ -203,24 +201,6 @@ def test_the_drawing_of_walls_is_told(draw: object, name: str) -> None:
     assert (way.mask == mask).all()
     # From outside to outside of the outlines.
     assert way.thickness.most_px == pytest.approx(26, abs=1)
-
-
-def test_a_thin_wall_whose_edges_are_pale_is_one() -> None:
-    """Its rows of ink are 9 or 10, two of them paler than panes may be (sheet 5015)."""
-    ink = np.zeros((420, 640), np.float32)
-    for left, top, right, bottom in ((40, 40, 600, 70), (40, 350, 600, 380), (40, 40, 70, 380)):
-        ink[top:bottom, left:right] = 0.6
-    ink[40:380, 570:600] = 0.6
-    ink[196:206, 70:570] = 0.6
-    ink[[196, 205], 70:570] = 0.35
-    ink[210:350, 300:310] = 0.6
-    mask = ink > 0.3
-    way = Way(mask, mask, Thickness(9.0, 30.0), "filled")
-    pixels = np.zeros((420, 640, 3), np.uint8)
-    cleaned = Cleaned(pixels, ink, np.eye(3), mirrored=False, rotation_rad=0.0, line_px=3.0)
-    found = find_walls(cleaned, way)
-    long = [one for one in found.pieces if abs(float(one.start[1]) - 201) < 2]
-    assert sum(one.length_px for one in long) > 480
 
 
 def test_furniture_beside_solid_walls_does_not_make_them_hatched() -> None:

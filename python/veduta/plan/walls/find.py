@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -16,10 +15,7 @@ from veduta.plan.walls.join import joined
 from veduta.plan.walls.measure import measured
 from veduta.plan.walls.outlines import without_half_outline
 from veduta.plan.walls.pieces import Piece, straight_pieces
-from veduta.plan.walls.runs import run_lengths, run_lengths_down
 from veduta.plan.walls.solid import (
-    ACROSS,
-    LEAST_OVER_LINE,
     Thickness,
     thick_strokes,
     wall_thickness,
@@ -34,9 +30,6 @@ MOST_PIECES = 1500
 
 SINGLE_LEAST = 0.9
 """Leaves of doors are drawn as lines that are thinner than walls by this factor, or more."""
-
-NOT_THINNER = 0.8
-"""What is thinner than the thinnest walls by this factor is none."""
 
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
@@ -75,11 +68,8 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
         if drawing == "single-line":
             # The edges of lines are as pale as panes: without them all lines are thinner.
             thickness = wall_thickness(dark, cleaned.line_px) or thickness
-        full = solid
         solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
-        if drawing == "filled":
-            solid |= full & _edges_of_thin(solid, thickness, cleaned.line_px)
-    least_px = NOT_THINNER * thickness.least_px
+    least_px = 0.8 * thickness.least_px
     if drawing == "single-line":
         # Tracks are whole pixels wide, which is much of a line; the measured width judges later.
         least_px -= 0.5
@@ -106,17 +96,6 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     thin_px = thin_thickness([*whole, *curved])
     return Found(whole, solid, thickness, thin_px, curved, way.told == "by colour")
-
-
-def _edges_of_thin(
-    solid: NDArray[np.bool_], thickness: Thickness, line_px: float
-) -> NDArray[np.bool_]:
-    """What is beside long strokes that are no lines, but too thin for walls without pale edges."""
-    across, down = run_lengths(solid), run_lengths_down(solid)
-    broad, long = np.minimum(across, down), np.maximum(across, down)
-    thin = solid & (broad < NOT_THINNER * thickness.least_px) & (long > ACROSS * broad)
-    thin &= broad >= LEAST_OVER_LINE * line_px
-    return np.asarray(cv2.dilate(thin.astype(np.uint8), np.ones((3, 3), np.uint8)), np.bool_)
 
 
 def thin_thickness(pieces: Sequence[Piece]) -> float:
