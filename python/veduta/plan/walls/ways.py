@@ -123,15 +123,21 @@ def ways_of_ink(
     full = _more_wall(layered, ink, line_px)
     plain = wall_thickness(ink, line_px)
     single = plain is None or plain.most_px < SINGLE_LINE * line_px
-    # Furniture that is filled in may be more than thick walls are, but not than all walls.
-    if full is not None and (single or plain is None or _exceeds(layered, ink, plain.least_px)):
+    filled = None
+    if full is not None:
         paper = float((layered & ~ink).sum() / max(1, layered.sum()))
-        yield Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
+        filled = Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
+    # Furniture that is filled in may be more than thick walls are, but not than all walls.
+    likely = single or plain is None or _exceeds(layered, ink, plain.least_px)
+    if filled is not None and likely:
+        yield filled
     if single and soft is not None:
         for pen in broader_pens(soft, ink):
             yield Way(ink, pen.mask, pen.thickness, "single-line", "by pen")
     if plain is not None:
         yield Way(ink, ink, plain, "single-line" if single else "filled")
+    if filled is not None and not likely:
+        yield filled
 
 
 def _outlined(
