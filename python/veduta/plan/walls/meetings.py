@@ -41,9 +41,9 @@ def pairs_in_reach(pieces: Sequence[Piece]) -> list[tuple[int, int]]:
     """
     low = np.array([np.minimum(one.start, one.end) for one in pieces]).reshape(-1, 2)
     high = np.array([np.maximum(one.start, one.end) for one in pieces]).reshape(-1, 2)
-    thick = np.array([one.thickness_px for one in pieces])
-    # Of two walls the thicker one says how far each reaches.
-    reach = 2.0 * ((0.5 + REACH) * thick / np.sin(MEET_RAD) + 2.0)
+    # Of two walls the thicker one says how far each reaches, as if both were as thick.
+    flattest = float(np.sin(MEET_RAD))
+    reach = np.array([sum(_reaches(one, one, flattest)) for one in pieces])
     reach[[bool(one.bulge) for one in pieces]] = np.ptp([low, high]) if len(pieces) else 0.0
     low, high = low - reach[:, None], high + reach[:, None]
     around = box(low[:, 0], low[:, 1], high[:, 0], high[:, 1])

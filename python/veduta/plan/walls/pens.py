@@ -64,7 +64,7 @@ class Pen:
 
 @dataclass(frozen=True)
 class _Strokes:
-    """Marks, those of long upright strokes, and the ink across each of them: (h, w), px.
+    """Which marks are of long upright strokes, and the ink across all of them: (h, w), px.
 
     `thin` (h, w): how broad they look. `rest` (h, w): the pieces of what is not straight, 0 where
     there is none; `rest_size` and `rest_width` (p + 1,) their diagonals and the ink across, px.

@@ -119,25 +119,34 @@ def ways_of_ink(
         closed = _outlined(ink, lines, line_px, ends_open=False)
         if closed is not None and not np.array_equal(closed.mask, outlined.mask):
             yield closed
-    layered = fill_cells(lines, line_px)
-    full = _more_wall(layered, ink, line_px)
+    layered = _layered(ink, lines, line_px)
     plain = wall_thickness(ink, line_px)
     single = plain is None or plain.most_px < SINGLE_LINE * line_px
-    filled = None
-    if full is not None:
-        paper = float((layered & ~ink).sum() / max(1, layered.sum()))
-        filled = Way(ink, layered, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
     # Furniture that is filled in may be more than thick walls are, but not than all walls.
-    likely = single or plain is None or _exceeds(layered, ink, plain.least_px)
-    if filled is not None and likely:
-        yield filled
+    last = (
+        layered is not None
+        and plain is not None
+        and not single
+        and not _exceeds(layered.mask, ink, plain.least_px)
+    )
+    if layered is not None and not last:
+        yield layered
     if single and soft is not None:
         for pen in broader_pens(soft, ink):
             yield Way(ink, pen.mask, pen.thickness, "single-line", "by pen")
     if plain is not None:
         yield Way(ink, ink, plain, "single-line" if single else "filled")
-    if filled is not None and not likely:
-        yield filled
+    if layered is not None and last:
+        yield layered
+
+
+def _layered(ink: NDArray[np.bool_], lines: NDArray[np.bool_], line_px: float) -> Way | None:
+    mask = fill_cells(lines, line_px)
+    full = _more_wall(mask, ink, line_px)
+    if full is None:
+        return None
+    paper = float((mask & ~ink).sum() / max(1, mask.sum()))
+    return Way(ink, mask, full, "hollow" if paper > MOSTLY_PAPER else "hatched")
 
 
 def _outlined(
