@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw, ImageFont
 from veduta.plan.clean.straighten import laid_straight
 from veduta.plan.document import Sheet, Text
 from veduta.plan.text import regions
+from veduta.plan.text.engine import LINE_PX, read_line, side_by_side
 from veduta.plan.text.orientation import Position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
 from veduta.plan.text.regions import without_duplicates
@@ -128,3 +129,14 @@ def test_small_text_of_a_large_sheet_is_found_in_tiles(monkeypatch: pytest.Monke
     at_once = read_texts(large)
     assert "Bedroom" in {_plain(text) for text in in_tiles}
     assert "Bedroom" not in {_plain(text) for text in at_once}
+
+
+def test_lines_read_side_by_side_are_those_read_one_by_one() -> None:
+    strips = []
+    for words in ("OLOHUONE", "4.94 x 3.06", "", "Bedroom 12", "17,4 m2", "KITCHEN", "WC"):
+        strip = Image.new("RGB", (240, LINE_PX), "white")
+        pen, font = ImageDraw.Draw(strip), ImageFont.load_default(28)
+        pen.text((120, LINE_PX // 2), words, fill="black", font=font, anchor="mm")
+        strips.append(np.asarray(strip))
+    assert side_by_side(read_line, strips) == [read_line(strip) for strip in strips]
+    assert side_by_side(read_line, []) == []

@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from shapely.geometry import LineString
 
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import wall_graph
 from veduta.plan.walls.jogs import jogs
+from veduta.plan.walls.join import joined
 from veduta.plan.walls.meetings import meetings, pairs_in_reach
 from veduta.plan.walls.pieces import Piece
 
@@ -113,3 +115,41 @@ def test_no_pair_of_walls_that_meets_is_passed_over(seed: int) -> None:
 def test_walls_far_from_each_other_are_no_pair() -> None:
     assert pairs_in_reach([_piece(0, 0, 100, 0), _piece(400, 0, 400, 90)]) == []
     assert pairs_in_reach([]) == []
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    st.lists(
+        st.tuples(
+            st.integers(20, 300),
+            st.integers(20, 300),
+            st.integers(30, 300),
+            st.sampled_from((6, 12, 24, 60)),
+            st.booleans(),
+        ),
+        min_size=1,
+        max_size=6,
+    )
+)
+def test_pieces_within_the_body_of_a_longer_one_are_dropped(
+    given_walls: list[tuple[int, int, int, int, bool]],
+) -> None:
+    pieces = [
+        _piece(x, y, x, y + long, thick) if down else _piece(x, y, x + long, y, thick)
+        for x, y, long, thick, down in given_walls
+    ]
+    found = joined(pieces, np.zeros((700, 700), np.bool_))
+    for one, other in combinations(sorted(found, key=lambda each: each.length_px), 2):
+        if one.length_px == other.length_px:
+            continue
+        body = LineString([other.start, other.end]).buffer(
+            other.thickness_px / 2, cap_style="square"
+        )
+        assert not body.contains(LineString([one.start, one.end]))
+    # Where nothing joins and nothing lies in another, nothing is lost.
+    bodies = [
+        LineString([one.start, one.end]).buffer(one.thickness_px / 2 + 2.0, cap_style="square")
+        for one in pieces
+    ]
+    if not any(one.intersects(other) for one, other in combinations(bodies, 2)):
+        assert len(found) == len(pieces)

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import affinity, set_precision, unary_union
-from shapely.geometry import LineString, Point, Polygon, box
+from shapely import buffer, set_precision, unary_union
+from shapely.geometry import LineString, Point, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import LinearRing, orient
 
@@ -44,11 +44,10 @@ def wall_body(
     """The rectangle of a wall, prolonged by `more_px` at its start and end."""
     run = end - start
     length = float(np.hypot(*run))
-    angle = float(np.degrees(np.arctan2(run[1], run[0])))
-    half = thickness_px / 2
-    upright = box(-more_px[0], -half, length + more_px[1], half)
-    turned = affinity.rotate(upright, angle, origin=(0, 0))
-    return affinity.translate(turned, float(start[0]), float(start[1]))
+    way = run / length if length else np.array([1.0, 0.0])
+    first, last = start - more_px[0] * way, end + more_px[1] * way
+    across = thickness_px / 2 * np.array([-way[1], way[0]])
+    return Polygon([last - across, last + across, first + across, first - across])
 
 
 def curved_body(line: Piece, more_px: tuple[float, float] = (0.0, 0.0)) -> Polygon:
@@ -93,9 +92,8 @@ def wall_bodies(graph: Graph, axes: Sequence[Axis]) -> list[Polygon]:
 def closed_spaces(bodies: list[Polygon], thin_px: float) -> list[Space]:
     """The spaces that the bodies enclose, large ones first; walls that stand free are holes."""
     # Bodies that touch by rounding only are one wall.
-    whole = unary_union(
-        [set_precision(body.buffer(0.6, join_style="mitre"), 1e-3) for body in bodies]
-    )
+    grown = buffer(np.array(bodies, dtype=object), 0.6, join_style="mitre")
+    whole = unary_union(set_precision(grown, 1e-3))
     found = []
     parts = [part for part in getattr(whole, "geoms", [whole]) if isinstance(part, Polygon)]
     for part in parts:

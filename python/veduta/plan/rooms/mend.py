@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, unary_union
+from shapely import STRtree, buffer, unary_union
 from shapely.geometry import Point, Polygon, box
 
 from veduta.plan.document import OpeningType, Origin, Text
@@ -134,9 +134,8 @@ def mended(
     glazed_px = GLAZED * (usual or USUAL_DOOR * found.thin_px)
     looker = _Looker(found, sheet, room_labels(texts), usual)
     failed: set[tuple[int, ...]] = set()
-    graph = wall_graph(now)
-    rooms = len(closed_spaces(wall_bodies(graph, now), found.thin_px))
-    closings = looker.closings(graph, now)
+    closed = _closed(now, found.thin_px)
+    closings = looker.closings(closed)
     for _ in range(MOST_ROUNDS):
         left = [one for one in closings if one.broken.key not in failed]
         if not left or looker.looked_at > MOST_LOOKED_AT:
@@ -144,12 +143,11 @@ def mended(
         best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
         more = [*now, _axis(best, found.thin_px, glazed_px)]
-        tried = wall_graph(more)
-        count = len(closed_spaces(wall_bodies(tried, more), found.thin_px))
-        if count > rooms:
-            now, graph, rooms = more, tried, count
+        tried = _closed(more, found.thin_px)
+        if len(tried.rooms) > len(closed.rooms):
+            now, closed = more, tried
             notes.append(_note(best, more[-1]))
-            closings = looker.closings(graph, now)
+            closings = looker.closings(closed)
     if by_lines and now:
         more, said = _along_lines(now, found, sheet, room_labels(texts, indoors=True))
         return Mended([*now, *more], (*notes, *said))
@@ -163,31 +161,44 @@ def _along_lines(
     now, notes = list(axes), list[str]()
     if not labels:
         return [], notes
-    bodies = wall_bodies(wall_graph(now), now)
-    rooms = _rooms(bodies, found.thin_px)
+    closed = _closed(now, found.thin_px)
     raster = None
     for label in labels:
         name = Point(*label)
-        if any(room.contains(name) for room in rooms):
+        if any(room.contains(name) for room in closed.rooms):
             continue
         if raster is None:
-            raster = raster_of(bodies, sheet.faint)
+            raster = raster_of(closed.bodies, sheet.faint)
         walls = drawn_walls(now, found, raster, label)
         if not walls:
             continue
         more = [*now, *walls]
-        tried = wall_bodies(wall_graph(more), more)
-        closed = _rooms(tried, found.thin_px)
-        if len(closed) <= len(rooms) or not any(room.contains(name) for room in closed):
+        tried = _closed(more, found.thin_px)
+        if len(tried.rooms) <= len(closed.rooms) or not any(
+            room.contains(name) for room in tried.rooms
+        ):
             continue
-        now, bodies, rooms, raster = more, tried, closed, None
+        now, closed, raster = more, tried, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
         notes.append(f"the room {place} is closed along the lines that are drawn around it")
     return now[len(axes) :], notes
 
 
-def _rooms(bodies: Sequence[Polygon], thin_px: float) -> list[Polygon]:
-    return [space.polygon() for space in closed_spaces(list(bodies), thin_px)]
+@dataclass(frozen=True)
+class _Closed:
+    """Walls that meet: their graph, bodies of its edges, and the spaces that these enclose."""
+
+    axes: Sequence[Axis]
+    graph: Graph
+    bodies: list[Polygon]
+    rooms: list[Polygon]
+
+
+def _closed(axes: Sequence[Axis], thin_px: float) -> _Closed:
+    graph = wall_graph(axes)
+    bodies = wall_bodies(graph, axes)
+    rooms = [space.polygon() for space in closed_spaces(bodies, thin_px)]
+    return _Closed(axes, graph, bodies, rooms)
 
 
 class _Looker:
@@ -210,48 +221,47 @@ class _Looker:
         self.seen: dict[tuple[int, ...], Judged | None] = {}
         self.looked_at = 0
 
-    def closings(self, graph: Graph, axes: Sequence[Axis]) -> list[_Closing]:
+    def closings(self, closed: _Closed) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
-        bodies = wall_bodies(graph, axes)
-        spaces = self._spaces(bodies)
-        self.leaking = self._leaking(bodies)
+        spaces = self._spaces(closed)
+        self.leaking = self._leaking(closed)
+        breaks = find_breaks(closed.graph, closed.axes, self.found.solid, self.found.thin_px)
+        self.looked_at += len(breaks)
+        bodies = _grown(
+            [wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)) for one in breaks], 0.7
+        )
         tree = STRtree([space for space, _ in spaces])
         found = []
-        breaks = find_breaks(graph, axes, self.found.solid, self.found.thin_px)
-        self.looked_at += len(breaks)
-        for one in breaks:
-            body = wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)).buffer(0.7)
-            for index in tree.query(body, predicate="intersects"):
-                space, outdoors = spaces[int(index)]
-                parts = self._parts(space, body)
-                if len(parts) > 1:
-                    closing = self._judged(one, parts, outdoors)
-                    found += [] if closing is None else [closing]
+        for place, index in zip(*tree.query(bodies, predicate="intersects"), strict=True):
+            space, outdoors = spaces[index]
+            parts = self._parts(space, bodies[place])
+            if len(parts) > 1:
+                closing = self._judged(breaks[place], parts, outdoors)
+                found += [] if closing is None else [closing]
         return found
 
-    def _spaces(self, bodies: Sequence[Polygon]) -> list[tuple[Polygon, bool]]:
+    def _spaces(self, closed: _Closed) -> list[tuple[Polygon, bool]]:
         """Rooms, and what is outdoors, which alone reaches the border of the sheet."""
-        rooms = [(room, False) for room in _rooms(bodies, self.found.thin_px)]
+        rooms = [(room, False) for room in closed.rooms]
         around = self._border()
-        free = around.difference(unary_union([one.buffer(0.6) for one in bodies]))
+        free = around.difference(unary_union(_grown(closed.bodies, 0.6)))
         border = around.exterior
         for part in getattr(free, "geoms", [free]):
             if isinstance(part, Polygon) and part.distance(border) < 1:
                 rooms.append((part, True))
         return rooms
 
-    def _leaking(self, bodies: Sequence[Polygon]) -> list[Point]:
+    def _leaking(self, closed: _Closed) -> list[Point]:
         """Points in rooms that only breaks of usual width open to the outdoors.
 
         No disc as broad as these gets there from the border of the sheet.
         """
         reach = WIDEST_BREAK / 2 * self.found.thin_px
         around = self._border()
-        free = around.difference(unary_union(bodies).buffer(reach))
+        free = around.difference(unary_union(closed.bodies).buffer(reach))
         parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
-        closed = closed_spaces(list(bodies), self.found.thin_px)
         inside = [one.representative_point() for one in parts if one.distance(around.exterior) > 1]
-        return [one for one in inside if not any(room.polygon().contains(one) for room in closed)]
+        return [one for one in inside if not any(room.contains(one) for room in closed.rooms)]
 
     def _border(self) -> Polygon:
         """A frame well outside the sheet, so that one can go all around the house."""
@@ -339,6 +349,11 @@ class _Looker:
             view = look_at(gap, self.sheet)
             self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
         return self.seen[place]
+
+
+def _grown(bodies: Sequence[Polygon], by_px: float) -> NDArray[np.object_]:
+    """(n,) polygons with round corners."""
+    return np.asarray(buffer(np.array(bodies, dtype=object), by_px, quad_segs=16))
 
 
 def _is_window(judged: Judged | None) -> bool:

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.document import Text
 from veduta.plan.names.vocabulary import meanings
-from veduta.plan.text.engine import read_line
+from veduta.plan.text.engine import read_line, side_by_side
 from veduta.plan.text.strips import strip_of
 
 _ALIKE = (0.8, 1.25)  # height over that of the sheet's letters
@@ -28,9 +28,10 @@ def find_letters(pixels: NDArray[np.uint8], texts: list[Text]) -> list[Text]:
     height = _letter_height(ink, texts)
     if height is None:
         return []
+    quads = _alone(ink, texts, height)[:_MOST]
+    lines = side_by_side(lambda quad: read_line(strip_of(pixels, quad)), quads)
     found = []
-    for quad in _alone(ink, texts, height)[:_MOST]:
-        line = read_line(strip_of(pixels, quad))
+    for quad, line in zip(quads, lines, strict=True):
         if line.score >= _SURE and len(line.text) == 1 and meanings(line.text):
             corners = [(float(x), float(y)) for x, y in quad]
             found.append(Text(text=line.text, box_px=corners, score=line.score))

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.names.vocabulary import meanings
 from veduta.plan.scale.quantities import read_quantities
-from veduta.plan.text.engine import Line, read_line
+from veduta.plan.text.engine import Line, read_line, side_by_side
 from veduta.plan.text.regions import find_overview
 from veduta.plan.text.strips import in_colour, strip_of
 
@@ -56,7 +56,7 @@ def find_position(
     """
     pixels = in_colour(pixels)
     telling = _telling(find_overview(pixels) if overview is None else overview)
-    first = [_read_at(pixels, quad, False, 0) for quad in telling[:_FIRST]]
+    first = _read_all(pixels, telling[:_FIRST], False, 0)
     as_it_is = sum(map(_weight, first))
     if not telling or sum(map(_makes_sense, first)) * 2 > len(first):
         return Position(False, 0, as_it_is, as_it_is)
@@ -107,7 +107,16 @@ def _position_score(
     mirrored: bool,
     turns: int,
 ) -> float:
-    return sum(_weight(_read_at(pixels, quad, mirrored, turns)) for quad in regions)
+    return sum(map(_weight, _read_all(pixels, regions, mirrored, turns)))
+
+
+def _read_all(
+    pixels: NDArray[np.uint8],
+    regions: Iterable[NDArray[np.float64]],
+    mirrored: bool,
+    turns: int,
+) -> list[Line]:
+    return side_by_side(lambda quad: _read_at(pixels, quad, mirrored, turns), regions)
 
 
 def _read_at(

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
-from veduta.plan.text.engine import Line, read_line
+from veduta.plan.text.engine import Line, read_line, side_by_side
 from veduta.plan.text.letters import find_letters
 from veduta.plan.text.regions import find_regions
 from veduta.plan.text.strips import in_colour, strip_of
@@ -32,7 +34,7 @@ def read_texts(
     """
     pixels = in_colour(pixels)
     regions = find_regions(pixels, overview)
-    read = (_read_region(pixels, quad) for quad in regions[:MOST_REGIONS])
+    read = side_by_side(partial(_read_region, pixels), regions[:MOST_REGIONS])
     texts = [
         Text(text=line.text, box_px=[(float(x), float(y)) for x, y in quad], score=line.score)
         for quad, line in read

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from functools import reduce
 
@@ -42,7 +43,7 @@ def joined(pieces: list[Piece], solid: NDArray[np.bool_]) -> list[Piece]:
     for label in range(labels.max() + 1):
         group = [upright[index] for index in np.flatnonzero(labels == label)]
         done.append(reduce(merged, sorted(group, key=lambda one: -one.length_px)))
-    return [one for one in done if not _inside_another(one, done)]
+    return [one for one, inside in zip(done, _inside_another(done), strict=True) if not inside]
 
 
 def merged(first: Piece, second: Piece) -> Piece:
@@ -149,19 +150,19 @@ def _solid_between(first: int, second: int, pieces: list[Piece], mask: NDArray[n
     return solid_share(mask, ends[which], mine[whose]) > 0.93
 
 
-def _inside_another(piece: Piece, pieces: list[Piece]) -> bool:
-    """Whether a shorter piece lies within the body of a longer one."""
-    for other in pieces:
-        if other is piece or other.length_px <= piece.length_px:
-            continue
-        normal = np.array([-other.direction[1], other.direction[0]])
-        ends = np.array([piece.start, piece.end]) - other.start
-        beside, along = np.abs(ends @ normal), ends @ other.direction
-        half = other.thickness_px / 2
-        if (
-            (beside <= half + 1).all()
-            and along.min() >= -half
-            and along.max() <= (other.length_px + half)
-        ):
-            return True
-    return False
+def _inside_another(pieces: Sequence[Piece]) -> NDArray[np.bool_]:
+    """(n,) whether each piece lies within the body of a longer one."""
+    starts, ends = (np.array([getattr(one, name) for one in pieces]) for name in ("start", "end"))
+    ways = np.array([one.direction for one in pieces])
+    length = np.array([one.length_px for one in pieces])
+    half = np.array([one.thickness_px for one in pieces]) / 2
+    inside = []
+    for start, end, own in zip(starts, ends, length, strict=True):
+        within = length > own
+        for point in (start, end):
+            away = point - starts
+            beside = np.abs(away[:, 1] * ways[:, 0] - away[:, 0] * ways[:, 1])
+            along = (away * ways).sum(axis=1)
+            within &= (beside <= half + 1) & (along >= -half) & (along <= length + half)
+        inside.append(within.any())
+    return np.array(inside)

@@ -20,6 +20,9 @@ REACH = 0.45
 BESIDE = 0.6
 """Walls in one line lie beside each other by at most this part of the thicker one's thickness."""
 
+OVERLAP, OVERLAP_CURVED = 0.5, 1.5
+"""Ends that touch overlap by so many thicknesses; where an arc begins is not seen sharply."""
+
 FINE_RAD = np.radians(1.0)
 TANGENT_RAD = np.radians(25.0)
 """Walls that go on into each other differ by less than this in direction where they touch."""
@@ -126,8 +129,12 @@ def _longer(piece: Piece, by_px: float) -> NDArray[np.float64]:
 def end_to_end(one: Piece, other: Piece) -> list[Meeting]:
     """Walls of different thickness or slightly different direction that touch with their ends."""
     thick = max(one.thickness_px, other.thickness_px)
+    # No end touches one that is farther off, whatever the walls' directions; most are.
+    farthest = max(OVERLAP_CURVED * thick, REACH * thick + 2) + BESIDE * thick
     for mine, along in ((one.start, 0.0), (one.end, one.length_px)):
         for its, beyond in ((other.start, 0.0), (other.end, other.length_px)):
+            if abs(its[0] - mine[0]) > farthest or abs(its[1] - mine[1]) > farthest:
+                continue
             outward = one.arc.way(along) * (-1.0 if along == 0.0 else 1.0)
             inward = other.arc.way(beyond) * (1.0 if beyond == 0.0 else -1.0)
             curved = bool(one.bulge or other.bulge)
@@ -136,9 +143,8 @@ def end_to_end(one: Piece, other: Piece) -> list[Meeting]:
             away = its - mine
             ahead = float(away @ outward)
             beside = abs(float(away[0] * outward[1] - away[1] * outward[0]))
-            # Where an arc begins is not seen sharply.
-            least = -1.5 if curved else -0.5
-            if least * thick <= ahead <= REACH * thick + 2 and beside <= BESIDE * thick:
+            overlap = OVERLAP_CURVED if curved else OVERLAP
+            if -overlap * thick <= ahead <= REACH * thick + 2 and beside <= BESIDE * thick:
                 longer = mine if one.length_px >= other.length_px else its
                 return [Meeting(np.asarray(longer, dtype=float), along, beyond)]
     return []

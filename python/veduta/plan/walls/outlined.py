@@ -14,6 +14,7 @@ What tells a wall from a bed's head, a wardrobe or a pane, in this order:
 from __future__ import annotations
 
 from collections.abc import Iterable
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -87,6 +88,9 @@ def wall_cells(cells: Cells) -> NDArray[np.bool_]:
 class _Sorting:
     def __init__(self, cells: Cells) -> None:
         self.cells = cells
+        # Asked in each round, and always the same.
+        self.middle = cache(cells.middle)
+        self.in_line = cache(self._cells_in_line)
         self.even: dict[int, tuple[list[float], float]] = {
             int(one): cells.widths(int(one)) for one in np.flatnonzero(cells.narrow)
         }
@@ -187,7 +191,7 @@ class _Sorting:
         return bool(long and not self._is_straight(cell) and self._parts_rooms(cell))
 
     def _is_straight(self, cell: int) -> bool:
-        _, _, _, short = self.cells.middle(cell)
+        _, _, _, short = self.middle(cell)
         return bool(short <= STRAIGHT * self.cells.breadth[cell] + 1)
 
     def _is_between_rooms(self, cell: int) -> bool:
@@ -245,7 +249,7 @@ class _Sorting:
         """Whether one of the walls goes on in the direction of a straight cell at its end."""
         if not self._is_straight(opening):
             return False
-        centre, along, long, _ = self.cells.middle(opening)
+        centre, along, long, _ = self.middle(opening)
         for wall in walls:
             away = long / 2 + 1.3 * max(self.even[wall][0]) + 4
             if any(self._label(centre + side * away * along) == wall for side in (1, -1)):
@@ -254,24 +258,26 @@ class _Sorting:
 
     def _stands_in_line(self, cell: int) -> bool:
         """Whether a wall of the same breadth lies ahead, with its middle on the same line."""
+        return any(self.wall[ahead].sum() >= 3 for ahead in self.in_line(cell))
+
+    def _cells_in_line(self, cell: int) -> list[NDArray[np.intp]]:
+        """For each end the cells (n,) that are as broad, one for each step ahead of it."""
         cells = self.cells
-        centre, along, long, short = cells.middle(cell)
+        centre, along, long, short = self.middle(cell)
         ways = [along]
         if long < 1.5 * short:
             ways.append(np.array([-along[1], along[0]]))
         breadth = float(cells.breadth[cell])
-        for way in ways:
-            for side in (1, -1):
-                steps = np.arange(long / 2 + 3, long / 2 + IN_LINE_FARTHEST * breadth, 2.0)
-                points = centre + side * steps[:, None] * way
-                x = np.clip(np.floor(points[:, 0]).astype(int), 0, cells.labels.shape[1] - 1)
-                y = np.clip(np.floor(points[:, 1]).astype(int), 0, cells.labels.shape[0] - 1)
-                here = 2.0 * cells.depth[y, x] - 1.0
-                same = np.abs(here - breadth) <= float(tolerance(np.array(breadth)))
-                on_wall = self.wall[cells.labels[y, x]] & same
-                if on_wall.sum() >= 3:
-                    return True
-        return False
+        steps = np.arange(long / 2 + 3, long / 2 + IN_LINE_FARTHEST * breadth, 2.0)
+        found = []
+        for way in (side * one for one in ways for side in (1, -1)):
+            points = centre + steps[:, None] * way
+            x = np.clip(np.floor(points[:, 0]).astype(int), 0, cells.labels.shape[1] - 1)
+            y = np.clip(np.floor(points[:, 1]).astype(int), 0, cells.labels.shape[0] - 1)
+            here = 2.0 * cells.depth[y, x] - 1.0
+            same = np.abs(here - breadth) <= float(tolerance(np.array(breadth)))
+            found.append(cells.labels[y, x][same])
+        return found
 
     def _stands_free(self, cell: int) -> bool:
         """Whether one space is all around a straight cell: on plans of bearing walls alone."""
