@@ -285,6 +285,10 @@ def test_thin_walls_count_however_thick_others_are() -> None:
     doors = wall_thickness(leaves, 2.0)
     assert doors is not None
     assert 7 < doors.least_px < 14
+    # Thin walls that are as thick as the limit have pixels to lose.
+    pale = wall_thickness(_filled(32, 10), 2.0)
+    assert pale is not None
+    assert 2.0 * 1.6 < pale.least_px < 8.5
     # Lines alone are no thin walls.
     lines = wall_thickness(_filled(32, 2), 2.0)
     assert lines is not None

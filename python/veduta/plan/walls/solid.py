@@ -32,6 +32,9 @@ OF_THICKER = 0.25
 BELOW_COMMON = 0.75
 """What is thinner than them by this factor is no wall."""
 
+PALE_PX = 1.0
+"""So much of the breadth of a stroke may be lost in its edges."""
+
 LEAST_OVER_LINE = 1.6
 """Walls are at least so many times as thick as lines."""
 
@@ -78,10 +81,15 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
     # Thin walls hang on thick ones; a frame around the sheet, or furniture, is not of the house.
     hanging = _lengths(thin[_hanging_on(ink, stroke, thin >= least)])
-    thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, least))
-    enough = max(LEAST_SHARE * extent, OF_THICKER * hanging[math.ceil(least) :].sum())
-    if thin_walls is not None and _near(hanging, thin_walls) >= enough:
-        least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
+    # Where edges are pale, some of the walls that are just thick enough seem to be too thin.
+    for high in (least, least + PALE_PX):
+        thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, high))
+        if thin_walls is None:
+            continue
+        thicker = hanging[max(math.ceil(least), thin_walls + 2) :].sum()
+        if _near(hanging, thin_walls) >= max(LEAST_SHARE * extent, OF_THICKER * thicker):
+            least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
+            break
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
     # A pen that is twice as broad as another draws a wall as one line.
