@@ -138,5 +138,7 @@ def test_lines_read_side_by_side_are_those_read_one_by_one() -> None:
         pen, font = ImageDraw.Draw(strip), ImageFont.load_default(28)
         pen.text((120, LINE_PX // 2), words, fill="black", font=font, anchor="mm")
         strips.append(np.asarray(strip))
-    assert side_by_side(read_line, strips) == [read_line(strip) for strip in strips]
+    lines = side_by_side(read_line, strips)
+    assert lines == [read_line(strip) for strip in strips]
+    assert [line.text for line in lines[::3]] == ["OLOHUONE", "Bedroom 12", "WC"]
     assert side_by_side(read_line, []) == []

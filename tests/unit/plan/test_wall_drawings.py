@@ -295,6 +295,20 @@ def test_thin_walls_count_however_thick_others_are() -> None:
     assert lines.least_px > 8
 
 
+def test_no_thin_walls_are_as_thick_as_nothing_is() -> None:
+    ink = np.zeros((220, 300), np.bool_)
+    ink[20:200, 20:280] = True
+    ink[29:191, 29:271] = False
+    ink[20:200, 150:152] = ink[110:112, 20:280] = True
+    for row in range(40, 100, 6):
+        ink[row, 40:140] = True
+    found = wall_thickness(ink, 1.26)
+    assert found is not None
+    assert found.most_px == 9
+    # The broader lines are no walls: strokes of three pixels, as would be between, there are none.
+    assert found.least_px == pytest.approx(0.3 * 9)
+
+
 def test_a_frame_of_a_broad_pen_is_no_thin_wall() -> None:
     ink = _filled(32, 2)
     for inset in (20, 60):  # the sheet's frame, and another around the house

@@ -134,8 +134,8 @@ def mended(
     glazed_px = GLAZED * (usual or USUAL_DOOR * found.thin_px)
     looker = _Looker(found, sheet, room_labels(texts), usual)
     failed: set[tuple[int, ...]] = set()
-    closed = _closed(now, found.thin_px)
-    closings = looker.closings(closed)
+    enclosed = _enclosed(now, found.thin_px)
+    closings = looker.closings(enclosed)
     for _ in range(MOST_ROUNDS):
         left = [one for one in closings if one.broken.key not in failed]
         if not left or looker.looked_at > MOST_LOOKED_AT:
@@ -143,11 +143,11 @@ def mended(
         best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
         more = [*now, _axis(best, found.thin_px, glazed_px)]
-        tried = _closed(more, found.thin_px)
-        if len(tried.rooms) > len(closed.rooms):
-            now, closed = more, tried
+        tried = _enclosed(more, found.thin_px)
+        if len(tried.rooms) > len(enclosed.rooms):
+            now, enclosed = more, tried
             notes.append(_note(best, more[-1]))
-            closings = looker.closings(closed)
+            closings = looker.closings(enclosed)
     if by_lines and now:
         more, said = _along_lines(now, found, sheet, room_labels(texts, indoors=True))
         return Mended([*now, *more], (*notes, *said))
@@ -161,31 +161,31 @@ def _along_lines(
     now, notes = list(axes), list[str]()
     if not labels:
         return [], notes
-    closed = _closed(now, found.thin_px)
+    enclosed = _enclosed(now, found.thin_px)
     raster = None
     for label in labels:
         name = Point(*label)
-        if any(room.contains(name) for room in closed.rooms):
+        if any(room.contains(name) for room in enclosed.rooms):
             continue
         if raster is None:
-            raster = raster_of(closed.bodies, sheet.faint)
+            raster = raster_of(enclosed.bodies, sheet.faint)
         walls = drawn_walls(now, found, raster, label)
         if not walls:
             continue
         more = [*now, *walls]
-        tried = _closed(more, found.thin_px)
-        if len(tried.rooms) <= len(closed.rooms) or not any(
+        tried = _enclosed(more, found.thin_px)
+        if len(tried.rooms) <= len(enclosed.rooms) or not any(
             room.contains(name) for room in tried.rooms
         ):
             continue
-        now, closed, raster = more, tried, None
+        now, enclosed, raster = more, tried, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
         notes.append(f"the room {place} is closed along the lines that are drawn around it")
     return now[len(axes) :], notes
 
 
 @dataclass(frozen=True)
-class _Closed:
+class _Enclosed:
     """Walls that meet: their graph, bodies of its edges, and the spaces that these enclose."""
 
     axes: Sequence[Axis]
@@ -194,11 +194,11 @@ class _Closed:
     rooms: list[Polygon]
 
 
-def _closed(axes: Sequence[Axis], thin_px: float) -> _Closed:
+def _enclosed(axes: Sequence[Axis], thin_px: float) -> _Enclosed:
     graph = wall_graph(axes)
     bodies = wall_bodies(graph, axes)
     rooms = [space.polygon() for space in closed_spaces(bodies, thin_px)]
-    return _Closed(axes, graph, bodies, rooms)
+    return _Enclosed(axes, graph, bodies, rooms)
 
 
 class _Looker:
@@ -221,11 +221,11 @@ class _Looker:
         self.seen: dict[tuple[int, ...], Judged | None] = {}
         self.looked_at = 0
 
-    def closings(self, closed: _Closed) -> list[_Closing]:
+    def closings(self, enclosed: _Enclosed) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
-        spaces = self._spaces(closed)
-        self.leaking = self._leaking(closed)
-        breaks = find_breaks(closed.graph, closed.axes, self.found.solid, self.found.thin_px)
+        spaces = self._spaces(enclosed)
+        self.leaking = self._leaking(enclosed)
+        breaks = find_breaks(enclosed.graph, enclosed.axes, self.found.solid, self.found.thin_px)
         self.looked_at += len(breaks)
         bodies = _grown(
             [wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)) for one in breaks], 0.7
@@ -240,28 +240,28 @@ class _Looker:
                 found += [] if closing is None else [closing]
         return found
 
-    def _spaces(self, closed: _Closed) -> list[tuple[Polygon, bool]]:
+    def _spaces(self, enclosed: _Enclosed) -> list[tuple[Polygon, bool]]:
         """Rooms, and what is outdoors, which alone reaches the border of the sheet."""
-        rooms = [(room, False) for room in closed.rooms]
+        rooms = [(room, False) for room in enclosed.rooms]
         around = self._border()
-        free = around.difference(unary_union(_grown(closed.bodies, 0.6)))
+        free = around.difference(unary_union(_grown(enclosed.bodies, 0.6)))
         border = around.exterior
         for part in getattr(free, "geoms", [free]):
             if isinstance(part, Polygon) and part.distance(border) < 1:
                 rooms.append((part, True))
         return rooms
 
-    def _leaking(self, closed: _Closed) -> list[Point]:
+    def _leaking(self, enclosed: _Enclosed) -> list[Point]:
         """Points in rooms that only breaks of usual width open to the outdoors.
 
         No disc as broad as these gets there from the border of the sheet.
         """
         reach = WIDEST_BREAK / 2 * self.found.thin_px
         around = self._border()
-        free = around.difference(unary_union(closed.bodies).buffer(reach))
+        free = around.difference(unary_union(enclosed.bodies).buffer(reach))
         parts = [one for one in getattr(free, "geoms", [free]) if isinstance(one, Polygon)]
         inside = [one.representative_point() for one in parts if one.distance(around.exterior) > 1]
-        return [one for one in inside if not any(room.contains(one) for room in closed.rooms)]
+        return [one for one in inside if not any(room.contains(one) for room in enclosed.rooms)]
 
     def _border(self) -> Polygon:
         """A frame well outside the sheet, so that one can go all around the house."""
@@ -352,7 +352,7 @@ class _Looker:
 
 
 def _grown(bodies: Sequence[Polygon], by_px: float) -> NDArray[np.object_]:
-    """(n,) polygons with round corners."""
+    """(n,) polygons with corners as round as `Polygon.buffer` makes them."""
     return np.asarray(buffer(np.array(bodies, dtype=object), by_px, quad_segs=16))
 
 

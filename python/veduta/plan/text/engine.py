@@ -22,7 +22,7 @@ if TYPE_CHECKING:
     from rapidocr import RapidOCR
 
 THREADS = 2
-"""So many look for text in one picture, or read so many lines of it side by side."""
+"""So many threads look for text in one picture, or read lines of it, one line each."""
 LINE_PX = 48
 """Height of the lines of text that the network reads."""
 
@@ -87,7 +87,7 @@ def side_by_side(read: Callable[[Item], Result], items: Iterable[Item]) -> list[
 
     A line is too little work to be shared by threads: two lines at once take half of the time.
     """
-    _engine(1)  # loaded once, not by each of the threads
+    _engine(1)  # the cache does not lock: each thread would make one of its own
     with ThreadPoolExecutor(THREADS) as threads:
         return list(threads.map(read, items))
 

@@ -19,7 +19,7 @@ from veduta.plan.text.engine import Line, read_line, side_by_side
 from veduta.plan.text.regions import find_overview
 from veduta.plan.text.strips import in_colour, strip_of
 
-_REGIONS = 10  # so many regions are read in eight positions: 80 lines, some 3 s on two cores
+_REGIONS = 10  # so many regions are read in eight positions: 80 lines, a few seconds
 _FIRST = 5  # so many are read as they stand; where they make sense, that is all
 _SENSE = 3.0  # how much more a word or a size counts than letters that are none
 _SYMMETRIC = frozenset("AHIMOTUVWXY8010o|-")  # the same in a mirror

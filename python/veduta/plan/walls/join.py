@@ -152,7 +152,7 @@ def _solid_between(first: int, second: int, pieces: list[Piece], mask: NDArray[n
 
 def _inside_another(pieces: Sequence[Piece]) -> NDArray[np.bool_]:
     """(n,) whether each piece lies within the body of a longer one."""
-    starts, ends = (np.array([getattr(one, name) for one in pieces]) for name in ("start", "end"))
+    starts, ends = np.array([one.start for one in pieces]), np.array([one.end for one in pieces])
     ways = np.array([one.direction for one in pieces])
     length = np.array([one.length_px for one in pieces])
     half = np.array([one.thickness_px for one in pieces]) / 2

@@ -90,7 +90,7 @@ class _Sorting:
         self.cells = cells
         # Asked in each round, and always the same.
         self.middle = cache(cells.middle)
-        self.in_line = cache(self._cells_in_line)
+        self.ahead: dict[int, list[NDArray[np.int32]]] = {}
         self.even: dict[int, tuple[list[float], float]] = {
             int(one): cells.widths(int(one)) for one in np.flatnonzero(cells.narrow)
         }
@@ -258,9 +258,11 @@ class _Sorting:
 
     def _stands_in_line(self, cell: int) -> bool:
         """Whether a wall of the same breadth lies ahead, with its middle on the same line."""
-        return any(self.wall[ahead].sum() >= 3 for ahead in self.in_line(cell))
+        if cell not in self.ahead:
+            self.ahead[cell] = self._cells_in_line(cell)
+        return any(self.wall[ahead].sum() >= 3 for ahead in self.ahead[cell])
 
-    def _cells_in_line(self, cell: int) -> list[NDArray[np.intp]]:
+    def _cells_in_line(self, cell: int) -> list[NDArray[np.int32]]:
         """For each end the cells (n,) that are as broad, one for each step ahead of it."""
         cells = self.cells
         centre, along, long, short = self.middle(cell)

@@ -81,15 +81,7 @@ def wall_thickness(ink: NDArray[np.bool_], line_px: float) -> Thickness | None:
     least = max(LEAST_OVER_LINE * line_px, THINNEST_WALL * most)
     # Thin walls hang on thick ones; a frame around the sheet, or furniture, is not of the house.
     hanging = _lengths(thin[_hanging_on(ink, stroke, thin >= least)])
-    # Where edges are pale, some of the walls that are just thick enough seem to be too thin.
-    for high in (least, least + PALE_PX):
-        thin_walls = _thin_walls(hanging, line_px, (THINNEST_COMMON * most, high))
-        if thin_walls is None:
-            continue
-        thicker = hanging[max(math.ceil(least), thin_walls + 2) :].sum()
-        if _near(hanging, thin_walls) >= max(LEAST_SHARE * extent, OF_THICKER * thicker):
-            least = max(LEAST_OVER_LINE * line_px, BELOW_COMMON * thin_walls)
-            break
+    least = _with_thin_walls(hanging, line_px, Thickness(least, most), LEAST_SHARE * extent)
     if most >= SINGLE_LINE * line_px and most >= least:
         return Thickness(least, most)
     # A pen that is twice as broad as another draws a wall as one line.
@@ -117,6 +109,28 @@ def _hanging_on(
     return np.asarray(stroke & has_thick[labels])
 
 
+def _with_thin_walls(
+    lengths: NDArray[np.float64], line_px: float, thickness: Thickness, enough_px: float
+) -> float:
+    """The thinnest wall that counts, where there are so many thin walls that they count, too.
+
+    `lengths` are those of strokes of 0, 1, 2... pixels, `thickness` what counts without them.
+    """
+    low, high = THINNEST_COMMON * thickness.most_px, thickness.least_px
+    line = LEAST_OVER_LINE * line_px
+    # Where edges are pale, some of the walls that are just thick enough seem to be too thin.
+    for highest in (high, high + PALE_PX):
+        thin = _thin_walls(lengths, line_px, (low, highest))
+        if thin is None:
+            continue
+        # Lines are no walls, however near in breadth; nothing is compared with itself.
+        own = lengths[max(thin - 1, math.floor(line) + 1) : thin + 2].sum()
+        thicker = lengths[max(math.ceil(high), thin + 2) :].sum()
+        if own >= max(enough_px, OF_THICKER * thicker):
+            return min(high, max(line, BELOW_COMMON * thin))
+    return high
+
+
 def _thin_walls(
     lengths: NDArray[np.float64], line_px: float, between_px: tuple[float, float]
 ) -> int | None:
@@ -133,11 +147,6 @@ def _thin_walls(
     if best > high or not len(valley) or valley.min() > PARTED * lengths[best]:
         return None
     return best
-
-
-def _near(lengths: NDArray[np.float64], width: int) -> float:
-    """Of strokes that are so thick, but for a pixel."""
-    return float(lengths[width - 1 : width + 2].sum())
 
 
 def two_pens(lengths: NDArray[np.float64], least_length: float) -> Thickness | None:
