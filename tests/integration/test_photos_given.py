@@ -169,17 +169,18 @@ def test_a_city_model_that_is_refused_is_said(tmp_path: Path, scene: Path) -> No
         "properties": {"height": 5},
         "geometry": {"type": "Polygon", "coordinates": [ring]},
     }
-    lots = tmp_path / "lots.geojson"
+    lots, out = tmp_path / "lots.geojson", tmp_path / "out"
     lots.write_text(json.dumps({"type": "FeatureCollection", "features": [house]}))
-    world = ("--model", lots, "--crs", "EPSG:25832", "-o", tmp_path / "out")
+    world = ("--model", lots, "--crs", "EPSG:25832", "-o", out)
     no_walls = refused("photos", scene, "--from-colmap", model, *world, "--no-walls")
     assert no_walls.returncode == 2
     assert "--no-walls: leaves nothing to lay onto the facades of --model" in no_walls.stderr
-    assert not (tmp_path / "out").exists()
+    assert not out.exists()
     done = veduta("photos", scene, "--from-colmap", model, *world)
     assert (done.returncode, done.stderr) == (0, "")
     assert "not laid into the world by the city model: " in done.stdout
-    assert not (tmp_path / "out" / "model.city.json").exists()
+    assert "px off on average; not laid into the world" in (out / "report.html").read_text()
+    assert not (out / "model.city.json").exists()
 
 
 @pytest.mark.slow

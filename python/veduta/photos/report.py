@@ -142,6 +142,12 @@ def summary_line(measures: dict[str, Any]) -> str:
     )
 
 
+def _headline(measures: dict[str, Any]) -> str:
+    """As `summary_line`; the terminal has what was refused in lines of its own."""
+    nowhere = measures.get("georef_refused") and not measures.get("georeferenced")
+    return summary_line(measures) + ("; not laid into the world" if nowhere else "")
+
+
 def photos_report(told: Told) -> tuple[Report, bytes]:
     """The report of a run, and its page."""
     measures = measures_of(told)
@@ -150,7 +156,7 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
     georef = [one.georef for one in told.laid]
     page = Page(
         title=told.folder,
-        summary=summary_line(measures),
+        summary=_headline(measures),
         facts=_facts(measures),
         pictures=[
             plan_picture(component.structure),
