@@ -48,17 +48,17 @@ class Hole:
         """What is built: as it is drawn, or the guess."""
         return self.guess or self.opening.type
 
-    @property
+    @cached_property
     def start(self) -> NDArray[np.float64]:
         """The end that is nearer to the wall's start."""
         return self.line.at(self.start_m)
 
-    @property
+    @cached_property
     def width_m(self) -> float:
         """From end to end, straight."""
         return float(np.linalg.norm(self.line.at(self.end_m) - self.start))
 
-    @property
+    @cached_property
     def along(self) -> NDArray[np.float64]:
         """(2,) unit vector along the wall."""
         return (self.line.at(self.end_m) - self.start) / self.width_m
@@ -73,12 +73,12 @@ class Hole:
         """What it takes from the wall's footprint."""
         return self.line.piece(self.start_m, self.end_m, self.line.half_m + _JOIN_M)
 
-    @property
+    @cached_property
     def middle(self) -> NDArray[np.float64]:
         """Half-way between its ends, straight."""
         return self.start + self.along * self.width_m / 2.0
 
-    @property
+    @cached_property
     def leftward(self) -> NDArray[np.float64]:
         """(2,) unit vector to the left of the wall."""
         return np.array([-self.along[1], self.along[0]])
