@@ -270,9 +270,9 @@ class _Looker:
         return box(-away, -away, width + away, height + away)
 
     def _parts(self, space: Polygon, body: Polygon) -> list[Polygon]:
-        """The parts of a space beside a break that are as broad as rooms are."""
+        """The parts of a space that a break parts which are as broad as rooms are."""
         rest = space.difference(body)
-        parts = [one for one in getattr(rest, "geoms", [rest]) if isinstance(one, Polygon)]
+        parts = [one for one in getattr(rest, "geoms", []) if isinstance(one, Polygon)]
         least = LEAST_WIDTH / 2 * self.found.thin_px
         return [one for one in parts if one.area > 4 * least**2 and not one.buffer(-least).is_empty]
 
