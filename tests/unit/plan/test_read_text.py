@@ -13,10 +13,11 @@ from veduta.plan.clean.straighten import laid_straight
 from veduta.plan.document import Sheet, Text
 from veduta.plan.text import regions
 from veduta.plan.text.engine import LINE_PX, read_line, side_by_side
-from veduta.plan.text.orientation import Position, right_from_scan, set_right
+from veduta.plan.text.orientation import Position, find_position, right_from_scan, set_right
 from veduta.plan.text.reading import read_texts
 from veduta.plan.text.regions import without_duplicates
 from veduta.plan.text.sheet_text import SheetText, moved_texts, read_sheet, sheet_of_file
+from veduta.synthetic.plans.sets import sheets_of
 
 WORDS = {
     "KITCHEN": (150, 80),
@@ -142,3 +143,11 @@ def test_lines_read_side_by_side_are_those_read_one_by_one() -> None:
     assert lines == [read_line(strip) for strip in strips]
     assert [line.text for line in lines[::3]] == ["OLOHUONE", "Bedroom 12", "WC"]
     assert side_by_side(read_line, []) == []
+
+
+def test_sizes_that_look_like_sizes_in_a_mirror_do_not_hide_it() -> None:
+    # Its 2,78 x 3,64 reads as a size from letters that look like digits, and its 3 as an E.
+    picture, truth = list(sheets_of(5043))[1]
+    assert truth.degradation == "mirrored"
+    found = find_position(picture)
+    assert (found.mirrored, found.quarter_turns) == (True, 0)

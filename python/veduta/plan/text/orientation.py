@@ -22,6 +22,9 @@ from veduta.plan.text.strips import in_colour, strip_of
 _REGIONS = 10  # so many regions are read in eight positions: 80 lines, a few seconds
 _FIRST = 5  # so many are read as they stand; where they make sense, that is all
 _SENSE = 3.0  # how much more a word or a size counts than letters that are none
+_READ = 0.6  # what is read less surely makes no sense
+_SIGNS = 2  # nor does a single letter: many are a room's name, and a digit in a mirror is one
+_FIGURES = 0.5  # of the letters and digits of a size so many are digits
 _SYMMETRIC = frozenset("AHIMOTUVWXY8010o|-")  # the same in a mirror
 _MARGIN = 1.5  # another position must read so much better than the one that the sheet is in
 _LEAST = 4.0  # and say so much by itself: a short word that makes sense, not a line read as an l
@@ -132,7 +135,15 @@ def _read_at(
 
 
 def _makes_sense(line: Line) -> bool:
-    return bool(line.score > 0.6 and (meanings(line.text) or read_quantities(line.text)))
+    """Whether it is a word for a room, or a size in digits.
+
+    Sizes are read from letters that look like digits, too: in a mirror 2,78 reads as 8T,S.
+    """
+    signs = [sign for sign in line.text if sign.isalnum()]
+    if line.score <= _READ or len(signs) < _SIGNS:
+        return False
+    figures = sum(map(str.isdecimal, signs)) >= _FIGURES * len(signs)
+    return bool(meanings(line.text) or (figures and read_quantities(line.text)))
 
 
 def _weight(line: Line) -> float:
