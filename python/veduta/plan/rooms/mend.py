@@ -127,14 +127,14 @@ def mended(
     `by_lines`: rooms with a name that are open even then are closed along lines around them; not
     where walls are known, so that other lines are no walls.
     """
-    now, notes = list(axes), list[str]()
-    if len(now) > MOST_WALLS:
-        return Mended(now, (TOO_MANY.format(len(now)),))
+    notes = list[str]()
+    if len(axes) > MOST_WALLS:
+        return Mended(list(axes), (TOO_MANY.format(len(axes)),))
     usual = usual_door([one.judged for axis in axes for one in axis.openings])
     glazed_px = GLAZED * (usual or USUAL_DOOR * found.thin_px)
     looker = _Looker(found, sheet, room_labels(texts), usual)
     failed: set[tuple[int, ...]] = set()
-    enclosed = _enclosed(now, found.thin_px)
+    enclosed = _enclosed(axes, found.thin_px)
     closings = looker.closings(enclosed)
     for _ in range(MOST_ROUNDS):
         left = [one for one in closings if one.broken.key not in failed]
@@ -142,26 +142,23 @@ def mended(
             break
         best = max(left, key=lambda one: one.worth)
         failed.add(best.broken.key)
-        more = [*now, _axis(best, found.thin_px, glazed_px)]
-        tried = _enclosed(more, found.thin_px)
+        closing = _axis(best, found.thin_px, glazed_px)
+        tried = _enclosed([*enclosed.axes, closing], found.thin_px)
         if len(tried.rooms) > len(enclosed.rooms):
-            now, enclosed = more, tried
-            notes.append(_note(best, more[-1]))
+            enclosed = tried
+            notes.append(_note(best, closing))
             closings = looker.closings(enclosed)
-    if by_lines and now:
-        more, said = _along_lines(now, found, sheet, room_labels(texts, indoors=True))
-        return Mended([*now, *more], (*notes, *said))
-    return Mended(now, tuple(notes))
+    if by_lines and axes:
+        enclosed, said = _along_lines(enclosed, found, sheet, room_labels(texts, indoors=True))
+        notes += said
+    return Mended(list(enclosed.axes), tuple(notes))
 
 
 def _along_lines(
-    axes: Sequence[Axis], found: Found, sheet: Sheet, labels: Sequence[NDArray[np.float64]]
-) -> tuple[list[Axis], list[str]]:
-    """Walls that close spaces with a label where lines do, and a note for each space."""
-    now, notes = list(axes), list[str]()
-    if not labels:
-        return [], notes
-    enclosed = _enclosed(now, found.thin_px)
+    enclosed: _Enclosed, found: Found, sheet: Sheet, labels: Sequence[NDArray[np.float64]]
+) -> tuple[_Enclosed, list[str]]:
+    """With walls that close spaces with a label where lines do, and a note for each space."""
+    notes = list[str]()
     raster = None
     for label in labels:
         name = Point(*label)
@@ -169,19 +166,18 @@ def _along_lines(
             continue
         if raster is None:
             raster = raster_of(enclosed.bodies, sheet.faint)
-        walls = drawn_walls(now, found, raster, label)
+        walls = drawn_walls(enclosed.axes, found, raster, label)
         if not walls:
             continue
-        more = [*now, *walls]
-        tried = _enclosed(more, found.thin_px)
+        tried = _enclosed([*enclosed.axes, *walls], found.thin_px)
         if len(tried.rooms) <= len(enclosed.rooms) or not any(
             room.contains(name) for room in tried.rooms
         ):
             continue
-        now, enclosed, raster = more, tried, None
+        enclosed, raster = tried, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
         notes.append(f"the room {place} is closed along the lines that are drawn around it")
-    return now[len(axes) :], notes
+    return enclosed, notes
 
 
 @dataclass(frozen=True)
