@@ -164,6 +164,15 @@ def test_a_tread_ends_at_the_first_of_a_walls_two_lines() -> None:
     assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 16.0) == pytest.approx(102, abs=2)
 
 
+def test_a_closet_behind_a_wall_is_no_part_of_a_tread() -> None:
+    ink = np.zeros((120, 300), np.bool_)
+    ink[59:61, 20:120] = True
+    ink[:, 120:122] = ink[:, 130:136] = True
+    probe = probe_of(ink, 2.0, 300.0)
+    way = np.array([1.0, 0.0])
+    assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 16.0) == pytest.approx(102, abs=2)
+
+
 def test_a_tread_goes_on_behind_an_arrow() -> None:
     ink = np.zeros((120, 300), np.bool_)
     ink[59:61, 20:60] = ink[59:61, 76:122] = True

@@ -182,6 +182,15 @@ def test_few_strokes_are_no_hatching() -> None:
     assert not hatch_strokes(ink, LINE).any()
 
 
+def test_many_short_strokes_that_lie_apart_are_no_hatching() -> None:
+    """Ticks of dimension lines, and the faces of slanted walls."""
+    grey = np.hstack([_house()[0], np.zeros((700, 600), np.bool_)]).astype(np.uint8)
+    for y in range(40, 680, 60):
+        for x in range(1020, 1580, 60):
+            cv2.line(grey, (x, y), (x + 14, y - 14), 1, LINE)
+    assert not hatch_strokes(grey.astype(np.bool_), LINE).any()
+
+
 def test_hatched_areas_cover_what_is_hatched() -> None:
     ink, inside = _hatched()
     areas = hatched_areas(hatch_strokes(ink, LINE))

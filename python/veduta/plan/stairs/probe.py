@@ -14,6 +14,8 @@ INKED = 0.6
 _ENDS = 0.08
 CROSSED = 1.5
 """What is no longer than so many line widths is a line that is met and does not go on."""
+BEYOND = 1.5
+"""Nor does what is no longer than so many times the gap before it: a closet behind the wall."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +61,11 @@ class Probe:
         broken = np.flatnonzero(np.diff(inked) > gap_px)
         inked = inked[: broken[0] + 1] if len(broken) else inked
         runs = np.split(inked, np.flatnonzero(np.diff(inked) > 1) + 1)
-        while len(runs) > 1 and len(runs[-1]) <= CROSSED * self.line_px + 3.0:
+        crossed = CROSSED * self.line_px + 3.0
+        while len(runs) > 1:
+            gap = float(runs[-1][0] - runs[-2][-1])
+            if len(runs[-1]) > max(crossed, BEYOND * gap):
+                break
             runs.pop()
         return float(runs[-1][-1])
 

@@ -6,9 +6,12 @@ the structure tensor (Bigun and Granlund 1987); strokes of a direction that are 
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import cv2
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import KDTree
 
 SLANT_RAD = np.radians(15.0)
 """Hatching differs by at least this angle from the drawing's axes, along which walls run."""
@@ -25,10 +28,29 @@ LEAST_STROKES = 60
 SIDE_BY_SIDE = 4
 """So many strokes side by side are hatching."""
 
+NEIGHBOURS, NEAR = 3, 2.0
+"""So many others lie near a stroke, within so many times its length or the usual one."""
+
 COHERENT = 0.3
 
 UPRIGHT_LINES = 4.0
 """Upright lines are so many times as long as broad."""
+
+
+@dataclass(frozen=True)
+class _Strokes:
+    """Connected ink by its number in `labels` (h, w); 0 is none.
+
+    `middles` (n, 2), `long_px` (n,): where each is and how long; `keep` (n,): whether it counts.
+    """
+
+    labels: NDArray[np.int32]
+    middles: NDArray[np.float64]
+    long_px: NDArray[np.float64]
+    keep: NDArray[np.bool_]
+
+    def mask(self) -> NDArray[np.bool_]:
+        return np.asarray(self.keep[self.labels], dtype=np.bool_)
 
 
 def hatch_strokes(ink: NDArray[np.bool_], line_px: float) -> NDArray[np.bool_]:
@@ -85,33 +107,48 @@ def _strokes(
 ) -> NDArray[np.bool_]:
     """Those whose direction is within an eighth of a turn of `around`."""
     mine = slanted & (_off(angle - np.float32(around), np.pi) < np.pi / 4)
-    labels, keep = _short(ink, mine, line_px)
-    if keep.sum() < LEAST_STROKES:
+    short = _short(ink, mine, line_px)
+    if short.keep.sum() < LEAST_STROKES:
         return np.zeros(ink.shape, dtype=np.bool_)
     # The commonest direction of short strokes, each counted once.
-    inside = keep[labels]
+    inside = short.mask()
     bins = np.floor((angle[inside] % np.pi) / np.radians(3)).astype(int)
     counts = np.bincount(bins, minlength=60).astype(float)
     smooth = counts + np.roll(counts, 1) + np.roll(counts, -1)
     direction = np.radians(3) * (int(np.argmax(smooth)) + 0.5)
     like = mine & (_off(angle - np.float32(direction), np.pi) < WITHIN_RAD)
-    labels, keep = _short(ink, like, line_px)
-    if keep.sum() < LEAST_STROKES:
+    dense = _side_by_side(_short(ink, like, line_px))
+    if dense.keep.sum() < LEAST_STROKES:
         return np.zeros(ink.shape, dtype=np.bool_)
-    return np.asarray(keep[labels], dtype=np.bool_)
+    return dense.mask()
 
 
-def _short(
-    ink: NDArray[np.bool_], mask: NDArray[np.bool_], line_px: float
-) -> tuple[NDArray[np.int32], NDArray[np.bool_]]:
-    """Connected parts of a mask, and which are longer than broad but no longer than walls are."""
-    _, labels, stats, _ = cv2.connectedComponentsWithStats(mask.astype(np.uint8), connectivity=8)
+def _side_by_side(strokes: _Strokes) -> _Strokes:
+    """Those that have others beside them, and what lies near such.
+
+    Ticks of dimension lines, the faces of slanted walls and specks are as short, but lie apart.
+    """
+    kept = np.flatnonzero(strokes.keep)
+    keep = np.zeros_like(strokes.keep)
+    if len(kept):
+        tree, long = KDTree(strokes.middles[kept]), strokes.long_px[kept]
+        near = tree.query_ball_point(tree.data, NEAR * np.maximum(long, np.median(long)))
+        dense = np.array([len(others) > NEIGHBOURS for others in near])
+        keep[kept] = [dense[others].any() for others in near]
+    return replace(strokes, keep=keep)
+
+
+def _short(ink: NDArray[np.bool_], mask: NDArray[np.bool_], line_px: float) -> _Strokes:
+    """Connected parts of a mask; kept are those that are no longer than walls are broad."""
+    _, labels, stats, middles = cv2.connectedComponentsWithStats(
+        mask.astype(np.uint8), connectivity=8
+    )
     rows, columns = np.flatnonzero(ink.any(axis=1)), np.flatnonzero(ink.any(axis=0))
     extent = max(np.ptp(rows), np.ptp(columns)) + 1 if len(rows) else 1
     long = np.hypot(stats[:, cv2.CC_STAT_WIDTH], stats[:, cv2.CC_STAT_HEIGHT])
     keep = (long <= LONGEST * extent) & (long >= 1.5 * line_px)
     keep[0] = False
-    return np.asarray(labels, np.int32), np.asarray(keep, dtype=np.bool_)
+    return _Strokes(np.asarray(labels, np.int32), np.asarray(middles), long, keep)
 
 
 def _directions(
