@@ -78,3 +78,19 @@ def test_a_broken_wall_without_a_bay_has_none() -> None:
     drawn = read_storey(house(64, drawn=False)[0], [])
     low = max(y for one in drawn.junctions for y in [one.at_px[1]]) / _finer(drawn)
     assert low < 600
+
+
+def test_a_small_bay_of_thick_walls_is_part_of_its_room() -> None:
+    """Its slanted sides are hardly longer than thick."""
+    corners = [(400, 582), (452, 659), (548, 659), (600, 582), (1082, 582), (1082, 118), (118, 118)]
+    around = Polygon([(118, 582), *corners]).exterior.buffer(20.0, join_style="mitre")
+    image = np.full((800, 1200, 3), 255, np.uint8)
+    cv2.fillPoly(image, [np.round(around.exterior.coords).astype(np.int32)], BLACK)
+    cv2.fillPoly(image, [np.round(around.interiors[0].coords).astype(np.int32)], WHITE)
+    for left in (160, 700, 900):  # furniture: thin lines
+        cv2.rectangle(image, (left, 200), (left + 80, 260), BLACK, 2)
+    drawn = read_storey(image)
+    inside = Polygon(np.array(around.interiors[0].coords) * _finer(drawn))
+    (room,) = drawn.rooms
+    shape = Polygon(room.outline_px)
+    assert shape.symmetric_difference(inside).area < 0.02 * inside.area

@@ -111,6 +111,25 @@ def test_hollow_walls_are_filled_and_windows_and_beds_are_not() -> None:
     assert (found & ~inside).sum() == 0
 
 
+def test_a_short_corner_between_two_windows_is_wall() -> None:
+    """Panes of one line each part it from all other walls; both of its arms are in line with one."""
+    ink, inside = _house()
+    corner = np.zeros_like(ink)
+    corner[50:76, 50:102] = corner[50:102, 50:76] = True
+    gap = np.zeros_like(ink)
+    gap[50:76, 102:190] = gap[102:290, 50:76] = True
+    ink[gap] = False
+    ink[62:64, 102:190] = ink[102:290, 62:64] = True
+    for end in (100, 190):
+        ink[50:76, end : end + LINE] = True
+    for end in (100, 290):
+        ink[end : end + LINE, 50:76] = True
+    cells = find_cells(ink, LINE)
+    found = wall_cells(cells)[cells.labels]
+    assert not (corner & inside & ~ink & ~found).any()
+    assert not (found & gap).any()
+
+
 def test_without_long_cells_there_are_no_hollow_walls() -> None:
     ink = np.zeros((700, 1000), np.bool_)
     _box(ink, 50, 50, 950, 650)

@@ -68,19 +68,21 @@ class Cells:
             found.setdefault(second, []).append((first, length))
         return found
 
+    def points(self, cell: int) -> NDArray[np.float64]:
+        """(n, 2) the middles of a cell's pixels."""
+        left, top, width, height = self.boxes[cell]
+        y, x = np.nonzero(self.labels[top : top + height, left : left + width] == cell)
+        # The centre of the upper left pixel is (0.5, 0.5).
+        return np.column_stack([x + left, y + top]) + 0.5
+
     def middle(self, cell: int) -> tuple[NDArray[np.float64], NDArray[np.float64], float, float]:
         """Centre and direction (2,) of the rectangle around a cell, its long and its short side."""
-        left, top, width, height = self.boxes[cell]
-        inside = self.labels[top : top + height, left : left + width] == cell
-        y, x = np.nonzero(inside)
-        points = np.column_stack([x + left, y + top]).astype(np.float32)
-        centre, size, degrees = cv2.minAreaRect(points)
+        centre, size, degrees = cv2.minAreaRect(self.points(cell).astype(np.float32))
         turn = np.radians(degrees)
         along = np.array([np.cos(turn), np.sin(turn)])
         if size[0] < size[1]:
             along = np.array([-along[1], along[0]])
-        # The centre of the upper left pixel is (0.5, 0.5).
-        return np.array(centre) + 0.5, along, max(size) + 1.0, min(size) + 1.0
+        return np.array(centre), along, max(size) + 1.0, min(size) + 1.0
 
     def widths(self, cell: int) -> tuple[list[float], float]:
         """The one or two breadths that a cell mostly has, and for which part of its middle."""

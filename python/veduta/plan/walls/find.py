@@ -110,5 +110,5 @@ def thin_thickness(pieces: Sequence[Piece]) -> float:
 def _is_wall(piece: Piece, thickness: Thickness) -> bool:
     # Corners of blobs look like short slanted strokes.
     upright = float(np.abs(piece.direction).max()) > 1 - 1e-9
-    aspect = 0.5 if upright else 1.2
+    aspect = 0.5 if upright else 1.0
     return piece.length_px >= max(aspect * piece.thickness_px, thickness.least_px)

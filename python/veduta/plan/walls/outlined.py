@@ -265,20 +265,33 @@ class _Sorting:
     def _cells_in_line(self, cell: int) -> list[NDArray[np.int32]]:
         """For each end the cells (n,) that are as broad, one for each step ahead of it."""
         cells = self.cells
-        centre, along, long, short = self.middle(cell)
-        ways = [along]
-        if long < 1.5 * short:
-            ways.append(np.array([-along[1], along[0]]))
         breadth = float(cells.breadth[cell])
-        steps = np.arange(long / 2 + 3, long / 2 + IN_LINE_FARTHEST * breadth, 2.0)
         found = []
-        for way in (side * one for one in ways for side in (1, -1)):
-            points = centre + steps[:, None] * way
+        for end, way in self._ends(cell):
+            steps = np.arange(3.0, IN_LINE_FARTHEST * breadth, 2.0)
+            points = end + steps[:, None] * way
             x = np.clip(np.floor(points[:, 0]).astype(int), 0, cells.labels.shape[1] - 1)
             y = np.clip(np.floor(points[:, 1]).astype(int), 0, cells.labels.shape[0] - 1)
             here = 2.0 * cells.depth[y, x] - 1.0
             same = np.abs(here - breadth) <= float(tolerance(np.array(breadth)))
             found.append(cells.labels[y, x][same])
+        return found
+
+    def _ends(self, cell: int) -> list[tuple[NDArray[np.float64], NDArray[np.float64]]]:
+        """The middle (2,) of each end, and the way (2,) out of it: of a corner, that of each arm.
+
+        An end is no broader than the cell is at most places, or nearly so.
+        """
+        points, along = self.cells.points(cell), self.middle(cell)[1]
+        breadth = float(self.cells.breadth[cell])
+        found = []
+        for way in (along, -along, along[::-1] * (-1, 1), along[::-1] * (1, -1)):
+            ahead, aside = points @ way, points @ (way[::-1] * (-1, 1))
+            far = float(ahead.max())
+            last = aside[ahead > far - breadth / 2]
+            if np.ptp(last) + 1 <= STRAIGHT * breadth:
+                middle = (float(last.min()) + float(last.max())) / 2
+                found.append((far * way + middle * way[::-1] * (-1, 1), way))
         return found
 
     def _stands_free(self, cell: int) -> bool:
