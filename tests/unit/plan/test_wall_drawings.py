@@ -112,7 +112,7 @@ def test_hollow_walls_are_filled_and_windows_and_beds_are_not() -> None:
 
 
 def test_a_short_corner_between_two_windows_is_wall() -> None:
-    """Panes of one line each part it from all other walls; both of its arms are in line with one."""
+    """Panes of one line part it from all other walls; each of its arms is in line with one."""
     ink, inside = _house()
     corner = np.zeros_like(ink)
     corner[50:76, 50:102] = corner[50:102, 50:76] = True
