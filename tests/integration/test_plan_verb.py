@@ -68,6 +68,8 @@ def test_a_document_becomes_a_house_and_an_edit_is_rebuilt(
     again = plan(document, out)
     assert (again.up_to_date, again.outdated) == (True, True)
     assert (out / "house.glb").read_bytes() == before
+    with pytest.raises(InputError, match="other inputs or options"):
+        plan(document, out, seed=5)
 
     rebuilt = plan(out / "plan.json", out, seed=3)
     assert (rebuilt.up_to_date, rebuilt.outdated) == (False, False)
@@ -194,7 +196,9 @@ def test_a_page_without_a_plan_is_named(tmp_path: Path) -> None:
     assert "house.pdf page 2 is blank" in report["failures"][0]["reason"]
 
 
-def test_a_dxf_becomes_a_house_and_a_dwg_leaves_nothing_behind(tmp_path: Path) -> None:
+def test_a_dxf_becomes_a_house_and_a_dwg_leaves_nothing_behind(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
     drawing = saved(two_rooms(0.001), tmp_path / "house.dxf")
     out = tmp_path / "out"
     result = run_plan([drawing], out, PlanOptions(), Progress(quiet=True))
@@ -208,6 +212,12 @@ def test_a_dxf_becomes_a_house_and_a_dwg_leaves_nothing_behind(tmp_path: Path) -
         options = PlanOptions(site=SiteOptions(north=north))
         left = run_plan([drawing], out, options, Progress(quiet=True), force=True)
         assert sum("it was not made anew" in note for note in left.notes) == dropped
+        assert left.left
+    capsys.readouterr()
+    tell(left)
+    told = capsys.readouterr().out
+    assert "Nothing was made." in told
+    assert "rooms" not in told
 
     drawing.write_bytes(b"AC1027" + bytes(100))
     with pytest.raises(InputError, match=r"house\.dxf: is a DWG file"):

@@ -13,6 +13,7 @@ import tyro
 
 from veduta.cli.choices import require_choices
 from veduta.cli.numbers import require_numbers
+from veduta.cli.values import require_values
 
 T = TypeVar("T")
 _METAVARS = {int: "INT", float: "FLOAT", str: "STR", Path: "PATH"}
@@ -35,6 +36,7 @@ def parse(
     if not {"-h", "--help"} & set(arguments):
         require_numbers(call, arguments)
         require_choices(call, arguments)
+        require_values(call, arguments)
     registry = tyro.constructors.ConstructorRegistry()
     registry.primitive_rule(_optional)
     with registry:

@@ -5,6 +5,8 @@ from __future__ import annotations
 import sys
 from typing import TYPE_CHECKING
 
+from veduta.cli.invoked import invoked
+
 SUMMARY = "Make a synthetic street, rebuild it from its photo, compare it with the truth"
 
 if TYPE_CHECKING:
@@ -56,8 +58,8 @@ def _lines(record: DemoRecord, result: DemoResult) -> list[str]:
         "",
         f"By eye:     {result.out}/comparison/comparison.png (photo, truth, found)",
         f"Why:        {result.out}/place/street/report.html",
-        f"Walk in it: veduta view {result.out}/place",
-        f"  in a street that rules invented: veduta view {result.out}",
+        f"Walk in it: {invoked('view', f'{result.out}/place')}",
+        f"  in a street that rules invented: {invoked('view', str(result.out))}",
         *_street(result),
     ]
 

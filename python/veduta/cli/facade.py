@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from typing import TYPE_CHECKING
+
+from veduta.cli.invoked import invoked
 
 SUMMARY = "Turn photos of facades into LoD3 buildings: floors, windows, balconies, roof"
 
@@ -70,7 +71,7 @@ def _tell_results(result: CallResult) -> None:
         print(f"{out} is up to date; --force makes it anew")
     if done:
         total = len(result.asked)
-        walk = shlex.join(["veduta", "view", str(out)])
+        walk = invoked("view", str(out))
         print(f"{len(done)} of {total} in {out}. Walk in it: {walk}")
         page = out / done[0] / "report.html" if total == 1 else out / "report.html"
         print(f"What was done, and why: {page}")
@@ -120,5 +121,5 @@ def _rebuild(path: str, result: CallResult) -> str:
         return ": it does not follow the document. Delete it and rebuild"
     if file != DOCUMENT or name not in result.outdated:
         return ""
-    command = shlex.join(["veduta", "facade", str(result.out / path), "-o", str(result.out)])
+    command = invoked("facade", str(result.out / path), "-o", str(result.out))
     return f"; to rebuild from it: {command}"

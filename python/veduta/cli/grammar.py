@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import difflib
-import shlex
 import sys
 from typing import TYPE_CHECKING
+
+from veduta.cli.invoked import invoked
 
 if TYPE_CHECKING:
     from veduta.grammar.pipeline import DeriveResult
@@ -169,5 +170,5 @@ def _tell_result(result: DeriveResult) -> None:
         print(note)
     tell_kept(result.out, result.edited, result.foreign, up_to_date=result.up_to_date)
     if result.built.count:
-        print(f"Walk in it: {shlex.join(['veduta', 'view', str(result.out)])}")
+        print(f"Walk in it: {invoked('view', str(result.out))}")
     print(f"What was done, and why: {result.out / 'report.html'}")

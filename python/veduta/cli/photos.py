@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from typing import TYPE_CHECKING
 
+from veduta.cli.invoked import invoked
 from veduta.run.errors import InputError
 
 SUMMARY = "Turn photos of a place into cameras where they were taken, and points in space"
@@ -67,5 +67,5 @@ def _tell(result: PhotosResult) -> None:
         print(summary_line(result.measures))
         for refused in result.measures.get("georef_refused", ()):
             print(f"not laid into the world by {refused}")
-        print(f"Look at it: {shlex.join(['veduta', 'view', str(out)])}")
+        print(f"Look at it: {invoked('view', str(out))}")
     print(f"What was done, and why: {out / 'report.html'}")

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-import shlex
 import sys
 from typing import TYPE_CHECKING
 
+from veduta.cli.invoked import invoked
+
+REPORT = "report.html"
 SUMMARY = "Turn floor plans into a house that one can walk through"
 
 if TYPE_CHECKING:
@@ -42,11 +44,18 @@ def _tell(result: PlanResult) -> None:
     edited = [name for name in result.edited if name != DOCUMENT]
     tell_kept(out, edited, result.foreign, up_to_date=result.up_to_date)
     if result.outdated:
-        command = shlex.join(["veduta", "plan", str(out / DOCUMENT), "-o", str(out)])
+        command = invoked("plan", str(out / DOCUMENT), "-o", str(out))
         print(f"{out / DOCUMENT}: was edited; to rebuild from it: {command}")
     for note in result.notes:
         print(f"note: {note}")
-    if result.failure is None and result.measures:
+    if result.left:
+        print(
+            f"Nothing was made. To build what you gave, choose another folder than {out} with -o."
+        )
+    elif result.failure is None and result.measures:
         print(summary_line(result.measures))
-        print(f"Walk in it: {shlex.join(['veduta', 'view', str(out)])}")
-    print(f"What was done, and why: {out / 'report.html'}")
+        for doubt in result.doubts:
+            print(f"warning: {doubt}")
+        print(f"Walk in it: {invoked('view', str(out))}")
+    if REPORT not in (*result.edited, *result.foreign):
+        print(f"What was done, and why: {out / REPORT}")

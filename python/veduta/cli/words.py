@@ -15,17 +15,24 @@ from veduta.run.options import DeclaredOption, declared_options, flag
 
 def options_of(call: type[Any]) -> tuple[list[DeclaredOption], Mapping[str, Any]]:
     """The options of the models in a verb's arguments, and the types of its others by flag."""
+    declared = [option for model in models_of(call) for option in declared_options(model)]
     if issubclass(call, BaseModel):
-        return declared_options(call), {}
-    declared: list[DeclaredOption] = []
-    others: dict[str, Any] = {}
-    for name, annotation in get_type_hints(call, include_extras=True).items():
-        kind = _plain(annotation)
-        if isinstance(kind, type) and issubclass(kind, BaseModel):
-            declared += declared_options(kind)
-        else:
-            others[flag(name)] = kind
+        return declared, {}
+    kinds = {name: _plain(kind) for name, kind in get_type_hints(call, include_extras=True).items()}
+    others = {flag(name): kind for name, kind in kinds.items() if not _is_model(kind)}
     return declared, others
+
+
+def models_of(call: type[Any]) -> list[type[BaseModel]]:
+    """The models of options in a verb's arguments, or the verb's arguments themselves."""
+    if issubclass(call, BaseModel):
+        return [call]
+    kinds = [_plain(kind) for kind in get_type_hints(call, include_extras=True).values()]
+    return [kind for kind in kinds if _is_model(kind)]
+
+
+def _is_model(kind: Any) -> bool:
+    return isinstance(kind, type) and issubclass(kind, BaseModel)
 
 
 def given_to(flags: Collection[str], arguments: Sequence[str]) -> Iterator[tuple[str, list[str]]]:

@@ -158,14 +158,14 @@ def _open_bounded(path: Path, data: bytes) -> Image.Image:
     try:
         image = Image.open(io.BytesIO(data), formats=FORMATS)
     except UnidentifiedImageError:
-        raise InputError(path, _why_unidentified(data), _OTHER_FORMAT) from None
+        raise InputError(path, _why_unidentified(data), OTHER_FORMAT) from None
     width_px, height_px = image.size
     if width_px * height_px > MAX_PIXELS or max(image.size) > MAX_SIDE_PX:
         raise _too_large(path, f"is {width_px} x {height_px} px")
     return image
 
 
-_OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
+OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
 
 
 def _why_unidentified(data: bytes) -> str:

@@ -13,10 +13,11 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.imaging.read import DAMAGE, MAX_FILE_BYTES, read_image
+from veduta.imaging.read import DAMAGE, MAX_FILE_BYTES, OTHER_FORMAT, read_image
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.report import counted
 
 if TYPE_CHECKING:
     import pypdfium2
@@ -28,6 +29,7 @@ RENDERED_PX = 3000
 _MOST_DPI = 600.0
 """A page as small as a hand is not enlarged without end."""
 _POINTS_PER_INCH = 72.0
+_FORMATS = "Give a picture (JPEG, PNG, TIFF or WebP), a PDF or a DXF file."
 _MAGIC = b"%PDF-"
 _MAGIC_WITHIN = 1024
 """Bytes in which a PDF says that it is one: PDFium takes files with so much before it."""
@@ -91,7 +93,11 @@ def read_drawing(drawing: Drawing) -> Scan:
     """The pixels of a drawing; InputError where it cannot be read."""
     if drawing.page:
         return _rendered(drawing)
-    photo = read_image(drawing.path)
+    try:
+        photo = read_image(drawing.path)
+    except InputError as error:
+        remedy = _FORMATS if error.remedy == OTHER_FORMAT else error.remedy
+        raise InputError(error.subject, error.fault, remedy) from None
     return Scan(photo.pixels, photo.sha256, _resolution(drawing.path), notes=photo.notes)
 
 
@@ -112,7 +118,8 @@ def _of_pdf(path: Path, pages: Sequence[int] | None) -> list[Drawing]:
         raise InputError(path, "has no pages", "Export the plan again.")
     for page in pages or ():
         if page > count:
-            raise InputError(path, f"has {count} pages, and no page {page}", "Mend --pages.")
+            fault = f"has {counted(count, 'page')}, and no page {page}"
+            raise InputError(path, fault, "Name others with --pages.")
     if pages is None and count > MOST_DRAWINGS:
         raise InputError(
             path,

@@ -15,6 +15,7 @@ from pydantic import JsonValue
 from veduta.plan.analyse import read_drawings
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
+from veduta.plan.doubts import doubts
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.furnish.furnish import furnish
@@ -51,6 +52,8 @@ MADE_FROM = "document_sha256"
 """In the summary of a result: the document that its house was made from."""
 OTHERWISE = "document_says_otherwise"
 """In the summary of a result: whether options made another house than the document describes."""
+DOUBTS = "doubts"
+"""In the summary of a result: what must be known before the house is trusted."""
 
 
 @dataclass
@@ -65,6 +68,10 @@ class PlanResult:
     """Whether plan.json was changed since the house was made from it."""
     notes: list[str] = field(default_factory=list)
     """Options that changed nothing, and why."""
+    doubts: list[str] = field(default_factory=list)
+    """What must be known before the house is trusted."""
+    left: bool = False
+    """Whether nothing was made, as plan.json was edited."""
     edited: list[str] = field(default_factory=list)
     foreign: list[str] = field(default_factory=list)
 
@@ -114,7 +121,7 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
-        left = not result.up_to_date and _is_left(opened, call)
+        left = result.left = not result.up_to_date and _is_left(opened, call)
         if left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
             result.notes.append(LEFT)
         if not result.up_to_date and not left:
@@ -240,7 +247,12 @@ def _make(
             (work / "report.json").write_bytes(report.to_json())
             (work / "report.html").write_bytes(page)
         made_from = call.digests[0] if stays else file_digest(work / DOCUMENT)
-        summary = {**measures(result.document), MADE_FROM: made_from, OTHERWISE: otherwise}
+        summary: dict[str, JsonValue] = {
+            **measures(result.document),
+            MADE_FROM: made_from,
+            OTHERWISE: otherwise,
+            DOUBTS: [*doubts(result.document, result.tour)],
+        }
         opened.publish(CALL, key, work, summary)
     if opened.standing is not Standing.AMENDED:
         opened.finish()
@@ -385,6 +397,7 @@ def _tell(result: PlanResult, opened: OutFolder) -> None:
         result.failure = item.failure
         result.measures = dict(item.summary)
         made_from = result.measures.pop(MADE_FROM, None)
+        result.doubts = result.measures.pop(DOUBTS, [])
         if result.measures.pop(OTHERWISE, False) and _stays(opened):
             result.notes.append(UNWRITTEN)
         document = opened.path / DOCUMENT

@@ -58,7 +58,7 @@ def measures(document: PlanDocument) -> dict[str, Any]:
     openings = [opening for storey in storeys for opening in storey.openings]
     rooms = [room for storey in storeys for room in storey.rooms]
     inner = [room for room in rooms if not room.outdoors]
-    doubtful = sum(opening.score < DOUBTFUL for opening in openings)
+    doubtful = Counter(opening.kind for opening in openings if opening.score < DOUBTFUL)
     return {
         "storeys": len(storeys),
         "walls": sum(len(storey.walls) for storey in storeys),
@@ -70,7 +70,10 @@ def measures(document: PlanDocument) -> dict[str, Any]:
         "painted_rooms": sum(room.wall_colour is not None for room in rooms),
         "tilings": sum(len(room.tilings) for room in rooms),
         "furniture": sum(len(storey.furniture or ()) for storey in storeys),
-        "doubtful_openings": doubtful,
+        "doubtful_openings": doubtful.total(),
+        "doubtful_doors": doubtful["door"],
+        "doubtful_windows": doubtful["window"],
+        "doubtful_gaps": doubtful["gap"],
         "mended_rooms": sum(room.mended for room in rooms),
         "area_m2": round(sum(room.area_m2 for room in inner), 2),
         "scale_basis": [storey.scale.basis for storey in storeys],
@@ -84,12 +87,17 @@ def summary_line(found: dict[str, Any]) -> str:
         counted(found["storeys"], "storey"),
         counted(found["rooms"], "room"),
         f"{found['area_m2']:.1f} m²",
-        counted(found["doors"], "door"),
-        counted(found["windows"], "window"),
+        _openings_found(found, "door"),
+        _openings_found(found, "window"),
+        *([_openings_found(found, "gap")] if found["gaps"] else []),
     ]
-    doubt = f" ({found['doubtful_openings']} doubtful)" if found["doubtful_openings"] else ""
     scale = "; the scale is assumed" if "assumed" in found["scale_basis"] else ""
-    return ", ".join(parts) + doubt + scale
+    return ", ".join(parts) + scale
+
+
+def _openings_found(found: dict[str, Any], kind: str) -> str:
+    doubtful = found[f"doubtful_{kind}s"]
+    return counted(found[f"{kind}s"], kind) + (f" ({doubtful} doubtful)" if doubtful else "")
 
 
 def plan_report(

@@ -25,7 +25,9 @@ def require_file(path: Path, max_bytes: int | None = None) -> None:
     status = path.stat()
     if not stat.S_ISREG(status.st_mode):
         kind = _KINDS.get(stat.S_IFMT(status.st_mode), "something else")
-        raise InputError(path, f"is {kind}, not a file", "Save it as a file, and name that.")
+        folder = stat.S_ISDIR(status.st_mode)
+        remedy = "Name the file in it." if folder else "Save it as a file, and name that."
+        raise InputError(path, f"is {kind}, not a file", remedy)
     if max_bytes is not None and status.st_size > max_bytes:
         sizes = f"{_size(status.st_size)} large, more than {_size(max_bytes)}"
         raise InputError(path, f"is {sizes}", "Check that it is the right file.")

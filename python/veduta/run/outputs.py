@@ -312,9 +312,7 @@ def _open_locked(
         if record.state == "unfinished" or not force:
             record.state = "unfinished"
             return OutFolder(path, record, Standing.RESUMED)
-    elif not force and any(
-        item.state != "failed" for name, item in record.items.items() if name != CALL
-    ):
+    elif not force and _has_results(record):
         raise InputError(
             path,
             f"holds the {record.state} result of other inputs or options"
@@ -325,6 +323,12 @@ def _open_locked(
         )
     fresh = RunRecord(command=command, key=key, files=record.files)
     return OutFolder(path, fresh, Standing.REPLACED, former=record.items)
+
+
+def _has_results(record: RunRecord) -> bool:
+    """Whether anything was made: the call itself counts where it has no items of its own."""
+    items = {name: item for name, item in record.items.items() if name != CALL} or record.items
+    return any(item.state != "failed" for item in items.values())
 
 
 def _digests(folder: Path, prefix: str) -> dict[str, str]:

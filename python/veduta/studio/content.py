@@ -10,6 +10,7 @@ from veduta.run.errors import InputError
 STATIC = Path(__file__).parent / "static"
 MANIFEST = "place.json"
 SHOWN = 5
+_ANY = "Give a folder that veduta wrote, by -o of facade, photos, plan or grammar."
 """How many other folders a message names."""
 
 
@@ -33,7 +34,7 @@ def place_folder(out: Path, verb: str = "view") -> Path:
         raise InputError(
             out,
             "there is no such folder",
-            "Give the folder that `veduta facade -o OUT` wrote.",
+            _ANY,
         )
     if not (out / MANIFEST).is_file():
         raise InputError(out / MANIFEST, "the folder holds no place", _remedy(out, verb))
@@ -43,7 +44,7 @@ def place_folder(out: Path, verb: str = "view") -> Path:
 def _remedy(out: Path, verb: str) -> str:
     near = _places_near(out)
     if not near:
-        return "Give the folder that `veduta facade -o OUT` wrote."
+        return _ANY
     shown = ", ".join(shlex.quote(str(path)) for path in near[:SHOWN])
     more = f" and {len(near) - SHOWN} more" if len(near) > SHOWN else ""
     return f"Did you mean: veduta {verb} {shown}{more}"

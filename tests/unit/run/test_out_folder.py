@@ -13,7 +13,7 @@ import pytest
 
 from veduta.run.errors import InputError
 from veduta.run.outputs import OutFolder, Standing, open_out
-from veduta.run.record import load_record
+from veduta.run.record import CALL, load_record
 from veduta.run.report import Failure
 
 
@@ -76,6 +76,18 @@ def test_other_call_is_refused_without_force(tmp_path: Path) -> None:
         open_out(tmp_path / "out", "grammar", "k"),
     ):
         pass
+
+
+def test_another_call_without_items_is_refused_too(tmp_path: Path) -> None:
+    """Of a house, all files are the call's own."""
+    out = tmp_path / "out"
+    with open_out(out, "plan", "k") as opened:
+        make(opened, CALL)
+        opened.finish()
+    with pytest.raises(InputError, match="of other inputs or options"), open_out(out, "plan", "l"):
+        pass
+    with open_out(out, "plan", "l", force=True) as opened:
+        assert opened.standing is Standing.REPLACED
 
 
 def test_unfinished_of_another_call_is_refused_without_force(tmp_path: Path) -> None:

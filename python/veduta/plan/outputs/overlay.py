@@ -190,11 +190,11 @@ def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
         y += 24
     y += 12
     scale = storey.scale
-    doubtful = [one.id for one in storey.openings if one.score < _DOUBTFUL]
+    doubtful = any(one.score < _DOUBTFUL for one in storey.openings)
     lines = [
         f"{1000 * scale.metres_per_px:.2f} mm per pixel",
         f"± {100 * scale.sigma:.1f} % ({scale.basis})",
-        *([f"{doubtful[0]}? is doubtful: score below {_DOUBTFUL}"] if doubtful else []),
+        *([f"? is doubtful: score below {_DOUBTFUL}"] if doubtful else []),
     ]
     for line in lines:
         pen.text((x, y), line, fill=_FAINT, font=small)

@@ -87,8 +87,10 @@ def scale_notes(scale: Scale) -> list[str]:
     """What a reader must know of a scale: that it was assumed, or that evidence disagrees."""
     notes = []
     if scale.basis == "assumed":
+        # Of a document that was edited, the evidence may be gone.
+        by = f"{scale.evidence[0].text}: sizes" if scale.evidence else "Sizes"
         notes.append(
-            f"Nothing on the sheet says its scale. {scale.evidence[0].text}: sizes may be wrong by"
+            f"Nothing on the sheet says its scale. {by} may be wrong by"
             f" {200 * scale.sigma:.0f} %. --scale sets it."
         )
     against = [one for one in scale.evidence if not one.agrees and one.kind != "door"]

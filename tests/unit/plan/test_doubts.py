@@ -1,0 +1,44 @@
+"""What is said at the terminal of a house that was found."""
+
+from __future__ import annotations
+
+from sample_plan import sample_plan
+
+from veduta.plan.document import Opening, PlanDocument, Scale
+from veduta.plan.doubts import doubts
+from veduta.plan.report import measures, summary_line
+
+
+def changed(scale: Scale | None = None, **openings: dict[str, object]) -> PlanDocument:
+    """The sample with another scale, or with openings changed by their ids."""
+    plan = sample_plan()
+    storey = plan.storeys[0]
+    now: list[Opening] = [
+        one.model_copy(update=openings.get(one.id, {})) for one in storey.openings
+    ]
+    storey = storey.model_copy(update={"openings": now, "scale": scale or storey.scale})
+    return plan.model_copy(update={"storeys": [storey]})
+
+
+def test_nothing_is_said_of_a_sound_house() -> None:
+    assert doubts(changed(), None) == []
+
+
+def test_an_assumed_scale_is_said_also_without_its_evidence() -> None:
+    scale = changed().storeys[0].scale
+    assumed = scale.model_copy(update={"basis": "assumed", "sigma": 0.4, "evidence": []})
+    (said,) = doubts(changed(assumed), None)
+    assert "Sizes may be wrong by 80 %" in said
+
+
+def test_rooms_without_a_door_are_named() -> None:
+    shut = {one.id: {"kind": "window"} for one in changed().storeys[0].openings}
+    (said,) = doubts(changed(None, **shut), None)
+    assert said == "no door was found into 2 rooms: living, bath."
+
+
+def test_doubtful_openings_are_counted_by_their_kind() -> None:
+    doors = [one.id for one in changed().storeys[0].openings if one.kind == "door"]
+    line = summary_line(measures(changed(None, **{doors[0]: {"score": 0.2}})))
+    assert "doors (1 doubtful)" in line or "door (1 doubtful)" in line
+    assert line.count("doubtful") == 1
