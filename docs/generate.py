@@ -29,6 +29,7 @@ from veduta.grammar.assets.catalogue import LEVELS, builtin, builtin_names, desc
 from veduta.grammar.rules import style_names
 from veduta.grammar.surfaces.catalogue import PREFIX, SURFACES
 from veduta.photos.report import FILES as PHOTOS_FILES
+from veduta.plan.document import TYPES_OF, Opening, Room
 from veduta.plan.report import FILES as PLAN_FILES
 from veduta.run.options import declared_options, flag
 
@@ -140,6 +141,28 @@ def table(columns: Sequence[str], rows: Sequence[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines)
 
 
+def plan_values_table() -> str:
+    """The words that fields of a plan.json take."""
+    opening, room = Opening.model_fields, Room.model_fields
+    types = "; ".join(f"of a {kind}: {_listed(words)}" for kind, words in TYPES_OF.items())
+    rows = [
+        (".openings[].kind", _words(opening["kind"].annotation)),
+        (".openings[].type", types),
+        (".openings[].hinge", _words(opening["hinge"].annotation)),
+        (".openings[].swing", _words(opening["swing"].annotation)),
+        (".rooms[].use", _words(room["use"].annotation)),
+    ]
+    return table(("field", "takes"), [(f"`{name}`", words) for name, words in rows])
+
+
+def _words(literal: Any) -> str:
+    return _listed(get_args(literal))
+
+
+def _listed(words: Sequence[str]) -> str:
+    return ", ".join(f"`{word}`" for word in words)
+
+
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "assets.md": {"assets": assets_table},
     "demo.md": {"options": lambda: options_table(DemoCall)},
@@ -160,6 +183,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "plan.md": {
         "options": lambda: options_table(PlanCall),
         "files": lambda: files_table(PLAN_FILES),
+        "values": plan_values_table,
     },
     "textures.md": {"textures": textures_table},
     "styles.md": {name: functools.partial(attributes_table, name) for name in style_names()},

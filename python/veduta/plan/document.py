@@ -7,7 +7,7 @@ right and y up on the page; the same for all storeys, `Sheet.origin_px` lies at 
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
@@ -22,6 +22,12 @@ DoorType = Literal[
 ]
 WindowType = Literal["single-line", "double-line", "triple-line", "filled", "bay", "unknown"]
 OpeningType = DoorType | WindowType
+TYPES_OF: dict[str, tuple[str, ...]] = {
+    "door": get_args(DoorType),
+    "window": get_args(WindowType),
+    "gap": ("plain", "unknown"),
+}
+"""What an opening of each kind may be."""
 RoomUse = Literal[
     "living", "dining", "kitchen", "bedroom", "bathroom", "toilet", "utility", "storage",
     "wardrobe", "hall", "corridor", "stairs", "study", "sauna", "garage", "balcony", "terrace",

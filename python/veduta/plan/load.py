@@ -10,7 +10,16 @@ from pathlib import Path
 import numpy as np
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Furniture, Opening, PlanDocument, Room, Stairs, Storey, Wall
+from veduta.plan.document import (
+    TYPES_OF,
+    Furniture,
+    Opening,
+    PlanDocument,
+    Room,
+    Stairs,
+    Storey,
+    Wall,
+)
 from veduta.plan.house.lines import wall_lines
 from veduta.plan.house.space import UNNAMED
 from veduta.plan.load_treads import MAX_CORNERS, walk_faults
@@ -218,6 +227,9 @@ def _wall_faults(wall: Wall, length_m: float, place: str, index: int) -> list[st
 
 
 def _opening_faults(opening: Opening, length_m: float, place: str) -> list[str]:
+    types = TYPES_OF[opening.kind]
+    if opening.type not in types:
+        return [f"{place}.type: {opening.type!r} is none of a {opening.kind}: {', '.join(types)}"]
     if opening.along_m + opening.width_m > length_m + _BEYOND_M:
         end = opening.along_m + opening.width_m
         return [

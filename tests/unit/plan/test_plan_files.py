@@ -64,7 +64,10 @@ def test_svg_is_xml_with_a_group_for_each_layer_and_names_escaped() -> None:
     root = ElementTree.fromstring(content)
     assert [group.get("id") for group in root.findall(f"{SVG}g")] == ["ground floor", "upper floor"]
     layers = [group.get("class") for group in root.findall(f"{SVG}g/{SVG}g")]
-    assert layers == 2 * ["rooms", "walls", "windows", "doors", "names"]
+    assert layers == 2 * ["rooms", "walls", "ids", "windows", "doors", "names"]
+    titles = {title.text for title in root.iter(f"{SVG}title")}
+    assert {f"{one.id}, from {one.start} to {one.end}" for one in storey.walls} <= titles
+    assert any(told and told.startswith(f"{storey.junctions[0].id}, at ") for told in titles)
     assert "<Salon & Co>" in [text.text for text in root.iter(f"{SVG}text")]
 
 

@@ -87,6 +87,7 @@ def test_a_good_flight_and_a_good_lamp_pass(tmp_path: Path) -> None:
         (["openings", 0, "wall"], "x", "storeys[0].openings[0].wall: there is no 'x'"),
         (["openings", 0, "width_m"], 9.0, "storeys[0].openings[0]: ends at 9.60 m"),
         (["openings", 2, "height_m"], 0.0, "storeys[0].openings[2].height_m: must be above zero"),
+        (["openings", 0, "kind"], "window", "storeys[0].openings[0].type: 'swing' is none of a w"),
         (["openings", 0, "kind"], "hatch", "storeys[0].openings[0].kind: Input should be"),
         (["rooms", 0, "outline_m"], [[0, 0], [1, 1]], "storeys[0].rooms[0].outline_m: 2 points"),
         (

@@ -57,5 +57,5 @@ def test_the_place_that_a_result_is_part_of(
 
 def test_no_place_anywhere(tmp_path: Path) -> None:
     (tmp_path / "a").mkdir()
-    assert told(tmp_path / "a") == "Give the folder that `veduta facade -o OUT` wrote."
-    assert told(tmp_path / "none") == "Give the folder that `veduta facade -o OUT` wrote."
+    assert told(tmp_path / "a") == "Give a folder that veduta wrote, by -o of facade, photos, plan or grammar."
+    assert told(tmp_path / "none") == "Give a folder that veduta wrote, by -o of facade, photos, plan or grammar."

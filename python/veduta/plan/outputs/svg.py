@@ -8,8 +8,9 @@ from xml.sax.saxutils import escape, quoteattr
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.document import RoomUse
+from veduta.plan.document import RoomUse, Storey
 from veduta.plan.drawing import LAYERS, Drawing, Label, Shape
+from veduta.plan.house.lines import arc_points
 from veduta.plan.outputs.colours import LAYER_COLOURS, USE_COLOURS
 
 GAP_M = 2.0
@@ -60,9 +61,31 @@ def _storey(drawing: Drawing, offset: tuple[float, float], x: float) -> str:
             lines.append(f'<g class="{layer}">')
             lines += [_shape(shape, offset) for shape in shapes]
             lines.append("</g>")
+        if layer == "walls":
+            lines += _wall_ids(drawing.storey, offset)
     lines.append('<g class="names" text-anchor="middle" fill="#1f2a37">')
     lines += [_label(label, drawing, offset) for label in drawing.labels]
     return "\n".join([*lines, "</g>", "</g>"])
+
+
+def _wall_ids(storey: Storey, offset: tuple[float, float]) -> list[str]:
+    """Unseen: what a wall and a junction are called, where the pointer rests on them."""
+    at = {one.id: one.at_m for one in storey.junctions}
+    found = ['<g class="ids" fill="none" stroke="none" pointer-events="all">']
+    for wall in storey.walls:
+        line = _path(arc_points(at[wall.start], at[wall.end], wall.bulge), offset)
+        told = escape(f"{wall.id}, from {wall.start} to {wall.end}")
+        found.append(
+            f'<path d="{line}" stroke-width="{_n(wall.thickness_m)}"><title>{told}</title></path>'
+        )
+    radius = 0.5 * min((wall.thickness_m for wall in storey.walls), default=0.1)
+    for name, (x, y) in at.items():
+        told = escape(f"{name}, at {_n(x)}, {_n(y)} m")
+        found.append(
+            f'<circle cx="{_n(x + offset[0])}" cy="{_n(offset[1] - y)}" r="{_n(radius)}">'
+            f"<title>{told}</title></circle>"
+        )
+    return [*found, "</g>"]
 
 
 def _shape(shape: Shape, offset: tuple[float, float]) -> str:
