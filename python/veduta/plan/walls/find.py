@@ -31,6 +31,12 @@ MOST_PIECES = 1500
 SINGLE_LEAST = 0.9
 """Leaves of doors are drawn as lines that are thinner than walls by this factor, or more."""
 
+UPRIGHT, SLANTED, SHORT_SLANTED = 0.5, 1.2, 1.0
+"""Upright and slanted walls are so many times as long as thick, and sides of bays."""
+
+ALIKE = 0.2
+"""Sides of a bay are as thick as the walls beside them but for this part."""
+
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
@@ -80,7 +86,7 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     # What was filled in is as solid as ink.
     ink_of_walls = way.mask.astype(np.float32) if known else cleaned.ink
     soft = np.where(way.mask & ~way.ink, np.float32(1), ink_of_walls)
-    whole = [measured(one, soft) for one in joined(pieces, solid) if _is_wall(one, thickness)]
+    whole = [measured(one, soft) for one in walls_among(joined(pieces, solid), thickness)]
     curved = [measured(one, soft) for one in curved]
     whole = [one for one in whole if not any(lies_in(one, arc) for arc in curved)]
     if not known:
@@ -107,8 +113,39 @@ def thin_thickness(pieces: Sequence[Piece]) -> float:
     return float(thick[order][np.searchsorted(total, 0.25 * total[-1])])
 
 
-def _is_wall(piece: Piece, thickness: Thickness) -> bool:
-    # Corners of blobs look like short slanted strokes.
-    upright = float(np.abs(piece.direction).max()) > 1 - 1e-9
-    aspect = 0.5 if upright else 1.0
-    return piece.length_px >= max(aspect * piece.thickness_px, thickness.least_px)
+def walls_among(pieces: Sequence[Piece], thickness: Thickness) -> list[Piece]:
+    """The pieces that are long enough for walls.
+
+    Corners of blobs look like short slanted strokes. Those that are hardly longer than thick are
+    sides of a bay if they lead from the end of one wall to that of another.
+    """
+    slanted = [float(np.abs(one.direction).max()) <= 1 - 1e-9 for one in pieces]
+    aspect = [
+        one.length_px / one.thickness_px if one.length_px >= thickness.least_px else 0.0
+        for one in pieces
+    ]
+    sure = [
+        one
+        for one, slant, share in zip(pieces, slanted, aspect, strict=True)
+        if share >= (SLANTED if slant else UPRIGHT)
+    ]
+    short = [
+        one
+        for one, slant, share in zip(pieces, slanted, aspect, strict=True)
+        if slant and SHORT_SLANTED <= share < SLANTED
+    ]
+    return [*sure, *(one for one in short if _leads_on(one, sure))]
+
+
+def _leads_on(piece: Piece, walls: Sequence[Piece]) -> bool:
+    """Whether walls as thick as it end at both of its ends, one at each."""
+    alike = [one for one in walls if abs(one.thickness_px / piece.thickness_px - 1) <= ALIKE]
+    at = []
+    for end in (piece.start, piece.end):
+        near = (
+            index
+            for index, one in enumerate(alike)
+            if min(np.hypot(*(one.start - end)), np.hypot(*(one.end - end))) <= piece.thickness_px
+        )
+        at.append(next(near, None))
+    return None not in at and at[0] != at[1]

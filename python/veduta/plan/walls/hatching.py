@@ -6,7 +6,7 @@ the structure tensor (Bigun and Granlund 1987); strokes of a direction that are 
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
@@ -23,7 +23,7 @@ LONGEST = 0.07
 """Strokes are at most so long, as a share of the drawing's longer side: walls are no thicker."""
 
 LEAST_STROKES = 60
-"""Fewer strokes are furniture."""
+"""Fewer strokes side by side are furniture."""
 
 SIDE_BY_SIDE = 4
 """So many strokes side by side are hatching."""
@@ -117,25 +117,24 @@ def _strokes(
     smooth = counts + np.roll(counts, 1) + np.roll(counts, -1)
     direction = np.radians(3) * (int(np.argmax(smooth)) + 0.5)
     like = mine & (_off(angle - np.float32(direction), np.pi) < WITHIN_RAD)
-    dense = _side_by_side(_short(ink, like, line_px))
-    if dense.keep.sum() < LEAST_STROKES:
+    short = _short(ink, like, line_px)
+    if _side_by_side(short) < LEAST_STROKES:
         return np.zeros(ink.shape, dtype=np.bool_)
-    return dense.mask()
+    return short.mask()
 
 
-def _side_by_side(strokes: _Strokes) -> _Strokes:
-    """Those that have others beside them, and what lies near such.
+def _side_by_side(strokes: _Strokes) -> int:
+    """How many have others beside them.
 
     Ticks of dimension lines, the faces of slanted walls and specks are as short, but lie apart.
     """
     kept = np.flatnonzero(strokes.keep)
-    keep = np.zeros_like(strokes.keep)
-    if len(kept):
-        tree, long = KDTree(strokes.middles[kept]), strokes.long_px[kept]
-        near = tree.query_ball_point(tree.data, NEAR * np.maximum(long, np.median(long)))
-        dense = np.array([len(others) > NEIGHBOURS for others in near])
-        keep[kept] = [dense[others].any() for others in near]
-    return replace(strokes, keep=keep)
+    if not len(kept):
+        return 0
+    tree, long = KDTree(strokes.middles[kept]), strokes.long_px[kept]
+    reach = NEAR * np.maximum(long, np.median(long))
+    others = tree.query_ball_point(tree.data, reach, return_length=True) - 1
+    return int((others >= NEIGHBOURS).sum())
 
 
 def _short(ink: NDArray[np.bool_], mask: NDArray[np.bool_], line_px: float) -> _Strokes:
