@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -167,7 +168,8 @@ def _facts(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _pictures(result: Result) -> list[Picture]:
     found = "Walls, doors, windows and rooms over the drawing. A question mark: doubtful."
-    pictures = [_picture("Found", found, result.overlay, "overlay.png")]
+    overlay = _picture("Found", found, result.overlay, "overlay.png")
+    pictures = [replace(overlay, wide=True)]
     if result.tour_picture is not None:
         way = "From blue to red. Thin lines: where one looks. Numbers: the order of the rooms."
         pictures.append(_picture("Tour", way, result.tour_picture, TOUR_PICTURE))

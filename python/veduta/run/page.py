@@ -14,13 +14,17 @@ from veduta.run.report import Count, Report
 
 @dataclass(frozen=True)
 class Picture:
-    """An encoded image with a title; `note` says in a line what it shows."""
+    """An encoded image with a title; `note` says in a line what it shows.
+
+    wide: as broad as the page, because of what is written in it.
+    """
 
     title: str
     note: str
     data: bytes
     mime: Literal["image/jpeg", "image/png"]
     link: str | None = None
+    wide: bool = False
 
     @property
     def url(self) -> str:

@@ -115,6 +115,15 @@ def test_types_of_doors_have_their_leaves(kind: str, leaves: int) -> None:
     assert len(np.unique(every)) == len(every)
 
 
+@pytest.mark.parametrize(("where", "glazed"), [("south-1", True), ("middle", False)])
+def test_sliding_doors_onto_a_terrace_are_of_glass(where: str, glazed: bool) -> None:
+    door = opening("d", where, 0.8, 1.8, type="sliding", hinge="end", swing="left")
+    part = build_house(sample_plan(sample_storey(openings=[door])), HouseOptions()).part
+    (leaf,) = part.movers
+    looks = {part.materials[row].name for row in part.polygon_material[leaf.polygons]}
+    assert ("glass" in looks) is glazed
+
+
 def test_two_leaves_slide_apart() -> None:
     door = opening("d", "south-1", 1.6, 2.0, type="sliding", hinge="both", swing="left")
     part = build_house(sample_plan(sample_storey(openings=[door])), HouseOptions()).part

@@ -76,6 +76,13 @@ def test_without_labels_a_flat_is_guessed() -> None:
     assert all(one.origin == "inferred" and one.name == "" and one.score < 1 for one in named)
 
 
+@pytest.mark.parametrize(("way_out_m", "garage"), [(None, True), (2.4, True), (0.9, False)])
+def test_a_car_needs_a_way_in(way_out_m: float | None, garage: bool) -> None:
+    room = RoomFacts(27.0, 1.3, doors=1, windows=0, way_out_m=way_out_m)
+    uses = guess_uses([room, RoomFacts(26.0, 1.3, doors=2)], [], [None, "living"])
+    assert (uses[0][0] == "garage") is garage
+
+
 @pytest.mark.parametrize(("area", "use"), [(5.0, "balcony"), (30.0, "terrace")])
 def test_outdoors(area: float, use: str) -> None:
     assert guess_uses([RoomFacts(area, outdoors=True)], [], [None])[0][0] == use

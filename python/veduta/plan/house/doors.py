@@ -14,6 +14,7 @@ from shapely.geometry import box
 
 from veduta.place.mover import Mover, Vector
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.plan.house.entrance import OF_TERRACES
 from veduta.plan.house.frame import Frame, Sculptor, Surface, ring_of, upright
 from veduta.plan.house.hole import Hole
 from veduta.plan.house.sliding import LEAF_M, OVER_M, SLIDING
@@ -128,12 +129,23 @@ class _Door:
 
     @property
     def look(self) -> str:
-        """Doors to the outside are darker."""
+        """Doors to the outside are darker, those of terraces framed as windows are."""
         if self.hole.type == "garage":
             return "garage door"
-        sides = (self.hole.left, self.hole.right)
-        is_outer = any(room is None or room.outdoors for room in sides)
-        return "entrance" if is_outer else "leaf"
+        if not self.is_outer:
+            return "leaf"
+        return "frame" if self.is_glazed else "entrance"
+
+    @property
+    def is_outer(self) -> bool:
+        """Whether it leads out of the house, or onto a balcony."""
+        return any(room is None or room.outdoors for room in (self.hole.left, self.hole.right))
+
+    @property
+    def is_glazed(self) -> bool:
+        """Doors onto terraces are of glass, and French doors always are."""
+        kind = self.hole.type
+        return kind == "french" or (self.is_outer and kind in OF_TERRACES)
 
     def _swing(self, leaf: Leaf) -> None:
         """A leaf in the wall's face on the side to which it opens."""
@@ -206,7 +218,7 @@ class _Door:
         near, far = sorted((-first_left, -last_left))  # the frame's third axis points right
         panel = box(leaf.start_m, self.bottom, leaf.end_m, self.top)
         surface = Surface(self.feature, self.look)
-        if self.hole.type == "french":
+        if self.is_glazed:
             glass = box(
                 leaf.start_m + _STILE_M, self.bottom + 2 * _STILE_M,
                 leaf.end_m - _STILE_M, self.top - _STILE_M,

@@ -19,7 +19,8 @@ class RoomFacts:
     """What is known of a room besides words.
 
     `elongation` is long side over short side; `doors` and `windows` are counts; `outdoors` whether
-    it lies outside the walls; `stairs` whether stairs are drawn in it.
+    it lies outside the walls; `stairs` whether stairs are drawn in it. `way_out_m`
+    is how wide its widest way out of the house is, 0 where it has none, None where nobody knows.
     """
 
     area_m2: float
@@ -28,6 +29,7 @@ class RoomFacts:
     windows: int = 1
     outdoors: bool = False
     stairs: bool = False
+    way_out_m: float | None = None
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,8 @@ _USUAL: dict[RoomUse, _Usual] = {
 }
 _STAIRWELL_M2 = 16.0  # with stairs that turn, and the way to them
 _WITH_STAIRS: tuple[RoomUse, ...] = ("living", "hall", "corridor", "dining")  # ways through
+_GATE_M = 1.9
+"""Through a narrower way no car comes into a garage."""
 _ONLY_ONE: tuple[RoomUse, ...] = ("living", "kitchen", "dining", "garage", "utility")
 _SECOND = 0.15  # how much less likely a second one of these is
 _FIRST_NEEDED: tuple[RoomUse, ...] = ("living", "kitchen", "bathroom")
@@ -124,6 +128,8 @@ def _likeliest(
     if room.stairs and room.area_m2 < _STAIRWELL_M2:
         return (0.7, "stairs")
     possible = _WITH_STAIRS if room.stairs else tuple(_USUAL)
+    if room.way_out_m is not None and room.way_out_m < _GATE_M:
+        possible = tuple(use for use in possible if use != "garage")
     weights = {use: math.exp(_log_weight(use, room, around, uses)) for use in possible}
     total = sum(weights.values())
     best = max(weights, key=lambda use: weights[use])

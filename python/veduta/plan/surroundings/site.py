@@ -64,7 +64,8 @@ class Site:
         told = "a spring afternoon's: assumed, --place and --time say it"
         if self.place_deg is not None:
             latitude, longitude = self.place_deg
-            told = f"at latitude {latitude:g}, longitude {longitude:g}, {self.time}"
+            when = "" if self.time is None else f", {self.time.replace('T', ' ')}"
+            told = f"at latitude {latitude:g}, longitude {longitude:g}{when}"
             told += " (the time is assumed)" if "time" in self.assumed else ""
         where = (
             f"azimuth {self.sun.azimuth_deg:.1f}, elevation {self.sun.elevation_deg:.1f} degrees"
