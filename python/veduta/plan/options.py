@@ -78,8 +78,12 @@ class HouseOptions(Options):
         default="auto",
         description="type of roof; auto: hipped, or flat where a hipped one cannot be built",
     )
-    roof_slope: Annotated[float, Field(ge=5.0, le=70.0)] = Field(
-        default=32.0, description="slope of the roof (degrees)"
+    roof_slope: Annotated[float, Field(ge=5.0, le=75.0)] | None = Field(
+        default=None,
+        description=(
+            "slope of the roof (degrees), of a mansard that of its lower part; 32, of a mansard"
+            " 68, if not given"
+        ),
     )
     overhang: Annotated[float, Field(ge=0.0, le=2.0)] = Field(
         default=0.45, description="how far the roof reaches over the walls (m)"

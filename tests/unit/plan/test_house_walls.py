@@ -11,7 +11,7 @@ from closed_shells import shells
 from hypothesis import given
 from hypothesis import strategies as st
 from sample_plan import INNER_M, OUTER_M, opening, sample_plan, sample_storey, wall, window
-from shapely.geometry import LineString, Polygon
+from shapely.geometry import LineString, Polygon, box
 from shapely.ops import unary_union
 
 from veduta.place.builder import PartBuilder
@@ -22,7 +22,7 @@ from veduta.plan.house.build import build_house
 from veduta.plan.house.frame import Sculptor
 from veduta.plan.house.lines import arc_points, footprint, wall_lines
 from veduta.plan.house.looks import Looks
-from veduta.plan.house.roof import add_roof
+from veduta.plan.house.roof import SLOPE_DEG, add_roof
 from veduta.plan.house.space import space_of
 from veduta.plan.house.walls import wall_solid
 from veduta.plan.house.windows import add_window
@@ -178,6 +178,21 @@ def test_a_round_house_has_a_hip_roof_where_it_cannot_have_gables() -> None:
     )
     assert notes == ["roof 1 is hipped: its outline allows no gable roof"]
     top = builder.build().positions_m[:, 2].max()
-    slope = np.tan(np.radians(HouseOptions().roof_slope))
+    slope = np.tan(np.radians(SLOPE_DEG))
     # A cone's height, but for the polygon's inner radius.
     assert top == pytest.approx(3.0 + slope * 5.0, rel=0.02)
+
+
+def test_a_mansard_is_steep_below_and_flatter_above() -> None:
+    builder = PartBuilder("test")
+    sculptor = Sculptor(builder, Looks(builder))
+    assert add_roof(box(0.0, 0.0, 12.0, 9.0), 3.0, sculptor, HouseOptions(roof="mansard")) == []
+    points = builder.build().positions_m
+    levels = np.unique(points[:, 2].round(2))
+    # Eaves, the knee and the ridge; the eaves do not hang before the windows.
+    assert levels.min() > 3.0 - 0.4
+    knee = levels[(levels > 3.5)].min()
+    at_knee = points[np.abs(points[:, 2] - knee) < 0.02]
+    inset = float(at_knee[:, 0].min())
+    assert (knee - 3.0) / inset > np.tan(np.radians(60.0))
+    assert (levels.max() - knee) / (4.5 - inset) < np.tan(np.radians(30.0))

@@ -76,6 +76,15 @@ def test_without_labels_a_flat_is_guessed() -> None:
     assert all(one.origin == "inferred" and one.name == "" and one.score < 1 for one in named)
 
 
+def test_what_leads_to_three_rooms_is_no_bathroom() -> None:
+    facts = [RoomFacts(3.6, 1.1, doors=3, windows=0), RoomFacts(3.9, 1.2, windows=0)]
+    doors = [(0, 1), (0, 2), (0, 3)]
+    known = [None, "bathroom", "living", "bedroom"]
+    uses = guess_uses([*facts, RoomFacts(19.0), RoomFacts(13.0)], doors, known)
+    assert uses[0][0] in ("hall", "corridor")
+    assert guess_uses(facts[:1], [], [None])[0][0] == "bathroom"
+
+
 @pytest.mark.parametrize(("way_out_m", "garage"), [(None, True), (2.4, True), (0.9, False)])
 def test_a_car_needs_a_way_in(way_out_m: float | None, garage: bool) -> None:
     room = RoomFacts(27.0, 1.3, doors=1, windows=0, way_out_m=way_out_m)

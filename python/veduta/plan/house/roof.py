@@ -28,6 +28,10 @@ FLAT_M = 0.12
 _JOG_M = 0.08
 _LEAST_M2 = 1.0
 UNDER_M = 0.005
+SLOPE_DEG = 32.0
+"""The roof's slope, if nobody gives it ..."""
+_MANSARD_DEG, _MANSARD_OVERHANG_M = 68.0, 0.12
+"""... and that of a mansard's lower part. So steep, it must not reach far: it would hang down."""
 
 
 Solid = list[list[NDArray[np.float64]]]
@@ -119,14 +123,17 @@ def _smooth(piece: Polygon) -> Polygon:
 def _solid(shape: Polygon, kind: str, options: HouseOptions) -> Solid | None:
     """The rings of each face of the roof, its eaves at 0; None where there is none."""
     points = np.array(shape.exterior.coords)[:-1]
+    steep = kind == "mansard"
+    slope_deg = options.roof_slope or (_MANSARD_DEG if steep else SLOPE_DEG)
+    overhang_m = min(options.overhang, _MANSARD_OVERHANG_M) if steep else options.overhang
     try:
         places, rings, faces, corners = _core.roof_solid(
             kind,
             points,
             np.array([0, len(points)], dtype=np.int64),
-            math.tan(math.radians(options.roof_slope)),
-            overhang_m=options.overhang,
-            gable_overhang_m=options.overhang / 2.0,
+            math.tan(math.radians(slope_deg)),
+            overhang_m=overhang_m,
+            gable_overhang_m=overhang_m / 2.0,
         )
     except _core.RoofFault:
         return None

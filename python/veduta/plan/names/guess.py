@@ -63,6 +63,9 @@ _USUAL: dict[RoomUse, _Usual] = {
 }
 _STAIRWELL_M2 = 16.0  # with stairs that turn, and the way to them
 _WITH_STAIRS: tuple[RoomUse, ...] = ("living", "hall", "corridor", "dining")  # ways through
+_DEAD_ENDS: tuple[RoomUse, ...] = ("bathroom", "toilet", "storage", "wardrobe", "technical")
+_THROUGH, _CROSSED = 3, 0.1
+"""How much less likely they are with doors to so many rooms: who goes anywhere crosses them."""
 _GATE_M = 1.9
 """Through a narrower way no car comes into a garage."""
 _ONLY_ONE: tuple[RoomUse, ...] = ("living", "kitchen", "dining", "garage", "utility")
@@ -153,6 +156,8 @@ def _log_weight(
         weight += math.log(_SECOND)
     if use in _FIRST_NEEDED and use not in uses:
         weight += math.log(_FIRST)
+    if use in _DEAD_ENDS and len(around) >= _THROUGH:
+        weight += math.log(_CROSSED)
     if len(around) == 1 and around[0] is not None:
         weight += math.log(_BEHIND.get((use, around[0]), 1.0))
     return weight
