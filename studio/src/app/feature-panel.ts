@@ -164,10 +164,12 @@ export class FeaturePanel extends LitElement {
       </header>
       ${shown.scaleKnown ? sizes(feature) : html`<p class="note" data-field="scale">How large it is, nothing tells: the scale of the place is unknown.</p>`}
       ${provenance(feature)} ${this.#relations(shown)}
-      <section>
-        <h3 class="eyebrow">In the photo</h3>
-        <veduta-photo-region .address=${shown.photoAddress} .rectangle=${feature.photo_px}></veduta-photo-region>
-      </section>
+      ${shown.photoAddress === null && feature.photo_px === null
+        ? nothing
+        : html`<section>
+            <h3 class="eyebrow">In the photo</h3>
+            <veduta-photo-region .address=${shown.photoAddress} .rectangle=${feature.photo_px}></veduta-photo-region>
+          </section>`}
       ${shown.severalParts ? building(shown) : nothing}
     `;
   }

@@ -15,7 +15,7 @@ import { rowStyles } from "./row-styles.ts";
 import { theme } from "./theme.ts";
 
 const COLOURINGS: readonly { readonly value: Colouring; readonly label: string }[] = [
-  { value: "photo", label: "Photo" },
+  { value: "photo", label: "Look" },
   { value: "class", label: "Class" },
   { value: "provenance", label: "Provenance" },
 ];

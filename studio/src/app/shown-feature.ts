@@ -1,4 +1,5 @@
 /** What the panel says of the surface that is selected. */
+import { standsAlone } from "../core/place.ts";
 import type { FeatureRef } from "../core/state.ts";
 import type { ShownFeature } from "./feature-panel.ts";
 import type { Session } from "./session.ts";
@@ -15,7 +16,7 @@ export function shownFeature(session: Session, selected: FeatureRef | null): Sho
     row: selected.row,
     table,
     partName: session.nameOf(selected),
-    severalParts: session.town !== null || session.place.parts.length > 1,
+    severalParts: session.town !== null || standsAlone(session.place.parts) === null,
     scaleKnown: session.place.scaleKnown,
     arrangementInvented: session.town === null && part?.arrangement === "invented",
     photoAddress: session.photoAddress(selected.part),

@@ -1,4 +1,5 @@
 /** What the page says of itself: the title of the place, and what one can do. */
+import { standsAlone } from "../core/place.ts";
 import type { StudioState } from "../core/state.ts";
 import type { Session } from "./session.ts";
 
@@ -12,6 +13,8 @@ export function titleOf(session: Session): string {
     return scaleKnown ? all : `${all}, scale unknown`;
   }
   const first = parts[0]?.name ?? "";
+  const alone = standsAlone(parts);
+  if (alone !== null) return alone.name;
   return parts.length > 1 ? `${first} and ${parts.length - 1} more` : first;
 }
 

@@ -27,6 +27,12 @@ export interface Part {
   readonly isBackdrop: boolean;
 }
 
+/** The part that stands by itself, as a house does in its garden; null where several stand together. */
+export function standsAlone(parts: readonly Pick<Part, "name" | "arrangement">[]): { readonly name: string } | null {
+  const single = parts.filter(({ arrangement }) => arrangement === "single");
+  return single.length === 1 ? (single[0] ?? null) : null;
+}
+
 /** Where a place is on the earth, and the day on which it is looked at. */
 export interface SunDay {
   readonly latitude_deg: number;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
-import { cornersOfPlace, fileAddress, isInside, placeAddress, readPlace } from "../../src/core/place.ts";
+import { cornersOfPlace, fileAddress, isInside, placeAddress, readPlace, standsAlone } from "../../src/core/place.ts";
 
 function manifest(change: Record<string, unknown> = {}, part: Record<string, unknown> = {}): string {
   return JSON.stringify({
@@ -22,6 +22,20 @@ function manifest(change: Record<string, unknown> = {}, part: Record<string, unk
     ...change,
   });
 }
+
+describe("what stands alone", () => {
+  const house = { name: "House", arrangement: "single" } as const;
+  const garden = { name: "Garden", arrangement: "invented" } as const;
+
+  it("is the house, not its garden", () => {
+    expect(standsAlone([house, garden])?.name).toBe("House");
+  });
+
+  it("is none of several buildings that somebody arranged", () => {
+    expect(standsAlone([garden, garden])).toBeNull();
+    expect(standsAlone([])).toBeNull();
+  });
+});
 
 describe("reading a place", () => {
   it("gives its parts and its start", () => {
