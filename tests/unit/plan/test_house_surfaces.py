@@ -15,6 +15,7 @@ from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Junction, Opening
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of
+from veduta.plan.house.roof import UNDER_M
 from veduta.plan.options import HouseOptions
 
 SLAB_M = 0.25
@@ -251,7 +252,7 @@ def test_eaves_hang_outside_and_nothing_of_the_roof_is_in_rooms(overhang: float)
     assert mesh.is_watertight
     # The eaves hang down by the slope.
     drop = overhang * math.tan(math.radians(32.0))
-    assert mesh.bounds[0][2] == pytest.approx(HEIGHT_M + 0.005 - drop, abs=1e-5)
+    assert mesh.bounds[0][2] == pytest.approx(HEIGHT_M + UNDER_M - drop, abs=1e-5)
     x, y = np.meshgrid(np.linspace(0.1, 7.9, 9), np.linspace(0.1, 4.9, 7))
     origins = np.column_stack([x.ravel(), y.ravel(), np.full(x.size, 0.1)])
     hits, *_ = mesh.ray.intersects_location(origins, np.tile([0.0, 0.0, 1.0], (x.size, 1)))

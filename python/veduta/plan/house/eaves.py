@@ -15,7 +15,7 @@ from veduta.plan.house.walls import extruded, flat_faces, shell_of
 
 Rings = list[NDArray[np.float64]]
 _DEEP_M = 100.0
-_LEFT_M = 0.004
+_LEFT_M = 0.014
 """A roof is so thick where it passes over the walls' outer faces: it hangs together there."""
 
 

@@ -27,7 +27,8 @@ from veduta.plan.options import HouseOptions, RoofKind
 FLAT_M = 0.12
 _JOG_M = 0.08
 _LEAST_M2 = 1.0
-UNDER_M = 0.005
+UNDER_M = 0.015
+"""So far the roof lies over the eaves where walls end: nearer, their tops would show through."""
 SLOPE_DEG = 32.0
 """The roof's slope, if nobody gives it ..."""
 _MANSARD_DEG, _MANSARD_OVERHANG_M = 68.0, 0.12
