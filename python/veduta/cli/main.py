@@ -59,7 +59,7 @@ def _guarded(verb: str, words: list[str]) -> int:
         _say(f"error: {error}")
         return SOME_FAILED
     except (KeyboardInterrupt, UnfinishedError) as error:
-        _say("stopped: what is finished is on disk, and the same command goes on from there")
+        _say("stopped: what is finished is on disk, and the same command does the rest")
         return TERMINATED if isinstance(error, UnfinishedError) else INTERRUPTED
     except VedutaError as error:
         _say(f"error: {error}")
