@@ -76,6 +76,15 @@ def test_without_labels_a_flat_is_guessed() -> None:
     assert all(one.origin == "inferred" and one.name == "" and one.score < 1 for one in named)
 
 
+@pytest.mark.parametrize("remark", ["MIN. 22x30 ATTIC ACCESS", "GAS FAU IN ATTIC"])
+def test_what_is_written_for_builders_names_no_room(remark: str) -> None:
+    texts = [_text(remark, 200, 100), _text("HALL", 200, 200)]
+    (named,) = name_rooms([_box(0, 0, 400, 300)], texts, [RoomFacts(6.0)], [])
+    assert (named.use, named.name) == ("hall", "HALL")
+    (alone,) = name_rooms([_box(0, 0, 400, 300)], texts[:1], [RoomFacts(6.0)], [])
+    assert alone.name == ""
+
+
 def test_what_leads_to_three_rooms_is_no_bathroom() -> None:
     facts = [RoomFacts(3.6, 1.1, doors=3, windows=0), RoomFacts(3.9, 1.2, windows=0)]
     doors = [(0, 1), (0, 2), (0, 3)]

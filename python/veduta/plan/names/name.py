@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -14,6 +15,8 @@ from veduta.plan.names.guess import RoomFacts, guess_uses
 from veduta.plan.names.vocabulary import Language, Meaning, language_of, meanings
 
 _LINE_GAP = 0.9  # heights of text between two lines of one label
+_REMARK = re.compile(r"\b(?:access|above|below|(?:in|to) (?:the )?attic)\b", re.IGNORECASE)
+"""What is written for builders, "attic access" or "furnace in attic", names no room."""
 _OTHER_LANGUAGE = 0.8  # score of a word of a language that the sheet is not in
 _LETTER = 0.5  # score of a single letter on a sheet that is not in its language
 _SIZES = (0.6, 1.7)  # heights of two lines of one label, one over the other
@@ -116,6 +119,8 @@ def _named(labels: list[_Label], language: Language | None) -> NamedRoom | None:
     """What the labels of a room say; None where none is a word for a room."""
     found = []
     for label in labels:
+        if _REMARK.search(label.text):
+            continue
         best = _best(meanings(label.text), language)
         if best is not None:
             found.append((best.score * label.score, label, best))
