@@ -71,7 +71,7 @@ def _takes(schema: dict[str, Any]) -> str:
     if schema.get("format") == "path":
         return "file"
     if "enum" in schema:
-        return ", ".join(f"`{value}`" for value in schema["enum"])
+        return _listed(schema["enum"])
     bounds = [text.format(schema[key]) for key, text in _BOUNDS.items() if key in schema]
     return " ".join([_KINDS[schema["type"]], ", ".join(bounds)]).strip()
 

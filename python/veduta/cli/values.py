@@ -6,7 +6,7 @@ The parser would show pydantic's message with its types; what the rule says is e
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from typing import Any, get_args
+from typing import Any
 
 from pydantic import BaseModel, ValidationError
 
@@ -25,18 +25,17 @@ def require_values(call: type[Any], arguments: Sequence[str]) -> None:
 
 
 def _require(model: type[BaseModel], option: DeclaredOption, words: Sequence[str]) -> None:
-    fault = _fault(model, {option.name: _value(model, option, words)})
+    fault = _fault(model, {option.name: _value(option, words)})
     if fault is not None:
         raise InputError(option.flag, fault, f"It is {option.description}.")
 
 
-def _value(model: type[BaseModel], option: DeclaredOption, words: Sequence[str]) -> Any:
+def _value(option: DeclaredOption, words: Sequence[str]) -> Any:
     """As the parser would read it: several numbers, or a word."""
     count = option.value.get("minItems", 1) if option.value.get("type") == "array" else 0
     if not count:
         return words[0]
-    whole = int in get_args(model.model_fields[option.name].annotation)
-    return tuple(number_of(word, whole=whole) for word in words[:count])
+    return tuple(number_of(word, whole=False) for word in words[:count])
 
 
 def _fault(model: type[BaseModel], values: Mapping[str, Any]) -> str | None:

@@ -26,6 +26,7 @@ MAX_PIXELS = 100_000_000
 MAX_SIDE_PX = 30_000
 MAX_FILE_BYTES = 1_000_000_000
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
+OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
 SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp")
 
 # What Pillow raises on damaged files, found by cutting and flipping bytes of each format.
@@ -76,10 +77,13 @@ class Photo:
     orientation: int = 1
 
 
-def read_image(path: Path) -> Photo:
-    """Read a JPEG, PNG, TIFF or WebP file; raise InputError when it cannot be read whole."""
+def read_image(path: Path, other_format: str = OTHER_FORMAT) -> Photo:
+    """Read a JPEG, PNG, TIFF or WebP file; raise InputError when it cannot be read whole.
+
+    other_format: the remedy where it is of none of these, for who takes more than pictures.
+    """
     data = _read_bytes(path)
-    with _damage_is_input_error(path), _open_bounded(path, data) as image:
+    with _damage_is_input_error(path), _open_bounded(path, data, other_format) as image:
         notes = _frame_notes(image)
         image.load()
         # After loading: Pillow turns a TIFF by its orientation then, and takes the tag away.
@@ -153,19 +157,16 @@ def _damage_is_input_error(path: Path) -> Iterator[None]:
         raise InputError(path, fault, "Copy or export the image again.") from error
 
 
-def _open_bounded(path: Path, data: bytes) -> Image.Image:
+def _open_bounded(path: Path, data: bytes, other_format: str = OTHER_FORMAT) -> Image.Image:
     """Read the header; refuse other formats and images over the size bounds."""
     try:
         image = Image.open(io.BytesIO(data), formats=FORMATS)
     except UnidentifiedImageError:
-        raise InputError(path, _why_unidentified(data), OTHER_FORMAT) from None
+        raise InputError(path, _why_unidentified(data), other_format) from None
     width_px, height_px = image.size
     if width_px * height_px > MAX_PIXELS or max(image.size) > MAX_SIDE_PX:
         raise _too_large(path, f"is {width_px} x {height_px} px")
     return image
-
-
-OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
 
 
 def _why_unidentified(data: bytes) -> str:

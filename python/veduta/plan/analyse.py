@@ -215,7 +215,6 @@ def _picture_scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> tuple[Scal
 def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
     """What rooms are for, by their ids."""
     kinds = {opening.id: opening.kind for opening in drawn.openings}
-    width_m = {opening.id: opening.width_px * metres_per_px for opening in drawn.openings}
     index_of = {room.id: index for index, room in enumerate(drawn.rooms)}
     rooms_of: dict[str, list[int]] = {}
     for room in drawn.rooms:
@@ -226,7 +225,11 @@ def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
         for opening, found in rooms_of.items()
         if len(found) == 2 and kinds[opening] != "window"
     ]
-    out_m = {name: width_m[name] for name, found in rooms_of.items() if len(found) == 1}
+    out_m = {
+        one.id: one.width_px * metres_per_px
+        for one in drawn.openings
+        if one.kind != "window" and len(rooms_of.get(one.id, ())) == 1
+    }
     facts = [_facts(room, drawn, kinds, out_m, metres_per_px) for room in drawn.rooms]
     outlines = [room.outline_px for room in drawn.rooms]
     named = name_rooms(outlines, drawn.texts, facts, pairs)
@@ -249,7 +252,7 @@ def _facts(
     out_m: Mapping[str, float],
     metres_per_px: float,
 ) -> RoomFacts:
-    """What is known of a room. out_m: how wide openings are that lead into no other room."""
+    """What is known of a room. out_m: how wide doors and gaps are that lead into no other room."""
     shape = Polygon(room.outline_px)
     around = Counter("window" if kinds[name] == "window" else "door" for name in room.openings)
     stairs = any(shape.contains(Polygon(one.outline_px).centroid) for one in drawn.stairs)
@@ -260,9 +263,7 @@ def _facts(
         windows=around["window"],
         outdoors=room.outdoors,
         stairs=stairs,
-        way_out_m=max(
-            (out_m.get(name, 0.0) for name in room.openings if kinds[name] != "window"), default=0.0
-        ),
+        way_out_m=max((out_m.get(name, 0.0) for name in room.openings), default=0.0),
     )
 
 

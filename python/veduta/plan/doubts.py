@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from veduta.plan.document import PlanDocument, Storey
+from veduta.plan.remarks import closed_in
 from veduta.plan.scale.estimate import scale_notes
 from veduta.plan.tour.find import Tour
 from veduta.run.report import counted
@@ -21,8 +22,7 @@ def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
 
 
 def _closed_in(storey: Storey) -> list[str]:
-    ways = {one.id for one in storey.openings if one.kind != "window"}
-    closed = [room.id for room in storey.rooms if not ways & set(room.openings)]
+    closed = [room.id for room in closed_in(storey.rooms, storey.openings)]
     if not closed:
         return []
     more = f" and {len(closed) - _SHOWN} more" if len(closed) > _SHOWN else ""

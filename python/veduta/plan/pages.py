@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from veduta.imaging.read import DAMAGE, MAX_FILE_BYTES, OTHER_FORMAT, read_image
+from veduta.imaging.read import DAMAGE, MAX_FILE_BYTES, read_image
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -93,11 +93,7 @@ def read_drawing(drawing: Drawing) -> Scan:
     """The pixels of a drawing; InputError where it cannot be read."""
     if drawing.page:
         return _rendered(drawing)
-    try:
-        photo = read_image(drawing.path)
-    except InputError as error:
-        remedy = _FORMATS if error.remedy == OTHER_FORMAT else error.remedy
-        raise InputError(error.subject, error.fault, remedy) from None
+    photo = read_image(drawing.path, _FORMATS)
     return Scan(photo.pixels, photo.sha256, _resolution(drawing.path), notes=photo.notes)
 
 

@@ -121,10 +121,10 @@ def run_plan(
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
         result.notes = [] if checked is None else idle_notes(checked, options)
-        left = result.left = not result.up_to_date and _is_left(opened, call)
-        if left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
+        result.left = not result.up_to_date and _is_left(opened, call)
+        if result.left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
             result.notes.append(LEFT)
-        if not result.up_to_date and not left:
+        if not result.up_to_date and not result.left:
             with progress.over(1):
                 progress.started(Task(call.subject, None))
                 _make(call, given, options, opened, key, progress.step)

@@ -7,13 +7,15 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from typing import TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Polygon
 from shapely.ops import unary_union
 
-from veduta.plan.drawn import Drawn, DrawnStairs
+from veduta.plan.document import Opening, Room
+from veduta.plan.drawn import Drawn, DrawnOpening, DrawnRoom, DrawnStairs
 
 BORDER = 0.012
 """A wall that ends within this share of the sheet's long side before its edge may go on there."""
@@ -26,6 +28,7 @@ APART_M = 1.5
 LEAST_SHARE = 0.25
 """A building with less of the largest one's floor is a shed, a key or a detail."""
 _SHOWN = 8
+R = TypeVar("R", DrawnRoom, Room)
 _EDGES = {"left": (-1, 0), "right": (1, 0), "upper": (0, -1), "lower": (0, 1)}
 
 
@@ -123,10 +126,15 @@ def _apart(drawn: Drawn, metres_per_px: float) -> list[str]:
     ]
 
 
+def closed_in(rooms: Sequence[R], openings: Sequence[DrawnOpening] | Sequence[Opening]) -> list[R]:
+    """The rooms that no door and no gap leads into."""
+    ways = {one.id for one in openings if one.kind != "window"}
+    return [room for room in rooms if not ways & set(room.openings)]
+
+
 def _closed_in(drawn: Drawn, metres_per_px: float) -> list[str]:
     """Rooms that no door and no gap leads into."""
-    ways = {one.id for one in drawn.openings if one.kind != "window"}
-    closed = [room for room in drawn.rooms if not ways & set(room.openings)]
+    closed = closed_in(drawn.rooms, drawn.openings)
     if not closed:
         return []
     named = [f"{room.id} ({room.area_px2 * metres_per_px**2:.1f} m²)" for room in closed[:_SHOWN]]

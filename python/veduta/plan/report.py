@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import Counter, defaultdict
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -168,8 +167,7 @@ def _facts(result: Result, found: dict[str, Any]) -> list[tuple[str, str]]:
 
 def _pictures(result: Result) -> list[Picture]:
     found = "Walls, doors, windows and rooms over the drawing. A question mark: doubtful."
-    overlay = _picture("Found", found, result.overlay, "overlay.png")
-    pictures = [replace(overlay, wide=True)]
+    pictures = [_picture("Found", found, result.overlay, "overlay.png", wide=True)]
     if result.tour_picture is not None:
         way = "From blue to red. Thin lines: where one looks. Numbers: the order of the rooms."
         pictures.append(_picture("Tour", way, result.tour_picture, TOUR_PICTURE))
@@ -190,10 +188,12 @@ def _pictures(result: Result) -> list[Picture]:
     return pictures
 
 
-def _picture(title: str, note: str, pixels: NDArray[np.uint8], link: str) -> Picture:
+def _picture(
+    title: str, note: str, pixels: NDArray[np.uint8], link: str, *, wide: bool = False
+) -> Picture:
     image = Image.fromarray(pixels)
     image.thumbnail((THUMBNAIL_PX, THUMBNAIL_PX))
-    return Picture(title, note, jpeg_bytes(image, 88), "image/jpeg", link)
+    return Picture(title, note, jpeg_bytes(image, 88), "image/jpeg", link, wide)
 
 
 def _rooms(storey: Storey) -> Table:

@@ -155,19 +155,12 @@ def test_a_star_and_slanted_hatching_are_no_stairs() -> None:
     assert find_flights(hatched > 0, LINE) == ()
 
 
-def test_a_tread_ends_at_the_first_of_a_walls_two_lines() -> None:
+@pytest.mark.parametrize("second", [slice(134, 136), slice(130, 136)])
+def test_a_tread_ends_at_the_first_of_a_walls_two_lines(second: slice) -> None:
+    """And a closet behind a thin wall, whose side lies on the second line, is no part of it."""
     ink = np.zeros((120, 300), np.bool_)
     ink[59:61, 20:120] = True
-    ink[:, 120:122] = ink[:, 134:136] = True
-    probe = probe_of(ink, 2.0, 300.0)
-    way = np.array([1.0, 0.0])
-    assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 16.0) == pytest.approx(102, abs=2)
-
-
-def test_a_closet_behind_a_wall_is_no_part_of_a_tread() -> None:
-    ink = np.zeros((120, 300), np.bool_)
-    ink[59:61, 20:120] = True
-    ink[:, 120:122] = ink[:, 130:136] = True
+    ink[:, 120:122] = ink[:, second] = True
     probe = probe_of(ink, 2.0, 300.0)
     way = np.array([1.0, 0.0])
     assert probe.reach(np.array([20.0, 60.0]), way, 200.0, 16.0) == pytest.approx(102, abs=2)

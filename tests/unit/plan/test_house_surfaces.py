@@ -14,8 +14,8 @@ from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Junction, Opening
 from veduta.plan.house.build import House, build_house
+from veduta.plan.house.eaves import UNDER_M
 from veduta.plan.house.placing import place_of
-from veduta.plan.house.roof import UNDER_M
 from veduta.plan.options import HouseOptions
 
 SLAB_M = 0.25

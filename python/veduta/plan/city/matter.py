@@ -18,9 +18,10 @@ from shapely.ops import substring
 from veduta.place.part import Part
 from veduta.plan.city.marked import Mark, Marks, joined, one_mark
 from veduta.plan.house.build import GROUND_SLAB_M
+from veduta.plan.house.eaves import UNDER_M
 from veduta.plan.house.floors import FINISH_M, slab_over
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.roof import UNDER_M, Roof, roof_body
+from veduta.plan.house.roof import Roof, roof_body
 from veduta.plan.house.space import Space
 from veduta.plan.house.walls import WallNames, extruded, wall_solid
 from veduta.plan.options import HouseOptions

@@ -132,20 +132,15 @@ class _Door:
         """Doors to the outside are darker, those of terraces framed as windows are."""
         if self.hole.type == "garage":
             return "garage door"
-        if not self.is_outer:
+        if not self.hole.is_outer:
             return "leaf"
         return "frame" if self.is_glazed else "entrance"
-
-    @property
-    def is_outer(self) -> bool:
-        """Whether it leads out of the house, or onto a balcony."""
-        return any(room is None or room.outdoors for room in (self.hole.left, self.hole.right))
 
     @property
     def is_glazed(self) -> bool:
         """Doors onto terraces are of glass, and French doors always are."""
         kind = self.hole.type
-        return kind == "french" or (self.is_outer and kind in OF_TERRACES)
+        return kind == "french" or (self.hole.is_outer and kind in OF_TERRACES)
 
     def _swing(self, leaf: Leaf) -> None:
         """A leaf in the wall's face on the side to which it opens."""

@@ -15,7 +15,9 @@ from veduta.plan.house.walls import extruded, flat_faces, shell_of
 
 Rings = list[NDArray[np.float64]]
 _DEEP_M = 100.0
-_LEFT_M = 0.014
+UNDER_M = 0.015
+"""So far the roof lies over the eaves where walls end: nearer, their tops would show through."""
+_LEFT_M = UNDER_M - 0.001
 """A roof is so thick where it passes over the walls' outer faces: it hangs together there."""
 
 

@@ -72,9 +72,8 @@ def _guess(hole: Hole) -> DoorType | None:
     if is_told or hole.width_m <= WIDEST_LEAF_M:
         return None
     sides = (hole.left, hole.right)
-    outdoors = any(room is None or room.outdoors for room in sides)
     closet = any(room is not None and room.area_m2 <= CLOSET_M2 for room in sides)
-    return "sliding" if outdoors or closet else "double"
+    return "sliding" if hole.is_outer or closet else "double"
 
 
 def _against(hole: Hole, hinge: Hinge, swing: Swing, around: Around) -> float:

@@ -64,6 +64,11 @@ class Hole:
         return (self.line.at(self.end_m) - self.start) / self.width_m
 
     @property
+    def is_outer(self) -> bool:
+        """Whether it leads out of the house, or onto a balcony."""
+        return any(room is None or room.outdoors for room in (self.left, self.right))
+
+    @property
     def reaches_floor(self) -> bool:
         """Whether one can walk through it."""
         return self.low_m <= 0.0

@@ -18,7 +18,7 @@ from shapely.geometry.polygon import orient
 
 from veduta import _core
 from veduta.place.semantics import Provenance, SemanticClass
-from veduta.plan.house.eaves import clear_of, solid_of_faces
+from veduta.plan.house.eaves import UNDER_M, clear_of, solid_of_faces
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.space import pieces_of
 from veduta.plan.house.walls import extruded
@@ -27,8 +27,6 @@ from veduta.plan.options import HouseOptions, RoofKind
 FLAT_M = 0.12
 _JOG_M = 0.08
 _LEAST_M2 = 1.0
-UNDER_M = 0.015
-"""So far the roof lies over the eaves where walls end: nearer, their tops would show through."""
 SLOPE_DEG = 32.0
 """The roof's slope, if nobody gives it ..."""
 _MANSARD_DEG, _MANSARD_OVERHANG_M = 68.0, 0.12

@@ -86,7 +86,7 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     # What was filled in is as solid as ink.
     ink_of_walls = way.mask.astype(np.float32) if known else cleaned.ink
     soft = np.where(way.mask & ~way.ink, np.float32(1), ink_of_walls)
-    whole = [measured(one, soft) for one in walls_among(joined(pieces, solid), thickness)]
+    whole = [measured(one, soft) for one in _walls_among(joined(pieces, solid), thickness)]
     curved = [measured(one, soft) for one in curved]
     whole = [one for one in whole if not any(lies_in(one, arc) for arc in curved)]
     if not known:
@@ -113,27 +113,22 @@ def thin_thickness(pieces: Sequence[Piece]) -> float:
     return float(thick[order][np.searchsorted(total, 0.25 * total[-1])])
 
 
-def walls_among(pieces: Sequence[Piece], thickness: Thickness) -> list[Piece]:
+def _walls_among(pieces: Sequence[Piece], thickness: Thickness) -> list[Piece]:
     """The pieces that are long enough for walls.
 
     Corners of blobs look like short slanted strokes. Those that are hardly longer than thick are
     sides of a bay if they lead from the end of one wall to that of another.
     """
-    slanted = [float(np.abs(one.direction).max()) <= 1 - 1e-9 for one in pieces]
-    aspect = [
-        one.length_px / one.thickness_px if one.length_px >= thickness.least_px else 0.0
-        for one in pieces
-    ]
-    sure = [
-        one
-        for one, slant, share in zip(pieces, slanted, aspect, strict=True)
-        if share >= (SLANTED if slant else UPRIGHT)
-    ]
-    short = [
-        one
-        for one, slant, share in zip(pieces, slanted, aspect, strict=True)
-        if slant and SHORT_SLANTED <= share < SLANTED
-    ]
+    sure: list[Piece] = []
+    short: list[Piece] = []
+    for one in pieces:
+        slanted = float(np.abs(one.direction).max()) <= 1 - 1e-9
+        if one.length_px < thickness.least_px:
+            continue
+        if one.length_px >= (SLANTED if slanted else UPRIGHT) * one.thickness_px:
+            sure.append(one)
+        elif slanted and one.length_px >= SHORT_SLANTED * one.thickness_px:
+            short.append(one)
     return [*sure, *(one for one in short if _leads_on(one, sure))]
 
 

@@ -284,14 +284,15 @@ class _Sorting:
         """
         points, along = self.cells.points(cell), self.middle(cell)[1]
         breadth = float(self.cells.breadth[cell])
+        across = along[::-1] * (-1, 1)
         found = []
-        for way in (along, -along, along[::-1] * (-1, 1), along[::-1] * (1, -1)):
-            ahead, aside = points @ way, points @ (way[::-1] * (-1, 1))
+        for way, side in ((along, across), (-along, across), (across, along), (-across, along)):
+            ahead, aside = points @ way, points @ side
             far = float(ahead.max())
             last = aside[ahead > far - breadth / 2]
             if np.ptp(last) + 1 <= STRAIGHT * breadth:
                 middle = (float(last.min()) + float(last.max())) / 2
-                found.append((far * way + middle * way[::-1] * (-1, 1), way))
+                found.append((far * way + middle * side, way))
         return found
 
     def _stands_free(self, cell: int) -> bool:
