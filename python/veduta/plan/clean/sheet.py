@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
+from veduta.plan.clean.focus import focused
 from veduta.plan.clean.straighten import laid_straight, skew, work_scale
 from veduta.plan.drawn import Cleaned
 from veduta.run.errors import NotFoundError
@@ -25,6 +26,9 @@ less than 0.35 of what counts as ink, or more than 0.53 of paper."""
 
 PAPER = 0.1
 """What is at most so dark is paper."""
+
+LEFT_PX = 0.5
+"""Of a sheet out of focus so much blur is left, as in a good scan: less of it would be noise."""
 
 LEAST_TEXTURE = 6.0
 """Grey levels within 5 x 5 px, at the median: drawings on paper of any colour are plain at most
@@ -45,6 +49,7 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
     if inks.is_negative(pixels):
         pixels = 255 - pixels
         notes.append("light lines on a dark sheet: colours inverted")
+    pixels = focused(pixels, LEFT_PX)
     rotation = skew(pixels)
     straight, clean_from_scan = laid_straight(pixels, rotation, work_scale(width, height))
     dark = inks.darkness(straight)

@@ -37,6 +37,9 @@ UPRIGHT, SLANTED, SHORT_SLANTED = 0.5, 1.2, 1.0
 ALIKE = 0.2
 """Sides of a bay are as thick as the walls beside them but for this part."""
 
+BLOB = 0.75
+"""What is shorter than thin walls are thick, and thinner than this part of that, is no wall."""
+
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
@@ -101,6 +104,8 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     if not whole and not curved:
         raise NotFoundError("walls", "no thick strokes are straight", "Give a floor plan.")
     thin_px = thin_thickness([*whole, *curved])
+    if not known:
+        whole = [one for one in whole if not _is_blob(one, thin_px)]
     return Found(whole, solid, thickness, thin_px, curved, way.told == "by colour")
 
 
@@ -111,6 +116,11 @@ def thin_thickness(pieces: Sequence[Piece]) -> float:
     order = np.argsort(thick)
     total = np.cumsum(length[order])
     return float(thick[order][np.searchsorted(total, 0.25 * total[-1])])
+
+
+def _is_blob(piece: Piece, thin_px: float) -> bool:
+    """Whether a piece is no more than the place where lines of furniture meet at a wall."""
+    return piece.length_px < thin_px and piece.thickness_px < BLOB * thin_px
 
 
 def _walls_among(pieces: Sequence[Piece], thickness: Thickness) -> list[Piece]:
