@@ -21,6 +21,9 @@ COMMON = 0.1
 NOISY = 0.03
 """Standard deviation of the noise, as a share of black, from which a sheet is smoothed first."""
 
+DOT = 1.0
+"""What is enclosed by ink and no larger than the square of a line's width by this is no room."""
+
 BLACK, WHITE = 80, 170
 """A sheet whose median is darker is black; one whose median is lighter is white."""
 
@@ -79,6 +82,25 @@ def marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bool_]:
     disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (reach, reach))
     darkest = cv2.blur(cv2.dilate(ink, disc), (reach, reach))
     return np.asarray(ink > np.maximum(0.5 * darkest, LEAST_CONTRAST), dtype=np.bool_)
+
+
+def without_pinholes(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """The ink with what it encloses filled where that is no larger than a dot of a pen.
+
+    `mask` (h, w) is of the ink's marks. Rows of white dots are the drawing of walls of concrete or
+    of insulation, and single ones are noise.
+    """
+    most = max(1.0, DOT * line_width(mask) ** 2)
+    paper = (~mask).view(np.uint8)
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
+    small = stats[:, cv2.CC_STAT_AREA] <= most
+    small[0] = False
+    if count < 2 or not small.any():
+        return ink
+    holes = small[labels]
+    # With their pale edges.
+    around = cv2.dilate(holes.view(np.uint8), np.ones((5, 5), np.uint8)).view(np.bool_)
+    return np.asarray(np.where(around & (mask | holes), np.float32(1), ink), dtype=np.float32)
 
 
 def faint_marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bool_]:
