@@ -24,6 +24,12 @@ NOISY = 0.03
 DOT = 1.0
 """What is enclosed by ink and no larger than the square of a line's width by this is no room."""
 
+BAND = 2.0
+"""Dots lie in what is so many times as thick as lines."""
+
+EDGE = 0.4
+"""Its pale edge is as wide as this part of a line."""
+
 BLACK, WHITE = 80, 170
 """A sheet whose median is darker is black; one whose median is lighter is white."""
 
@@ -90,7 +96,8 @@ def without_pinholes(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArr
     `mask` (h, w) is of the ink's marks. Rows of white dots are the drawing of walls of concrete or
     of insulation, and single ones are noise.
     """
-    most = max(1.0, DOT * line_width(mask) ** 2)
+    line_px = line_width(mask)
+    most = max(1.0, DOT * line_px**2)
     paper = (~mask).view(np.uint8)
     count, labels, stats, _ = cv2.connectedComponentsWithStats(paper, connectivity=4)
     small = stats[:, cv2.CC_STAT_AREA] <= most
@@ -98,8 +105,17 @@ def without_pinholes(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArr
     if count < 2 or not small.any():
         return ink
     holes = small[labels]
+    # Not those of letters, nor between lines that meet: with them filled, it is thick there.
+    side = max(2, round(BAND * line_px))
+    full = cv2.morphologyEx(
+        (mask | holes).view(np.uint8), cv2.MORPH_OPEN, np.ones((side, side), np.uint8)
+    )
+    holes &= full.view(np.bool_)
+    if not holes.any():
+        return ink
     # With their pale edges.
-    around = cv2.dilate(holes.view(np.uint8), np.ones((5, 5), np.uint8)).view(np.bool_)
+    reach = 2 * round(EDGE * line_px) + 1
+    around = cv2.dilate(holes.view(np.uint8), np.ones((reach, reach), np.uint8)).view(np.bool_)
     return np.asarray(np.where(around & (mask | holes), np.float32(1), ink), dtype=np.float32)
 
 
