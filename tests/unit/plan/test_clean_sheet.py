@@ -48,3 +48,13 @@ def test_a_blueprint_has_its_ink_where_its_lines_are(
 def test_dark_lines_on_dark_paper_are_no_blueprint() -> None:
     for paper in ((120, 120, 120), (150, 110, 70)):
         assert not any("inverted" in note for note in clean_sheet(two_rooms(paper, 10)).notes)
+
+
+def test_a_sheet_out_of_focus_is_made_sharp_and_said_so() -> None:
+    sharp = two_rooms()
+    blurred = np.asarray(cv2.GaussianBlur(sharp, (0, 0), 1.5), np.uint8)
+    assert clean_sheet(sharp).notes == ()
+    cleaned = clean_sheet(blurred)
+    assert cleaned.notes == ("out of focus: its blur was taken back",)
+    # Lines are drawn as broad as before: without that they were broader by half.
+    assert cleaned.line_px == pytest.approx(clean_sheet(sharp).line_px, rel=0.2)

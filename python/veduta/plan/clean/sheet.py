@@ -49,7 +49,10 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
     if inks.is_negative(pixels):
         pixels = 255 - pixels
         notes.append("light lines on a dark sheet: colours inverted")
-    pixels = focused(pixels, LEFT_PX)
+    sharp = focused(pixels, LEFT_PX)
+    if sharp is not pixels:
+        pixels = sharp
+        notes.append("out of focus: its blur was taken back")
     rotation = skew(pixels)
     straight, clean_from_scan = laid_straight(pixels, rotation, work_scale(width, height))
     dark = inks.darkness(straight)
