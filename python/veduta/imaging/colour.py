@@ -67,7 +67,7 @@ def _apply_profile(image: Image.Image) -> tuple[Image.Image, tuple[str, ...]]:
 
 def _composite_on_white(pixels: NDArray[np.uint8], alpha: NDArray[np.uint8]) -> NDArray[np.uint8]:
     """In place. What is neither clear nor opaque alone is mixed: drawings have 100 megapixels."""
-    clear = cv2.compare(alpha, 0, cv2.CMP_EQ)
+    clear = (alpha == 0) * np.uint8(255)
     cv2.bitwise_or(pixels, cv2.merge((clear, clear, clear)), pixels)
     partly = (alpha - np.uint8(1)) < 254  # zero wraps round to 255
     weight = alpha[partly].astype(np.uint16)[:, None]
