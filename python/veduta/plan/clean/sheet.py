@@ -58,8 +58,9 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
     dark = inks.darkness(straight)
     ink = _without_border(inks.ink_of(dark))
     mask = inks.marks(ink)
-    ink = inks.without_pinholes(ink, mask)
-    mask = inks.marks(ink)
+    filled = inks.without_pinholes(ink, mask)
+    if filled is not ink:
+        ink, mask = filled, inks.marks(filled)
     if mask.mean() < 1e-4:
         raise NotFoundError(
             "a floor plan", f"{subject} is blank", "Give the picture of a drawn plan."

@@ -39,10 +39,12 @@ def read_sheet(scan: NDArray[np.uint8]) -> SheetText:
     sharp = focused(scan, LEFT_PX)
     overview = find_overview(sharp)
     position = find_position(sharp, overview)
+    pixels = set_right(scan, position)
+    legible = pixels if sharp is scan else set_right(sharp, position)
     # Of a scan that lay wrong more text is found when it is right.
-    texts = read_texts(set_right(sharp, position), overview if position.is_upright else None)
+    texts = read_texts(legible, overview if position.is_upright else None)
     size = (scan.shape[1], scan.shape[0])
-    return SheetText(set_right(scan, position), right_from_scan(position, size), position, texts)
+    return SheetText(pixels, right_from_scan(position, size), position, texts)
 
 
 def sheet_of_file(sheet: Sheet, read: SheetText) -> Sheet:
