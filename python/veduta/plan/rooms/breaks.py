@@ -12,9 +12,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, PARALLEL_RAD, Gap, parted
+from veduta.plan.openings.gaps import Gap, parted
+from veduta.plan.rooms.rays import Hit, Ray, Walls
 from veduta.plan.walls.axes import Axis
-from veduta.plan.walls.graph import Edge, Graph, with_facets
+from veduta.plan.walls.graph import Graph, with_facets
 from veduta.plan.walls.join import UPRIGHT_RAD
 
 GOES_ON_RAD = np.radians(30.0)
@@ -23,14 +24,9 @@ GOES_ON_RAD = np.radians(30.0)
 SQUARE_RAD = np.radians(15.0)
 """Walls in line or square to each other are off by less."""
 
-FARTHEST = 24.0
-"""Breaks towards the side of a wall reach over so many (thin) wall thicknesses at most."""
-
-IN_LINE_FARTHEST = 45.0
-"""Those between two walls in one line reach farther: a bay window may lie before them."""
-
 SLANTED_FARTHEST = 12.0
-"""Nor between two ends of walls that do not lie in one line ..."""
+"""Breaks between two ends of walls that do not lie in one line are so many (thin) wall thicknesses
+wide at most ..."""
 
 SLANTED_FARTHEST_OWN = 7.0
 """... or over so many of their own thicknesses, where these are thick."""
@@ -43,9 +39,6 @@ STUB = (0.5, 2.5)
 
 STUB_WALL = 1.2
 """Or as broad as the thickest wall, and a little more."""
-
-LONG = 4.0
-"""Slanted pieces of wall have a direction if so many times as long as thick."""
 
 
 @dataclass(frozen=True)
@@ -77,101 +70,50 @@ class Break:
         return (*places, round(self.thickness_px))
 
 
-@dataclass(frozen=True)
-class _Ray:
-    origin: NDArray[np.float64]
-    way: NDArray[np.float64]
-    thickness_px: float
-    beside: frozenset[int]
-    """Indices of the edges that it starts from."""
+class Parting:
+    """What of a way is not solid; looked at once, as most breaks are found in each round."""
+
+    def __init__(self, solid: NDArray[np.bool_]) -> None:
+        self.solid = solid
+        self._known: dict[tuple[bytes, bytes, float], tuple[Gap, ...]] = {}
+
+    def __call__(self, gap: Gap) -> tuple[Gap, ...]:
+        """The gap, piece by piece."""
+        place = (gap.start.tobytes(), gap.end.tobytes(), gap.thickness_px)
+        if place not in self._known:
+            self._known[place] = parted(gap, self.solid)
+        return self._known[place]
 
 
 def find_breaks(
-    graph: Graph, axes: Sequence[Axis], solid: NDArray[np.bool_], thin_px: float
+    graph: Graph, axes: Sequence[Axis], parting: Parting, thin_px: float
 ) -> list[Break]:
     """All places where a wall of the graph may go on; most of them are none."""
     graph = with_facets(graph, axes)
-    walls = _Walls(graph, axes)
-    rays = [*_from_nodes(graph, walls), *_from_stubs(graph, walls, solid, thin_px)]
-    found = [one for ray in rays if (one := walls.ahead(ray, thin_px, solid))]
-    found += _between_ends(graph, walls, solid, thin_px)
+    walls = Walls(graph, axes)
+    rays = [*_from_nodes(graph, walls), *_from_stubs(graph, walls, parting.solid, thin_px)]
+    found = [_ahead(one, parting) for one in walls.ahead(rays, thin_px)]
+    found += _between_ends(graph, walls, parting, thin_px)
     return list({one.key: one for one in found}.values())
 
 
-class _Walls:
-    """Edges as arrays: starts and ways (n, 2), lengths and thicknesses (n,)."""
-
-    def __init__(self, graph: Graph, axes: Sequence[Axis]) -> None:
-        self.edges: tuple[Edge, ...] = graph.edges
-        self.start = graph.nodes[[one.first for one in self.edges]]
-        self.end = graph.nodes[[one.second for one in self.edges]]
-        run = self.end - self.start
-        self.length = np.hypot(run[:, 0], run[:, 1])
-        self.way = run / np.maximum(self.length, 1e-9)[:, None]
-        self.thickness = np.array([axes[one.axis].line.thickness_px for one in self.edges])
-        self.added = np.array([axes[one.axis].closing for one in self.edges])
-
-    def points_on(self, index: int) -> bool:
-        """Whether an edge's direction says where the wall would go on.
-
-        That of a stub that is not upright does not, nor that of what was closed itself.
-        """
-        upright = float(np.abs(self.way[index]).max()) > np.cos(UPRIGHT_RAD)
-        long = float(self.length[index]) > LONG * float(self.thickness[index])
-        return not self.added[index] and (upright or long)
-
-    def ahead(self, ray: _Ray, thin_px: float, solid: NDArray[np.bool_]) -> Break | None:
-        """The way to the nearest wall ahead of a ray."""
-        apart = self.start - ray.origin
-        cross = ray.way[0] * self.way[:, 1] - ray.way[1] * self.way[:, 0]
-        safe = np.where(np.abs(cross) > 1e-6, cross, 1.0)
-        to_line = (apart[:, 0] * self.way[:, 1] - apart[:, 1] * self.way[:, 0]) / safe
-        along = (apart[:, 0] * ray.way[1] - apart[:, 1] * ray.way[0]) / safe
-        half = self.thickness / 2
-        # Walls whose corner is missing end before they would meet.
-        slack = half + 0.5 * ray.thickness_px + 3.0
-        crossing = (np.abs(cross) >= np.sin(CROSSING_RAD)) & (along >= -slack)
-        crossing &= along <= self.length + slack
-        to_end, in_line = self._to_ends(ray)
-        reach = np.where(crossing, to_line, np.where(in_line, to_end, np.inf))
-        face = reach - np.where(crossing, half / np.abs(safe), 0.0)
-        farthest = np.where(crossing, FARTHEST, IN_LINE_FARTHEST) * thin_px
-        usable = (face > max(3.0, 0.5 * ray.thickness_px)) & (face <= farthest)
-        usable &= ~(crossing & (to_line < 0))
-        usable[list(ray.beside)] = False
-        if not usable.any():
-            return None
-        nearest = int(np.argmin(np.where(usable, face, np.inf)))
-        to_side = bool(crossing[nearest])
-        stop = ray.origin + float(face[nearest]) * ray.way
-        end = ray.origin + float(reach[nearest]) * ray.way
-        gap = Gap(-1, True, -1, to_side, ray.origin, stop, ray.thickness_px, stop)
-        # A wall that ends at a corner has its end in the wall that crosses it there.
-        corner = in_line & (np.abs(to_end - reach[nearest]) <= slack)
-        return Break(
-            ray.origin,
-            end,
-            ray.thickness_px,
-            parted(gap, solid),
-            in_line=not to_side,
-            facing=bool(corner.any()),
-        )
-
-    def _to_ends(self, ray: _Ray) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
-        """How far ahead walls in the ray's line begin, and which are in its line."""
-        cross = np.abs(ray.way[0] * self.way[:, 1] - ray.way[1] * self.way[:, 0])
-        ends = np.stack([self.start, self.end]) - ray.origin
-        along = ends @ ray.way
-        which = np.argmin(np.abs(along), axis=0)
-        column = np.arange(len(which))
-        near = ends[which, column]
-        beside = np.abs(ray.way[0] * near[:, 1] - ray.way[1] * near[:, 0])
-        thick = np.maximum(self.thickness, ray.thickness_px)
-        fits = (cross <= np.sin(PARALLEL_RAD)) & (beside <= np.maximum(3.0, BESIDE * thick))
-        return along[which, column], fits
+def _ahead(hit: Hit, parting: Parting) -> Break:
+    """The way to the nearest wall ahead of a ray."""
+    ray = hit.ray
+    stop = ray.origin + hit.face_px * ray.way
+    gap = Gap(-1, True, -1, hit.to_side, ray.origin, stop, ray.thickness_px, stop)
+    end = ray.origin + hit.reach_px * ray.way
+    return Break(
+        ray.origin,
+        end,
+        ray.thickness_px,
+        parting(gap),
+        in_line=not hit.to_side,
+        facing=hit.facing,
+    )
 
 
-def _from_nodes(graph: Graph, walls: _Walls) -> Iterator[_Ray]:
+def _from_nodes(graph: Graph, walls: Walls) -> Iterator[Ray]:
     """Walls that end at a node, carried on."""
     at: dict[int, list[tuple[int, NDArray[np.float64]]]] = {}
     for index, edge in enumerate(graph.edges):
@@ -183,7 +125,7 @@ def _from_nodes(graph: Graph, walls: _Walls) -> Iterator[_Ray]:
             if not walls.points_on(index) or _is_side_of_bay(away, [way for _, way in leaving]):
                 continue
             if not any(float(other @ -away) > np.cos(GOES_ON_RAD) for _, other in leaving):
-                yield _Ray(graph.nodes[node], -away, float(walls.thickness[index]), beside)
+                yield Ray(graph.nodes[node], -away, float(walls.thickness[index]), beside)
 
 
 def _is_side_of_bay(way: NDArray[np.float64], leaving: Sequence[NDArray[np.float64]]) -> bool:
@@ -198,32 +140,44 @@ def _is_side_of_bay(way: NDArray[np.float64], leaving: Sequence[NDArray[np.float
 
 
 def _from_stubs(
-    graph: Graph, walls: _Walls, solid: NDArray[np.bool_], thin_px: float
-) -> Iterator[_Ray]:
+    graph: Graph, walls: Walls, solid: NDArray[np.bool_], thin_px: float
+) -> Iterator[Ray]:
     """Solid stubs that stand out from the face of a wall where no wall leaves it."""
-    thickest_px = float(walls.thickness.max(initial=0.0))
-    for index in range(len(graph.edges)):
-        way, thick = walls.way[index], float(walls.thickness[index])
-        normal = np.array([-way[1], way[0]])
-        most_px = STUB[1] * thin_px
-        if walls.points_on(index):
-            most_px = max(most_px, STUB_WALL * thickest_px)
-        steps = np.arange(0.5, walls.length[index], 1.0)
-        for side in (1, -1):
-            points = walls.start[index] + steps[:, None] * way
-            points = points + side * (thick / 2 + 0.7 * thin_px) * normal
-            dark = np.diff(np.pad(_on(solid, points).astype(np.int8), 1))
-            pairs = zip(np.flatnonzero(dark == 1), np.flatnonzero(dark == -1), strict=True)
-            for low, high in pairs:
-                if not STUB[0] * thin_px <= high - low <= most_px:
-                    continue
-                foot = walls.start[index] + float(low + high) / 2 * way
-                yield _Ray(foot, side * normal, float(high - low), frozenset((index,)))
+    if not len(walls.length):
+        return
+    # Steps of a pixel along all walls at once; each wall begins with one that is not dark.
+    count = np.ceil(np.maximum(walls.length - 0.5, 0.0)).astype(int) + 1
+    index = np.repeat(np.arange(len(count)), count)
+    step = np.arange(len(index)) - (np.cumsum(count) - count)[index]
+    normal = np.stack([-walls.way[:, 1], walls.way[:, 0]], axis=1)
+    beside = walls.thickness / 2 + 0.7 * thin_px
+    most_px = _broadest_stubs(walls, thin_px)
+    found: list[tuple[int, int, Ray]] = []
+    for side in (1, -1):
+        points = walls.start[index] + (step - 0.5)[:, None] * walls.way[index]
+        points += side * beside[index, None] * normal[index]
+        dark = _on(solid, points) & (step > 0)
+        change = np.diff(np.pad(dark.astype(np.int8), 1))
+        lows, highs = np.flatnonzero(change == 1), np.flatnonzero(change == -1)
+        wide = highs - lows
+        fits = (wide >= STUB[0] * thin_px) & (wide <= most_px[index[lows]])
+        for low, width in zip(lows[fits], wide[fits], strict=True):
+            edge = int(index[low])
+            foot = walls.start[edge] + (float(step[low]) - 1.0 + float(width) / 2) * walls.way[edge]
+            ray = Ray(foot, side * normal[edge], float(width), frozenset((edge,)))
+            found.append((edge, -side, ray))
+    yield from (ray for *_, ray in sorted(found, key=lambda one: one[:2]))
 
 
-def _between_ends(
-    graph: Graph, walls: _Walls, solid: NDArray[np.bool_], thin_px: float
-) -> list[Break]:
+def _broadest_stubs(walls: Walls, thin_px: float) -> NDArray[np.float64]:
+    """(n,) how broad stubs on the faces of each wall are at most."""
+    most_px = np.full(len(walls.length), STUB[1] * thin_px)
+    broad_px = max(STUB[1] * thin_px, STUB_WALL * float(walls.thickness.max()))
+    most_px[[walls.points_on(index) for index in range(len(most_px))]] = broad_px
+    return most_px
+
+
+def _between_ends(graph: Graph, walls: Walls, parting: Parting, thin_px: float) -> list[Break]:
     """Slanted ways between ends and corners of walls that are a door's width apart."""
     loose = [index for index, kind in enumerate(graph.types) if kind in ("end", "L")]
     thick = _thickest_at(graph, walls)
@@ -242,7 +196,7 @@ def _between_ends(
             own_px = min(thick[first], thick[second])
             for thickness_px in _slanted_as(width, thin_px, own_px):
                 gap = Gap(-1, True, -1, False, *ends, thickness_px, ends[1])
-                free = parted(gap, solid)
+                free = parting(gap)
                 if len(free) == 1:
                     found.append(Break(gap.start, gap.end, thickness_px, free, slanted=True))
     return found
@@ -256,7 +210,7 @@ def _slanted_as(width_px: float, thin_px: float, own_px: float) -> list[float]:
     return found
 
 
-def _thickest_at(graph: Graph, walls: _Walls) -> dict[int, float]:
+def _thickest_at(graph: Graph, walls: Walls) -> dict[int, float]:
     """How thick the thickest wall at each node is; nodes without walls are left out."""
     thick: dict[int, float] = {}
     for edge, own in zip(graph.edges, walls.thickness, strict=True):

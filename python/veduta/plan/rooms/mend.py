@@ -15,7 +15,7 @@ from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, buffer, unary_union
+from shapely import STRtree, buffer, normalize, to_wkb, unary_union
 from shapely.geometry import Point, Polygon, box
 
 from veduta.plan.document import OpeningType, Origin, Text
@@ -24,10 +24,11 @@ from veduta.plan.openings.evidence import look_at
 from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.settle import USUAL_DOOR, usual_door
 from veduta.plan.openings.strip import Sheet
-from veduta.plan.rooms.breaks import FARTHEST, IN_LINE_FARTHEST, Break, find_breaks
+from veduta.plan.rooms.breaks import Break, Parting, find_breaks
 from veduta.plan.rooms.close import LEAST_WIDTH, closed_spaces, wall_bodies, wall_body
 from veduta.plan.rooms.drawn_round import drawn_walls, raster_of
 from veduta.plan.rooms.labels import room_labels
+from veduta.plan.rooms.rays import FARTHEST, IN_LINE_FARTHEST
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import Graph, wall_graph
@@ -208,6 +209,7 @@ class _Looker:
         door_px: float | None,
     ) -> None:
         self.found, self.sheet = found, sheet
+        self.parting = Parting(found.solid)
         self.labels = [Point(*one) for one in labels]
         thin = found.thin_px
         low, high = DOOR_BY_WALL if door_px is None else DOOR_WIDTHS
@@ -215,22 +217,28 @@ class _Looker:
         self.door_px = (low * unit, high * unit)
         self.leaking: list[Point] = []
         self.seen: dict[tuple[int, ...], Judged | None] = {}
+        self.parts: dict[tuple[bytes, bytes], list[Polygon]] = {}
         self.looked_at = 0
 
     def closings(self, enclosed: _Enclosed) -> list[_Closing]:
         """All breaks of these walls that are worth closing."""
         spaces = self._spaces(enclosed)
         self.leaking = self._leaking(enclosed)
-        breaks = find_breaks(enclosed.graph, enclosed.axes, self.found.solid, self.found.thin_px)
+        breaks = find_breaks(enclosed.graph, enclosed.axes, self.parting, self.found.thin_px)
         self.looked_at += len(breaks)
         bodies = _grown(
             [wall_body(one.start, one.end, one.thickness_px, (0.0, 0.0)) for one in breaks], 0.7
         )
         tree = STRtree([space for space, _ in spaces])
+        # A closing changes few spaces: the others are parted as they were in the round before.
+        exact = to_wkb(normalize([space for space, _ in spaces])), to_wkb(bodies)
         found = []
         for place, index in zip(*tree.query(bodies, predicate="intersects"), strict=True):
             space, outdoors = spaces[index]
-            parts = self._parts(space, bodies[place])
+            both = exact[0][index], exact[1][place]
+            if both not in self.parts:
+                self.parts[both] = self._parts(space, bodies[place])
+            parts = self.parts[both]
             if len(parts) > 1:
                 closing = self._judged(breaks[place], parts, outdoors)
                 found += [] if closing is None else [closing]

@@ -171,10 +171,19 @@ def _legs_through(
     start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]
 ) -> list[Leg]:
     """From the start through all stops and back; halls that one passes anyway are no stops."""
-    chosen = [stop for stop in stops if stop.room.use not in THROUGH] or list(stops)
-    legs = _legs(start, chosen, grid, grounds)
-    late = [stop for stop in stops if stop not in chosen and not _passes(legs, stop, grounds)]
-    return _legs(start, chosen + late, grid, grounds) if late else legs
+    costs = grid.costs([start, *(stop.node for stop in stops)])
+    chosen = [row for row, stop in enumerate(stops) if stop.room.use not in THROUGH]
+    chosen = chosen or list(range(len(stops)))
+
+    def through(rows: Sequence[int]) -> list[Leg]:
+        ends = [0, *(row + 1 for row in rows)]
+        some = [stops[row] for row in rows]
+        return _legs(start, some, costs[np.ix_(ends, ends)], grid, grounds)
+
+    legs = through(chosen)
+    others = (row for row in range(len(stops)) if row not in chosen)
+    late = [row for row in others if not _passes(legs, stops[row], grounds)]
+    return through([*chosen, *late]) if late else legs
 
 
 def _passes(legs: Sequence[Leg], stop: Stop, grounds: Sequence[Ground]) -> bool:
@@ -183,9 +192,14 @@ def _passes(legs: Sequence[Leg], stop: Stop, grounds: Sequence[Ground]) -> bool:
     return bool(shapely.contains_xy(stop.shape, level[:, 0], level[:, 1]).any())
 
 
-def _legs(start: int, stops: Sequence[Stop], grid: Grid, grounds: Sequence[Ground]) -> list[Leg]:
-    nodes = [start, *(stop.node for stop in stops)]
-    costs = grid.costs(nodes)
+def _legs(
+    start: int,
+    stops: Sequence[Stop],
+    costs: NDArray[np.float64],
+    grid: Grid,
+    grounds: Sequence[Ground],
+) -> list[Leg]:
+    """From the start through these stops and back; `costs` (k, k) from end to end, start first."""
     legs: list[Leg] = []
     here = start
     for row in short_order(costs):
