@@ -15,6 +15,9 @@ DEEP_MODES = frozenset({"I;16", "I;16L", "I;16B", "I;16N"})
 OTHER_MODES = frozenset({"CMYK", "YCbCr", "LAB"})
 READABLE_MODES = DIRECT_MODES | DEEP_MODES | OTHER_MODES
 
+STRIP_PX = 1 << 21
+"""Pixels that are turned at once: each step in between would copy a drawing of 100 megapixels."""
+
 
 def srgb_on_white(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
     """(h, w, 3) uint8 sRGB of a loaded image in one of READABLE_MODES, and notes.
@@ -22,6 +25,18 @@ def srgb_on_white(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...
     An embedded colour profile is applied; where it is broken the note says so and the values are
     taken as sRGB.
     """
+    width, height = image.size
+    rows = max(1, STRIP_PX // width)
+    pixels = np.empty((height, width, 3), dtype=np.uint8)
+    notes: tuple[str, ...] = ()
+    for top in range(0, height, rows):
+        bottom = min(top + rows, height)
+        pixels[top:bottom], notes = _turned(image.crop((0, top, width, bottom)))
+    return pixels, notes
+
+
+def _turned(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
+    """As `srgb_on_white`, of a strip; the notes on a profile are the same for each strip."""
     if image.mode in DEEP_MODES:
         grey = (np.asarray(image).astype(np.uint16) >> 8).astype(np.uint8)
         return np.repeat(grey[:, :, None], 3, axis=2), ()

@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 from PIL import Image, ImageCms
 
+from veduta.imaging import colour
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 
@@ -273,3 +274,16 @@ def test_damage_is_an_input_error_or_a_picture(
         return
     assert photo.pixels.ndim == 3
     assert photo.pixels.shape[2] == 3
+
+
+@pytest.mark.parametrize("mode", ["1", "L", "P", "LA", "RGB", "RGBA", "CMYK"])
+def test_a_picture_is_the_same_in_strips(mode: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(5)
+    image = Image.fromarray(rng.integers(0, 256, (23, 17, 4), dtype=np.uint8)).convert(mode)
+    if mode in {"P", "RGB"}:
+        image.info["transparency"] = 7 if mode == "P" else (1, 2, 3)
+    whole, _ = colour.srgb_on_white(image)
+    monkeypatch.setattr(colour, "STRIP_PX", 5 * 17 + 3)
+    strips, _ = colour.srgb_on_white(image)
+    np.testing.assert_array_equal(strips, whole)
+    assert whole.shape == (23, 17, 3)
