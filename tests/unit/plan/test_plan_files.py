@@ -12,6 +12,7 @@ import ifcopenshell
 import ifcopenshell.validate
 import numpy as np
 import pytest
+from ezdxf.entitydb import EntityDB
 from sample_plan import MARGIN_PX, PIXEL_M, opening, rectangle, sample_plan, sample_storey
 from shapely.geometry import Polygon
 
@@ -55,6 +56,19 @@ def test_dxf_audits_clean_and_has_the_walls_in_metres() -> None:
     texts = [text.dxf.text for text in document.modelspace().query("TEXT")]
     assert texts.count("Living") == 2
     assert plan_dxf(drawings(two_storeys())) == content
+
+
+def test_dxf_does_not_depend_on_the_order_of_a_set(monkeypatch: pytest.MonkeyPatch) -> None:
+    found = EntityDB.dxf_types_in_use
+    contents = set()
+    for turn in (False, True):
+        monkeypatch.setattr(
+            EntityDB,
+            "dxf_types_in_use",
+            lambda self, turn=turn: sorted(found(self), reverse=turn),
+        )
+        contents.add(plan_dxf(drawings(sample_plan())))
+    assert len(contents) == 1
 
 
 def test_svg_is_xml_with_a_group_for_each_layer_and_names_escaped() -> None:

@@ -80,6 +80,9 @@ def _add_labels(space: Modelspace, drawing: Drawing, offset: float, top: float) 
 
 
 def _content(document: DxfDocument) -> bytes:
+    # ezdxf adds these itself, in the order of a set, which is another one in each process.
+    for name in sorted(document.entitydb.dxf_types_in_use()):
+        document.classes.add_class(name)
     file = io.StringIO()
     document.write(file)
     return document.encode(file.getvalue())
