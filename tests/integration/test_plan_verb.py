@@ -18,6 +18,7 @@ from veduta.formats.tiles import contents
 from veduta.plan import pipeline
 from veduta.plan.options import HouseOptions, InputOptions, PlanOptions, SiteOptions
 from veduta.plan.pipeline import PlanResult, run_plan
+from veduta.run import beside
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 
@@ -239,6 +240,19 @@ def test_a_run_that_was_stopped_is_done_by_the_next(
     again = plan(document, tmp_path / "out")
     assert (again.exit_code, again.up_to_date) == (0, False)
     assert {path.name for path in (tmp_path / "out").iterdir()} >= FILES
+
+
+def test_one_core_makes_the_same_files(
+    tmp_path: Path, document: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    with monkeypatch.context() as patch:
+        patch.setattr(beside, "available_cores", lambda: 2)
+        plan(document, tmp_path / "two")
+    with monkeypatch.context() as patch:
+        patch.setattr(beside, "available_cores", lambda: 1)
+        plan(document, tmp_path / "one")
+    for name in ("plan.svg", "plan.dxf", "house.ifc", "house.city.json", "house.glb"):
+        assert (tmp_path / "two" / name).read_bytes() == (tmp_path / "one" / name).read_bytes()
 
 
 def test_pages_are_of_no_use_to_a_document(tmp_path: Path, document: Path) -> None:

@@ -12,30 +12,33 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from veduta.plan.analyse import read_drawings
+from veduta.plan.building_files import Building, BuildingFiles, building_files
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
-from veduta.plan.furnish.furnish import furnish
-from veduta.plan.house.build import House, build_house
 from veduta.plan.house.furniture import check_objects
 from veduta.plan.idle_options import idle_notes
 from veduta.plan.kept_document import LEFT, UNWRITTEN, keep_panorama, says_site, sited
-from veduta.plan.lights.furnished import relit
-from veduta.plan.lights.lighting import Lit, light_house
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import HouseOptions, PlanOptions
+from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
-from veduta.plan.photos.finish import Finished, load_pictures, picture_digests, with_photos
+from veduta.plan.photos.finish import picture_digests
 from veduta.plan.photos.given import RoomPhoto, place_of
 from veduta.plan.report import failure_report, measures, plan_report
-from veduta.plan.sheets import Pixels, load_sheets
+from veduta.plan.steps import (
+    document_step,
+    finish_step,
+    furnish_step,
+    house_step,
+    light_step,
+    tour_step,
+)
 from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
-from veduta.plan.surroundings.site import check_site
-from veduta.plan.tour.find import Tour, find_tour
-from veduta.plan.writing import Result, result_of, write_result
+from veduta.plan.surroundings.site import check_site, site_of
+from veduta.plan.writing import result_of, write_result
+from veduta.run.beside import Beside
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.options import Options
@@ -127,7 +130,8 @@ def run_plan(
         if not result.up_to_date and not result.left:
             with progress.over(1):
                 progress.started(Task(call.subject, None))
-                _make(call, given, options, opened, key, progress.step)
+                with Beside(building_files) as building:
+                    _make(call, given, options, opened, key, building, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
@@ -210,25 +214,35 @@ def _make(
     options: PlanOptions,
     opened: OutFolder,
     key: str,
+    building: Beside[Building, BuildingFiles],
     progress: StepProgress,
 ) -> None:
-    """All steps; drawings in which there is no plan end in a report that says why."""
+    """All steps; drawings in which there is no plan end in a report that says why.
+
+    building: files that are made beside the tour.
+    """
     steps: list[StepRecord] = []
     used = _used(call, options)
     stays = _stays(opened)
     work = opened.work_folder(CALL)
     try:
-        read, sheets, notes = _document(call, given.plan, options, steps, progress)
-        finished = _finishes(call, read, given.photos, steps, progress, stays=stays)
+        read, sheets, notes = document_step(call, given.plan, options, steps, progress)
+        finished = finish_step(call, read, given.photos, steps, progress, stays=stays)
         notes = [*notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
         otherwise = stays and document != read
         if otherwise:
             notes = [*notes, UNWRITTEN]
         if not options.house.no_furniture:
-            document = _furnish(document, given.catalogue, options.house, steps, progress)
-        lit = _lights(document, options, steps, progress)
-        result = _house(lit.document, finished, given, sheets, options, steps, progress)
+            document = furnish_step(document, given.catalogue, options.house, steps, progress)
+        document = light_step(document, options, steps, progress).document
+        house = house_step(document, finished.pictures, options.house, steps, progress)
+        site = site_of(document)
+        building.give(Building(house, options.house, site))
+        tour = tour_step(house, options.house, steps, progress)
+        progress("drawings", 0.0)
+        with timed_step(steps, "drawings"):
+            result = result_of(document, house, tour, sheets, finished, given.panorama, site)
     except NotFoundError as error:
         failure = Failure(subject=call.subject, kind="not-found", reason=str(error))
         report, page = failure_report(call.subject, failure, used, steps)
@@ -241,7 +255,7 @@ def _make(
         with writing_to(opened.path), timed_step(steps, "write") as step:
             if stays:
                 keep_panorama(read, opened.path, work)
-            step.rejected.extend(write_result(result, work, options.house))
+            step.rejected.extend(write_result(result, building.take(), work, options.house))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())
@@ -256,138 +270,6 @@ def _make(
         opened.publish(CALL, key, work, summary)
     if opened.standing is not Standing.AMENDED:
         opened.finish()
-
-
-def _document(
-    call: Call,
-    given: PlanDocument | list[Drawing],
-    options: PlanOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> tuple[PlanDocument, list[Pixels], list[str]]:
-    """The document and the cleaned drawings, with what is to be said of them."""
-    if not isinstance(given, PlanDocument):
-        read = read_drawings(given, options, steps, progress)
-        return read.document, read.sheets, []
-    progress("load", 0.0)
-    with timed_step(steps, "load") as step:
-        sheets, notes = load_sheets(call.paths[0].parent, given)
-        step.counts["storeys"] = len(given.storeys)
-    return given, sheets, [*idle_notes(given, options), *notes]
-
-
-def _finishes(
-    call: Call,
-    document: PlanDocument,
-    photos: Sequence[RoomPhoto],
-    steps: list[StepRecord],
-    progress: StepProgress,
-    *,
-    stays: bool,
-) -> Finished:
-    """The document with the paint and the tiles that photos show, and the pictures of tiles."""
-    before = load_pictures(call.paths[0].parent, document)
-    if not photos:
-        return before
-    progress("photos", 0.0)
-    with timed_step(steps, "photos") as step:
-        finished = with_photos(before, photos, stays=stays)
-        step.counts |= {
-            "photos": len(photos),
-            "colours": sum(look.colour is not None for look in finished.looks),
-            "tiles": sum(len(look.tiles) for look in finished.looks),
-        }
-        step.rejected.extend(finished.notes)
-    return finished
-
-
-def _furnish(
-    document: PlanDocument,
-    catalogue: Catalogue,
-    options: HouseOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> PlanDocument:
-    """The document with furniture in each storey that has none yet, and the lamps among it."""
-    progress("furnish", 0.0)
-    with timed_step(steps, "furnish") as step:
-        done, rooms = furnish(
-            document, catalogue, options.seed, options.slab, varied=options.varied_furniture
-        )
-        done, lit_anew = relit(document, done, catalogue)
-        step.counts |= {"rooms": len(rooms), "things": sum(len(room.stood) for room in rooms)}
-        step.rejected.extend(lit_anew)
-        step.rejected.extend(
-            f"{room.room.id} ({room.room.use}): no place for {', '.join(room.missing)}"
-            for room in rooms
-            if room.missing
-        )
-        step.rejected.extend(
-            f"{room.room.id} ({room.room.use}): {note}" for room in rooms for note in room.notes
-        )
-    return done
-
-
-def _lights(
-    document: PlanDocument,
-    options: PlanOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> Lit:
-    """The document with lamps in each storey that has none yet."""
-    progress("lights", 0.0)
-    with timed_step(steps, "lights") as step:
-        lit = light_house(document, options.house)
-        step.counts |= {
-            "lamps": sum(len(storey.lights or []) for storey in lit.document.storeys),
-            "points_looked_at": lit.points,
-            "points_in_the_dark": lit.dark,
-        }
-        step.rejected.extend(lit.notes)
-    return lit
-
-
-def _house(
-    document: PlanDocument,
-    finished: Finished,
-    given: _Given,
-    sheets: list[Pixels],
-    options: PlanOptions,
-    steps: list[StepRecord],
-    progress: StepProgress,
-) -> Result:
-    progress("house", 0.0)
-    with timed_step(steps, "house") as step:
-        house = build_house(document, options.house, finished.pictures)
-        part = house.part
-        step.counts |= {
-            "features": len(part.features),
-            "polygons": len(part.polygon_feature),
-            "triangles": len(part.triangles.indices),
-        }
-        step.rejected.extend(part.notes)
-    tour = None if options.house.no_tour else _tour(house, options.house, steps, progress)
-    progress("drawings", 0.0)
-    with timed_step(steps, "drawings"):
-        return result_of(document, house, tour, sheets, finished, given.panorama)
-
-
-def _tour(
-    house: House, options: HouseOptions, steps: list[StepRecord], progress: StepProgress
-) -> Tour | None:
-    progress("tour", 0.0)
-    with timed_step(steps, "tour") as step:
-        tour = find_tour(house, options.tour_speed)
-        if tour is None:
-            step.rejected.append("there is no tour: no room has a floor on which one can stand")
-            return None
-        step.counts |= {
-            "rooms": len({stretch.room for stretch in tour.stretches} - {None}),
-            "metres": round(tour.length_m),
-            "seconds": round(float(tour.path.times_s[-1])),
-        }
-        step.rejected.extend(tour.notes)
-    return tour
 
 
 def _tell(result: PlanResult, opened: OutFolder) -> None:

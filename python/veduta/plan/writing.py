@@ -14,6 +14,7 @@ from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
 from veduta.place.manifest import Place
 from veduta.place.part import Part
+from veduta.plan.building_files import CITY_MODEL, BuildingFiles
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
@@ -21,11 +22,7 @@ from veduta.plan.house.placing import place_of, raised_m
 from veduta.plan.house.room_looks import TilePictures
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
-from veduta.plan.outputs.cityjson import house_cityjson
-from veduta.plan.outputs.dxf import plan_dxf
-from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.overlay import overlay
-from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.outputs.tiles import write_tiles
 from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.outputs.x3d import house_x3d
@@ -36,7 +33,7 @@ from veduta.plan.surroundings.backdrop import PANORAMA, backdrop_part, build_bac
 from veduta.plan.surroundings.build import build_surroundings, with_surroundings
 from veduta.plan.surroundings.daylight import daylight_of, sunlight_of
 from veduta.plan.surroundings.panorama import Pictures
-from veduta.plan.surroundings.site import Site, site_of
+from veduta.plan.surroundings.site import Site
 from veduta.plan.surroundings.sky_picture import sky_picture
 from veduta.plan.surroundings.terrain import terrain_of
 from veduta.plan.surroundings.turning import turned_north
@@ -45,7 +42,6 @@ from veduta.plan.tour.placing import placed_tour
 
 MODEL = "house.glb"
 BACKDROP = f"{PANORAMA}.glb"
-CITY_MODEL = "house.city.json"
 TOUR_PICTURE = "tour.png"
 
 
@@ -78,6 +74,7 @@ def result_of(
     sheets: Sequence[NDArray[np.uint8]],
     finished: Finished,
     panorama: Pictures | None,
+    site: Site,
 ) -> Result:
     """With the pictures drawn; sheets in the order of the document's storeys."""
     drawings = [draw(space) for space in house.spaces]
@@ -86,11 +83,13 @@ def result_of(
     shown = None if tour is None else tour_picture(ordered, tour)
     return Result(
         document, house, tour, sheets, drawings, overlay(ordered, sheets), shown,
-        finished.pictures, finished.looks, panorama, site_of(document),
+        finished.pictures, finished.looks, panorama, site,
     )  # fmt: skip
 
 
-def write_result(result: Result, folder: Path, options: HouseOptions) -> list[str]:
+def write_result(
+    result: Result, building: BuildingFiles, folder: Path, options: HouseOptions
+) -> list[str]:
     """Write the document, the drawings, the model and the place; what is not as it should be."""
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
@@ -101,14 +100,11 @@ def write_result(result: Result, folder: Path, options: HouseOptions) -> list[st
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     if result.tour_picture is not None:
         (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))
-    (folder / "plan.svg").write_bytes(plan_svg(result.drawings))
-    (folder / "plan.dxf").write_bytes(plan_dxf(result.drawings))
-    (folder / "house.ifc").write_bytes(house_ifc(result.house, options, result.site))
-    city, notes = house_cityjson(result.house, options)
-    (folder / CITY_MODEL).write_bytes(city)
+    for name, content in building.contents.items():
+        (folder / name).write_bytes(content)
     place = _write_place(result, folder, options)
     write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
-    return notes
+    return building.notes
 
 
 def _write_place(result: Result, folder: Path, options: HouseOptions) -> Place:

@@ -17,3 +17,8 @@ def share_cores(threads: int) -> None:
     """At most this many threads in each library, in this process."""
     os.environ.update(dict.fromkeys(_THREADS_OF, str(threads)))
     same_sums_anywhere()
+
+
+def available_cores() -> int:
+    """The cores that this process may use."""
+    return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1

@@ -18,8 +18,8 @@ from veduta.photos.mapping.engine import quiet_engine
 from veduta.photos.mapping.grown import Grown
 from veduta.photos.mapping.mapping import FEWEST_MATCHES, SMALLEST, Mapped, by_size
 from veduta.run.errors import InputError
-from veduta.run.pool import available_cores
 from veduta.run.progress import StepProgress, no_progress
+from veduta.run.threads import available_cores
 
 UPDATES = 5
 """Times that the engine tells of itself: rotations, places, and rounds of adjustment."""

@@ -27,7 +27,7 @@ from veduta.photos.mapping.initial_pair import (
     weighed_pair,
     weighed_pairs,
 )
-from veduta.run.pool import available_cores
+from veduta.run.threads import available_cores
 
 MOST_TRIED = 8
 """Pairs that meet the conditions from which growing is tried, before the engine chooses."""
