@@ -143,4 +143,5 @@ def _collect(hand: _Hand, task: Task, hands: list[_Hand]) -> Outcome[Any]:
     answer = hand.worker.receive()
     if answer.crash is not None:
         hands.remove(hand)
+        end_workers([hand.worker])
     return Outcome(task, *answer)

@@ -1,19 +1,22 @@
 """A worker process: it calls one function on each argument that it is sent.
 
-Workers are spawned, never forked (native libraries have started threads by then). A worker whose
-parent is gone ends itself.
+A worker is an interpreter of its own, never a fork (native libraries have started threads by then).
+It imports the function's module and nothing of the script that is running, which `multiprocessing`
+would run again in each process if its author did not guard it. A worker whose parent is gone ends
+itself.
 """
 
 from __future__ import annotations
 
 import importlib
-import multiprocessing
 import os
 import signal
+import subprocess
+import sys
 import threading
 import traceback
-from collections.abc import Callable, Iterable
-from multiprocessing.connection import Connection
+from collections.abc import Callable, Sequence
+from multiprocessing.connection import Connection, Pipe
 from typing import Any, NamedTuple
 
 from veduta.run.errors import VedutaError
@@ -35,15 +38,21 @@ class Answer(NamedTuple):
 
 
 class Worker:
-    """A process that calls `function` (of a module's top level), by `threads` threads."""
+    """A process that calls `function`, of a module's top level and no script's, by `threads`."""
 
     def __init__(self, function: Callable[[Any], Any], threads: int) -> None:
-        context = multiprocessing.get_context("spawn")
-        self.pipe, theirs = context.Pipe()
-        arguments = (theirs, function.__module__, function.__qualname__, threads)
-        self.process = context.Process(target=_work, args=arguments, daemon=True)
-        self.process.start()
+        self.pipe, theirs = Pipe()
+        life, self._life = os.pipe()  # the worker sees its end when this process is gone
+        ends = (theirs.fileno(), life)
+        path = [*map(str, sys.path)]
+        start = f"import sys; sys.path[:] = {path}; from {__name__} import work; work{ends}"
+        # -P: of a library's name there may be a file in the folder that one stands in.
+        self.process = subprocess.Popen(
+            [sys.executable, "-P", "-c", start], pass_fds=ends, stdin=subprocess.DEVNULL
+        )
         theirs.close()
+        os.close(life)
+        self.send((function.__module__, function.__qualname__, threads))
 
     def send(self, argument: Any) -> None:
         """Give it an argument; that it is dead is told by `receive`."""
@@ -57,9 +66,22 @@ class Worker:
         try:
             answer: Answer = self.pipe.recv()
         except (EOFError, ConnectionResetError):
-            self.process.join()
-            return Answer(crash=_cause_of_death(self.process.exitcode))
+            return Answer(crash=_cause_of_death(self.process.wait()))
         return answer
+
+    def begin_end(self) -> None:
+        """Ask it to end at once, whatever it is at."""
+        self.pipe.close()
+        os.close(self._life)
+        self.process.terminate()
+
+    def end(self) -> None:
+        """Wait for its end, and force it where it does not come."""
+        try:
+            self.process.wait(timeout=2)
+        except subprocess.TimeoutExpired:
+            self.process.kill()
+            self.process.wait()
 
 
 def attempt(function: Callable[[Any], Any], argument: Any) -> Answer:
@@ -72,43 +94,39 @@ def attempt(function: Callable[[Any], Any], argument: Any) -> Answer:
         return Answer(traceback=traceback.format_exc())
 
 
-def end_workers(workers: Iterable[Worker]) -> None:
+def end_workers(workers: Sequence[Worker]) -> None:
     """End them at once, whatever they are at."""
     for worker in workers:
-        worker.pipe.close()
-        worker.process.terminate()
+        worker.begin_end()
     for worker in workers:
-        worker.process.join(timeout=2)
-        if worker.process.is_alive():
-            worker.process.kill()
-            worker.process.join()
+        worker.end()
 
 
-def _cause_of_death(code: int | None) -> str:
-    if code is not None and code < 0:
-        name = signal.Signals(-code).name
-        memory = " (the system may have run out of memory)" if name == "SIGKILL" else ""
-        return f"the worker process was ended by {name}{memory}"
-    return f"the worker process ended with exit code {code}"
-
-
-def _work(pipe: Connection, module: str, name: str, threads: int) -> None:
-    """The life of a worker: a task in, its result out, until the pipe closes."""
+def work(pipe: int, life: int) -> None:
+    """The life of a worker, of its ends: a task in, its result out, until the pipe closes."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C reaches all; the parent decides
     signal.signal(signal.SIGTERM, signal.SIG_DFL)
-    threading.Thread(target=_end_with_parent, daemon=True).start()
+    threading.Thread(target=_end_with_parent, args=(life,), daemon=True).start()
+    connection = Connection(pipe)
+    module, name, threads = connection.recv()
     share_cores(threads)  # before the import that loads the libraries
     function = getattr(importlib.import_module(module), name)
     while True:
         try:
-            argument = pipe.recv()
+            argument = connection.recv()
         except EOFError:
             return
-        pipe.send(attempt(function, argument))
+        connection.send(attempt(function, argument))
 
 
-def _end_with_parent() -> None:
-    parent = multiprocessing.parent_process()
-    if parent is not None:
-        parent.join()
-        os._exit(1)
+def _end_with_parent(life: int) -> None:
+    os.read(life, 1)
+    os._exit(1)
+
+
+def _cause_of_death(code: int) -> str:
+    if code < 0:
+        name = signal.Signals(-code).name
+        memory = " (the system may have run out of memory)" if name == "SIGKILL" else ""
+        return f"the worker process was ended by {name}{memory}"
+    return f"the worker process ended with exit code {code}"

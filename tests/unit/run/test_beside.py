@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import time
+from collections.abc import Callable
+from typing import Any
 
 import pytest
 
 from veduta.run import beside
 from veduta.run.beside import Beside
 from veduta.run.errors import InputError
+from veduta.run.worker import Worker
 
 
 def square(number: int) -> tuple[int, int]:
@@ -77,16 +79,23 @@ def test_errors_are_those_of_a_plain_call() -> None:
             other.take()
 
 
-def stopped_meanwhile() -> None:
+def test_an_error_meanwhile_ends_the_process(monkeypatch: pytest.MonkeyPatch) -> None:
+    workers = list[Worker]()
+
+    def known(function: Callable[[Any], Any], threads: int) -> Worker:
+        workers.append(Worker(function, threads))
+        return workers[-1]
+
+    monkeypatch.setattr(beside, "Worker", known)
+    start = time.monotonic()
+    with pytest.raises(KeyboardInterrupt):
+        _stopped_meanwhile()
+    (worker,) = workers
+    assert worker.process.returncode is not None
+    assert time.monotonic() - start < 30.0
+
+
+def _stopped_meanwhile() -> None:
     with Beside(sleep) as work:
         work.give(60.0)
         raise KeyboardInterrupt
-
-
-def test_an_error_meanwhile_ends_the_process() -> None:
-    before = set(multiprocessing.active_children())
-    start = time.monotonic()
-    with pytest.raises(KeyboardInterrupt):
-        stopped_meanwhile()
-    assert set(multiprocessing.active_children()) <= before
-    assert time.monotonic() - start < 30.0

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import multiprocessing
 import os
 import signal
 import time
+from collections.abc import Callable
 from pathlib import Path
+from typing import Any
 
 import pytest
 
+from veduta.run import pool
 from veduta.run.errors import InputError
 from veduta.run.pool import Task, run_tasks
+from veduta.run.worker import Worker
 
 
 def square(number: int) -> tuple[int, int]:
@@ -95,14 +98,21 @@ def test_the_cores_are_shared_out() -> None:
     assert {outcome.value for outcome in outcomes} == {(share, "1")}
 
 
-def test_stopping_ends_the_workers() -> None:
+def test_stopping_ends_the_workers(monkeypatch: pytest.MonkeyPatch) -> None:
+    workers = list[Worker]()
+
+    class Known(Worker):
+        def __init__(self, function: Callable[[Any], Any], threads: int) -> None:
+            super().__init__(function, threads)
+            workers.append(self)
+
+    monkeypatch.setattr(pool, "Worker", Known)
     outcomes = run_tasks(sleep, [Task("a", 0.0), Task("b", 60.0), Task("c", 60.0)], jobs=2)
     assert next(outcomes).task.name == "a"
-    children = multiprocessing.active_children()
-    assert len(children) == 2
+    assert len(workers) == 2
     start = time.monotonic()
     outcomes.close()
-    assert not any(child.is_alive() for child in children)
+    assert all(worker.process.returncode is not None for worker in workers)
     assert time.monotonic() - start < 5
 
 
