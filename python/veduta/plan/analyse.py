@@ -18,6 +18,7 @@ from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
 from veduta.plan.names.strays import stray_names
+from veduta.plan.openings.way_in import with_ways_in
 from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
 from veduta.plan.reading import read_storey
@@ -92,6 +93,7 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
     scale, said = read.scale()
     metres_per_px = scale.metres_per_px
     drawn = replace(read.drawn, stairs=true_flights(read.drawn, metres_per_px))
+    drawn, ways_in = with_ways_in(drawn, metres_per_px)
     storey = compose_storey(
         drawn,
         scale,
@@ -105,6 +107,7 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
         notes=[
             *read.notes,
             *remarks(drawn, read.sheet_px, metres_per_px),
+            *ways_in,
             *false_flights(read.drawn.stairs, drawn.stairs),
             *said,
             *_strays(drawn),

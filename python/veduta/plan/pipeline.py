@@ -22,7 +22,7 @@ from veduta.plan.house.furniture import check_objects
 from veduta.plan.idle_options import idle_notes
 from veduta.plan.kept_document import LEFT, UNWRITTEN, keep_panorama, says_site, sited
 from veduta.plan.load import DOCUMENT, load_document
-from veduta.plan.options import PlanOptions
+from veduta.plan.options import HouseOptions, PlanOptions
 from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.photos.finish import picture_digests
 from veduta.plan.photos.given import RoomPhoto, place_of
@@ -37,6 +37,7 @@ from veduta.plan.steps import (
 )
 from veduta.plan.surroundings.panorama import Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.site import check_site, site_of
+from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.writing import result_of, write_result
 from veduta.run.beside import Beside
 from veduta.run.digests import file_digest, result_key
@@ -128,13 +129,23 @@ def run_plan(
         if result.left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
             result.notes.append(LEFT)
         if not result.up_to_date and not result.left:
-            with progress.over(1):
+            with progress.over(1, _steps(given, options.house)):
                 progress.started(Task(call.subject, None))
                 with Beside(building_files) as building:
                     _make(call, given, options, opened, key, building, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
+
+
+def _steps(given: _Given, options: HouseOptions) -> int:
+    """How many steps there are to be, for the bar that shows them."""
+    if isinstance(given.plan, PlanDocument):
+        reading = 1
+    else:
+        reading = sum(2 if is_dxf(one.path) else 4 for one in given.plan)
+    asked = (bool(given.photos), not options.no_furniture, not options.no_tour)
+    return reading + sum(asked) + 4  # lights, house, drawings, write
 
 
 def _drawings(call: Call, options: PlanOptions) -> list[Drawing]:

@@ -35,20 +35,25 @@ class Progress:
         self._in_hand: list[str] = []
         self._total = 0
         self._done = 0
+        self._steps: list[str] = []
 
     @contextmanager
-    def over(self, total: int) -> Iterator[None]:
-        """Show the progress of `total` items while the block runs."""
-        self._total, self._done = total, 0
+    def over(self, total: int, steps: int | None = None) -> Iterator[None]:
+        """Show the progress of `total` items while the block runs.
+
+        steps: of one item, if it is the only one; how far it has come is how many of them are done.
+        """
+        self._total, self._done, self._steps = total, 0, []
         if not self._console.is_terminal or self._console.quiet:
             yield
             return
-        columns = (BarColumn(24), MofNCompleteColumn(), TimeElapsedColumn())
+        count = (MofNCompleteColumn(),) if total != 1 else ()
         text = TextColumn("{task.description}", markup=False)
-        self._bar = Bar(*columns, text, console=self._console, transient=True)
+        columns = (BarColumn(24), *count, TimeElapsedColumn(), text)
+        self._bar = Bar(*columns, console=self._console, transient=True)
         try:
             with self._bar:
-                self._bar.add_task("", total=total)
+                self._bar.add_task("", total=steps if total == 1 else total)
                 yield
         finally:
             self._bar = None
@@ -66,6 +71,12 @@ class Progress:
 
     def step(self, step: str, fraction: float) -> None:
         """The only item in hand has come to this share of a step."""
+        if self._total == 1:
+            if [step] != self._steps[-1:]:
+                self._steps.append(step)
+            if self._bar is not None:
+                done = len(self._steps) - 1 + fraction
+                self._bar.update(self._bar.task_ids[0], completed=done)
         self._show(f"{step} {fraction:.0%}" if fraction > 0.0 else step)
 
     def finished(self, name: str, failure: Failure | None) -> None:
@@ -74,7 +85,8 @@ class Progress:
         if name in self._in_hand:
             self._in_hand.remove(name)
         if self._bar is not None:
-            self._bar.advance(self._bar.task_ids[0])
+            if self._total != 1:
+                self._bar.advance(self._bar.task_ids[0])
         elif not self._console.quiet and self._total > 1:
             state = "failed" if failure else "done"
             sys.stderr.write(f"[{self._done}/{self._total}] {name}: {state}\n")

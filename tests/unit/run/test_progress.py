@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+import re
 import time
 
 import pytest
+from rich.progress import TaskProgressColumn
 
+from veduta.run import progress as progress_module
 from veduta.run.pool import Task
 from veduta.run.progress import Progress
 from veduta.run.report import Failure
@@ -38,3 +41,21 @@ def test_bar(capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
     shown = capsys.readouterr().err
     assert "2/2" in shown
     assert "[red]b" in shown  # a file's name is no markup
+
+
+def test_the_bar_of_one_item_moves_with_its_steps(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr(progress_module, "BarColumn", lambda _: TaskProgressColumn())
+    progress = Progress()
+    with progress.over(1, steps=4):
+        progress.started(Task("a", None))
+        for step, fraction in (("read", 0.0), ("read", 0.5), ("build", 0.0), ("write", 0.0)):
+            progress.step(step, fraction)
+            time.sleep(0.25)
+        progress.finished("a", None)
+    shown = re.sub(r"\x1b\[[0-9;?]*[A-Za-z]", "", capsys.readouterr().err)
+    assert [share for share in ("0%", "12%", "25%", "50%") if share not in shown] == []
+    assert "0/1" not in shown
