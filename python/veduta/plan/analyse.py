@@ -17,6 +17,7 @@ from veduta.plan.drawn import Drawn, DrawnRoom
 from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
+from veduta.plan.names.storeys import StoreyName, named_apart, out_of_order, storey_name
 from veduta.plan.names.strays import stray_names
 from veduta.plan.openings.way_in import with_ways_in
 from veduta.plan.options import PlanOptions
@@ -39,8 +40,6 @@ from veduta.plan.vector.units import text_notes
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import Count, StepRecord, timed_step
-
-_NAMES = ("ground floor", "first floor", "second floor", "third floor")
 
 
 @dataclass(frozen=True)
@@ -76,6 +75,7 @@ def read_drawings(
 ) -> ReadPlan:
     """A storey of each drawing, the lowest first; NotFoundError where one shows no plan."""
     storeys: list[Storey] = []
+    titles: list[StoreyName | None] = []
     sheets: list[Pixels] = []
     for index, drawing in enumerate(drawings):
         read = _read_vectors if is_dxf(drawing.path) else _read_picture
@@ -84,8 +84,19 @@ def read_drawings(
         with timed_step(steps, "scale and names") as step:
             storeys.append(_storey(index, drawing, shown, options))
             step.counts["evidence"] = len(storeys[-1].scale.evidence)
+        titles.append(storey_name(shown.drawn.texts))
         sheets.append(shown.drawn.cleaned.pixels)
-    return ReadPlan(PlanDocument(storeys=registered(storeys)), sheets)
+    return ReadPlan(PlanDocument(storeys=registered(_named(storeys, titles))), sheets)
+
+
+def _named(storeys: Sequence[Storey], titles: Sequence[StoreyName | None]) -> list[Storey]:
+    """The storeys with the names that their sheets have; the last one says a wrong order."""
+    names = named_apart(titles)
+    named = [
+        one.model_copy(update={"name": name}) for one, name in zip(storeys, names, strict=True)
+    ]
+    named[-1] = named[-1].model_copy(update={"notes": [*named[-1].notes, *out_of_order(titles)]})
+    return named
 
 
 def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> Storey:
@@ -100,7 +111,6 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
         file=drawing.path.name,
         sha256=read.sha256,
         page=drawing.page,
-        name=_NAMES[index] if index < len(_NAMES) else f"floor {index}",
         elevation_m=index * options.house.storey_height,
         height_m=options.house.storey_height,
         named=_names(drawn, metres_per_px),
