@@ -14,6 +14,7 @@ from veduta.plan.scale.bars import bar_voters
 from veduta.plan.scale.dimension_lines import line_voters
 from veduta.plan.scale.evidence import Voter
 from veduta.plan.scale.free_runs import wall_masks
+from veduta.plan.scale.marks import without_marks
 from veduta.plan.scale.ratios import ratio_voters
 from veduta.plan.scale.room_sizes import room_voters
 from veduta.plan.scale.vote import take_vote
@@ -73,7 +74,7 @@ def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
 
 def find_voters(sizes: DrawnSizes) -> list[Voter]:
     """All that the sheet says of its scale."""
-    texts, rooms = list(sizes.texts), list(sizes.rooms)
+    texts, rooms = without_marks(sizes.texts), list(sizes.rooms)
     return [
         *room_voters(texts, rooms, _BLUR_PX, wall_masks(sizes.ink, sizes.walls)),
         *line_voters(texts, sizes.ink, _BLUR_PX),
