@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from veduta.plan.document import Text
 from veduta.plan.names.guess import RoomFacts, guess_uses
-from veduta.plan.names.name import name_rooms
+from veduta.plan.names.name import name_rooms, shown
 
 
 def _box(x: float, y: float, wide: float, tall: float) -> NDArray[np.float64]:
@@ -133,3 +133,22 @@ def test_what_is_known_is_kept() -> None:
 def test_nobody_sleeps_where_stairs_are(area_m2: float, uses: list[str]) -> None:
     (named,) = name_rooms([_box(0, 0, 400, 300)], [], [RoomFacts(area_m2, stairs=True)], [])
     assert named.use in uses
+
+
+@pytest.mark.parametrize(
+    ("label", "name"),
+    [
+        ("2 CAR GARAGE 21'2 x 20'10", "2 CAR GARAGE"),
+        ("Reception Room 5.74m x 3.96m (18'10\" x 13'0\")", "Reception Room"),
+        ("Kitchen 12'0\" × 11'1\"", "Kitchen"),
+        ("K/RU 17,4 m²", "K/RU"),
+        ("Hall (3.2 sqm)", "Hall"),
+        ("Chambre 1 12.30 m", "Chambre 1"),
+        ("2668 W.I.C.", "W.I.C."),
+        ("Bedroom 2", "Bedroom 2"),
+        ("Office 2001", "Office 2001"),
+        ("4.94 x 3.06", "4.94 x 3.06"),
+    ],
+)
+def test_a_name_is_shown_without_the_sizes_beside_it(label: str, name: str) -> None:
+    assert shown(label) == name

@@ -17,6 +17,15 @@ from veduta.plan.names.vocabulary import Language, Meaning, language_of, meaning
 _LINE_GAP = 0.9  # heights of text between two lines of one label
 _REMARK = re.compile(r"\b(?:access|above|below|(?:in|to) (?:the )?attic)\b", re.IGNORECASE)
 """What is written for builders, "attic access" or "furnace in attic", names no room."""
+_LENGTH = r"\d+(?:[.,]\d+)?(?:\s?(?:['’′]|ft)\s?-?(?:\d{1,2})?)?\s?(?:[\"”″]|''|[mc]?m\b)?"
+_SIZE = re.compile(
+    rf"(?:^|(?<=[\s(,:-])){_LENGTH}\s?[x×]\s?{_LENGTH}(?=[\s),]|$)"
+    r"|(?:^|(?<=[\s(,:-]))\d+(?:[.,]\d+)?\s?(?:m2|m²|㎡|sq\.?\s?(?:m|ft)\b\.?)"
+    r"|(?:^|(?<=\s))\d+(?:['’′]|[.,]\d+\s?m\b)(?:\d{1,2})?[\"”″]?(?=\s|$)"
+    r"|^[1-9](?:\d|1[01])[1-9](?:\d|1[01])(?=\s)",
+    re.IGNORECASE,
+)
+"""Sizes, areas and marks of doors (2668) beside a name."""
 _OTHER_LANGUAGE = 0.8  # score of a word of a language that the sheet is not in
 _LETTER = 0.5  # score of a single letter on a sheet that is not in its language
 _SIZES = (0.6, 1.7)  # heights of two lines of one label, one over the other
@@ -131,7 +140,13 @@ def _named(labels: list[_Label], language: Language | None) -> NamedRoom | None:
     found = [one for one in found if one[0] >= 0.75 * sure]
     found.sort(key=lambda one: (_RANK.index(one[2].use), -one[0], -len(one[1].text)))
     score, label, meaning = found[0]
-    return NamedRoom(meaning.use, float(np.clip(score, 0.0, 1.0)), "measured", label.text)
+    return NamedRoom(meaning.use, float(np.clip(score, 0.0, 1.0)), "measured", shown(label.text))
+
+
+def shown(label: str) -> str:
+    """The name alone, of a label that also says how large the room is; all of one without words."""
+    name = re.sub(r"\s+", " ", _SIZE.sub(" ", label)).strip(" ,:;-()")
+    return name if any(letter.isalpha() for letter in name) else label
 
 
 def _best(found: list[Meaning], language: Language | None) -> Meaning | None:
