@@ -30,6 +30,16 @@ BAND = 2.0
 EDGE = 0.4
 """Its pale edge is as wide as this part of a line."""
 
+PALE = 0.6
+"""Paler ink may be a shade ..."""
+
+STEEP, SHARP_SHARE = 0.5, 0.3
+"""... where less than this share of its edge to the paper has that part of a stroke's slope ..."""
+
+FREE_SHARE, SHADE_PX, GRAIN_PX = 0.5, 60, 7
+"""... and more than this share of its edge is to the paper, which is a square of so many pixels at
+least; what has fewer pixels is no matter."""
+
 BLACK, WHITE = 80, 170
 """A sheet whose median is darker is black; one whose median is lighter is white."""
 
@@ -117,6 +127,42 @@ def without_pinholes(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArr
     reach = 2 * round(EDGE * line_px) + 1
     around = cv2.dilate(holes.view(np.uint8), np.ones((reach, reach), np.uint8)).view(np.bool_)
     return np.asarray(np.where(around & (mask | holes), np.float32(1), ink), dtype=np.float32)
+
+
+def without_shades(ink: NDArray[np.float32], mask: NDArray[np.bool_]) -> NDArray[np.float32]:
+    """The ink without creases, stains and shadows: what is pale and has no edge to the paper.
+
+    `mask` (h, w) is of the ink's marks. Edges are steep or not as those of the darkest ink are, so
+    that pale strokes stay on a sheet out of focus.
+    """
+    square = np.ones((3, 3), np.uint8)
+    pale = (mask & (ink < PALE)).view(np.uint8)
+    count, labels = cv2.connectedComponents(pale, connectivity=8)
+    slope = cv2.dilate(ink, square) - cv2.erode(ink, square)
+    dark = (ink >= PALE).view(np.uint8)
+    edges = slope[cv2.morphologyEx(dark, cv2.MORPH_GRADIENT, square).view(np.bool_)]
+    if count < 2 or not edges.size:
+        return ink
+    # Grains of light within a pale fill are no paper.
+    paper = cv2.morphologyEx(
+        (ink < LEAST_CONTRAST).view(np.uint8),
+        cv2.MORPH_OPEN,
+        np.ones((GRAIN_PX, GRAIN_PX), np.uint8),
+    )
+    rim = labels[(pale > 0) & (cv2.erode(pale, square) == 0)]
+    border = (pale > 0) & (cv2.dilate(paper, square) > 0)
+    area = np.maximum(np.bincount(labels.ravel(), minlength=count), 1)
+    level = np.bincount(labels.ravel(), weights=ink.ravel(), minlength=count) / area
+    at = labels[border]
+    steep = slope[border] > STEEP * float(np.median(edges)) * level[at]
+    sharp = np.bincount(at, weights=steep, minlength=count)
+    length = np.bincount(at, minlength=count)
+    shade = length > FREE_SHARE * np.bincount(rim, minlength=count)
+    shade &= (sharp < SHARP_SHARE * length) & (area > SHADE_PX)
+    shade[0] = False
+    if not shade.any():
+        return ink
+    return np.asarray(np.where(shade[labels], np.float32(0), ink), dtype=np.float32)
 
 
 def faint_marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bool_]:

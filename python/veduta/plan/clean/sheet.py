@@ -7,6 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.clean import ink as inks
+from veduta.plan.clean.denoise import denoised
 from veduta.plan.clean.focus import focused
 from veduta.plan.clean.straighten import laid_straight, skew, work_scale
 from veduta.plan.drawn import Cleaned
@@ -49,6 +50,10 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
     if inks.is_negative(pixels):
         pixels = 255 - pixels
         notes.append("light lines on a dark sheet: colours inverted")
+    quiet = denoised(pixels)
+    if quiet is not pixels:
+        pixels = quiet
+        notes.append("grainy: its noise was taken out")
     sharp = focused(pixels, LEFT_PX)
     if sharp is not pixels:
         pixels = sharp
@@ -57,6 +62,7 @@ def clean_sheet(pixels: NDArray[np.uint8], subject: str = "the drawing") -> Clea
     straight, clean_from_scan = laid_straight(pixels, rotation, work_scale(width, height))
     dark = inks.darkness(straight)
     ink = _without_border(inks.ink_of(dark))
+    ink = inks.without_shades(ink, inks.marks(ink))
     mask = inks.marks(ink)
     filled = inks.without_pinholes(ink, mask)
     if filled is not ink:

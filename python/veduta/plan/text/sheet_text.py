@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.plan.clean.denoise import denoised
 from veduta.plan.clean.focus import focused
 from veduta.plan.document import Sheet, Text
 from veduta.plan.text.orientation import Position, find_position, right_from_scan, set_right
@@ -35,7 +36,7 @@ class SheetText:
 
 def read_sheet(scan: NDArray[np.uint8]) -> SheetText:
     """Read a scan (h, w, 3) or (h, w) that may lie on its side, on its head, or be mirrored."""
-    scan = in_colour(scan)
+    scan = denoised(in_colour(scan))
     sharp = focused(scan, LEFT_PX)
     overview = find_overview(sharp)
     position = find_position(sharp, overview)
