@@ -36,7 +36,7 @@ PALE = 0.6
 STEEP, SHARP_SHARE = 0.5, 0.3
 """... where less than this share of its edge to the paper has that part of a stroke's slope ..."""
 
-FREE_SHARE, SHADE_PX, GRAIN_PX = 0.5, 60, 7
+FREE_SHARE, SHADE_PX, GRAIN_PX = 0.5, 60, 3
 """... and more than this share of its edge is to the paper, which is a square of so many pixels at
 least; what has fewer pixels is no matter."""
 
@@ -173,7 +173,9 @@ def faint_marks(ink: NDArray[np.float32], line_px: float = 3.0) -> NDArray[np.bo
     """
     reach = 2 * round(1.5 * line_px) + 3
     stands_out = cv2.morphologyEx(ink, cv2.MORPH_TOPHAT, np.ones((reach, reach), np.uint8))
-    least = float(np.clip(4 * _noise(ink), 0.05, LEAST_CONTRAST))
+    # What half of the sheet stands out by, which is paper, is its grain.
+    grain = 2 * float(np.median(stands_out[::3, ::3]))
+    least = float(np.clip(max(4 * _noise(ink), grain), 0.05, LEAST_CONTRAST))
     return np.asarray(stands_out > least, dtype=np.bool_) | marks(ink, line_px)
 
 
