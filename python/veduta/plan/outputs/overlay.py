@@ -7,9 +7,10 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 from shapely.geometry import Polygon, box
 
+from veduta.imaging.lettering import text_width, write
 from veduta.plan.document import Sheet, Storey
 from veduta.plan.drawing import Drawing, Layer, Shape
 from veduta.plan.outputs.colours import LAYER_COLOURS, USE_COLOURS, Rgb, rgb
@@ -109,7 +110,6 @@ def _at(sheet: Sheet, points_m: NDArray[np.float64], scale: float) -> NDArray[np
 
 
 def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
-    font, small = _font(22), _font(17)
     written = [
         box(
             *(np.array(text.box_px).min(axis=0) * scale),
@@ -118,11 +118,10 @@ def _room_names(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> Non
         for text in drawing.storey.texts
     ]
     for label in drawing.labels:
-        width = max(font.getlength(label.text), small.getlength(label.detail))
+        width = max(text_width(label.text, 22), text_width(label.detail, 17))
         x, y = _beside(_spot(drawing.storey.sheet, label.at_m, scale), width, written)
-        haloed(pen, (x, y - 12), label.text, font, _INK)
-        # Pillow's own font has no superscripts.
-        haloed(pen, (x, y + 12), label.detail.replace("²", "2"), small, _INK)
+        haloed(pen, (x, y - 12), label.text, 22, _INK)
+        haloed(pen, (x, y + 12), label.detail, 17, _INK)
 
 
 def _beside(at: tuple[float, float], width: float, written: list[Polygon]) -> tuple[float, float]:
@@ -139,7 +138,6 @@ def _beside(at: tuple[float, float], width: float, written: list[Polygon]) -> tu
 def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> None:
     """Ids beside their openings; what is doubtful has a question mark."""
     scores = {opening.id: opening.score for opening in drawing.storey.openings}
-    font = _font(15)
     for shape in drawing.shapes:
         if shape.layer not in {"doors", "windows"}:
             continue
@@ -147,7 +145,7 @@ def _opening_ids(pen: ImageDraw.ImageDraw, drawing: Drawing, scale: float) -> No
         doubt = "?" if scores[shape.name] < _DOUBTFUL else ""
         colour = rgb(LAYER_COLOURS[shape.layer])
         at = _spot(drawing.storey.sheet, (float(middle[0]), float(middle[1])), scale)
-        haloed(pen, at, f"{shape.name}{doubt}", font, colour)
+        haloed(pen, at, f"{shape.name}{doubt}", 15, colour)
 
 
 def _spot(sheet: Sheet, at_m: tuple[float, float], scale: float) -> tuple[float, float]:
@@ -156,19 +154,14 @@ def _spot(sheet: Sheet, at_m: tuple[float, float], scale: float) -> tuple[float,
 
 
 def haloed(
-    pen: ImageDraw.ImageDraw,
-    at: tuple[float, float],
-    text: str,
-    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
-    colour: Rgb,
+    pen: ImageDraw.ImageDraw, at: tuple[float, float], text: str, size_px: int, colour: Rgb
 ) -> None:
     """Write text about a place, with a rim that keeps it legible on any drawing."""
-    pen.text(at, text, fill=colour, font=font, anchor="mm", stroke_width=3, stroke_fill=_PAPER)
+    write(pen, at, text, size_px, colour, halo=_PAPER)
 
 
 def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
-    title, font, small = _font(24), _font(18), _font(15)
-    pen.text((x, 24), storey.name, fill=_INK, font=title)
+    write(pen, (x, 24), storey.name, 24, _INK, anchor="left")
     y = 76
     doors = [one for one in storey.openings if one.kind == "door"]
     windows = [one for one in storey.openings if one.kind == "window"]
@@ -181,12 +174,12 @@ def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
         (LAYER_COLOURS["rooms"], len(storey.rooms), "rooms"),
     ):
         pen.rectangle((x, y + 3, x + 18, y + 17), fill=rgb(colour))
-        pen.text((x + 30, y), f"{count} {name}", fill=_INK, font=font)
+        write(pen, (x + 30, y), f"{count} {name}", 18, _INK, anchor="left")
         y += 30
     y += 12
     for use in dict.fromkeys(room.use for room in storey.rooms):
         pen.rectangle((x, y + 2, x + 18, y + 16), fill=rgb(USE_COLOURS[use]), outline=_FAINT)
-        pen.text((x + 30, y), use, fill=_INK, font=small)
+        write(pen, (x + 30, y), use, 15, _INK, anchor="left")
         y += 24
     y += 12
     scale = storey.scale
@@ -197,9 +190,5 @@ def _legend(pen: ImageDraw.ImageDraw, storey: Storey, x: int) -> None:
         *([f"? is doubtful: score below {_DOUBTFUL}"] if doubtful else []),
     ]
     for line in lines:
-        pen.text((x, y), line, fill=_FAINT, font=small)
+        write(pen, (x, y), line, 15, _FAINT, anchor="left")
         y += 22
-
-
-def _font(size: int) -> ImageFont.FreeTypeFont | ImageFont.ImageFont:
-    return ImageFont.load_default(size)

@@ -7,8 +7,9 @@ from collections.abc import Sequence
 import cv2
 import numpy as np
 from numpy.typing import NDArray
-from PIL import Image, ImageDraw, ImageFont
+from PIL import Image, ImageDraw
 
+from veduta.imaging.lettering import write
 from veduta.plan.drawing import Drawing, Shape
 from veduta.plan.outputs.colours import USE_COLOURS, Rgb, rgb
 from veduta.plan.outputs.overlay import haloed
@@ -125,10 +126,9 @@ def _write(
     pen: ImageDraw.ImageDraw, sheet: _Sheet, drawing: Drawing, tour: Tour, on: NDArray[np.bool_]
 ) -> None:
     """Names of rooms, and numbers in the order in which one comes into them first."""
-    font, small = ImageFont.load_default(21), ImageFont.load_default(16)
     for label in drawing.labels:
         at = sheet.at(np.array([label.at_m]))[0]
-        haloed(pen, (float(at[0]), float(at[1])), label.text, font, _INK)
+        haloed(pen, (float(at[0]), float(at[1])), label.text, 21, _INK)
     seen: dict[str, int] = {}
     path = tour.path
     for stretch in tour.stretches:
@@ -145,21 +145,19 @@ def _write(
             pen,
             (float(at[0]), float(at[1])),
             str(number),
-            small,
             _at_share(middle / path.times_s[-1]),
         )
     place = (MARGIN_M * sheet.scale / 2, MARGIN_M * sheet.scale / 3)
     words = f"{drawing.storey.name}: {tour.length_m:.0f} m, {path.times_s[-1]:.0f} s"
-    pen.text(place, words, fill=_INK, font=font)
+    write(pen, place, words, 21, _INK, anchor="left")
 
 
 def _badge(
     pen: ImageDraw.ImageDraw,
     at: tuple[float, float],
     text: str,
-    font: ImageFont.FreeTypeFont | ImageFont.ImageFont,
     colour: Rgb,
 ) -> None:
     x, y = at
     pen.ellipse((x - 12, y - 12, x + 12, y + 12), fill=colour, outline=_PAPER, width=2)
-    pen.text(at, text, fill=_PAPER, font=font, anchor="mm")
+    write(pen, at, text, 16, _PAPER)
