@@ -120,15 +120,15 @@ def test_a_region_in_another_is_the_same_text() -> None:
     assert np.array_equal(kept, [large, beside])
 
 
-def test_small_text_of_a_large_sheet_is_found_in_tiles(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_small_text_of_a_large_sheet_is_found_on_a_closer_look(monkeypatch: pytest.MonkeyPatch) -> None:
     large = np.full((1500, 2400, 3), 255, dtype=np.uint8)
     large[1000:1400, 1700:2260] = _sheet()
     monkeypatch.setattr(regions, "OVERVIEW_PX", 420)
     monkeypatch.setattr(regions, "TILE_PX", 640)
-    in_tiles = read_texts(large)
+    closer = read_texts(large)
     monkeypatch.setattr(regions, "MOST_TILES", 0)
     at_once = read_texts(large)
-    assert "Bedroom" in {_plain(text) for text in in_tiles}
+    assert "Bedroom" in {_plain(text) for text in closer}
     assert "Bedroom" not in {_plain(text) for text in at_once}
 
 

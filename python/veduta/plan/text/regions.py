@@ -1,13 +1,11 @@
-"""Where text stands on a sheet: an overview, and tiles of large sheets where small marks are.
+"""Where text stands on a sheet: an overview, and a closer look at small marks of large sheets.
 
 The network finds text of some 10 to 100 px. A small sheet is enlarged before. A large one is
-reduced; what becomes too small by that is looked for in tiles, but only in those that hold marks of
+reduced; what becomes too small by that is looked for once more and larger, but only around marks of
 the size of letters outside the text that is known: most of a large sheet is empty paper.
 """
 
 from __future__ import annotations
-
-from collections.abc import Iterator
 
 import cv2
 import numpy as np
@@ -15,15 +13,20 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from veduta.plan.text.engine import find_lines
+from veduta.plan.text.mosaic import Box, boxes_of_marks, mosaics
 
 OVERVIEW_PX = 1600
 """Long side at which the whole sheet is searched."""
 TILE_PX = 1280
+"""Side of the pictures of the closer look, which hold what is around small marks."""
 MOST_TILES = 8
+"""So many of these pictures are looked at, at most; of more the parts with most marks."""
 _ENLARGE = 2.0  # a small sheet, at most
-_OVERLAP = 0.15  # of a tile: a line of text on a border is whole in one of the two
-_FINER = 4.0  # a tile over the overview
-_LETTER_PX = (6, 60)  # height of letters, in pixels of the tile
+_OVERLAP = 0.15  # of a tile, where a block of text is larger: a line is whole in one of the two
+_MARGIN_PX = 64  # around marks: letters that touch lines are no marks, but stand beside others
+_FINER = 4.0  # the closer look over the overview
+_LETTER_PX = (6, 60)  # height of letters, in pixels of the closer look
+_DASH = 0.25  # what is so much narrower than long is a dash (or an I, which stands beside others)
 _CLEAR_PX = 12.0  # height of a region that the overview shows well
 _TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
@@ -51,18 +54,17 @@ def find_regions(
     found = find_overview(pixels) if overview is None else overview
     factor = overview_factor((pixels.shape[1], pixels.shape[0]))
     if factor < 1.0:
-        tile = TILE_PX
         scale = min(1.0, _FINER * factor)
         large = _resized(pixels, scale)
         clear = _short_sides(found) * factor >= _CLEAR_PX
-        boxes, seen = [], np.zeros(len(found), dtype=bool)
-        for x, y in _tiles_with_letters(large, found[clear] * scale, tile, MOST_TILES):
-            inside = find_lines(large[y : y + tile, x : x + tile])
-            boxes.append((inside + np.array([x, y])) / scale)
-            centres = found.mean(axis=1) * scale
-            seen |= np.all((centres >= (x, y)) & (centres < (x + tile, y + tile)), axis=1)
-        # What was small in the overview is as the tile has it: lines there run into one another.
-        found = np.concatenate([found[clear | ~seen], *boxes])
+        middles = found.mean(axis=1) * scale
+        boxes = _closer_look(large, found[clear] * scale, middles[~clear])
+        paper = np.median(large[::16, ::16], axis=(0, 1)).astype(np.uint8)
+        pictures = mosaics(large, boxes, TILE_PX, paper)
+        closer = [one.in_sheet(find_lines(one.pixels)) / scale for one in pictures]
+        seen = np.any([np.zeros(len(found), bool), *(one.holds(middles) for one in boxes)], axis=0)
+        # What was small in the overview is as the closer look has it: lines run into one another.
+        found = np.concatenate([found[clear | ~seen], *closer])
     return without_duplicates(found)
 
 
@@ -101,24 +103,25 @@ def _resized(pixels: NDArray[np.uint8], factor: float) -> NDArray[np.uint8]:
     return np.asarray(cv2.resize(pixels, size, interpolation=how), dtype=np.uint8)
 
 
-def _tiles_with_letters(
-    pixels: NDArray[np.uint8], known: NDArray[np.float64], tile: int, most: int
-) -> Iterator[tuple[int, int]]:
-    """Upper left corners of the tiles with most marks of the size of letters, at most `most`."""
-    centres = _letter_like(pixels, known)
-    height, width = pixels.shape[:2]
-    step = int(tile * (1.0 - _OVERLAP))
-    corners = [
-        (x, y)
-        for y in range(0, max(1, height - int(tile * _OVERLAP)), step)
-        for x in range(0, max(1, width - int(tile * _OVERLAP)), step)
-    ]
-    counts = [
-        int(np.all((centres >= corner) & (centres < np.add(corner, tile)), axis=1).sum())
-        for corner in corners
-    ]
-    order = sorted(range(len(corners)), key=lambda index: -counts[index])
-    return (corners[index] for index in order[:most] if counts[index] >= _LETTERS)
+def _closer_look(
+    pixels: NDArray[np.uint8], known: NDArray[np.float64], unclear: NDArray[np.float64]
+) -> list[Box]:
+    """The parts of a sheet (h, w, 3) with marks of the size of letters outside the known regions.
+
+    `unclear` (n, 2) are middles of regions that are known, but too small to be read as they are.
+    """
+    marks = _letter_like(pixels, known)
+    size = (pixels.shape[1], pixels.shape[0])
+    step = int(TILE_PX * (1.0 - _OVERLAP))
+    points = np.concatenate([marks, np.repeat(unclear, _LETTERS, axis=0)])
+    boxes = boxes_of_marks(points, size, _MARGIN_PX, TILE_PX, step)
+    left = MOST_TILES * TILE_PX**2
+    kept = []
+    for box in boxes:
+        if box.marks >= _LETTERS and box.area <= left:
+            kept.append(box)
+            left -= box.area
+    return kept
 
 
 def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -132,7 +135,7 @@ def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArr
     low, high = _LETTER_PX
     tall, wide = stats[1:, cv2.CC_STAT_HEIGHT], stats[1:, cv2.CC_STAT_WIDTH]
     fits = (np.maximum(tall, wide) >= low) & (np.maximum(tall, wide) <= high)
-    fits &= np.minimum(tall, wide) >= 2
+    fits &= np.minimum(tall, wide) >= np.maximum(2, _DASH * np.maximum(tall, wide))
     sizes = np.maximum(tall, wide)[fits]
     return _in_company(np.asarray(centres[1:][fits], dtype=np.float64), sizes)
 
