@@ -79,17 +79,19 @@ class X3dScene:
         about_m: the corners are about this point. glows: whether what can glow does.
         """
         triangles = part.triangles
-        is_chosen = chosen[triangles.polygon]
-        of_triangle = part.polygon_material[triangles.polygon]
-        places = part.positions_m - np.array(about_m, dtype=np.float32)
-        for row in np.unique(of_triangle[is_chosen]).tolist():
-            used, corners = np.unique(
-                triangles.indices[is_chosen & (of_triangle == row)], return_inverse=True
-            )
+        rows = np.flatnonzero(chosen[triangles.polygon])
+        if len(rows) == 0:
+            return
+        of_row = part.polygon_material[triangles.polygon[rows]]
+        rows = rows[np.argsort(of_row, kind="stable")]
+        materials, starts = np.unique(np.sort(of_row), return_index=True)
+        about = np.array(about_m, dtype=np.float32)
+        for row, alike in zip(materials.tolist(), np.split(rows, starts[1:]), strict=True):
+            used, corners = np.unique(triangles.indices[alike], return_inverse=True)
             shape = self.node(parent, "Shape")
             self._appearance(shape, part, row, glows=glows)
             faces = self.node(shape, "IndexedTriangleSet", index=corners.reshape(-1))
-            self.node(faces, "Coordinate", point=y_up(places[used]))
+            self.node(faces, "Coordinate", point=y_up(part.positions_m[used] - about))
             if part.materials[row].texture is not None:
                 uv = part.uv[used] * np.array([1.0, -1.0]) + np.array([0.0, 1.0])
                 self.node(faces, "TextureCoordinate", point=uv)
