@@ -15,6 +15,7 @@ import ifcopenshell
 import ifcopenshell.guid
 import numpy as np
 from numpy.typing import NDArray
+from shapely import STRtree, unary_union
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
@@ -256,12 +257,14 @@ def _storey(
 
 def wall_regions(space: Space) -> dict[str, BaseGeometry]:
     """What of the walls' footprint each wall has, by their ids: nothing twice, nothing left."""
-    rest = space.walls
     regions: dict[str, BaseGeometry] = {}
-    for name, line in space.lines.items():
-        regions[name] = line.strip.intersection(rest)
-        rest = rest.difference(line.strip)
-    for wedge in pieces_of(rest):
+    strips = [line.strip for line in space.lines.values()]
+    tree = STRtree(strips)
+    # Each without those before it that it meets: all walls at once are much to cut, again and again.
+    for place, name in enumerate(space.lines):
+        met = [strips[one] for one in tree.query(strips[place]) if one < place]
+        regions[name] = strips[place].intersection(space.walls).difference(unary_union(met))
+    for wedge in pieces_of(space.walls.difference(unary_union(strips))):
         nearest = min(regions, key=lambda name: _distance(space.lines[name], wedge))
         regions[nearest] = regions[nearest].union(wedge)
     return regions
