@@ -120,7 +120,7 @@ def test_a_region_in_another_is_the_same_text() -> None:
     assert np.array_equal(kept, [large, beside])
 
 
-def test_small_text_of_a_large_sheet_is_found_on_a_closer_look(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_small_text_of_a_large_sheet_is_found_closer(monkeypatch: pytest.MonkeyPatch) -> None:
     large = np.full((1500, 2400, 3), 255, dtype=np.uint8)
     large[1000:1400, 1700:2260] = _sheet()
     monkeypatch.setattr(regions, "OVERVIEW_PX", 420)

@@ -99,8 +99,8 @@ def test_all_marks_are_in_boxes_of_the_size_that_is_allowed(
     held = np.any([box.holds(marks) for box in found], axis=0)
     assert held.all()
     for box in found:
-        assert 0 < box.size[0] <= 300 and 0 < box.size[1] <= 300
-        assert box.high[0] <= 1500 and box.high[1] <= 1000
+        assert 0 < min(box.size) <= max(box.size) <= 300
+        assert np.all(np.array(box.high) <= (1500, 1000))
 
 
 def test_no_marks_are_no_boxes_and_no_mosaics() -> None:
