@@ -260,7 +260,7 @@ def wall_regions(space: Space) -> dict[str, BaseGeometry]:
     regions: dict[str, BaseGeometry] = {}
     strips = [line.strip for line in space.lines.values()]
     tree = STRtree(strips)
-    # Each without those before it that it meets: all walls at once are much to cut, again and again.
+    # Each without those before it that it meets: all walls at once are much to cut again for each.
     for place, name in enumerate(space.lines):
         met = [strips[one] for one in tree.query(strips[place]) if one < place]
         regions[name] = strips[place].intersection(space.walls).difference(unary_union(met))

@@ -232,7 +232,7 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     last = squares[0]
     for run in np.split(np.array(squares), breaks):
         ground = grounds[grid.storey[run[0]]]
-        flat = smoothed(grid.places_m[run], ground.free)
+        flat = smoothed(grid.places_m[run], ground.free, ground.grazed)
         level = np.column_stack([flat, np.full(len(flat), ground.elevation_m)])
         if pieces:  # up or down a flight
             low = min(grounds[grid.storey[one]].elevation_m for one in (last, run[0]))

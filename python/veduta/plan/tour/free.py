@@ -31,6 +31,8 @@ HEAD_M = 1.8
 """What lies higher above the floor is walked under."""
 FOOT_M = 0.05
 """What is lower than this is walked over: carpets, thresholds."""
+GRAZE_M = 0.03
+"""So much nearer than it may a straight piece between two points come to a convex corner."""
 _THROUGH_M = 1e-3
 """How far a passage reaches beyond both faces of its wall."""
 
@@ -51,6 +53,13 @@ class Ground:
     def free(self) -> BaseGeometry:
         """Where the middle of the visitor may be."""
         region = self.floor.difference(self.solid.buffer(self.body_m, quad_segs=4))
+        shapely.prepare(region)
+        return region
+
+    @cached_property
+    def grazed(self) -> BaseGeometry:
+        """Where straight pieces of a way may be whose points are in what is free."""
+        region = self.free.buffer(GRAZE_M)
         shapely.prepare(region)
         return region
 

@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 import rustworkx
@@ -29,6 +30,8 @@ MOST_CELLS = 400_000
 """In a storey; larger ones have larger squares."""
 MOST_IN_ALL = 2_000_000
 """In all storeys together."""
+MOST_COSTS = 16_000_000
+"""Costs from squares to stops that are kept for A*, 8 bytes each."""
 SHY_M = 0.5
 """Nearer to what stands in the way than this a metre costs more ..."""
 SHY_COST = 3.0
@@ -100,10 +103,9 @@ class Grid:
         self.clear_m = np.concatenate([cells.clear_m for cells in storeys])
         self.storey = np.repeat(np.arange(len(storeys)), np.diff(self.first))
         self._piece = self._pieces()
-        self._graph = rustworkx.PyGraph(multigraph=False)
-        self._graph.add_nodes_from(range(len(self.places_m)))
         self._edges: list[tuple[NDArray[np.int64], NDArray[np.float64]]] = []
         self._add_edges()
+        self._rest: dict[int, NDArray[np.float64]] = {}
         self._climbs: dict[tuple[int, int], Climb] = {}
         for climb in climbs:
             self._add_climb(climb)
@@ -120,23 +122,28 @@ class Grid:
         shy = SHY_COST * np.maximum(0.0, 1.0 - self.clear_m / SHY_M) ** 2
         for cells, first in zip(self.storeys, self.first, strict=False):
             ends = cells.edges + first
-            self._join(ends, cells.lengths_m * (1.0 + shy[ends].mean(axis=1)))
-
-    def _join(self, ends: NDArray[np.int64], costs: NDArray[np.float64]) -> None:
-        self._edges.append((ends, costs))
-        self._graph.extend_from_weighted_edge_list(
-            list(zip(ends[:, 0].tolist(), ends[:, 1].tolist(), costs.tolist(), strict=True))
-        )
+            mean = (shy[ends[:, 0]] + shy[ends[:, 1]]) / 2.0
+            self._edges.append((ends, cells.lengths_m * (1.0 + mean)))
 
     def _add_climb(self, climb: Climb) -> None:
         foot = self.nearest(climb.lower, climb.foot_m)
         head = self.nearest(climb.lower + 1, climb.head_m)
         if foot is None or head is None:
             return
-        self._join(np.array([[foot, head]]), np.array([climb.length_m]))
+        self._edges.append((np.array([[foot, head]]), np.array([climb.length_m])))
         self._climbs[foot, head] = climb
         joined, kept = self._piece[head], self._piece[foot]
         self._piece[self._piece == joined] = kept
+
+    @cached_property
+    def _graph(self) -> rustworkx.PyGraph:
+        """Made when a way is looked for: of two grids of a house one is only asked for costs."""
+        graph = rustworkx.PyGraph(multigraph=False)
+        graph.add_nodes_from(range(len(self.places_m)))
+        for ends, costs in self._edges:
+            first, second = ends.T.tolist()
+            graph.extend_from_weighted_edge_list([*zip(first, second, costs.tolist(), strict=True)])
+        return graph
 
     def climb(self, start: int, end: int) -> NDArray[np.float64]:
         """(n, 3) the feet on the stairs from one square to another, above the lower floor."""
@@ -166,20 +173,27 @@ class Grid:
         return reached
 
     def way(self, start: int, goal: int) -> list[int]:
-        """The cheapest way, both ends with it, by A*; the straight line never costs more."""
-        beeline = self._beeline(goal)
+        """The cheapest way, both ends with it, by A*.
+
+        What is left of a way is known after `costs` of the goal, and else at least the beeline.
+        """
+        known = self._rest.get(goal)
+        rest = self._beeline(goal) if known is None else known
+
+        def left(node: int) -> float:
+            return float(rest[node])
+
         return list(
             rustworkx.graph_astar_shortest_path(
-                self._graph, start, lambda node: node == goal, float, beeline.__getitem__
+                self._graph, start, lambda node: node == goal, float, left
             )
         )
 
-    def _beeline(self, goal: int) -> list[float]:
-        """A lower bound of the cost to the goal from each square: 0 on other storeys."""
+    def _beeline(self, goal: int) -> NDArray[np.float64]:
+        """(n,) a lower bound of the cost to the goal from each square: 0 on other storeys."""
         away = np.linalg.norm(self.places_m - self.places_m[goal], axis=1)
         away[self.storey != self.storey[goal]] = 0.0
-        bound: list[float] = away.tolist()
-        return bound
+        return np.asarray(away, dtype=np.float64)
 
     def costs(self, nodes: Sequence[int]) -> NDArray[np.float64]:
         """(k, k) what the cheapest ways between some squares cost; infinite where there is none."""
@@ -188,4 +202,6 @@ class Grid:
         count = len(self.places_m)
         matrix = coo_array((costs, (ends[:, 0], ends[:, 1])), shape=(count, count)).tocsr()
         found: NDArray[np.float64] = dijkstra(matrix, directed=False, indices=list(nodes))
+        if found.size <= MOST_COSTS:
+            self._rest = dict(zip(nodes, found, strict=True))
         return found[:, list(nodes)]

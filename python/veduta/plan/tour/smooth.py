@@ -12,15 +12,15 @@ STEP_M = 0.1
 """From point to point of a way."""
 ROUNDS = 60
 """Of a diffusion with a share of one half: corners are rounded over about half a metre."""
-GRAZE_M = 0.03
-"""So much nearer than it may a straight piece between two points come to a convex corner."""
 
 
-def smoothed(points_m: NDArray[np.float64], free: BaseGeometry) -> NDArray[np.float64]:
+def smoothed(
+    points_m: NDArray[np.float64], free: BaseGeometry, grazed: BaseGeometry
+) -> NDArray[np.float64]:
     """(m, 2) a way (n, 2) of which each point is drawn to the middle of its neighbours.
 
-    A point that would leave the region stays where it is, so that no corner is cut; the ends stay,
-    too. Where the pieces between points leave it nevertheless, the way remains as it was.
+    A point that would leave `free` stays where it is, so that no corner is cut; the ends stay, too.
+    Where the pieces between points leave `grazed` nevertheless, the way remains as it was.
     """
     way = resampled(points_m, STEP_M)
     given = way.copy()
@@ -32,7 +32,7 @@ def smoothed(points_m: NDArray[np.float64], free: BaseGeometry) -> NDArray[np.fl
         moved[stays] = way[stays]
         way = moved
     way = resampled(way, STEP_M)
-    return way if _within(way, free) else given
+    return way if _within(way, grazed) else given
 
 
 def resampled(points_m: NDArray[np.float64], step_m: float) -> NDArray[np.float64]:
@@ -51,5 +51,5 @@ def lengths_along(points_m: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.concatenate([[0.0], np.cumsum(steps)])
 
 
-def _within(way: NDArray[np.float64], free: BaseGeometry) -> bool:
-    return len(way) < 2 or bool(free.buffer(GRAZE_M).covers(LineString(way)))
+def _within(way: NDArray[np.float64], grazed: BaseGeometry) -> bool:
+    return len(way) < 2 or bool(grazed.covers(LineString(way)))
