@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from shapely import STRtree, points
 from shapely.geometry import Polygon
 
 from veduta.plan.document import Text
@@ -16,7 +17,7 @@ from veduta.plan.drawn import (
     DrawnRoom,
     DrawnWall,
 )
-from veduta.plan.rooms.close import Space, closed_spaces, contains, curved_body, wall_bodies
+from veduta.plan.rooms.close import Space, closed_spaces, curved_body, wall_bodies
 from veduta.plan.walls.axes import Axis, OnAxis
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.graph import Edge, Graph, edge_line, openings_on, wall_graph
@@ -41,6 +42,7 @@ def drawn_from(
     graph = wall_graph(axes)
     bodies = wall_bodies(graph, axes)
     spaces = closed_spaces(bodies, found.thin_px)
+    indoors = STRtree([space.polygon() for space in spaces])
     walls: list[DrawnWall] = []
     openings: list[DrawnOpening] = []
     for index, edge in enumerate(graph.edges):
@@ -53,7 +55,7 @@ def drawn_from(
                 end=f"j{edge.second + 1}",
                 thickness_px=line.thickness_px,
                 drawing=line.drawing,
-                outer=_is_outer(line, spaces),
+                outer=_is_outer(line, indoors),
                 score=0.9 if axes[edge.axis].origin == "measured" else MENDED_SCORE,
                 bulge=round(line.bulge, 6),
                 origin=axes[edge.axis].origin,
@@ -77,13 +79,11 @@ def drawn_from(
     )
 
 
-def _is_outer(line: Piece, spaces: Sequence[Space]) -> bool:
-    open_sides = 0
+def _is_outer(line: Piece, indoors: STRtree) -> bool:
+    """Whether at one of its sides no space lies, of those that are `indoors`."""
     places = np.array([0.3, 0.7]) * line.length_px
-    for side in (1, -1):
-        points = line.arc.at(places, side * (line.thickness_px / 2 + 4))
-        open_sides += not any(contains(space, point) for space in spaces for point in points)
-    return open_sides > 0
+    sides = [line.arc.at(places, side * (line.thickness_px / 2 + 4)) for side in (1, -1)]
+    return not all(indoors.query(points(side), predicate="within").size for side in sides)
 
 
 def _opening(

@@ -67,9 +67,10 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     found: dict[tuple[object, ...], Gap] = {}
     facets = [(one, number) for number, arc in enumerate(curved) for one in arc.facets(FACET_RAD)]
     targets = [*pieces, *(one for one, _ in facets)]
+    walls = _Walls(targets)
     for index in range(len(pieces)):
         for at_end in (False, True):
-            gap = _ahead(targets, index, at_end)
+            gap = _ahead(walls, index, at_end)
             if gap is None:
                 continue
             if gap.target >= len(pieces):
@@ -82,29 +83,64 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     return list(found.values())
 
 
-def _ahead(pieces: list[Piece], index: int, at_end: bool) -> Gap | None:
-    piece = pieces[index]
+class _Walls:
+    """Pieces as arrays: starts, ends and directions (n, 2), thicknesses and lengths (n,)."""
+
+    def __init__(self, pieces: Sequence[Piece]) -> None:
+        self.pieces = pieces
+        self.start = np.array([one.start for one in pieces], float).reshape(-1, 2)
+        self.end = np.array([one.end for one in pieces], float).reshape(-1, 2)
+        self.way = np.array([one.direction for one in pieces], float).reshape(-1, 2)
+        self.thickness = np.array([one.thickness_px for one in pieces], float)
+        self.length = np.array([one.length_px for one in pieces], float)
+
+
+def _ahead(walls: _Walls, index: int, at_end: bool) -> Gap | None:
+    piece = walls.pieces[index]
     origin = piece.end if at_end else piece.start
     ray = piece.direction if at_end else -piece.direction
-    best: tuple[float, int, bool] | None = None
-    for other_index, other in enumerate(pieces):
-        if other_index == index:
-            continue
-        for distance, to_side in (_to_end(piece, origin, ray, other), _to_side(origin, ray, other)):
-            near = max(3.0, 0.3 * piece.thickness_px)
-            if distance is None or distance <= -max(near, other.thickness_px):
-                continue
-            if best is None or distance < best[0]:
-                best = (distance, other_index, to_side)
-    if best is None:
-        return None
-    distance, target, to_side = best
-    other = pieces[target]
+    # (n, 2): to the end of each wall, and to its side; infinite where it is not ahead.
+    away = np.stack([_to_ends(piece, origin, ray, walls), _to_sides(origin, ray, walls)], axis=1)
+    near = np.maximum(max(3.0, 0.3 * piece.thickness_px), walls.thickness)
+    away[away <= -near[:, None]] = np.inf
+    away[index] = np.inf
+    target, to_side = divmod(int(away.argmin()), 2)
+    distance = float(away[target, to_side])
+    other = walls.pieces[target]
     thickness = piece.thickness_px if to_side else min(piece.thickness_px, other.thickness_px)
     if distance <= max(3.0, 0.3 * thickness) or distance > FARTHEST * thickness:
         return None
     end = origin + distance * ray
-    return Gap(index, at_end, target, to_side, origin, end, thickness, end)
+    return Gap(index, at_end, target, bool(to_side), origin, end, thickness, end)
+
+
+def _to_ends(
+    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Walls
+) -> NDArray[np.float64]:
+    """(n,) how far ahead collinear pieces begin; infinite of others."""
+    cross = np.abs(ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0])
+    ends = np.stack([walls.start, walls.end], axis=1) - origin
+    along = ends @ ray
+    nearest = np.take_along_axis(ends, along.argmin(axis=1)[:, None, None], axis=1)[:, 0]
+    beside = np.abs(ray[0] * nearest[:, 1] - ray[1] * nearest[:, 0])
+    thick = np.maximum(piece.thickness_px, walls.thickness)
+    ahead = (cross <= np.sin(PARALLEL_RAD)) & (beside <= np.maximum(3.0, BESIDE * thick))
+    return np.where(ahead & (along.max(axis=1) >= 0), along.min(axis=1), np.inf)
+
+
+def _to_sides(
+    origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Walls
+) -> NDArray[np.float64]:
+    """(n,) how far ahead the faces of crossing pieces lie; infinite of others."""
+    cross = ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0]
+    crosses = np.abs(cross) >= np.sin(CROSSING_RAD)
+    safe = np.where(crosses, cross, 1.0)
+    apart = walls.start - origin
+    distance = (apart[:, 0] * walls.way[:, 1] - apart[:, 1] * walls.way[:, 0]) / safe
+    along = (apart[:, 0] * ray[1] - apart[:, 1] * ray[0]) / safe
+    half = walls.thickness / 2 / np.abs(safe)
+    ahead = crosses & (along >= -walls.thickness) & (along <= walls.length + walls.thickness)
+    return np.where(ahead & (distance >= -half - 3), distance - half, np.inf)
 
 
 def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:
@@ -136,39 +172,3 @@ def _empty(gap: Gap, solid: NDArray[np.bool_]) -> NDArray[np.intp]:
     x = np.clip(index[..., 0], 0, solid.shape[1] - 1)
     y = np.clip(index[..., 1], 0, solid.shape[0] - 1)
     return np.flatnonzero(solid[y, x].mean(axis=1) < 0.5)
-
-
-def _to_end(
-    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], other: Piece
-) -> tuple[float | None, bool]:
-    """How far ahead a collinear piece begins."""
-    cross = abs(ray[0] * other.direction[1] - ray[1] * other.direction[0])
-    if cross > np.sin(PARALLEL_RAD):
-        return None, False
-    ends = np.array([other.start, other.end]) - origin
-    along = ends @ ray
-    nearest = int(np.argmin(along))
-    beside = abs(ray[0] * ends[nearest, 1] - ray[1] * ends[nearest, 0])
-    thick = max(piece.thickness_px, other.thickness_px)
-    if beside > max(3.0, BESIDE * thick) or along.max() < 0:
-        return None, False
-    return float(along[nearest]), False
-
-
-def _to_side(
-    origin: NDArray[np.float64], ray: NDArray[np.float64], other: Piece
-) -> tuple[float | None, bool]:
-    """How far ahead the face of a crossing piece lies."""
-    cross = ray[0] * other.direction[1] - ray[1] * other.direction[0]
-    if abs(cross) < np.sin(CROSSING_RAD):
-        return None, True
-    apart = other.start - origin
-    distance = (apart[0] * other.direction[1] - apart[1] * other.direction[0]) / cross
-    along = (apart[0] * ray[1] - apart[1] * ray[0]) / cross
-    slack = other.thickness_px
-    if not -slack <= along <= other.length_px + slack:
-        return None, True
-    half = other.thickness_px / 2 / abs(cross)
-    if distance < -half - 3:
-        return None, True
-    return float(distance - half), True

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 from shapely import buffer, set_precision, unary_union
-from shapely.geometry import LineString, Point, Polygon
+from shapely.geometry import LineString, Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import LinearRing, orient
 
@@ -103,11 +103,6 @@ def closed_spaces(bodies: list[Polygon], thin_px: float) -> list[Space]:
             free = inside.difference(unary_union([Polygon(one.exterior) for one in islands]))
             found += _rooms_of(free, thin_px)
     return sorted(found, key=lambda one: -one.polygon().area)
-
-
-def contains(space: Space, point: NDArray[np.float64]) -> bool:
-    """Whether a point lies in it."""
-    return bool(space.polygon().contains(Point(*point)))
 
 
 def _rooms_of(free: BaseGeometry, thin_px: float) -> list[Space]:

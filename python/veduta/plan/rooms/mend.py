@@ -278,7 +278,7 @@ class _Looker:
         rest = space.difference(body)
         parts = [one for one in getattr(rest, "geoms", []) if isinstance(one, Polygon)]
         least = LEAST_WIDTH / 2 * self.found.thin_px
-        return [one for one in parts if one.area > 4 * least**2 and not one.buffer(-least).is_empty]
+        return [one for one in parts if one.area > 4 * least**2 and _holds_disc(one, least)]
 
     def _judged(self, one: Break, parts: list[Polygon], outdoors: bool) -> _Closing | None:
         if not one.gaps:
@@ -353,6 +353,13 @@ class _Looker:
             view = look_at(gap, self.sheet)
             self.seen[place] = judge(gap, view, self.found.thin_px, outdoors)
         return self.seen[place]
+
+
+def _holds_disc(region: Polygon, radius_px: float) -> bool:
+    """Whether a disc fits in; where one does in the middle of it, that is all to look at."""
+    if region.representative_point().distance(region.boundary) > radius_px:
+        return True
+    return not region.buffer(-radius_px).is_empty
 
 
 def _grown(bodies: Sequence[Polygon], by_px: float) -> NDArray[np.object_]:

@@ -67,12 +67,13 @@ class Arc:
 
     def at(self, along: Points | float, across: Points | float = 0.0) -> Points:
         """(..., 2) points at places along and across (broadcast); it goes on beyond its ends."""
-        along, across = np.broadcast_arrays(np.asarray(along, float), np.asarray(across, float))
+        along, across = np.asarray(along, float), np.asarray(across, float)
         if abs(self.bulge) < STRAIGHT:
             right = np.array([-self.direction[1], self.direction[0]])
             return np.asarray(
                 self.start + along[..., None] * self.direction + across[..., None] * right
             )
+        along, across = np.broadcast_arrays(along, across)
         side = math.copysign(1.0, self.bulge)
         turn = -side * along / self.radius_px
         out = self.start - self.centre
