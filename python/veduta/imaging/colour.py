@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+from concurrent.futures import ThreadPoolExecutor
 
 import cv2
 import numpy as np
@@ -17,6 +18,8 @@ READABLE_MODES = DIRECT_MODES | DEEP_MODES | OTHER_MODES
 
 STRIP_PX = 1 << 21
 """Pixels that are turned at once: each step in between would copy a drawing of 100 megapixels."""
+STRIPS_AT_ONCE = 2
+"""Pillow, OpenCV and numpy let other threads go on while they turn a strip."""
 
 
 def srgb_on_white(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
@@ -28,11 +31,15 @@ def srgb_on_white(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...
     width, height = image.size
     rows = max(1, STRIP_PX // width)
     pixels = np.empty((height, width, 3), dtype=np.uint8)
-    notes: tuple[str, ...] = ()
-    for top in range(0, height, rows):
+
+    def turn(top: int) -> tuple[str, ...]:
         bottom = min(top + rows, height)
         pixels[top:bottom], notes = _turned(image.crop((0, top, width, bottom)))
-    return pixels, notes
+        return notes
+
+    with ThreadPoolExecutor(STRIPS_AT_ONCE) as threads:
+        notes = [*threads.map(turn, range(0, height, rows))]
+    return pixels, notes[-1]
 
 
 def _turned(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...]]:
