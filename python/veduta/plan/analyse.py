@@ -33,6 +33,7 @@ from veduta.plan.scale.estimate import (
 )
 from veduta.plan.sheets import Pixels
 from veduta.plan.stairs.find import true_flights
+from veduta.plan.text.engine import prepare
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.plan.vector.read import VectorPlan, read_vectors
@@ -134,6 +135,7 @@ def _read_picture(
 ) -> _Read:
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
+        prepare()
         scan = read_drawing(drawing)
         step.counts |= {"width_px": scan.pixels.shape[1], "height_px": scan.pixels.shape[0]}
     progress("text", 0.0)

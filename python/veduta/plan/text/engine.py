@@ -12,6 +12,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
+from threading import Lock, Thread
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import cv2
@@ -39,8 +40,28 @@ Item = TypeVar("Item")
 Result = TypeVar("Result")
 
 
-@lru_cache(maxsize=2)
+_MAKING = Lock()
+"""The cache of engines does not lock: each thread would make one of its own."""
+
+
+def prepare() -> None:
+    """Load both networks in a thread: a large drawing takes as long to be read from its file."""
+    Thread(target=_load).start()
+
+
+def _load() -> None:
+    blank = np.full((LINE_PX, LINE_PX, 3), 255, dtype=np.uint8)
+    find_lines(blank)
+    read_line(blank)
+
+
 def _engine(threads: int) -> RapidOCR:
+    with _MAKING:
+        return _made(threads)
+
+
+@lru_cache(maxsize=2)
+def _made(threads: int) -> RapidOCR:
     # Half a second and 60 MB: only who reads text pays for it.
     from rapidocr import RapidOCR
 
@@ -89,7 +110,6 @@ def side_by_side(read: Callable[[Item], Result], items: Iterable[Item]) -> list[
 
     A line is too little work to be shared by threads: two lines at once take half of the time.
     """
-    _engine(1)  # the cache does not lock: each thread would make one of its own
     with ThreadPoolExecutor(THREADS) as threads:
         return list(threads.map(read, items))
 
