@@ -1,28 +1,42 @@
-"""The files of a house that do not depend on its tour: drawings, IFC and CityJSON."""
+"""The files of a house that a second process makes: drawings, IFC and CityJSON, then X3D."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from veduta.plan.drawing import draw
+from veduta.place.manifest import Start, Tour
+from veduta.place.part import Part
 from veduta.plan.house.build import House
 from veduta.plan.options import HouseOptions
-from veduta.plan.outputs.cityjson import house_cityjson
-from veduta.plan.outputs.dxf import plan_dxf
-from veduta.plan.outputs.ifc import house_ifc
-from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.surroundings.site import Site
 
 CITY_MODEL = "house.city.json"
+SCENE = "house.x3d"
 
 
 @dataclass(frozen=True)
 class Building:
-    """A house, how it was built, and where it stands."""
+    """A house, how it was built, and where it stands: drawings, IFC and CityJSON show no more."""
 
     house: House
     options: HouseOptions
     site: Site
+
+
+@dataclass(frozen=True)
+class Visit:
+    """What there is to walk through and to look at, in X3D.
+
+    start: where the visitor begins. others: what stands around the house. backdrop: a picture
+    around all of it. All in the frame of the place.
+    """
+
+    building: Building
+    start: Start
+    tours: Sequence[Tour]
+    others: Sequence[Part]
+    backdrop: Part | None
 
 
 @dataclass(frozen=True)
@@ -33,8 +47,21 @@ class BuildingFiles:
     notes: list[str]
 
 
-def building_files(building: Building) -> BuildingFiles:
-    """Nothing is written; a second process may do it while the tour is sought."""
+def files_of(what: Building | Visit) -> BuildingFiles:
+    """Nothing is written: a second process does it, while the tour is sought or models written."""
+    return _building_files(what) if isinstance(what, Building) else _scene_file(what)
+
+
+# What writes these formats is imported where it is called: the first process needs none of it.
+
+
+def _building_files(building: Building) -> BuildingFiles:
+    from veduta.plan.drawing import draw
+    from veduta.plan.outputs.cityjson import house_cityjson
+    from veduta.plan.outputs.dxf import plan_dxf
+    from veduta.plan.outputs.ifc import house_ifc
+    from veduta.plan.outputs.svg import plan_svg
+
     house, options = building.house, building.options
     drawings = [draw(space) for space in house.spaces]
     city, notes = house_cityjson(house, options)
@@ -45,3 +72,14 @@ def building_files(building: Building) -> BuildingFiles:
         CITY_MODEL: city,
     }
     return BuildingFiles(contents, notes)
+
+
+def _scene_file(visit: Visit) -> BuildingFiles:
+    from veduta.plan.outputs.x3d import house_x3d
+
+    building = visit.building
+    scene = house_x3d(
+        building.house, building.options, visit.start, tours=visit.tours, others=visit.others,
+        site=building.site, backdrop=visit.backdrop,
+    )  # fmt: skip
+    return BuildingFiles({SCENE: scene}, [])

@@ -12,7 +12,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from veduta.plan.building_files import Building, BuildingFiles, building_files
+from veduta.plan.building_files import Building, BuildingFiles, Visit, files_of
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
@@ -131,7 +131,7 @@ def run_plan(
         if not result.up_to_date and not result.left:
             with progress.over(1, _steps(given, options.house)):
                 progress.started(Task(call.subject, None))
-                with Beside(building_files) as building:
+                with Beside(files_of) as building:
                     _make(call, given, options, opened, key, building, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
@@ -225,12 +225,12 @@ def _make(
     options: PlanOptions,
     opened: OutFolder,
     key: str,
-    building: Beside[Building, BuildingFiles],
+    building: Beside[Building | Visit, BuildingFiles],
     progress: StepProgress,
 ) -> None:
     """All steps; drawings in which there is no plan end in a report that says why.
 
-    building: files that are made beside the tour.
+    building: makes files beside the tour, and beside the models.
     """
     steps: list[StepRecord] = []
     used = _used(call, options)
@@ -266,7 +266,7 @@ def _make(
         with writing_to(opened.path), timed_step(steps, "write") as step:
             if stays:
                 keep_panorama(read, opened.path, work)
-            step.rejected.extend(write_result(result, building.take(), work, options.house))
+            step.rejected.extend(write_result(result, building, work, options.house))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())

@@ -14,7 +14,7 @@ from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
 from veduta.place.manifest import Place
 from veduta.place.part import Part
-from veduta.plan.building_files import CITY_MODEL, BuildingFiles
+from veduta.plan.building_files import CITY_MODEL, Building, BuildingFiles, Visit
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
@@ -25,12 +25,11 @@ from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.overlay import overlay
 from veduta.plan.outputs.tiles import write_tiles
 from veduta.plan.outputs.tour_picture import tour_picture
-from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.photos.finish import Finished
 from veduta.plan.photos.look import Look
 from veduta.plan.sheets import sheet_name
 from veduta.plan.surroundings.backdrop import PANORAMA, backdrop_part, build_backdrop
-from veduta.plan.surroundings.build import build_surroundings, with_surroundings
+from veduta.plan.surroundings.build import Surroundings, build_surroundings, with_surroundings
 from veduta.plan.surroundings.daylight import daylight_of, sunlight_of
 from veduta.plan.surroundings.panorama import Pictures
 from veduta.plan.surroundings.site import Site
@@ -39,6 +38,7 @@ from veduta.plan.surroundings.terrain import terrain_of
 from veduta.plan.surroundings.turning import turned_north
 from veduta.plan.tour.find import Tour
 from veduta.plan.tour.placing import placed_tour
+from veduta.run.beside import Beside
 
 MODEL = "house.glb"
 BACKDROP = f"{PANORAMA}.glb"
@@ -88,9 +88,56 @@ def result_of(
 
 
 def write_result(
-    result: Result, building: BuildingFiles, folder: Path, options: HouseOptions
+    result: Result,
+    beside: Beside[Building | Visit, BuildingFiles],
+    folder: Path,
+    options: HouseOptions,
 ) -> list[str]:
-    """Write the document, the drawings, the model and the place; what is not as it should be."""
+    """Write the document, the drawings, the model and the place; what is not as it should be.
+
+    beside: was given the building; the scene is made by it, while the models are written.
+    """
+    building = beside.take()
+    around, backdrop = _surroundings(result, options), _backdrop(result, options)
+    tours = (
+        [] if result.tour is None else [placed_tour(result.tour, raised_m(result.house, options))]
+    )
+    place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
+    whole = Building(result.house, options, result.site)
+    beside.give(Visit(whole, place.start, tours, _parts_of(around), backdrop))
+    _write_sheets(result, folder)
+    place = _write_models(result, place, around, backdrop, folder)
+    write_place(place, folder / "place.json")
+    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
+    for name, content in (building.contents | beside.take().contents).items():
+        (folder / name).write_bytes(content)
+    return building.notes
+
+
+def _write_models(
+    result: Result, place: Place, around: Surroundings | None, backdrop: Part | None, folder: Path
+) -> Place:
+    """The house and what lies around it, as glTF; the place with all of this in it."""
+    tour, sun = result.tour, sunlight_of(result.site)
+    write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
+    if around is not None:
+        models = {part.id: f"{part.id}.glb" for part in _parts_of(around)}
+        for part in _parts_of(around):
+            write_glb(part, folder / models[part.id])
+        place = with_surroundings(place, around, models)
+    if result.panorama is not None and backdrop is not None:
+        for name, content in result.panorama.files.items():
+            (folder / name).write_bytes(content)
+        write_glb(backdrop, folder / BACKDROP)
+        place = place.model_copy(
+            update={"parts": [*place.parts, backdrop_part(backdrop, BACKDROP)]}
+        )
+    place = place.model_copy(update={"sun": result.site.for_place()})
+    return turned_north(place, result.site.turn_deg)
+
+
+def _write_sheets(result: Result, folder: Path) -> None:
+    """The document, and all pictures but the panorama."""
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):
@@ -100,45 +147,18 @@ def write_result(
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     if result.tour_picture is not None:
         (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))
-    for name, content in building.contents.items():
-        (folder / name).write_bytes(content)
-    place = _write_place(result, folder, options)
-    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
-    return building.notes
 
 
-def _write_place(result: Result, folder: Path, options: HouseOptions) -> Place:
-    """The models and the place: the house, what lies around it, and its tour."""
-    tour = result.tour
-    sun = sunlight_of(result.site)
-    write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
-    tours = [] if tour is None else [placed_tour(tour, raised_m(result.house, options))]
-    place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
-    around: list[Part] = []
-    if options.surroundings != "none":
-        surroundings = build_surroundings(result.house.spaces[result.house.ground], options)
-        around = [surroundings.ground, *([surroundings.garden] if surroundings.garden else [])]
-        models = {part.id: f"{part.id}.glb" for part in around}
-        for part in around:
-            write_glb(part, folder / models[part.id])
-        place = with_surroundings(place, surroundings, models)
-    backdrop = _backdrop(result, options)
-    if result.panorama is not None and backdrop is not None:
-        for name, content in result.panorama.files.items():
-            (folder / name).write_bytes(content)
-        write_glb(backdrop, folder / BACKDROP)
-        place = place.model_copy(
-            update={"parts": [*place.parts, backdrop_part(backdrop, BACKDROP)]}
-        )
-    x3d = house_x3d(
-        result.house, options, place.start, tours=tours, others=around,
-        site=result.site, backdrop=backdrop,
-    )  # fmt: skip
-    (folder / "house.x3d").write_bytes(x3d)
-    place = place.model_copy(update={"sun": result.site.for_place()})
-    place = turned_north(place, result.site.turn_deg)
-    write_place(place, folder / "place.json")
-    return place
+def _parts_of(around: Surroundings | None) -> list[Part]:
+    """The ground, and the garden where there is one."""
+    found = () if around is None else (around.ground, around.garden)
+    return [one for one in found if one is not None]
+
+
+def _surroundings(result: Result, options: HouseOptions) -> Surroundings | None:
+    if options.surroundings == "none":
+        return None
+    return build_surroundings(result.house.spaces[result.house.ground], options)
 
 
 def _backdrop(result: Result, options: HouseOptions) -> Part | None:
