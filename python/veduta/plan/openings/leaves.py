@@ -187,6 +187,6 @@ def _traced(
     sheet: Sheet, points: NDArray[np.float64], beside: NDArray[np.float64]
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Where a line is drawn at points, and where there is ink beside it, on either side."""
-    on = sample(sheet.faint, points) > 0
-    one, other = sample(sheet.faint, points - beside) > 0, sample(sheet.faint, points + beside) > 0
+    on = sheet.marked(points)
+    one, other = sheet.marked(points - beside), sheet.marked(points + beside)
     return on & ~(one & other), one | other

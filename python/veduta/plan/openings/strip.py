@@ -28,6 +28,20 @@ class Sheet:
     ink: NDArray[np.float32]
     faint: NDArray[np.bool_]
 
+    @cached_property
+    def _framed(self) -> NDArray[np.bool_]:
+        """The marks with a border of none around them, which stands for all that is outside."""
+        return np.pad(self.faint, 1)
+
+    def marked(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
+        """(...) whether there is a mark at (..., 2) pixel coordinates; nothing outside."""
+        height, width = self.faint.shape
+        # What is converted is cut towards zero, which is the floor within the border.
+        index = (points + 1.0).astype(np.intp)
+        x = np.minimum(np.maximum(index[..., 0], 0), width + 1)
+        y = np.minimum(np.maximum(index[..., 1], 0), height + 1)
+        return np.asarray(self._framed[y, x])
+
 
 @dataclass(frozen=True)
 class Strip:

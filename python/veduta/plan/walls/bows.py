@@ -158,14 +158,19 @@ def _sees_out(
     """Whether no wall lies before the middle of a break; side: 1 right, -1 left."""
     line = Arc(first, second)
     away = np.arange(2.0, sum(solid.shape), 2.0)
+    # Beyond the sheet's farthest corner there is nothing to look at.
+    height, width = solid.shape
+    corners = np.array([(0.0, 0.0), (width, 0.0), (0.0, height), (width, height)])
+    seen = away[: np.searchsorted(away, float((side * line.place(corners)[1]).max()), "right")]
     middle = line.chord_px * np.linspace(0.33, 0.67, 9)
-    places = line.at(middle[:, None], side * away[None, :])
-    if bool(look(solid, places, 0.0).any()):
+    if bool(look(solid, line.at(middle[:, None], side * seen[None, :]), 0.0).any()):
         return False
     # A door may lie before a window; beyond the bow nothing is built over all of its breadth.
-    beyond = away[away > 0.6 * line.chord_px]
-    places = line.at(np.linspace(0.0, line.chord_px, 25)[:, None], side * beyond[None, :])
-    return float(look(solid, places, 0.0).mean()) < STRAY
+    low = 0.6 * line.chord_px
+    along = np.linspace(0.0, line.chord_px, 25)
+    places = line.at(along[:, None], side * seen[seen > low][None, :])
+    walls = float(look(solid, places, 0.0).sum())
+    return walls < STRAY * len(along) * int((away > low).sum())
 
 
 def _squares(way: NDArray[np.float64], node: int, edges: Sequence[Edge], graph: Graph) -> bool:

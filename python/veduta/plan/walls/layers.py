@@ -8,6 +8,7 @@ one or two breadths that are commonest, far along the sheet.
 
 from __future__ import annotations
 
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import cv2
@@ -34,6 +35,9 @@ LEAST_LAYERS = 4
 
 LEAST_LINES = 1.2
 """Lines side by side are the faces of a wall from so many line widths on."""
+
+LAYERS_AT_ONCE = 2
+"""OpenCV and numpy let other threads go on while they look at a layer."""
 
 LONG = 4.0
 """The space between the faces of a wall is so many times as long as broad."""
@@ -83,8 +87,13 @@ def walls_of_a_colour(
     if len(layers) < LEAST_LAYERS:
         return None
     extent = longer_side(ink)
-    whole = [_uncovered(one, ink, line_px, COVERED * extent) for one in layers]
-    walls = [hollow_walls(one, line_px, NARROW * extent) for one in whole]
+
+    def walls_of(layer: NDArray[np.bool_]) -> Hollow:
+        whole = _uncovered(layer, ink, line_px, COVERED * extent)
+        return hollow_walls(whole, line_px, NARROW * extent)
+
+    with ThreadPoolExecutor(LAYERS_AT_ONCE) as threads:
+        walls = [*threads.map(walls_of, layers)]
     walls = [one for one in walls if one.length_px >= LEAST_LENGTH * extent and _meet(one)]
     return max(walls, key=lambda one: one.length_px).mask if walls else None
 
