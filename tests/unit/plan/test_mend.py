@@ -12,7 +12,7 @@ from veduta.plan.document import Text
 from veduta.plan.drawn import Drawn
 from veduta.plan.openings.gaps import Gap, parted
 from veduta.plan.reading import read_storey
-from veduta.plan.rooms import mend
+from veduta.plan.rooms import looker, mend
 from veduta.plan.rooms.labels import room_labels
 
 Image = NDArray[np.uint8]
@@ -114,7 +114,7 @@ def test_a_corridor_is_one_room_where_walls_meet_it_from_both_sides(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     assert len(read_storey(corridor(), []).rooms) == 5
-    monkeypatch.setattr(mend, "ROOM", 0.0)
+    monkeypatch.setattr(looker, "ROOM", 0.0)
     assert len(read_storey(corridor(), []).rooms) == 6
 
 
