@@ -23,7 +23,7 @@ from veduta.plan.tour.free import BODY_M, GRAZE_M, Ground, footprint, ground_of
 from veduta.plan.tour.grid import MOST_CELLS, MOST_IN_ALL, SHY_COST, SHY_M, Cells, Grid, cells_of
 from veduta.plan.tour.leaves import OpenLeaf
 from veduta.plan.tour.smooth import resampled, smoothed
-from veduta.plan.tour.stops import short_order
+from veduta.plan.tour.stops import short_order, squares_in
 
 HEIGHT_M = 2.5
 
@@ -150,6 +150,18 @@ def test_squares_are_free_and_pieces_are_those_of_the_region() -> None:
     assert not set(left.tolist()) & set(right.tolist())
     area = len(cells.places_m) * cells.side_m**2
     assert area == pytest.approx(closed.free.area, rel=0.02)
+
+
+@given(st.floats(-1.0, 9.0), st.floats(-1.0, 6.0), st.floats(0.0, 7.0), st.floats(0.0, 5.0))
+def test_squares_in_a_room_are_those_with_their_middles_in_it(
+    x: float, y: float, wide: float, deep: float
+) -> None:
+    cells = cells_of(ground())
+    grid = Grid([cells, cells])
+    room = box(x, y, x + wide, y + deep)
+    inside = np.flatnonzero(shapely.contains_xy(room, *cells.places_m.T))
+    assert squares_in(room, grid, 1).tolist() == (inside + len(cells.places_m)).tolist()
+    assert squares_in(Polygon(), grid, 1).tolist() == []
 
 
 @given(st.floats(0.2, 2.0), st.floats(0.1, 1.0))

@@ -66,10 +66,13 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
 
 def squares_in(shape: Polygon, grid: Grid, storey: int) -> NDArray[np.int64]:
     """The squares of a storey whose middles lie in a polygon."""
-    chosen = np.arange(grid.first[storey], grid.first[storey + 1])
     left, bottom, right, top = shape.bounds if not shape.is_empty else (0.0, 0.0, -1.0, -1.0)
-    x, y = grid.places_m[chosen].T
-    near = chosen[(x >= left) & (x <= right) & (y >= bottom) & (y <= top)]
+    first, last = grid.first[storey], grid.first[storey + 1]
+    # A storey's squares are numbered row by row.
+    rows = np.searchsorted(grid.places_m[first:last, 1], (bottom, top), "left")
+    chosen = np.arange(first + rows[0], max(first + rows[1], first + rows[0]))
+    x = grid.places_m[chosen, 0]
+    near = chosen[(x >= left) & (x <= right)]
     inside: NDArray[np.bool_] = shapely.contains_xy(shape, *grid.places_m[near].T)
     within: NDArray[np.int64] = near[inside]
     return within
