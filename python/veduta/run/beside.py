@@ -1,4 +1,4 @@
-"""One piece of work in a second process, while this one goes on with other work."""
+"""Work in a second process, piece by piece, while this one goes on with other work."""
 
 from __future__ import annotations
 
@@ -38,7 +38,10 @@ class Beside(Generic[A, T]):
         end_workers(self._workers)
 
     def give(self, argument: A) -> None:
-        """Begin the work on an argument; the argument must stay as it is until the work is done."""
+        """Begin the work on an argument; the argument must stay as it is until the work is done.
+
+        What was given before has been taken: each of the two waits for the other otherwise.
+        """
         self._given = [argument]
         for worker in self._workers:
             worker.send(argument)

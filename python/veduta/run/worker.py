@@ -62,10 +62,10 @@ class Worker:
             return
 
     def receive(self) -> Answer:
-        """Wait for its answer; the pipe of a dead one is at its end."""
+        """Wait for its answer; the pipe of a dead one is at its end, perhaps within an answer."""
         try:
             answer: Answer = self.pipe.recv()
-        except (EOFError, ConnectionResetError):
+        except (EOFError, OSError):
             return Answer(crash=_cause_of_death(self.process.wait()))
         return answer
 

@@ -68,6 +68,24 @@ def test_what_a_dead_process_leaves_is_done_in_this_one() -> None:
         assert work.take() == os.getpid()
 
 
+def test_an_answer_that_breaks_off_is_that_of_a_dead_process(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    class Broken:
+        def recv(self) -> None:
+            raise OSError("got end of file during message")
+
+        def close(self) -> None:
+            pass
+
+    with Beside(square) as work:
+        work.give(3)
+        (worker,) = work._workers
+        worker.process.kill()
+        monkeypatch.setattr(worker, "pipe", Broken())
+        assert work.take() == (9, os.getpid())
+
+
 def test_errors_are_those_of_a_plain_call() -> None:
     with Beside(refuse) as work:
         work.give(7)
