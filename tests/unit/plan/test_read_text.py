@@ -132,6 +132,57 @@ def test_small_text_of_a_large_sheet_is_found_closer(monkeypatch: pytest.MonkeyP
     assert "Bedroom" not in {_plain(text) for text in at_once}
 
 
+def test_a_line_of_joined_letters_is_looked_at_closer_as_a_whole(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """It is no row of marks, but the overview saw it, too small to be read."""
+    large = np.full((1500, 2400, 3), 255, dtype=np.uint8)
+    large[700:712, 900:1500] = 0
+    line = np.array([(900.0, 700.0), (1500.0, 700.0), (1500.0, 712.0), (900.0, 712.0)])
+    looked_at: list[tuple[int, ...]] = []
+
+    def nothing(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
+        looked_at.append(pixels.shape)
+        return np.zeros((0, 4, 2))
+
+    monkeypatch.setattr(regions, "find_lines", nothing)
+    assert not len(regions.find_regions(large, line[None]))
+    ((height, width, _),) = looked_at
+    assert width >= 600
+    assert height < 400
+
+
+def test_words_of_narrow_letters_are_marks_and_rows_of_dashes_are_none() -> None:
+    page = Image.new("RGB", (900, 700), "white")
+    pen = ImageDraw.Draw(page)
+    pen.text((300, 200), "Hall", fill="black", font=ImageFont.load_default(26))
+    for step in range(20):
+        pen.rectangle((100 + 30 * step, 500, 118 + 30 * step, 502), fill="black")
+    marks = regions._letter_like(np.asarray(page), np.zeros((0, 4, 2)))
+    assert len(marks) == 4
+    assert (marks[:, 1] < 300).all()
+
+
+def test_the_closer_look_is_bounded(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Blocks of marks all over a sheet: what is looked at is no more than is allowed."""
+    sheet = np.full((6000, 6000, 3), 255, dtype=np.uint8)
+    for y in range(100, 5900, 400):
+        for x in range(100, 5900, 400):
+            for step in range(8):
+                sheet[y : y + 16, x + 20 * step : x + 20 * step + 12] = 0
+    looked_at = list[int]()
+
+    def nothing(pixels: NDArray[np.uint8]) -> NDArray[np.float64]:
+        looked_at.append(pixels.shape[0] * pixels.shape[1])
+        return np.zeros((0, 4, 2))
+
+    monkeypatch.setattr(regions, "find_lines", nothing)
+    monkeypatch.setattr(regions, "MOST_TILES", 3)
+    regions.find_regions(sheet, np.zeros((0, 4, 2)))
+    whole = regions.TILE_PX**2
+    assert 1.5 * whole < sum(looked_at) <= 4 * whole
+
+
 def test_lines_read_side_by_side_are_those_read_one_by_one() -> None:
     strips = []
     for words in ("OLOHUONE", "4.94 x 3.06", "", "Bedroom 12", "17,4 m2", "KITCHEN", "WC"):

@@ -44,15 +44,19 @@ _MAKING = Lock()
 """The cache of engines does not lock: each thread would make one of its own."""
 
 
+@lru_cache(maxsize=1)
 def prepare() -> None:
-    """Load both networks in a thread: a large drawing takes as long to be read from its file."""
+    """Load both networks in a thread, once: a large drawing takes as long to be read."""
     Thread(target=_load).start()
 
 
 def _load() -> None:
     blank = np.full((LINE_PX, LINE_PX, 3), 255, dtype=np.uint8)
-    find_lines(blank)
-    read_line(blank)
+    try:
+        find_lines(blank)
+        read_line(blank)
+    except Exception:  # noqa: BLE001  it is raised again, and told, where text is looked for
+        return
 
 
 def _engine(threads: int) -> RapidOCR:

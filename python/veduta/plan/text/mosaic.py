@@ -67,9 +67,9 @@ class Box:
         return self.high[0] - self.low[0], self.high[1] - self.low[1]
 
     @property
-    def area(self) -> int:
-        """In square pixels."""
-        return self.size[0] * self.size[1]
+    def taken_px2(self) -> int:
+        """What it takes of a mosaic, with the gaps beside and below it."""
+        return (self.size[0] + GAP_PX) * (self.size[1] + GAP_PX)
 
     def holds(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(n,) which of the points (n, 2) lie in it."""

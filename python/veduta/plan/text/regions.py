@@ -20,13 +20,13 @@ OVERVIEW_PX = 1600
 TILE_PX = 1280
 """Side of the pictures of the closer look, which hold what is around small marks."""
 MOST_TILES = 8
-"""So many of these pictures are looked at, at most; of more the parts with most marks."""
+"""What is looked at closer has at most the area of so many; of more, what has most marks."""
 _ENLARGE = 2.0  # a small sheet, at most
 _OVERLAP = 0.15  # of a tile, where a block of text is larger: a line is whole in one of the two
 _MARGIN_PX = 64  # around marks: letters that touch lines are no marks, but stand beside others
 _FINER = 4.0  # the closer look over the overview
 _LETTER_PX = (6, 60)  # height of letters, in pixels of the closer look
-_DASH = 0.25  # what is so much narrower than long is a dash (or an I, which stands beside others)
+_DASH = 0.25  # what is so much narrower than long is a dash, or an l that stands beside an a
 _CLEAR_PX = 12.0  # height of a region that the overview shows well
 _TALLEST = 0.08  # a line of text over the long side of the sheet
 _LETTERS = 4  # fewer marks than this are no text worth a second of work
@@ -57,12 +57,13 @@ def find_regions(
         scale = min(1.0, _FINER * factor)
         large = _resized(pixels, scale)
         clear = _short_sides(found) * factor >= _CLEAR_PX
-        middles = found.mean(axis=1) * scale
-        boxes = _closer_look(large, found[clear] * scale, middles[~clear])
+        boxes = _closer_look(large, found[clear] * scale, found[~clear] * scale)
         paper = np.median(large[::16, ::16], axis=(0, 1)).astype(np.uint8)
         pictures = mosaics(large, boxes, TILE_PX, paper)
         closer = [one.in_sheet(find_lines(one.pixels)) / scale for one in pictures]
-        seen = np.any([np.zeros(len(found), bool), *(one.holds(middles) for one in boxes)], axis=0)
+        seen = np.zeros(len(found), dtype=bool)
+        for box in boxes:
+            seen |= box.holds((found * scale).reshape(-1, 2)).reshape(-1, 4).all(axis=1)
         # What was small in the overview is as the closer look has it: lines run into one another.
         found = np.concatenate([found[clear | ~seen], *closer])
     return without_duplicates(found)
@@ -81,7 +82,7 @@ def overview_factor(size_px: tuple[int, int]) -> float:
 def without_duplicates(quads: NDArray[np.float64]) -> NDArray[np.float64]:
     """Quadrangles (n, 4, 2) without those that lie mostly in a larger one.
 
-    Text is found twice in the overlap of tiles, and in a tile after the overview.
+    Text is found twice where parts of the closer look overlap, and there after the overview.
     """
     kept: list[int] = []
     areas = [abs(cv2.contourArea(quad.astype(np.float32))) for quad in quads]
@@ -108,20 +109,27 @@ def _closer_look(
 ) -> list[Box]:
     """The parts of a sheet (h, w, 3) with marks of the size of letters outside the known regions.
 
-    `unclear` (n, 2) are middles of regions that are known, but too small to be read as they are.
+    `unclear` (n, 4, 2) are regions that are known, but too small to be read as they are.
     """
-    marks = _letter_like(pixels, known)
     size = (pixels.shape[1], pixels.shape[0])
     step = int(TILE_PX * (1.0 - _OVERLAP))
-    points = np.concatenate([marks, np.repeat(unclear, _LETTERS, axis=0)])
+    points = np.concatenate([_letter_like(pixels, known), *map(_all_over, unclear)])
     boxes = boxes_of_marks(points, size, _MARGIN_PX, TILE_PX, step)
     left = MOST_TILES * TILE_PX**2
     kept = []
     for box in boxes:
-        if box.marks >= _LETTERS and box.area <= left:
+        if box.marks >= _LETTERS and box.taken_px2 <= left:
             kept.append(box)
-            left -= box.area
+            left -= box.taken_px2
     return kept
+
+
+def _all_over(quad: NDArray[np.float64]) -> NDArray[np.float64]:
+    """Points (n, 2) all over a quadrangle, near to each other: those of a block with its extent."""
+    low, high = quad.min(axis=0), quad.max(axis=0)
+    count = np.maximum(3, np.ceil((high - low) / _MARGIN_PX).astype(int) + 1)
+    x, y = (np.linspace(low[axis], high[axis], count[axis]) for axis in (0, 1))
+    return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
 
 
 def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArray[np.float64]:
@@ -135,13 +143,19 @@ def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArr
     low, high = _LETTER_PX
     tall, wide = stats[1:, cv2.CC_STAT_HEIGHT], stats[1:, cv2.CC_STAT_WIDTH]
     fits = (np.maximum(tall, wide) >= low) & (np.maximum(tall, wide) <= high)
-    fits &= np.minimum(tall, wide) >= np.maximum(2, _DASH * np.maximum(tall, wide))
+    fits &= np.minimum(tall, wide) >= 2
     sizes = np.maximum(tall, wide)[fits]
-    return _in_company(np.asarray(centres[1:][fits], dtype=np.float64), sizes)
+    broad = np.minimum(tall, wide)[fits] >= _DASH * sizes
+    return _in_company(np.asarray(centres[1:][fits], dtype=np.float64), sizes, broad)
 
 
-def _in_company(centres: NDArray[np.float64], sizes: NDArray[np.int32]) -> NDArray[np.float64]:
-    """The marks that have two others of their size beside them: letters stand in words."""
+def _in_company(
+    centres: NDArray[np.float64], sizes: NDArray[np.int32], broad: NDArray[np.bool_]
+) -> NDArray[np.float64]:
+    """The marks that have two others of their size beside them: letters stand in words.
+
+    One of them all is `broad`: a row of dashes is no word.
+    """
     if len(centres) < 3:
         return np.zeros((0, 2))
     found = cKDTree(centres).query(centres, k=min(6, len(centres)))
@@ -149,4 +163,5 @@ def _in_company(centres: NDArray[np.float64], sizes: NDArray[np.int32]) -> NDArr
     near = away[:, 1:] < 2.0 * sizes[:, None]
     ratio = sizes[others[:, 1:]] / sizes[:, None]
     alike = near & (ratio > 0.6) & (ratio < 1.6)
-    return np.asarray(centres[alike.sum(axis=1) >= 2], dtype=np.float64)
+    lettered = broad | (alike & broad[others[:, 1:]]).any(axis=1)
+    return np.asarray(centres[(alike.sum(axis=1) >= 2) & lettered], dtype=np.float64)
