@@ -21,18 +21,14 @@ Reason = Literal[
     "a room is open to the outdoors",
 ]
 
-UNDRAWN: tuple[Reason, ...] = (
-    "walls face each other across a passage there",
-    "two rooms are named in one space",
-    "a room is open to the outdoors",
-)
-"""Nothing that is drawn there speaks for these."""
-
 _BY_BOTH_PARTS: tuple[Reason, ...] = (
     "walls face each other across a passage there",
     "two rooms are named in one space",
 )
 """Whether these hold depends on all of the space, and so on what else is closed in it."""
+
+UNDRAWN: tuple[Reason, ...] = (*_BY_BOTH_PARTS, "a room is open to the outdoors")
+"""Nothing that is drawn there speaks for these."""
 
 
 @dataclass(frozen=True)
@@ -63,8 +59,9 @@ class Placed:
 def apart(closings: Sequence[Placed]) -> list[Closing]:
     """The best closing, and the best others of which none changes what another parts or means.
 
-    They can be closed together: one after the other, they would be judged in the same way. Those
-    for which nothing is drawn wait: what follows from what is drawn may close the same space.
+    They can be closed together: one after the other, they would part the same rooms for the same
+    reasons. (That a new wall may be what another break is measured to is neglected.) Those for
+    which nothing is drawn wait: what follows from what is drawn may close the same space.
     """
     best: list[Placed] = []
     drawn = any(one.closing.reason not in UNDRAWN for one in closings)

@@ -3,7 +3,8 @@
 A break is closed where it parts a space in two, and something speaks for it: a door's leaf that is
 drawn there, both faces of the wall drawn on, a window, solid ink, ends of a wall that face each
 other across a passage, a name or size of a room on either side, or a room that is open to the
-outdoors. The best one is closed first, as it changes what the others part.
+outdoors. The best one is closed first, as it changes what the others part, and with it those of
+which that is not so.
 """
 
 from __future__ import annotations
@@ -35,6 +36,9 @@ NARROWEST_GAP = 4.0
 
 GLAZED = 1.5
 """Ways out that are so many times as wide as a door are taken for glazed doors that slide."""
+
+BESIDE_PX = 3.0
+"""So far from the face of a wall that closes a break one is in what lies beside it."""
 
 MOST_ROUNDS = 24
 """In each, all breaks are closed that change nothing for each other."""
@@ -100,15 +104,25 @@ def _closed(
 ) -> tuple[list[int], Enclosed]:
     """Which of the walls each make another room, and all with these; all at once if all do."""
     whole = enclosed_by([*enclosed.axes, *walls], thin_px)
-    if len(whole.rooms) >= len(enclosed.rooms) + len(walls):
+    more = len(whole.rooms) - len(enclosed.rooms)
+    if more >= len(walls) and (len(walls) == 1 or all(_parts(wall, whole) for wall in walls)):
         return [*range(len(walls))], whole
     kept = []
-    for place, wall in enumerate(walls):
-        tried = enclosed_by([*enclosed.axes, wall], thin_px) if len(walls) > 1 else whole
+    for place, wall in enumerate(walls if len(walls) > 1 else ()):
+        tried = enclosed_by([*enclosed.axes, wall], thin_px)
         if len(tried.rooms) > len(enclosed.rooms):
             kept.append(place)
             enclosed = tried
     return kept, enclosed
+
+
+def _parts(wall: Axis, enclosed: Enclosed) -> bool:
+    """Whether a wall lies between two rooms, or a room and what is none, at its middle."""
+    line = wall.line
+    away = np.array([1.0, -1.0]) * (line.thickness_px / 2 + BESIDE_PX)
+    sides = [Point(*one) for one in line.arc.at(line.length_px / 2, away)]
+    first, second = ([room.contains(one) for room in enclosed.rooms] for one in sides)
+    return first != second
 
 
 def _along_lines(
