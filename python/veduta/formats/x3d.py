@@ -83,8 +83,9 @@ class X3dScene:
         if len(rows) == 0:
             return
         of_row = part.polygon_material[triangles.polygon[rows]]
-        rows = rows[np.argsort(of_row, kind="stable")]
-        materials, starts = np.unique(np.sort(of_row), return_index=True)
+        order = np.argsort(of_row, kind="stable")
+        rows = rows[order]
+        materials, starts = np.unique(of_row[order], return_index=True)
         about = np.array(about_m, dtype=np.float32)
         for row, alike in zip(materials.tolist(), np.split(rows, starts[1:]), strict=True):
             used, corners = np.unique(triangles.indices[alike], return_inverse=True)

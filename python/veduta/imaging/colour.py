@@ -39,7 +39,7 @@ def srgb_on_white(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...
 
     with ThreadPoolExecutor(STRIPS_AT_ONCE) as threads:
         notes = [*threads.map(turn, range(0, height, rows))]
-    return pixels, notes[-1]
+    return pixels, notes[-1] if notes else ()
 
 
 def _turned(image: Image.Image) -> tuple[NDArray[np.uint8], tuple[str, ...]]:

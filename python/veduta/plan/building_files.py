@@ -7,8 +7,14 @@ from dataclasses import dataclass
 
 from veduta.place.manifest import Start, Tour
 from veduta.place.part import Part
+from veduta.plan.drawing import draw
 from veduta.plan.house.build import House
 from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.cityjson import house_cityjson
+from veduta.plan.outputs.dxf import plan_dxf
+from veduta.plan.outputs.ifc import house_ifc
+from veduta.plan.outputs.svg import plan_svg
+from veduta.plan.outputs.x3d import house_x3d
 from veduta.plan.surroundings.site import Site
 
 CITY_MODEL = "house.city.json"
@@ -52,16 +58,7 @@ def files_of(what: Building | Visit) -> BuildingFiles:
     return _building_files(what) if isinstance(what, Building) else _scene_file(what)
 
 
-# What writes these formats is imported where it is called: the first process needs none of it.
-
-
 def _building_files(building: Building) -> BuildingFiles:
-    from veduta.plan.drawing import draw
-    from veduta.plan.outputs.cityjson import house_cityjson
-    from veduta.plan.outputs.dxf import plan_dxf
-    from veduta.plan.outputs.ifc import house_ifc
-    from veduta.plan.outputs.svg import plan_svg
-
     house, options = building.house, building.options
     drawings = [draw(space) for space in house.spaces]
     city, notes = house_cityjson(house, options)
@@ -75,8 +72,6 @@ def _building_files(building: Building) -> BuildingFiles:
 
 
 def _scene_file(visit: Visit) -> BuildingFiles:
-    from veduta.plan.outputs.x3d import house_x3d
-
     building = visit.building
     scene = house_x3d(
         building.house, building.options, visit.start, tours=visit.tours, others=visit.others,

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 import numpy as np
@@ -97,21 +98,21 @@ def write_result(
 
     beside: was given the building; the scene is made by it, while the models are written.
     """
-    building = beside.take()
     around, backdrop = _surroundings(result, options), _backdrop(result, options)
-    tours = (
-        [] if result.tour is None else [placed_tour(result.tour, raised_m(result.house, options))]
-    )
+    up_m = raised_m(result.house, options)
+    tours = [] if result.tour is None else [placed_tour(result.tour, up_m)]
     place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
     whole = Building(result.house, options, result.site)
+    made = [beside.take()]
     beside.give(Visit(whole, place.start, tours, _parts_of(around), backdrop))
     _write_sheets(result, folder)
     place = _write_models(result, place, around, backdrop, folder)
     write_place(place, folder / "place.json")
     write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
-    for name, content in (building.contents | beside.take().contents).items():
+    made.append(beside.take())
+    for name, content in chain.from_iterable(one.contents.items() for one in made):
         (folder / name).write_bytes(content)
-    return building.notes
+    return [note for one in made for note in one.notes]
 
 
 def _write_models(

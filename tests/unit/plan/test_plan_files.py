@@ -20,10 +20,11 @@ from veduta.plan.document import PlanDocument, Stairs
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import build_house
 from veduta.plan.house.space import space_of
+from veduta.plan.house.wall_regions import wall_regions
 from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.dxf import plan_dxf
-from veduta.plan.outputs.ifc import door_operation, house_ifc, wall_regions
+from veduta.plan.outputs.ifc import door_operation, house_ifc
 from veduta.plan.outputs.overlay import overlay, pixels_of
 from veduta.plan.outputs.svg import plan_svg
 
@@ -163,6 +164,16 @@ def test_walls_of_the_building_model_share_the_footprint() -> None:
     regions = wall_regions(space)
     assert sum(region.area for region in regions.values()) == pytest.approx(space.walls.area)
     assert set(regions) == {wall.id for wall in space.storey.walls}
+    # Cut one after the other out of what is left, as one would by hand.
+    rest = space.walls
+    for name, line in space.lines.items():
+        assert line.strip.intersection(rest).difference(regions[name]).area < 1e-9
+        assert all(
+            regions[name].intersection(other).area < 1e-9
+            for key, other in regions.items()
+            if key != name
+        )
+        rest = rest.difference(line.strip)
 
 
 @pytest.mark.parametrize(

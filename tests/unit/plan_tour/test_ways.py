@@ -123,7 +123,7 @@ def brute_cost(cells: Cells, start: int, goal: int) -> float:
     return float(dijkstra(matrix, directed=False, indices=start)[goal])
 
 
-def test_ways_cost_what_the_cheapest_cost() -> None:
+def test_ways_cost_what_the_cheapest_cost(monkeypatch: pytest.MonkeyPatch) -> None:
     cells = cells_of(ground(thing((2.5, 2.5), (1.5, 0.8, 0.8), turn_rad=0.4)))
     grid = Grid([cells])
     start, goal = grid.nearest(0, (1.0, 4.0)), grid.nearest(0, (7.0, 4.0))
@@ -133,6 +133,7 @@ def test_ways_cost_what_the_cheapest_cost() -> None:
     # By the straight line ahead, then by what is known to be left.
     first = grid.way(start, goal)
     assert grid.costs([start, goal])[0, 1] == pytest.approx(expected, rel=1e-9)
+    monkeypatch.setattr(Grid, "_beeline", None)  # is not asked for any more
     for way in (first, grid.way(start, goal)):
         assert (way[0], way[-1]) == (start, goal)
         shy = SHY_COST * np.maximum(0.0, 1.0 - cells.clear_m[way] / SHY_M) ** 2

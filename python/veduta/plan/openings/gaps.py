@@ -67,7 +67,7 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     found: dict[tuple[object, ...], Gap] = {}
     facets = [(one, number) for number, arc in enumerate(curved) for one in arc.facets(FACET_RAD)]
     targets = [*pieces, *(one for one, _ in facets)]
-    walls = _Walls(targets)
+    walls = _Targets(targets)
     for index in range(len(pieces)):
         for at_end in (False, True):
             gap = _ahead(walls, index, at_end)
@@ -83,7 +83,7 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     return list(found.values())
 
 
-class _Walls:
+class _Targets:
     """Pieces as arrays: starts, ends and directions (n, 2), thicknesses and lengths (n,)."""
 
     def __init__(self, pieces: Sequence[Piece]) -> None:
@@ -95,7 +95,7 @@ class _Walls:
         self.length = np.array([one.length_px for one in pieces], float)
 
 
-def _ahead(walls: _Walls, index: int, at_end: bool) -> Gap | None:
+def _ahead(walls: _Targets, index: int, at_end: bool) -> Gap | None:
     piece = walls.pieces[index]
     origin = piece.end if at_end else piece.start
     ray = piece.direction if at_end else -piece.direction
@@ -115,7 +115,7 @@ def _ahead(walls: _Walls, index: int, at_end: bool) -> Gap | None:
 
 
 def _to_ends(
-    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Walls
+    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Targets
 ) -> NDArray[np.float64]:
     """(n,) how far ahead collinear pieces begin; infinite of others."""
     cross = np.abs(ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0])
@@ -129,7 +129,7 @@ def _to_ends(
 
 
 def _to_sides(
-    origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Walls
+    origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Targets
 ) -> NDArray[np.float64]:
     """(n,) how far ahead the faces of crossing pieces lie; infinite of others."""
     cross = ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0]

@@ -36,7 +36,7 @@ class Sheet:
     def marked(self, points: NDArray[np.float64]) -> NDArray[np.bool_]:
         """(...) whether there is a mark at (..., 2) pixel coordinates; nothing outside."""
         height, width = self.faint.shape
-        # What is converted is cut towards zero, which is the floor within the border.
+        # What is converted is cut towards zero: the floor, but for the last bit of rounding.
         index = (points + 1.0).astype(np.intp)
         x = np.minimum(np.maximum(index[..., 0], 0), width + 1)
         y = np.minimum(np.maximum(index[..., 1], 0), height + 1)

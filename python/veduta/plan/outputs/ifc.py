@@ -15,7 +15,6 @@ import ifcopenshell
 import ifcopenshell.guid
 import numpy as np
 from numpy.typing import NDArray
-from shapely import STRtree, unary_union
 from shapely.geometry import Polygon
 from shapely.geometry.base import BaseGeometry
 from shapely.geometry.polygon import orient
@@ -27,9 +26,9 @@ from veduta.plan.furnish.catalogue.read import catalogue_of
 from veduta.plan.house.build import GROUND_SLAB_M, House
 from veduta.plan.house.floors import slab_over
 from veduta.plan.house.hole import Hole
-from veduta.plan.house.lines import WallLine
 from veduta.plan.house.sliding import SLIDING
 from veduta.plan.house.space import Space, pieces_of
+from veduta.plan.house.wall_regions import wall_regions
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
@@ -253,25 +252,6 @@ def _storey(
     spaces = _spaces(model, space, height, place)
     model.aggregate(storey, spaces, "rooms")
     return storey
-
-
-def wall_regions(space: Space) -> dict[str, BaseGeometry]:
-    """What of the walls' footprint each wall has, by their ids: nothing twice, nothing left."""
-    regions: dict[str, BaseGeometry] = {}
-    strips = [line.strip for line in space.lines.values()]
-    tree = STRtree(strips)
-    # Each without those before it that it meets: all walls at once are much to cut again for each.
-    for place, name in enumerate(space.lines):
-        met = [strips[one] for one in tree.query(strips[place]) if one < place]
-        regions[name] = strips[place].intersection(space.walls).difference(unary_union(met))
-    for wedge in pieces_of(space.walls.difference(unary_union(strips))):
-        nearest = min(regions, key=lambda name: _distance(space.lines[name], wedge))
-        regions[nearest] = regions[nearest].union(wedge)
-    return regions
-
-
-def _distance(line: WallLine, wedge: Polygon) -> float:
-    return float(line.strip.distance(wedge.centroid))
 
 
 def _walls(model: _Model, space: Space, height: float, place: Entity) -> dict[str, Entity]:

@@ -178,11 +178,7 @@ class Grid:
         What is left of a way is known after `costs` of the goal, and else at least the beeline.
         """
         known = self._rest.get(goal)
-        rest = self._beeline(goal) if known is None else known
-
-        def left(node: int) -> float:
-            return float(rest[node])
-
+        left = (self._beeline(goal).tolist() if known is None else known).__getitem__
         return list(
             rustworkx.graph_astar_shortest_path(
                 self._graph, start, lambda node: node == goal, float, left
@@ -196,7 +192,10 @@ class Grid:
         return np.asarray(away, dtype=np.float64)
 
     def costs(self, nodes: Sequence[int]) -> NDArray[np.float64]:
-        """(k, k) what the cheapest ways between some squares cost; infinite where there is none."""
+        """(k, k) what the cheapest ways between some squares cost; infinite where there is none.
+
+        What is left to each of them from any square is kept for `way`, unless it is too much.
+        """
         ends = np.concatenate([edge for edge, _ in self._edges])
         costs = np.concatenate([cost for _, cost in self._edges])
         count = len(self.places_m)
