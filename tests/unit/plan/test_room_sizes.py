@@ -68,3 +68,20 @@ def test_an_outline_that_crosses_itself_is_survived() -> None:
     bow = np.array([(0, 0), (400, 300), (400, 0), (0, 300)], dtype=float)
     for voter in room_voters([_text("4.00 x 3.00", 50, 150)], [bow], 0.7):
         assert all(math.isfinite(one.log_mpp) for one in voter.hypotheses)
+
+
+def test_sizes_in_rooms_that_run_together_do_not_agree_on_their_outline() -> None:
+    """Four rooms of one depth, whose walls were missed, would all say a third of the scale."""
+    texts = [_text(f"{a}.00 x 3.00", 150 * a, 300) for a in (2, 3, 4, 5)]
+    together = np.array([(0, 0), (1000, 0), (1000, 900), (0, 900)], dtype=float)
+    alone = np.array([(0, 950), (500, 950), (500, 1200), (0, 1200)], dtype=float)
+    voters = room_voters([*texts, _text("5.00 x 2.50", 250, 1100)], [together, alone], 0.7)
+    assert take_vote(voters).metres_per_px == pytest.approx(0.01, rel=1e-3)
+
+
+def test_a_size_in_metres_and_in_feet_is_one_of_its_room() -> None:
+    room = np.array([(0, 0), (400, 0), (400, 300), (0, 300)], dtype=float)
+    texts = [_text("4.00 x 3.00", 200, 150), _text("13'1 x 9'10", 200, 165)]
+    both = room_voters(texts, [room], 0.7)
+    single = room_voters(texts[:1], [room], 0.7)
+    assert both[0].hypotheses == single[0].hypotheses

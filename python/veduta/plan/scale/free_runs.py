@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from veduta.plan.document import Text
 
 _THIN = 0.6  # of a wall's thickness: what is thinner is no wall
-_QUANTILES = (0.25, 0.5)  # of the thicknesses: partitions, and the usual wall
+_QUANTILES = (0.05, 0.25, 0.5)  # of the thicknesses: the thinnest, partitions, and the usual wall
 _MOST = 6  # different runs in a direction
 _LEAST_PX = 3
 _OFFSETS = (0.0, -1.5, 1.5, -3.0, 3.0)  # heights of the text beside it, where it is measured too

@@ -33,6 +33,7 @@ from veduta.plan.scale.quantities import Quantity, read_quantities
 _UNLIKE = 0.25  # sides whose ratios differ by more (in logarithms) are not the two sides
 _ONE_SIDE_TRUST = 0.25  # one side alone, where the other is open to the next room
 _RUN_TRUST = 0.8
+_SAME_SIZE = 0.03  # metres and feet of one side differ by less
 _LABEL = 2.5  # heights of text between the lines of one label
 _AREA_OF_RUNS = 0.06  # the free runs of a room span a rectangle that is not quite its area
 _AREA_STATED = 0.02  # built-in cupboards and chimneys are counted, or not
@@ -62,6 +63,11 @@ class _Printed:
         """Areas that it may state, m2."""
         return [one.values[0] for one in self.quantities if one.kind == "area"]
 
+    @property
+    def sizes(self) -> list[tuple[float, ...]]:
+        """Both sides that it may state, m."""
+        return [one.values for one in self.quantities if one.kind == "size"]
+
 
 def room_voters(
     texts: list[Text],
@@ -75,7 +81,7 @@ def room_voters(
     are its parts; the largest on the sheet may be that of all rooms. `walls` are masks (h, w) of
     walls (`free_runs`): by them, rooms whose outline is not known are measured as well.
     """
-    rooms = [_polygon(outline) for outline in rooms_px]
+    rooms = [room_polygon(outline) for outline in rooms_px]
     printed = _printed(texts, rooms)
     largest = max((area for one in printed for area in one.areas), default=0.0)
     total = sum(room.area for room in rooms)
@@ -120,7 +126,7 @@ def _of_room(
     """What a text says of the room around it."""
     runs = _between_walls(walls, one.text)
     room = None if one.room is None else rooms[one.room]
-    sides = [] if room is None else measured_sides(room, Point(one.at))
+    sides = [] if room is None else measured_sides(room, Point(one.at), 1.0 / _crowd(one, printed))
     parts = [other.areas[0] for other in printed if other.room == one.room and other.areas]
     for quantity in one.quantities:
         if quantity.kind != "area":
@@ -137,6 +143,24 @@ def _of_room(
             for run in runs:
                 log = _area_log(quantity.values[0], run.along * run.across)
                 yield Hypothesis(log, _AREA_OF_RUNS, quantity.trust * run.trust)
+
+
+def _crowd(one: _Printed, printed: list[_Printed]) -> int:
+    """How many sizes are printed in a room, of which it has one; in metres and in feet are one.
+
+    Where walls between rooms were missed, each size in them would be measured by the same outline,
+    and they would agree with each other.
+    """
+    others = [other for other in printed if other.room == one.room and other.sizes]
+    return 1 + sum(not _alike(one.sizes, other.sizes) for other in others)
+
+
+def _alike(first: list[tuple[float, ...]], second: list[tuple[float, ...]]) -> bool:
+    """Whether two texts may say the same size, read in one way or another."""
+    return any(
+        np.allclose(one, other, rtol=_SAME_SIZE) or np.allclose(one, other[::-1], rtol=_SAME_SIZE)
+        for one, other in itertools.product(first, second)
+    )
 
 
 def _between_walls(walls: Sequence[NDArray[np.uint8]], text: Text) -> list[Measured]:
@@ -158,9 +182,9 @@ def _place(
     return places[-1][1]
 
 
-def measured_sides(room: Polygon, at: Point) -> list[Measured]:
+def measured_sides(room: Polygon, at: Point, trust: float = 1.0) -> list[Measured]:
     """What the two printed sides of a room may be: of its rectangle, or through its text."""
-    angle = _direction(room)
+    angle = room_direction(room)
     straight = shapely.affinity.rotate(room, -angle, origin=(0, 0), use_radians=True)
     label = shapely.affinity.rotate(at, -angle, origin=(0, 0), use_radians=True)
     left, top, right, bottom = straight.bounds
@@ -169,8 +193,8 @@ def measured_sides(room: Polygon, at: Point) -> list[Measured]:
     alongs = [(right - left, 1.0)] + ([(free_along, 0.9)] if free_along else [])
     acrosses = [(bottom - top, 1.0)] + ([(free_across, 0.9)] if free_across else [])
     return [
-        Measured(along, across, trust * other)
-        for (along, trust), (across, other) in itertools.product(alongs, acrosses)
+        Measured(along, across, trust * one * other)
+        for (along, one), (across, other) in itertools.product(alongs, acrosses)
     ]
 
 
@@ -222,7 +246,8 @@ def _area_log(metres2: float, pixels2: float) -> float:
     return 0.5 * math.log(metres2 / pixels2)
 
 
-def _polygon(outline: NDArray[np.float64]) -> Polygon:
+def room_polygon(outline: NDArray[np.float64]) -> Polygon:
+    """An outline (n, 2) as a polygon: the largest part where it crosses itself."""
     polygon = Polygon(outline)
     if polygon.is_valid:
         return polygon
@@ -231,7 +256,7 @@ def _polygon(outline: NDArray[np.float64]) -> Polygon:
     return max(areas, key=lambda part: part.area, default=Polygon())
 
 
-def _direction(room: Polygon) -> float:
+def room_direction(room: Polygon) -> float:
     """Direction of the walls, modulo a right angle: that along which most of the outline runs."""
     steps = np.diff(np.asarray(room.exterior.coords), axis=0)
     lengths = np.hypot(steps[:, 0], steps[:, 1])
