@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -17,6 +18,8 @@ from veduta.plan.scale.free_runs import wall_masks
 from veduta.plan.scale.marks import without_marks
 from veduta.plan.scale.ratios import ratio_voters
 from veduta.plan.scale.room_sizes import room_voters
+from veduta.plan.scale.sharpen import Reading, sharpened
+from veduta.plan.scale.side_readings import side_readings
 from veduta.plan.scale.vote import take_vote
 from veduta.plan.scale.width_rule import width_rule_voters
 from veduta.run.errors import InputError
@@ -26,6 +29,7 @@ _RIVAL = 0.5  # a second group with so many of the votes is told of
 _DOUBT_SIGMA = 0.1
 _ALONE_SIGMA = 0.03
 _GIVEN_SIGMA = 0.001
+_EXACT = ("line", "bar")  # what else says the scale to a pixel
 _DISAGREES = 0.03  # a given scale that differs so much from the sheet's own is told of
 
 
@@ -63,7 +67,7 @@ def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
         return _assumed(doors, sizes)
     told = _voted([*voters, doors] if doors else voters)
     if any(one.agrees and one.kind != "door" for one in told.evidence):
-        return told
+        return _sharpened(told, sizes)
     # Doors outvote a lone number that means something else; but they are an assumption.
     assumed = _assumed(doors, sizes)
     others = [
@@ -132,6 +136,20 @@ def _voted(voters: list[Voter]) -> Scale:
         basis="evidence",
         evidence=evidence,
     )
+
+
+def _sharpened(told: Scale, sizes: DrawnSizes) -> Scale:
+    """The scale of the vote, by each side of a room and each line as exactly as it is measured."""
+    texts = without_marks(sizes.texts)
+    readings = [
+        *side_readings(texts, sizes.rooms, sizes.walls, sizes.ink, told.metres_per_px),
+        *(
+            Reading(math.log(one.metres_per_px), one.sigma, 1.0, 0.0)
+            for one in told.evidence
+            if one.kind in _EXACT and one.agrees
+        ),
+    ]
+    return told.model_copy(update={"metres_per_px": sharpened(told.metres_per_px, readings)})
 
 
 def _given(metres_per_px: float, voters: list[Voter]) -> Scale:

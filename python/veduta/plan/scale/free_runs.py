@@ -44,17 +44,25 @@ def free_runs(masks: Sequence[NDArray[np.uint8]], text: Text) -> tuple[list[floa
 
     Both are empty where a side has no wall; the runs through the text itself come first.
     """
+    widths, heights = free_spans(masks, text)
+    return [high - low for low, high in widths], [high - low for low, high in heights]
+
+
+def free_spans(
+    masks: Sequence[NDArray[np.uint8]], text: Text
+) -> tuple[list[tuple[float, float]], list[tuple[float, float]]]:
+    """As `free_runs`: from where to where they go, in x and in y."""
     box = np.asarray(text.box_px)
     x, y = box.mean(axis=0)
     step = float(np.linalg.norm(box[3] - box[0]))
     places = [(walls, offset * step) for offset in _OFFSETS for walls in masks]
-    widths = [_run(walls, y + offset, x) for walls, offset in places]
-    heights = [_run(walls.T, x + offset, y) for walls, offset in places]
-    return _distinct(widths), _distinct(heights)
+    across = [_run(walls, y + offset, x) for walls, offset in places]
+    down = [_run(walls.T, x + offset, y) for walls, offset in places]
+    return _distinct(across), _distinct(down)
 
 
-def _run(walls: NDArray[np.uint8], row: float, column: float) -> float | None:
-    """Length of the free run of a row around a column; None if the sheet ends before a wall."""
+def _run(walls: NDArray[np.uint8], row: float, column: float) -> tuple[float, float] | None:
+    """Ends of the free run of a row around a column; None if the sheet ends before a wall."""
     if not (0 <= row < walls.shape[0] and 0 <= column < walls.shape[1]):
         return None
     line = walls[int(row)]
@@ -64,12 +72,17 @@ def _run(walls: NDArray[np.uint8], row: float, column: float) -> float | None:
     after = np.flatnonzero(line[int(column) :])
     if not len(before) or not len(after):
         return None
-    return float(int(column) + after[0] - before[-1] - 1)
+    return float(before[-1] + 1), float(int(column) + after[0])
 
 
-def _distinct(runs: list[float | None]) -> list[float]:
-    kept: list[float] = []
+def _distinct(runs: list[tuple[float, float] | None]) -> list[tuple[float, float]]:
+    """Runs of different lengths."""
+    kept: list[tuple[float, float]] = []
     for run in runs:
-        if run and all(abs(run - other) > max(1.0, _SAME * other) for other in kept):
+        if run is None or run[1] <= run[0]:
+            continue
+        length = run[1] - run[0]
+        others = [high - low for low, high in kept]
+        if all(abs(length - other) > max(1.0, _SAME * other) for other in others):
             kept.append(run)
     return kept[:_MOST]
