@@ -26,6 +26,7 @@ _OVERLAP = 0.15  # of a tile, where a block of text is larger: a line is whole i
 _MARGIN_PX = 64  # around marks: letters that touch lines are no marks, but stand beside others
 _FINER = 4.0  # the closer look over the overview
 _LETTER_PX = (6, 60)  # height of letters, in pixels of the closer look
+_IN_LINE = 0.4  # of a letter's size: so far off its line are the middles of those beside it
 _DASH = 0.25  # what is so much narrower than long is a dash, or an l that stands beside an a
 _CLEAR_PX = 12.0  # height of a region that the overview shows well
 _TALLEST = 0.08  # a line of text over the long side of the sheet
@@ -152,9 +153,9 @@ def _letter_like(pixels: NDArray[np.uint8], known: NDArray[np.float64]) -> NDArr
 def _in_company(
     centres: NDArray[np.float64], sizes: NDArray[np.int32], broad: NDArray[np.bool_]
 ) -> NDArray[np.float64]:
-    """The marks that have two others of their size beside them: letters stand in words.
+    """The marks with two others of their size in one line with them: letters stand in words.
 
-    One of them all is `broad`: a row of dashes is no word.
+    One of the three is `broad`: a row of dashes is no word.
     """
     if len(centres) < 3:
         return np.zeros((0, 2))
@@ -163,5 +164,8 @@ def _in_company(
     near = away[:, 1:] < 2.0 * sizes[:, None]
     ratio = sizes[others[:, 1:]] / sizes[:, None]
     alike = near & (ratio > 0.6) & (ratio < 1.6)
+    # (n, 5, 2): words stand level or upright, as sheets do, and may be a little askew.
+    off = np.abs(centres[others[:, 1:]] - centres[:, None]) < _IN_LINE * sizes[:, None, None]
+    in_line = (alike[..., None] & off).sum(axis=1).max(axis=1) >= 2
     lettered = broad | (alike & broad[others[:, 1:]]).any(axis=1)
-    return np.asarray(centres[(alike.sum(axis=1) >= 2) & lettered], dtype=np.float64)
+    return np.asarray(centres[in_line & lettered], dtype=np.float64)
