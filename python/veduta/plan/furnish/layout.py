@@ -47,6 +47,12 @@ class Stood:
         width, depth, _ = self.size_m
         return rectangle(self.at, self.turn, (-width / 2, width / 2), (-depth / 2, depth / 2))
 
+    @property
+    def inner(self) -> Polygon:
+        """What it covers, less what may touch others."""
+        x, y = (max(side / 2 - _TOUCH_M, 0.0) for side in self.size_m[:2])
+        return rectangle(self.at, self.turn, (-x, x), (-y, y))
+
     @cached_property
     def front(self) -> Polygon | None:
         """What must stay free before it."""
@@ -96,6 +102,7 @@ class Layout:
     def __post_init__(self) -> None:
         self._shapes: list[Polygon] = [one.shape for one in self.stood]
         self.mask = np.zeros(self.ways.grid.floor.shape, dtype=np.bool_)
+        self._fronts = [front for one in self.stood if (front := self._before(one)) is not None]
         for one, shape in zip(self.stood, self._shapes, strict=True):
             if one.is_in_the_way:
                 self.mask |= self.ways.grid.covered(shape)
@@ -112,7 +119,7 @@ class Layout:
         if thing.top_m > space.height_m - _CEILING_M or not space.inside.covers(shape):
             return False
         if not thing.is_flat:
-            inner = shape.buffer(-_TOUCH_M)
+            inner = thing.inner
             if thing.above_m < DOOR_M and space.blocked.intersects(inner):
                 return False
             over = _HEAD_M if thing.entry.kind == "bed" else _SILL_M
@@ -152,26 +159,27 @@ class Layout:
         main = self.ways.main_region(mask)
         if main is None:
             return False
-        for one in (*self.stood, *things):
-            front = one.front
-            if front is not None and not (main & self.ways.grid.covered(_grown(front))).any():
-                return False
-        return True
+        fronts = [*self._fronts, *map(self._before, things)]
+        return all(front is None or bool(main[front].any()) for front in fronts)
+
+    def _before(self, thing: Stood) -> tuple[NDArray[np.intp], ...] | None:
+        """The cells from which one reaches a thing: its front, and a step away from that."""
+        if thing.front is None:
+            return None
+        return np.nonzero(self.ways.grid.covered(thing.front.buffer(0.3)))
 
     def add(self, things: Sequence[Stood], zones: Sequence[tuple[Polygon, int]] = ()) -> None:
         """Keep things where they are."""
         for one in things:
             self.stood.append(one)
+            front = self._before(one)
+            if front is not None:
+                self._fronts.append(front)
             if one.is_in_the_way:
                 self.mask |= self.ways.grid.covered(one.shape)
             if one.front is not None:
                 self.zones.append((one.front, one.group))
         self.zones.extend(zones)
-
-
-def _grown(front: Polygon) -> Polygon:
-    """One reaches a thing from a step away, too."""
-    return front.buffer(0.3)
 
 
 def _overlap(first: Stood, second: Stood) -> bool:

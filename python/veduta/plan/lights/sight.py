@@ -92,8 +92,10 @@ def filled_up(
     Always the site that lights most of what is dark (the greedy cover of Chvatal 1979). What no
     site sees gets a lamp above itself.
     """
-    lit = field.lit_by(lamps, reach_m).any(axis=1)
-    dark = field.points[~lit]
+    dark = field.points
+    for lamp in lamps:
+        # What one lamp lights, no other one need be asked for.
+        dark = dark[~field.lit_by(lamp[None], reach_m, dark)[:, 0]]
     if not len(dark):
         return lamps
     lights = field.lit_by(sites, reach_m, dark)
