@@ -23,7 +23,7 @@ from veduta.plan.drawn import Cleaned, Drawn
 from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judge
 from veduta.plan.openings.curved_gaps import gaps_on_circles
-from veduta.plan.openings.evidence import look_at
+from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
 from veduta.plan.openings.leaf_pieces import leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
@@ -35,8 +35,7 @@ from veduta.plan.rooms.mend import mended
 from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
-from veduta.plan.walls.bays import with_bays
-from veduta.plan.walls.bows import nearness, with_bows
+from veduta.plan.walls.bays import with_bends
 from veduta.plan.walls.find import Found, find_walls
 from veduta.plan.walls.ways import Way, known_way, ways_drawn
 from veduta.run.errors import NotFoundError
@@ -143,20 +142,20 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
     found = find_walls(cleaned, way)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
-        near = nearness(found, sheet.faint)
-        found = with_bays(with_bows(found, near), near)
-    judged = judge_gaps(found, sheet)
+        found = with_bends(found, sheet.faint)
+    views = Views(sheet)
+    judged = judge_gaps(found, views)
     pen_px = found.thin_px
     for _ in range(SIZINGS):
         if (sized := sized_by_doors(found, judged, pen_px)) is found:
             break
         found = sized
-        judged = judge_gaps(found, sheet)
+        judged = judge_gaps(found, views)
     leaves = leaf_pieces(found.pieces, judged)
     if leaves:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)
-        judged = judge_gaps(found, sheet)
+        judged = judge_gaps(found, views)
     axes = axes_of([*found.pieces, *found.curved], judged)
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
@@ -184,21 +183,21 @@ def sized_by_doors(found: Found, judged: Sequence[Judged], pen_px: float) -> Fou
     return found if thin_px == found.thin_px else replace(found, thin_px=thin_px, sized=True)
 
 
-def judge_gaps(found: Found, sheet: Sheet) -> list[Judged]:
+def judge_gaps(found: Found, views: Views) -> list[Judged]:
     """All interruptions of walls that are openings; twice, as what is outdoors depends on them."""
     ahead = [
         *find_gaps(found.pieces, found.curved),
         *gaps_on_circles(found.pieces, found.curved),
     ]
     gaps = [one for gap in ahead if (one := trimmed(gap, found.solid))]
-    seen = [look_at(gap, sheet) for gap in gaps]
+    seen = [views(gap) for gap in gaps]
     plain = PLAIN_DOORS * USUAL_DOOR if found.sized else PLAIN_WIDTH
     first = [
         judge(gap, view, found.thin_px, None, plain) for gap, view in zip(gaps, seen, strict=True)
     ]
     kept = [one.gap for one in first if one is not None]
     walls = [*found.pieces, *found.curved]
-    outer = leads_outdoors(gaps, walls, kept, sheet.ink.shape)
+    outer = leads_outdoors(gaps, walls, kept, views.sheet.ink.shape)
     second = [
         judge(gap, view, found.thin_px, out, plain)
         for gap, view, out in zip(gaps, seen, outer, strict=True)

@@ -77,6 +77,21 @@ def look_at(gap: Gap, sheet: Sheet) -> Evidence:
     )
 
 
+class Views:
+    """What is drawn in gaps of a sheet; each is looked at once, however often it is asked for."""
+
+    def __init__(self, sheet: Sheet) -> None:
+        self.sheet = sheet
+        self._known: dict[tuple[bytes, bytes, float, float], Evidence] = {}
+
+    def __call__(self, gap: Gap) -> Evidence:
+        """The evidence of one gap."""
+        place = (gap.start.tobytes(), gap.end.tobytes(), gap.thickness_px, gap.bulge)
+        if place not in self._known:
+            self._known[place] = look_at(gap, self.sheet)
+        return self._known[place]
+
+
 def _crossed(lines: Sequence[float]) -> bool:
     """Whether a line between the faces stands in the way, where a door could not be open."""
     return any(abs(line) < AT_FACE for line in lines)

@@ -8,6 +8,7 @@ to ink is taken (chamfer matching, Barrow et al. 1977).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from itertools import pairwise
 
@@ -27,7 +28,9 @@ from veduta.plan.walls.bows import (
     covered,
     filled_along,
     look,
+    nearness,
     spans,
+    with_bows,
 )
 from veduta.plan.walls.find import Found
 from veduta.plan.walls.pieces import Piece
@@ -71,10 +74,19 @@ _MOVES = np.concatenate([np.eye(5), -np.eye(5), _TURNS, -_TURNS])
 """Each alone, and where only the foot of a slanted side moves, or all of a bay goes farther out."""
 
 
-def with_bays(found: Found, ink: Nearness) -> Found:
-    """The walls with what is solid of bays."""
+def with_bends(found: Found, faint: NDArray[np.bool_]) -> Found:
+    """The walls with what is solid of bows, and then of bays; `faint` (h, w) are the thin lines."""
+    ink = nearness(found, faint)
+    broken = [*broken_walls(found)]
+    bowed = with_bows(found, ink, broken)
+    # Where there are no bows the same walls are broken as before.
+    return with_bays(bowed, ink, broken if bowed is found else [*broken_walls(bowed)])
+
+
+def with_bays(found: Found, ink: Nearness, broken: Sequence[Broken]) -> Found:
+    """The walls with what is solid of bays before those that are broken."""
     bays: list[Line] = []
-    for one in broken_walls(found):
+    for one in broken:
         if any(spans(one, Piece(bay[0], bay[-1], one.thickness_px)) for bay in bays):
             continue
         bay = _bay(one, ink)

@@ -94,10 +94,10 @@ class Broken:
     drawing: WallDrawing
 
 
-def with_bows(found: Found, ink: Nearness) -> Found:
-    """The walls with what is solid of bows."""
+def with_bows(found: Found, ink: Nearness, broken: Sequence[Broken]) -> Found:
+    """The walls with what is solid of bows between those that are broken; themselves without."""
     bows: list[Piece] = []
-    for one in broken_walls(found):
+    for one in broken:
         if any(spans(one, bow) for bow in bows):
             continue
         bow = _bow(one, ink)
