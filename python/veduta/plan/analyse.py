@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
@@ -36,11 +37,12 @@ from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.engine import prepare
 from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
-from veduta.plan.vector.read import VectorPlan, read_vectors
-from veduta.plan.vector.units import text_notes
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import Count, StepRecord, timed_step
+
+if TYPE_CHECKING:
+    from veduta.plan.vector.read import VectorPlan
 
 
 @dataclass(frozen=True)
@@ -163,6 +165,8 @@ def _read_vectors(
     drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
 ) -> _Read:
     """As `_read_picture`, of a DXF file: its sheet is in the frame of drawing units already."""
+    from veduta.plan.vector.read import read_vectors  # not at the top: pictures need none of it
+
     given = options.scale.scale
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
@@ -183,6 +187,8 @@ def _counts(drawn: Drawn) -> dict[str, Count]:
 
 def _vector_scale(plan: VectorPlan) -> tuple[Scale, list[str]]:
     """Of a pixel: the unit's, with what the texts say beside it; and notes where they differ."""
+    from veduta.plan.vector.units import text_notes
+
     drawn, unit = plan.drawn, plan.unit
     metres_per_px = unit.metres_per_px / plan.px_per_unit
     sizes = DrawnSizes(

@@ -2,55 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
-
-from veduta.place.manifest import Start, Tour
-from veduta.place.part import Part
+from veduta.plan.building import CITY_MODEL, SCENE, Building, BuildingFiles, Visit
 from veduta.plan.drawing import draw
-from veduta.plan.house.build import House
-from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.cityjson import house_cityjson
 from veduta.plan.outputs.dxf import plan_dxf
 from veduta.plan.outputs.ifc import house_ifc
 from veduta.plan.outputs.svg import plan_svg
 from veduta.plan.outputs.x3d import house_x3d
-from veduta.plan.surroundings.site import Site
-
-CITY_MODEL = "house.city.json"
-SCENE = "house.x3d"
-
-
-@dataclass(frozen=True)
-class Building:
-    """A house, how it was built, and where it stands: drawings, IFC and CityJSON show no more."""
-
-    house: House
-    options: HouseOptions
-    site: Site
-
-
-@dataclass(frozen=True)
-class Visit:
-    """What there is to walk through and to look at, in X3D.
-
-    start: where the visitor begins. others: what stands around the house. backdrop: a picture
-    around all of it. All in the frame of the place.
-    """
-
-    building: Building
-    start: Start
-    tours: Sequence[Tour]
-    others: Sequence[Part]
-    backdrop: Part | None
-
-
-@dataclass(frozen=True)
-class BuildingFiles:
-    """The content of files by their names; notes: what is not in them as it should be."""
-
-    contents: dict[str, bytes]
-    notes: list[str]
 
 
 def files_of(what: Building | Visit) -> BuildingFiles:

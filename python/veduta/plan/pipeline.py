@@ -12,7 +12,7 @@ from typing import Any
 
 from pydantic import JsonValue
 
-from veduta.plan.building_files import Building, BuildingFiles, Visit, files_of
+from veduta.plan.building import FILES_OF, Building, BuildingFiles, Visit
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
@@ -131,7 +131,7 @@ def run_plan(
         if not result.up_to_date and not result.left:
             with progress.over(1, _steps(given, options.house)):
                 progress.started(Task(call.subject, None))
-                with Beside(files_of) as building:
+                with Beside(FILES_OF) as building:
                     _make(call, given, options, opened, key, building, progress.step)
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)

@@ -15,7 +15,7 @@ from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
 from veduta.place.manifest import Place
 from veduta.place.part import Part
-from veduta.plan.building_files import CITY_MODEL, Building, BuildingFiles, Visit
+from veduta.plan.building import CITY_MODEL, Building, BuildingFiles, Visit
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House

@@ -17,10 +17,13 @@ import threading
 import traceback
 from collections.abc import Callable, Sequence
 from multiprocessing.connection import Connection, Pipe
-from typing import Any, NamedTuple
+from typing import Any, Generic, NamedTuple, TypeVar
 
 from veduta.run.errors import VedutaError
 from veduta.run.threads import share_cores
+
+A = TypeVar("A")
+T = TypeVar("T")
 
 
 class Answer(NamedTuple):
@@ -37,10 +40,23 @@ class Answer(NamedTuple):
         return self.error is None and self.traceback is None and self.crash is None
 
 
+class Named(Generic[A, T]):
+    """A function of a module's top level by its name; the module is imported where it is called."""
+
+    def __init__(self, module: str, name: str) -> None:
+        self.__module__, self.__qualname__ = module, name
+
+    def __call__(self, argument: A) -> T:
+        """Call the function."""
+        function = getattr(importlib.import_module(self.__module__), self.__qualname__)
+        value: T = function(argument)
+        return value
+
+
 class Worker:
     """A process that calls `function`, of a module's top level and no script's, by `threads`."""
 
-    def __init__(self, function: Callable[[Any], Any], threads: int) -> None:
+    def __init__(self, function: Callable[[Any], Any] | Named[Any, Any], threads: int) -> None:
         self.pipe, theirs = Pipe()
         life, self._life = os.pipe()  # the worker sees its end when this process is gone
         ends = (theirs.fileno(), life)

@@ -13,7 +13,7 @@ import pytest
 from veduta.run import beside
 from veduta.run.beside import Beside
 from veduta.run.errors import InputError
-from veduta.run.worker import Worker
+from veduta.run.worker import Named, Worker
 
 
 def square(number: int) -> tuple[int, int]:
@@ -53,6 +53,15 @@ def test_each_value_comes_from_one_other_process() -> None:
     assert [value for value, _ in found] == [9, 16]
     (process,) = {process for _, process in found}
     assert process != os.getpid()
+
+
+def test_a_function_may_be_given_by_its_name() -> None:
+    with Beside(Named[int, tuple[int, int]](__name__, "square")) as work:
+        work.give(3)
+        value, process = work.take()
+    assert value == 9
+    assert process != os.getpid()
+    assert Named[int, tuple[int, int]](__name__, "square")(4) == (16, os.getpid())
 
 
 def test_with_one_core_it_is_done_in_this_process(monkeypatch: pytest.MonkeyPatch) -> None:

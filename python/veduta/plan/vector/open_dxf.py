@@ -6,13 +6,13 @@ import logging
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
-
-from ezdxf import recover
-from ezdxf.document import Drawing as DxfDocument
-from ezdxf.lldxf.const import DXFError
+from typing import TYPE_CHECKING
 
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+
+if TYPE_CHECKING:
+    from ezdxf.document import Drawing as DxfDocument
 
 MAX_BYTES = 300_000_000
 _BINARY = b"AutoCAD Binary DXF"
@@ -30,6 +30,9 @@ def is_dxf(path: Path) -> bool:
 
 def open_dxf(path: Path) -> DxfDocument:
     """The file's content, mended where that can be (`ezdxf.recover`)."""
+    from ezdxf import recover  # not at the top: pictures need none of it
+    from ezdxf.lldxf.const import DXFError
+
     require_file(path, MAX_BYTES)
     head = _head(path)
     if head[:4] == b"AC10" and head[:6].decode("ascii", "replace")[2:].isalnum():
