@@ -77,25 +77,35 @@ def test_what_is_found_in_a_mosaic_is_told_in_pixels_of_the_sheet() -> None:
 def test_marks_that_stand_together_are_one_block() -> None:
     word = np.array([(100.0 + 12 * step, 100.0) for step in range(6)])
     far = np.array([(700.0, 500.0), (712.0, 500.0)])
-    found = boxes_of_marks(np.concatenate([word, far]), (960, 660), 40.0, 400, 340)
+    found = boxes_of_marks(np.concatenate([word, far]), (960, 660), 40.0, 2, 400, 340)
     assert [box.marks for box in found] == [6, 2]
-    assert all(box.holds(marks).all() for box, marks in zip(found, (word, far), strict=True))
     for box, marks in zip(found, (word, far), strict=True):
-        # The block's own extent, and the margin around it, to a cell of the grid.
-        assert np.allclose(box.low, marks.min(axis=0) - 40.0, atol=16)
-        assert np.allclose(box.high, marks.max(axis=0) + 40.0, atol=16)
+        assert box.low == tuple(marks.min(axis=0) - 40.0)
+        assert box.high == tuple(marks.max(axis=0) + 40.0)
+    (most,) = boxes_of_marks(np.concatenate([word, far]), (960, 660), 40.0, 3, 400, 340)
+    assert most == found[0]
+
+
+def test_blocks_are_one_where_that_is_less_to_look_at() -> None:
+    """Side by side they share most of what is around them; across a corner they do not."""
+    first = np.array([(200.0, 200.0), (212.0, 200.0)])
+    beside, across = first + np.array([90.0, 0.0]), first + np.array([140.0, 140.0])
+    (both,) = boxes_of_marks(np.concatenate([first, beside]), (960, 660), 80.0, 2, 400, 340)
+    assert (both.low, both.high) == ((120, 120), (382, 280))
+    two = boxes_of_marks(np.concatenate([first, across]), (960, 660), 80.0, 2, 400, 340)
+    assert [box.low for box in two] == [(120, 120), (260, 260)]
 
 
 @given(
     st.lists(st.tuples(st.floats(0, 1499.0), st.floats(0, 999.0)), min_size=1, max_size=60),
-    st.floats(0, 80),
+    st.floats(4, 80),
 )
 @settings(max_examples=60, deadline=None)
 def test_all_marks_are_in_boxes_of_the_size_that_is_allowed(
     places: list[tuple[float, float]], margin_px: float
 ) -> None:
     marks = np.array(places)
-    found = boxes_of_marks(marks, (1500, 1000), margin_px, 300, 250)
+    found = boxes_of_marks(marks, (1500, 1000), margin_px, 1, 300, 250)
     held = np.any([box.holds(marks) for box in found], axis=0)
     assert held.all()
     for box in found:
@@ -104,5 +114,5 @@ def test_all_marks_are_in_boxes_of_the_size_that_is_allowed(
 
 
 def test_no_marks_are_no_boxes_and_no_mosaics() -> None:
-    assert boxes_of_marks(np.zeros((0, 2)), (500, 300), 40.0, 300, 250) == []
+    assert boxes_of_marks(np.zeros((0, 2)), (500, 300), 40.0, 2, 300, 250) == []
     assert mosaics(_sheet(500, 300), [], SIDE, PAPER) == []

@@ -19,6 +19,12 @@ GAP_PX = 32
 STEP_PX = 32
 """The network takes pictures whose sides are multiples of this; others it would distort."""
 
+JOINED_PX = 48
+"""Marks so near to each other are of one block: letters of a word, and lines below each other."""
+
+MOST_BLOCKS = 300
+"""Of a sheet of noise: those with most marks."""
+
 _CELL_PX = 8  # blocks of marks are told on a grid of so many pixels
 
 
@@ -77,35 +83,68 @@ class Box:
 
 
 def boxes_of_marks(
-    marks: NDArray[np.float64], size_px: tuple[int, int], margin_px: float, most_px: int, step: int
+    marks: NDArray[np.float64],
+    size_px: tuple[int, int],
+    margin_px: float,
+    least: int,
+    most_px: int,
+    step: int,
 ) -> list[Box]:
-    """Boxes around the blocks that marks (n, 2) form, those with most marks first.
+    """Boxes around the blocks that `least` marks (n, 2) and more form, most marks first.
 
-    Marks are of one block whose surroundings of `margin_px` touch; these belong to the box. Boxes
-    do not overlap, but for those of a block that is larger than `most_px`: it is divided into
-    boxes of that size, `step` apart. `size_px` is the width and height of the sheet.
+    Marks within JOINED_PX of each other are of one block, and `margin_px` around it belong to its
+    box. Boxes may overlap, where one around both would be larger than the two. A block that is
+    larger than `most_px` is divided into boxes of that size, `step` apart. `size_px` is the width
+    and height of the sheet.
     """
+    bounds = _blocks(marks, size_px, least)
+    if not len(bounds):
+        return []
+    grown = bounds + margin_px * np.array([-1.0, -1.0, 1.0, 1.0])
+    pixels = np.clip(np.round(grown), 0, [*size_px, *size_px]).astype(int)
+    found = []
+    for x0, y0, x1, y1 in _merged(pixels).tolist():
+        found += _divided((x0, y0), (x1, y1), marks, most_px, step)
+    return sorted(found, key=lambda one: (-one.marks, one.low))
+
+
+def _blocks(
+    marks: NDArray[np.float64], size_px: tuple[int, int], least: int
+) -> NDArray[np.float64]:
+    """(m, 4) left, top, right and bottom of blocks of marks, at most MOST_BLOCKS of them."""
     shape = [-(-side // _CELL_PX) for side in reversed(size_px)]
     grid = np.zeros(shape, np.uint8)
     cells = np.clip((marks // _CELL_PX).astype(int), 0, [shape[1] - 1, shape[0] - 1])
     grid[cells[:, 1], cells[:, 0]] = 1
-    reach = 2 * round(margin_px / _CELL_PX) + 1
-    boxes: list[tuple[int, int, int, int]] = []
-    count = -1
+    reach = 2 * round(JOINED_PX / 2 / _CELL_PX) + 1
     around = cv2.dilate(grid, np.ones((reach, reach), np.uint8))
-    while count != len(boxes):
-        # Boxes of blocks that interlock overlap: together they are one.
-        count = len(boxes)
-        _, _, stats, _ = cv2.connectedComponentsWithStats(around, connectivity=8)
-        boxes = [(int(x), int(y), int(x + w), int(y + h)) for x, y, w, h, _ in stats[1:]]
-        for x0, y0, x1, y1 in boxes:
-            around[y0:y1, x0:x1] = 1
-    found = []
-    for x0, y0, x1, y1 in boxes:
-        low = (x0 * _CELL_PX, y0 * _CELL_PX)
-        high = (min(x1 * _CELL_PX, size_px[0]), min(y1 * _CELL_PX, size_px[1]))
-        found += _divided(low, high, marks, most_px, step)
-    return sorted(found, key=lambda one: (-one.marks, one.low))
+    _, labels = cv2.connectedComponents(around, connectivity=8)
+    block = labels[cells[:, 1], cells[:, 0]]
+    counts = np.bincount(block, minlength=1)
+    chosen = np.argsort(-counts, kind="stable")[:MOST_BLOCKS]
+    found = [marks[block == one] for one in chosen if counts[one] >= least]
+    bounds = [[*some.min(axis=0), *some.max(axis=0)] for some in found]
+    return np.array(bounds, dtype=np.float64).reshape(-1, 4)
+
+
+def _merged(bounds: NDArray[np.int_]) -> NDArray[np.int_]:
+    """(m, 4) with one instead of two where it is no larger than both together."""
+    place = 0
+    while place < len(bounds):
+        low = np.minimum(bounds[:, :2], bounds[place, :2])
+        high = np.maximum(bounds[:, 2:], bounds[place, 2:])
+        both = np.prod(high - low, axis=1)
+        area = np.prod(bounds[:, 2:] - bounds[:, :2], axis=1)
+        saves = area + area[place] - both
+        saves[place] = -1
+        other = int(saves.argmax())
+        if saves[other] < 0:
+            place += 1
+            continue
+        bounds[place] = [*low[other], *high[other]]
+        bounds = np.delete(bounds, other, axis=0)
+        place = 0
+    return bounds
 
 
 def _divided(

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from scipy.spatial import cKDTree
 
 from veduta.plan.text.engine import find_lines
-from veduta.plan.text.mosaic import Box, boxes_of_marks, mosaics
+from veduta.plan.text.mosaic import JOINED_PX, Box, boxes_of_marks, mosaics
 
 OVERVIEW_PX = 1600
 """Long side at which the whole sheet is searched."""
@@ -115,11 +115,11 @@ def _closer_look(
     size = (pixels.shape[1], pixels.shape[0])
     step = int(TILE_PX * (1.0 - _OVERLAP))
     points = np.concatenate([_letter_like(pixels, known), *map(_all_over, unclear)])
-    boxes = boxes_of_marks(points, size, _MARGIN_PX, TILE_PX, step)
+    boxes = boxes_of_marks(points, size, _MARGIN_PX, _LETTERS, TILE_PX, step)
     left = MOST_TILES * TILE_PX**2
     kept = []
     for box in boxes:
-        if box.marks >= _LETTERS and box.taken_px2 <= left:
+        if box.taken_px2 <= left:
             kept.append(box)
             left -= box.taken_px2
     return kept
@@ -128,7 +128,7 @@ def _closer_look(
 def _all_over(quad: NDArray[np.float64]) -> NDArray[np.float64]:
     """Points (n, 2) all over a quadrangle, near to each other: those of a block with its extent."""
     low, high = quad.min(axis=0), quad.max(axis=0)
-    count = np.maximum(3, np.ceil((high - low) / _MARGIN_PX).astype(int) + 1)
+    count = np.maximum(3, np.ceil((high - low) / (JOINED_PX / 2)).astype(int) + 1)
     x, y = (np.linspace(low[axis], high[axis], count[axis]) for axis in (0, 1))
     return np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
 
