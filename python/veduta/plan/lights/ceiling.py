@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from shapely.affinity import rotate
 from shapely.geometry import LineString, Polygon
 
-from veduta.plan.lights.sight import Field, filled_up
+from veduta.plan.lights.sight import GRID_M, Field, filled_up
 
 _ALIKE_RAD = math.radians(2.0)
 _SHORTEST_WALL_M = 0.3
@@ -46,7 +46,9 @@ def ceiling_lamps(region: Polygon, reach_m: float, least: int = 1) -> NDArray[np
     found = [filled_up(field, lamps, sites, reach_m) for lamps in rows]
     fewest = min(len(lamps) for lamps in found)
     if all(len(lamps) != fewest for lamps in rows):  # a niche has cost a lamp
-        covered = filled_up(field, np.zeros((0, 2)), sites, reach_m)
+        # Most of it is found with a quarter of the points, and what that leaves dark with all.
+        coarse = filled_up(Field(region, 2.0 * GRID_M), np.zeros((0, 2)), sites, reach_m)
+        covered = filled_up(field, coarse, sites, reach_m)
         found += [covered] if least <= len(covered) < fewest else []
     return min(found, key=lambda lamps: (len(lamps), _unevenness(field, lamps)))
 

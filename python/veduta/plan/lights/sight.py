@@ -29,9 +29,13 @@ _AT_ONCE = 200_000
 
 @dataclass(frozen=True, eq=False)
 class Field:
-    """The floor of one room, or of one piece of it (plan frame, m), and points all over it."""
+    """The floor of one room, or of one piece of it (plan frame, m), and points all over it.
+
+    grid_m: from point to point.
+    """
 
     region: Polygon
+    grid_m: float = GRID_M
 
     @cached_property
     def points(self) -> NDArray[np.float64]:
@@ -39,7 +43,7 @@ class Field:
         inner = self.region.buffer(-_INSIDE_M, join_style="mitre")
         if inner.is_empty:
             return np.array([self.region.representative_point().coords[0]])
-        step = max(GRID_M, math.sqrt(inner.area / _MOST_POINTS))
+        step = max(self.grid_m, math.sqrt(inner.area / _MOST_POINTS))
         left, bottom, right, top = inner.bounds
         x, y = np.meshgrid(
             np.arange(left + step / 2.0, right, step), np.arange(bottom + step / 2.0, top, step)
