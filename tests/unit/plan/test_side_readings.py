@@ -9,11 +9,18 @@ import pytest
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
+from veduta.plan.scale.free_runs import wall_masks
 from veduta.plan.scale.sharpen import Reading
 from veduta.plan.scale.side_readings import side_readings
 
 MPP = 0.01
 WALL = 12
+
+
+def _read(
+    texts: list[Text], rooms: list[NDArray[np.float64]], ink: NDArray[np.float32]
+) -> list[Reading]:
+    return side_readings(texts, rooms, [WALL], wall_masks(ink, [WALL]), ink, MPP)
 
 
 def _text(words: str, x: float, y: float) -> Text:
@@ -43,7 +50,7 @@ def test_sides_are_measured_between_faces_and_not_by_the_outline() -> None:
     """The outline is 2 px too short; which side is which does not matter."""
     ink = _sheet((50, 50, 450, 350))
     for words in ("4.00 x 3.00", "3,00 x 4,00"):
-        found = side_readings([_text(words, 250, 200)], [_box(50, 50, 448, 349)], [WALL], ink, MPP)
+        found = _read([_text(words, 250, 200)], [_box(50, 50, 448, 349)], ink)
         assert _scales(found) == pytest.approx([MPP, MPP], rel=5e-4)
         assert sorted(one.per_px for one in found) == pytest.approx([1 / 400, 1 / 300], rel=5e-4)
 
@@ -51,8 +58,8 @@ def test_sides_are_measured_between_faces_and_not_by_the_outline() -> None:
 def test_a_side_counts_by_its_pixels_and_by_its_last_digit() -> None:
     ink = _sheet((50, 50, 450, 350))
     texts = [_text("4.0 x 3.0", 250, 200)]
-    filled = side_readings(texts, [_box(50, 50, 450, 350)], [WALL], ink, MPP)
-    outlined = side_readings(texts, [_box(50, 50, 450, 350)], [WALL], 0.0 * ink, MPP)
+    filled = _read(texts, [_box(50, 50, 450, 350)], ink)
+    outlined = _read(texts, [_box(50, 50, 450, 350)], 0.0 * ink)
     for found, error in ((filled, 0.4), (outlined, 1.5)):
         expected = [
             math.sqrt((error / side) ** 2 + (0.1 / (side * MPP)) ** 2 / 12.0 + 0.002**2)
@@ -64,22 +71,22 @@ def test_a_side_counts_by_its_pixels_and_by_its_last_digit() -> None:
 def test_an_area_is_that_of_the_room_between_its_faces() -> None:
     ink = _sheet((50, 50, 450, 350))
     outline = _box(50, 50, 448, 349)
-    (one,) = side_readings([_text("12.0 m²", 250, 200)], [outline], [WALL], ink, MPP)
+    (one,) = _read([_text("12.0 m²", 250, 200)], [outline], ink)
     assert math.exp(one.log_mpp) == pytest.approx(MPP, rel=5e-4)
     parts = [_text("6.0 m²", 150, 200), _text("6.0 m²", 350, 200)]
-    assert side_readings(parts, [outline], [WALL], ink, MPP) == []
+    assert _read(parts, [outline], ink) == []
 
 
 def test_rooms_that_run_together_are_measured_by_the_paper_around_their_texts() -> None:
     """The wall between two rooms was missed: there is one outline of both."""
     ink = _sheet((50, 50, 450, 350), (462, 50, 712, 350))
     texts = [_text("4.00 x 3.00", 250, 200), _text("2.50 x 3.00", 587, 200)]
-    found = side_readings(texts, [_box(50, 50, 712, 350)], [WALL], ink, MPP)
+    found = _read(texts, [_box(50, 50, 712, 350)], ink)
     assert _scales(found) == pytest.approx([MPP] * 4, rel=2e-3)
-    assert side_readings(texts, [], [WALL], ink, MPP) == found
+    assert _read(texts, [], ink) == found
 
 
 def test_what_does_not_fit_the_scale_says_nothing() -> None:
     ink = _sheet((50, 50, 450, 350))
     texts = [_text("8.00 x 6.00", 250, 200), _text("hall", 250, 250)]
-    assert side_readings(texts, [_box(50, 50, 450, 350)], [WALL], ink, MPP) == []
+    assert _read(texts, [_box(50, 50, 450, 350)], ink) == []

@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
@@ -50,6 +51,16 @@ class DrawnSizes:
     on_paper: bool = False
     texts: Sequence[Text] = field(default=())
 
+    @cached_property
+    def sayings(self) -> list[Text]:
+        """The texts without marks of doors and windows."""
+        return without_marks(self.texts)
+
+    @cached_property
+    def masks(self) -> tuple[NDArray[np.uint8], ...]:
+        """(h, w) of walls, as `free_runs` asks for them."""
+        return wall_masks(self.ink, self.walls)
+
 
 def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
     """The scale by the vote of all evidence; `given` (metres per pixel) goes before it.
@@ -78,9 +89,9 @@ def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
 
 def find_voters(sizes: DrawnSizes) -> list[Voter]:
     """All that the sheet says of its scale."""
-    texts, rooms = without_marks(sizes.texts), list(sizes.rooms)
+    texts, rooms = sizes.sayings, list(sizes.rooms)
     return [
-        *room_voters(texts, rooms, _BLUR_PX, wall_masks(sizes.ink, sizes.walls)),
+        *room_voters(texts, rooms, _BLUR_PX, sizes.masks),
         *line_voters(texts, sizes.ink, _BLUR_PX),
         *bar_voters(texts),
         *ratio_voters(texts, sizes.dpi, on_paper=sizes.on_paper),
@@ -140,9 +151,10 @@ def _voted(voters: list[Voter]) -> Scale:
 
 def _sharpened(told: Scale, sizes: DrawnSizes) -> Scale:
     """The scale of the vote, by each side of a room and each line as exactly as it is measured."""
-    texts = without_marks(sizes.texts)
     readings = [
-        *side_readings(texts, sizes.rooms, sizes.walls, sizes.ink, told.metres_per_px),
+        *side_readings(
+            sizes.sayings, sizes.rooms, sizes.walls, sizes.masks, sizes.ink, told.metres_per_px
+        ),
         *(
             Reading(math.log(one.metres_per_px), one.sigma, 1.0, 0.0)
             for one in told.evidence

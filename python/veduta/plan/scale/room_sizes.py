@@ -28,7 +28,8 @@ from veduta.plan.scale.evidence import (
     side_sigma,
 )
 from veduta.plan.scale.free_runs import free_runs
-from veduta.plan.scale.quantities import Quantity, read_quantities
+from veduta.plan.scale.printed import Printed, laid_level, printed_in, room_polygon
+from veduta.plan.scale.quantities import Quantity
 
 _UNLIKE = 0.25  # sides whose ratios differ by more (in logarithms) are not the two sides
 _ONE_SIDE_TRUST = 0.25  # one side alone, where the other is open to the next room
@@ -49,26 +50,6 @@ class Measured:
     trust: float
 
 
-@dataclass(frozen=True)
-class _Printed:
-    """A text with sizes, where it stands, and the room around it, None where none is known."""
-
-    text: Text
-    quantities: list[Quantity]
-    at: NDArray[np.float64]
-    room: int | None
-
-    @property
-    def areas(self) -> list[float]:
-        """Areas that it may state, m2."""
-        return [one.values[0] for one in self.quantities if one.kind == "area"]
-
-    @property
-    def sizes(self) -> list[tuple[float, ...]]:
-        """Both sides that it may state, m."""
-        return [one.values for one in self.quantities if one.kind == "size"]
-
-
 def room_voters(
     texts: list[Text],
     rooms_px: list[NDArray[np.float64]],
@@ -82,7 +63,7 @@ def room_voters(
     walls (`free_runs`): by them, rooms whose outline is not known are measured as well.
     """
     rooms = [room_polygon(outline) for outline in rooms_px]
-    printed = _printed(texts, rooms)
+    printed = printed_in(texts, rooms)
     largest = max((area for one in printed for area in one.areas), default=0.0)
     total = sum(room.area for room in rooms)
     voters: list[Voter] = []
@@ -105,20 +86,9 @@ def room_voters(
     return voters
 
 
-def _printed(texts: list[Text], rooms: list[Polygon]) -> list[_Printed]:
-    found = []
-    for text in texts:
-        quantities = [one for one in read_quantities(text.text) if one.kind != "ratio"]
-        at = np.mean(text.box_px, axis=0)
-        if quantities:
-            inside = next((i for i, room in enumerate(rooms) if room.contains(Point(at))), None)
-            found.append(_Printed(text, quantities, at, inside))
-    return found
-
-
 def _of_room(
-    one: _Printed,
-    printed: list[_Printed],
+    one: Printed,
+    printed: list[Printed],
     rooms: list[Polygon],
     walls: Sequence[NDArray[np.uint8]],
     blur_px: float,
@@ -145,7 +115,7 @@ def _of_room(
                 yield Hypothesis(log, _AREA_OF_RUNS, quantity.trust * run.trust)
 
 
-def _crowd(one: _Printed, printed: list[_Printed]) -> int:
+def _crowd(one: Printed, printed: list[Printed]) -> int:
     """How many sizes are printed in a room, of which it has one; in metres and in feet are one.
 
     Where walls between rooms were missed, each size in them would be measured by the same outline,
@@ -184,8 +154,7 @@ def _place(
 
 def measured_sides(room: Polygon, at: Point, trust: float = 1.0) -> list[Measured]:
     """What the two printed sides of a room may be: of its rectangle, or through its text."""
-    angle = room_direction(room)
-    straight = shapely.affinity.rotate(room, -angle, origin=(0, 0), use_radians=True)
+    angle, straight = laid_level(room)
     label = shapely.affinity.rotate(at, -angle, origin=(0, 0), use_radians=True)
     left, top, right, bottom = straight.bounds
     free_along = _free(straight, label, LineString([(left - 1, label.y), (right + 1, label.y)]))
@@ -244,26 +213,6 @@ def _unlike(pairs: tuple[tuple[float, float], tuple[float, float]]) -> float:
 
 def _area_log(metres2: float, pixels2: float) -> float:
     return 0.5 * math.log(metres2 / pixels2)
-
-
-def room_polygon(outline: NDArray[np.float64]) -> Polygon:
-    """An outline (n, 2) as a polygon: the largest part where it crosses itself."""
-    polygon = Polygon(outline)
-    if polygon.is_valid:
-        return polygon
-    parts = shapely.get_parts(shapely.make_valid(polygon))
-    areas = [part for part in parts if isinstance(part, Polygon)]
-    return max(areas, key=lambda part: part.area, default=Polygon())
-
-
-def room_direction(room: Polygon) -> float:
-    """Direction of the walls, modulo a right angle: that along which most of the outline runs."""
-    steps = np.diff(np.asarray(room.exterior.coords), axis=0)
-    lengths = np.hypot(steps[:, 0], steps[:, 1])
-    angles = np.arctan2(steps[:, 1], steps[:, 0])
-    # Four times the angle is the same for all four directions of a rectangle.
-    mean = np.sum(lengths**2 * np.exp(4j * angles))
-    return float(np.angle(mean) / 4.0)
 
 
 def _free(room: Polygon, label: Point, line: LineString) -> float:

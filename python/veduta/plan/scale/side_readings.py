@@ -13,15 +13,14 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-import shapely.affinity
 from numpy.typing import NDArray
-from shapely.geometry import Point, Polygon
+from shapely.geometry import Polygon
 
 from veduta.plan.document import Text
 from veduta.plan.scale.clear_spans import Span, clear_sides, thin_wall
-from veduta.plan.scale.free_runs import free_spans, wall_masks
-from veduta.plan.scale.quantities import Quantity, read_quantities
-from veduta.plan.scale.room_sizes import room_direction, room_polygon
+from veduta.plan.scale.free_runs import free_spans
+from veduta.plan.scale.printed import laid_level, printed_in, room_polygon
+from veduta.plan.scale.quantities import Quantity
 from veduta.plan.scale.sharpen import Reading
 
 _CLEAR_PX, _OUTLINE_PX = 0.4, 1.5  # errors of sides between bare faces, and of outlines
@@ -43,44 +42,40 @@ def side_readings(
     texts: Sequence[Text],
     rooms_px: Sequence[NDArray[np.float64]],
     walls_px: Sequence[float],
+    masks: Sequence[NDArray[np.uint8]],
     ink: NDArray[np.float32],
     metres_per_px: float,
 ) -> list[Reading]:
     """What sizes and areas in rooms say, of what agrees with `metres_per_px` about.
 
-    `rooms_px` are outlines (n, 2), `walls_px` thicknesses, `ink` (h, w) is 0 to 1; texts are in its
-    pixels. What does not fit the outline around it is measured by the free paper around it.
+    `rooms_px` are outlines (n, 2), `walls_px` thicknesses, `masks` (h, w) those of walls
+    (`free_runs`), `ink` (h, w) is 0 to 1; texts are in its pixels. What does not fit the outline
+    around it is measured by the free paper around it.
     """
     rooms = [room_polygon(outline) for outline in rooms_px]
-    thin_px, masks = thin_wall(walls_px), wall_masks(ink, walls_px)
-    told = [(text, _room_of(text, rooms), read_quantities(text.text)) for text in texts]
-    areas = Counter(room for _, room, said in told if any(one.kind == "area" for one in said))
+    thin_px = thin_wall(walls_px)
+    told = printed_in(texts, rooms)
+    areas = Counter(one.room for one in told if one.areas)
     measured: dict[int, _Measured] = {}
     found: list[Reading] = []
-    for text, room, said in told:
+    for one in told:
         best: list[Reading] = []
-        if room is not None and said:
-            if room not in measured:
-                measured[room] = _measured(rooms[room], ink, thin_px)
+        if one.room is not None:
+            if one.room not in measured:
+                measured[one.room] = _measured(rooms[one.room], ink, thin_px)
             # Several areas in a room are those of its parts.
-            fit = [one for one in said if one.kind != "area" or areas[room] == 1]
-            best = _best(_readings(one, measured[room], metres_per_px) for one in fit)
-        sizes = [one for one in said if one.kind == "size"]
+            fit = [said for said in one.quantities if said.kind != "area" or areas[one.room] == 1]
+            best = _best(_readings(said, measured[one.room], metres_per_px) for said in fit)
+        sizes = [said for said in one.quantities if said.kind == "size"]
         if sizes and len(best) < 2:
-            free = _of_free_paper(sizes, free_spans(masks, text), ink, thin_px, metres_per_px)
-            best = max(best, free, key=len)
+            spans = free_spans(masks, one.text)
+            best = max(best, _of_free_paper(sizes, spans, ink, thin_px, metres_per_px), key=len)
         found += best
     return found
 
 
-def _room_of(text: Text, rooms: Sequence[Polygon]) -> int | None:
-    at = Point(np.mean(text.box_px, axis=0))
-    return next((index for index, one in enumerate(rooms) if one.contains(at)), None)
-
-
 def _measured(room: Polygon, ink: NDArray[np.float32], thin_px: float) -> _Measured:
-    turn = room_direction(room)
-    straight = shapely.affinity.rotate(room, -turn, origin=(0, 0), use_radians=True)
+    turn, straight = laid_level(room)
     left, top, right, bottom = straight.bounds
     span = Span(turn, np.array([left, top]), np.array([right, bottom]))
     return replace(_between(span, ink, thin_px), area=float(room.area))
