@@ -67,10 +67,10 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     found: dict[tuple[object, ...], Gap] = {}
     facets = [(one, number) for number, arc in enumerate(curved) for one in arc.facets(FACET_RAD)]
     targets = [*pieces, *(one for one, _ in facets)]
-    walls = _Targets(targets)
+    walls = _lines_of(targets)
     for index in range(len(pieces)):
         for at_end in (False, True):
-            gap = _ahead(walls, index, at_end)
+            gap = _ahead(targets, walls, index, at_end)
             if gap is None:
                 continue
             if gap.target >= len(pieces):
@@ -83,20 +83,44 @@ def find_gaps(pieces: list[Piece], curved: Sequence[Piece] = ()) -> list[Gap]:
     return list(found.values())
 
 
-class _Targets:
-    """Pieces as arrays: starts, ends and directions (n, 2), thicknesses and lengths (n,)."""
+class Lines:
+    """Straight walls as arrays: starts, ends and ways (n, 2), lengths and thicknesses (n,)."""
 
-    def __init__(self, pieces: Sequence[Piece]) -> None:
-        self.pieces = pieces
-        self.start = np.array([one.start for one in pieces], float).reshape(-1, 2)
-        self.end = np.array([one.end for one in pieces], float).reshape(-1, 2)
-        self.way = np.array([one.direction for one in pieces], float).reshape(-1, 2)
-        self.thickness = np.array([one.thickness_px for one in pieces], float)
-        self.length = np.array([one.length_px for one in pieces], float)
+    def __init__(
+        self, start: NDArray[np.float64], end: NDArray[np.float64], thickness: NDArray[np.float64]
+    ) -> None:
+        self.start, self.end, self.thickness = start, end, thickness
+        run = end - start
+        self.length = np.hypot(run[:, 0], run[:, 1])
+        self.way = run / np.maximum(self.length, 1e-9)[:, None]
+
+    def crossings(
+        self,
+        origin: NDArray[np.float64],
+        ray: NDArray[np.float64],
+        slack: NDArray[np.float64],
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
+        """(..., n) how far ahead of rays lines and faces lie, and which walls cross the rays.
+
+        Origins and unit vectors of rays are (..., 2); walls may end by `slack` before they meet.
+        """
+        apart = self.start - origin
+        cross = ray[..., 0] * self.way[:, 1] - ray[..., 1] * self.way[:, 0]
+        safe = np.where(np.abs(cross) > 1e-6, cross, 1.0)
+        to_line = (apart[..., 0] * self.way[:, 1] - apart[..., 1] * self.way[:, 0]) / safe
+        along = (apart[..., 0] * ray[..., 1] - apart[..., 1] * ray[..., 0]) / safe
+        crosses = (np.abs(cross) >= np.sin(CROSSING_RAD)) & (along >= -slack)
+        crosses &= along <= self.length + slack
+        return to_line, to_line - self.thickness / 2 / np.abs(safe), crosses
 
 
-def _ahead(walls: _Targets, index: int, at_end: bool) -> Gap | None:
-    piece = walls.pieces[index]
+def _lines_of(pieces: Sequence[Piece]) -> Lines:
+    ends = np.array([(one.start, one.end) for one in pieces], float).reshape(-1, 2, 2)
+    return Lines(ends[:, 0], ends[:, 1], np.array([one.thickness_px for one in pieces], float))
+
+
+def _ahead(pieces: Sequence[Piece], walls: Lines, index: int, at_end: bool) -> Gap | None:
+    piece = pieces[index]
     origin = piece.end if at_end else piece.start
     ray = piece.direction if at_end else -piece.direction
     # (n, 2): to the end of each wall, and to its side; infinite where it is not ahead.
@@ -106,7 +130,7 @@ def _ahead(walls: _Targets, index: int, at_end: bool) -> Gap | None:
     away[index] = np.inf
     target, to_side = divmod(int(away.argmin()), 2)
     distance = float(away[target, to_side])
-    other = walls.pieces[target]
+    other = pieces[target]
     thickness = piece.thickness_px if to_side else min(piece.thickness_px, other.thickness_px)
     if distance <= max(3.0, 0.3 * thickness) or distance > FARTHEST * thickness:
         return None
@@ -115,7 +139,7 @@ def _ahead(walls: _Targets, index: int, at_end: bool) -> Gap | None:
 
 
 def _to_ends(
-    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Targets
+    piece: Piece, origin: NDArray[np.float64], ray: NDArray[np.float64], walls: Lines
 ) -> NDArray[np.float64]:
     """(n,) how far ahead collinear pieces begin; infinite of others."""
     cross = np.abs(ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0])
@@ -129,18 +153,12 @@ def _to_ends(
 
 
 def _to_sides(
-    origin: NDArray[np.float64], ray: NDArray[np.float64], walls: _Targets
+    origin: NDArray[np.float64], ray: NDArray[np.float64], walls: Lines
 ) -> NDArray[np.float64]:
     """(n,) how far ahead the faces of crossing pieces lie; infinite of others."""
-    cross = ray[0] * walls.way[:, 1] - ray[1] * walls.way[:, 0]
-    crosses = np.abs(cross) >= np.sin(CROSSING_RAD)
-    safe = np.where(crosses, cross, 1.0)
-    apart = walls.start - origin
-    distance = (apart[:, 0] * walls.way[:, 1] - apart[:, 1] * walls.way[:, 0]) / safe
-    along = (apart[:, 0] * ray[1] - apart[:, 1] * ray[0]) / safe
-    half = walls.thickness / 2 / np.abs(safe)
-    ahead = crosses & (along >= -walls.thickness) & (along <= walls.length + walls.thickness)
-    return np.where(ahead & (distance >= -half - 3), distance - half, np.inf)
+    to_line, to_face, crosses = walls.crossings(origin, ray, walls.thickness)
+    half = to_line - to_face
+    return np.where(crosses & (to_line >= -half - 3), to_face, np.inf)
 
 
 def trimmed(gap: Gap, solid: NDArray[np.bool_]) -> Gap | None:

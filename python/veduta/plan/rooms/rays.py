@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.plan.openings.gaps import BESIDE, CROSSING_RAD, PARALLEL_RAD
+from veduta.plan.openings.gaps import BESIDE, PARALLEL_RAD, Lines
 from veduta.plan.walls.axes import Axis
 from veduta.plan.walls.graph import Edge, Graph
 from veduta.plan.walls.join import UPRIGHT_RAD
@@ -49,17 +49,16 @@ class Hit:
     facing: bool
 
 
-class Walls:
-    """Edges as arrays: starts and ways (n, 2), lengths and thicknesses (n,)."""
+class Walls(Lines):
+    """Edges of a graph as arrays."""
 
     def __init__(self, graph: Graph, axes: Sequence[Axis]) -> None:
         self.edges: tuple[Edge, ...] = graph.edges
-        self.start = graph.nodes[[one.first for one in self.edges]]
-        self.end = graph.nodes[[one.second for one in self.edges]]
-        run = self.end - self.start
-        self.length = np.hypot(run[:, 0], run[:, 1])
-        self.way = run / np.maximum(self.length, 1e-9)[:, None]
-        self.thickness = np.array([axes[one.axis].line.thickness_px for one in self.edges])
+        super().__init__(
+            graph.nodes[[one.first for one in self.edges]],
+            graph.nodes[[one.second for one in self.edges]],
+            np.array([axes[one.axis].line.thickness_px for one in self.edges]),
+        )
         self.added = np.array([axes[one.axis].closing for one in self.edges])
 
     def points_on(self, index: int) -> bool:
@@ -82,7 +81,7 @@ class Walls:
         )
         # Walls whose corner is missing end before they would meet.
         slack = self.thickness / 2 + 0.5 * many.thickness + 3.0
-        to_line, to_face, crosses = self._crossings(many, slack)
+        to_line, to_face, crosses = self.crossings(many.origin, many.way, slack)
         to_end, in_line = self._ends(many)
         reach = np.where(crosses, to_line, np.where(in_line, to_end, np.inf))
         face = np.where(crosses, to_face, reach)
@@ -101,19 +100,6 @@ class Walls:
             strict=True,
         )  # fmt: skip
         return [Hit(rays[row], *rest) for row, *rest in measured]
-
-    def _crossings(
-        self, rays: _Rays, slack: NDArray[np.float64]
-    ) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.bool_]]:
-        """(rays, edges) how far ahead lines and faces lie, and which walls cross the rays."""
-        apart = self.start - rays.origin
-        cross = rays.way[..., 0] * self.way[:, 1] - rays.way[..., 1] * self.way[:, 0]
-        safe = np.where(np.abs(cross) > 1e-6, cross, 1.0)
-        to_line = (apart[..., 0] * self.way[:, 1] - apart[..., 1] * self.way[:, 0]) / safe
-        along = (apart[..., 0] * rays.way[..., 1] - apart[..., 1] * rays.way[..., 0]) / safe
-        crosses = (np.abs(cross) >= np.sin(CROSSING_RAD)) & (along >= -slack)
-        crosses &= along <= self.length + slack
-        return to_line, to_line - self.thickness / 2 / np.abs(safe), crosses
 
     def _ends(self, rays: _Rays) -> tuple[NDArray[np.float64], NDArray[np.bool_]]:
         """(rays, edges) how far ahead walls begin, and which lie in the rays' lines."""
