@@ -104,7 +104,8 @@ def write_result(
     place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
     whole = Building(result.house, options, result.site)
     made = [beside.take()]
-    beside.give(Visit(whole, place.start, tours, _parts_of(around), backdrop))
+    others = [] if around is None else around.parts
+    beside.give(Visit(whole, place.start, tours, others, backdrop))
     _write_sheets(result, folder)
     place = _write_models(result, place, around, backdrop, folder)
     write_place(place, folder / "place.json")
@@ -122,8 +123,8 @@ def _write_models(
     tour, sun = result.tour, sunlight_of(result.site)
     write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
     if around is not None:
-        models = {part.id: f"{part.id}.glb" for part in _parts_of(around)}
-        for part in _parts_of(around):
+        models = {part.id: f"{part.id}.glb" for part in around.parts}
+        for part in around.parts:
             write_glb(part, folder / models[part.id])
         place = with_surroundings(place, around, models)
     if result.panorama is not None and backdrop is not None:
@@ -148,12 +149,6 @@ def _write_sheets(result: Result, folder: Path) -> None:
     (folder / "overlay.png").write_bytes(png_bytes(result.overlay, compress_level=3))
     if result.tour_picture is not None:
         (folder / TOUR_PICTURE).write_bytes(png_bytes(result.tour_picture, compress_level=3))
-
-
-def _parts_of(around: Surroundings | None) -> list[Part]:
-    """The ground, and the garden where there is one."""
-    found = () if around is None else (around.ground, around.garden)
-    return [one for one in found if one is not None]
 
 
 def _surroundings(result: Result, options: HouseOptions) -> Surroundings | None:

@@ -7,7 +7,7 @@ from types import TracebackType
 from typing import Generic, Self, TypeVar
 
 from veduta.run.threads import available_cores
-from veduta.run.worker import Named, Worker, end_workers
+from veduta.run.worker import Worker, end_workers
 
 A = TypeVar("A")
 T = TypeVar("T")
@@ -21,7 +21,7 @@ class Beside(Generic[A, T]):
     an error in it, leaves undone is done in this process, so that errors are those of a plain call.
     """
 
-    def __init__(self, function: Callable[[A], T] | Named[A, T]) -> None:
+    def __init__(self, function: Callable[[A], T]) -> None:
         self._function = function
         self._given: list[A] = []
         self._workers = [Worker(function, threads=1)] if available_cores() > 1 else []

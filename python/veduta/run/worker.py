@@ -56,7 +56,7 @@ class Named(Generic[A, T]):
 class Worker:
     """A process that calls `function`, of a module's top level and no script's, by `threads`."""
 
-    def __init__(self, function: Callable[[Any], Any] | Named[Any, Any], threads: int) -> None:
+    def __init__(self, function: Callable[[Any], Any], threads: int) -> None:
         self.pipe, theirs = Pipe()
         life, self._life = os.pipe()  # the worker sees its end when this process is gone
         ends = (theirs.fileno(), life)

@@ -102,7 +102,7 @@ class Layout:
     def __post_init__(self) -> None:
         self._shapes: list[Polygon] = [one.shape for one in self.stood]
         self.mask = np.zeros(self.ways.grid.floor.shape, dtype=np.bool_)
-        self._fronts = [front for one in self.stood if (front := self._before(one)) is not None]
+        self._fronts = [*map(self._before, self.stood)]
         for one, shape in zip(self.stood, self._shapes, strict=True):
             if one.is_in_the_way:
                 self.mask |= self.ways.grid.covered(shape)
@@ -172,9 +172,7 @@ class Layout:
         """Keep things where they are."""
         for one in things:
             self.stood.append(one)
-            front = self._before(one)
-            if front is not None:
-                self._fronts.append(front)
+            self._fronts.append(self._before(one))
             if one.is_in_the_way:
                 self.mask |= self.ways.grid.covered(one.shape)
             if one.front is not None:

@@ -84,12 +84,12 @@ class Looker:
         tree = STRtree([space for space, _ in spaces])
         # A closing changes few spaces: the others are parted as they were in the round before.
         exact = to_wkb(normalize([space for space, _ in spaces])), to_wkb(bodies)
-        pairs = tree.query(bodies, predicate="intersects")
+        pairs = tree.query(bodies, predicate="intersects").T.tolist()
         met: dict[int, set[int]] = {}
-        for place, index in zip(*pairs.tolist(), strict=True):
+        for place, index in pairs:
             met.setdefault(place, set()).add(index)
         found = []
-        for place, index in zip(*pairs.tolist(), strict=True):
+        for place, index in pairs:
             space, outdoors = spaces[index]
             both = exact[0][index], exact[1][place]
             if both not in self.parts:

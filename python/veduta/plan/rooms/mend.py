@@ -105,14 +105,14 @@ def _closed(
     """Which of the walls each make another room, and all with these; all at once if all do."""
     whole = enclosed_by([*enclosed.axes, *walls], thin_px)
     more = len(whole.rooms) - len(enclosed.rooms)
-    if more >= len(walls) and (len(walls) == 1 or all(_parts(wall, whole) for wall in walls)):
+    if len(walls) == 1:
+        return ([0], whole) if more > 0 else ([], enclosed)
+    if more >= len(walls) and all(_parts(wall, whole) for wall in walls):
         return [*range(len(walls))], whole
     kept = []
-    for place, wall in enumerate(walls if len(walls) > 1 else ()):
-        tried = enclosed_by([*enclosed.axes, wall], thin_px)
-        if len(tried.rooms) > len(enclosed.rooms):
-            kept.append(place)
-            enclosed = tried
+    for place, wall in enumerate(walls):
+        made, enclosed = _closed(enclosed, [wall], thin_px)
+        kept += [place for _ in made]
     return kept, enclosed
 
 

@@ -31,6 +31,11 @@ class Surroundings:
     ground: Part
     garden: Part | None
 
+    @property
+    def parts(self) -> list[Part]:
+        """The ground, and the garden where there is one."""
+        return [self.ground, *([] if self.garden is None else [self.garden])]
+
 
 def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
     """The surroundings of a house by its storey at ground level."""
@@ -43,9 +48,7 @@ def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
 def with_surroundings(place: Place, around: Surroundings, models: dict[str, str]) -> Place:
     """The place with the surroundings as further parts. models: the file of each, by its id."""
     added = []
-    for part, name in ((around.ground, "Ground"), (around.garden, "Garden")):
-        if part is None:
-            continue
+    for part, name in zip(around.parts, ("Ground", "Garden"), strict=False):
         low, high = part.bounds_m
         added.append(
             PlacePart(

@@ -12,7 +12,7 @@ from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from functools import lru_cache
-from threading import Lock, Thread
+from threading import Lock
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import cv2
@@ -46,17 +46,19 @@ _MAKING = Lock()
 
 @lru_cache(maxsize=1)
 def prepare() -> None:
-    """Load both networks in a thread, once: a large drawing takes as long to be read."""
-    Thread(target=_load).start()
+    """Load both networks in a thread, once: a large drawing takes as long to be read.
+
+    What fails there is not asked for: it fails again, and is told, where text is looked for.
+    """
+    thread = ThreadPoolExecutor(1)
+    thread.submit(_load)
+    thread.shutdown(wait=False)
 
 
 def _load() -> None:
     blank = np.full((LINE_PX, LINE_PX, 3), 255, dtype=np.uint8)
-    try:
-        find_lines(blank)
-        read_line(blank)
-    except Exception:  # noqa: BLE001  it is raised again, and told, where text is looked for
-        return
+    find_lines(blank)
+    read_line(blank)
 
 
 def _engine(threads: int) -> RapidOCR:

@@ -7,7 +7,7 @@ sheet, but lie all over it: tiles of the sheet that hold them all are mostly emp
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
@@ -160,7 +160,7 @@ def _divided(
     for x in range(low[0], max(low[0] + 1, high[0] - overlap), step):
         for y in range(low[1], max(low[1] + 1, high[1] - overlap), step):
             part = Box((x, y), (min(x + most_px, high[0]), min(y + most_px, high[1])), 0)
-            found.append(Box(part.low, part.high, int(part.holds(marks).sum())))
+            found.append(replace(part, marks=int(part.holds(marks).sum())))
     return found
 
 
