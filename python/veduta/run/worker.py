@@ -16,6 +16,7 @@ import sys
 import threading
 import traceback
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from multiprocessing.connection import Connection, Pipe
 from typing import Any, Generic, NamedTuple, TypeVar
 
@@ -127,12 +128,10 @@ def work(pipe: int, life: int) -> None:
     module, name, threads = connection.recv()
     share_cores(threads)  # before the import that loads the libraries
     function = getattr(importlib.import_module(module), name)
-    while True:
-        try:
-            argument = connection.recv()
-        except EOFError:
-            return
-        connection.send(attempt(function, argument))
+    # Who has no more to give, or is gone before there is an answer, ends this process's work.
+    with suppress(EOFError, ConnectionError):
+        while True:
+            connection.send(attempt(function, connection.recv()))
 
 
 def _end_with_parent(life: int) -> None:

@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import time
 from pathlib import Path
+
+import pytest
+
+from veduta.run.worker import Worker
 
 SCRIPT = """
 import time
@@ -36,6 +41,18 @@ def test_a_worker_ends_with_its_script_which_runs_once(tmp_path: Path) -> None:
     while _runs(worker) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not _runs(worker)
+
+
+def test_a_worker_says_nothing_if_nobody_waits_for_its_answer(
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    """Who gave it the work was killed: that is seen as its pipe breaks, or by its other one."""
+    worker = Worker(time.sleep, threads=1)
+    worker.send(0.5)
+    worker.pipe.close()
+    assert worker.process.wait(timeout=30) == 0
+    assert capfd.readouterr().err == ""
+    os.close(worker._life)
 
 
 def _runs(process: str) -> bool:
