@@ -64,6 +64,20 @@ def plane_region(plane: FacadePlane, size_px: tuple[int, int]) -> PlaneRegion:
     return PlaneRegion(clipped, 1.0 / math.sqrt(area), middle, tuple(notes))
 
 
+def framed(
+    plane: FacadePlane, region: PlaneRegion, max_side_px: int
+) -> tuple[Matrix, tuple[int, int]]:
+    """rectified_from_source and (width, height): the region's bounding box, 1:1 in its middle."""
+    plane_from_source = plane.plane_from_image()
+    corners = homography.apply(plane_from_source, region.polygon_px)
+    low, high = corners.min(axis=0), corners.max(axis=0)
+    extent = (high - low) * region.px_per_plane_unit
+    scale = region.px_per_plane_unit * min(1.0, max_side_px / float(extent.max()))
+    width_px, height_px = (max(1, min(max_side_px, round(v))) for v in (high - low) * scale)
+    frame = homography.scaling(scale, scale) @ homography.translation(-low[0], -low[1])
+    return frame @ plane_from_source, (width_px, height_px)
+
+
 def _positive_at(matrix: Matrix, x: float, y: float) -> Matrix:
     w = float(homography.homogeneous(matrix, np.array([[x, y]]))[0, 2])
     return matrix if w > 0 else -matrix

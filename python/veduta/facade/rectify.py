@@ -10,9 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.document import Rectification
+from veduta.facade.find_plane import find_plane
 from veduta.facade.options import RectifyOptions
-from veduta.facade.plane import FacadePlane, find_plane
-from veduta.facade.plane_region import PlaneRegion, plane_region
+from veduta.facade.plane_region import framed, plane_region
 from veduta.geometry import homography, polygon
 from veduta.geometry.homography import Matrix
 from veduta.geometry.rectangle import aspect_of_rectangle
@@ -169,24 +169,10 @@ def _from_vanishing_points(photo: Photo, options: RectifyOptions) -> Rectified:
             plane.segments.select(plane.held_out),
             region.polygon_px,
             (width, height),
-            rectified_from_source,
+            plane.judged_plane_from_image(),
         ),
     )
     return trimmed(rectified)
-
-
-def framed(
-    plane: FacadePlane, region: PlaneRegion, max_side_px: int
-) -> tuple[Matrix, tuple[int, int]]:
-    """rectified_from_source and (width, height): the region's bounding box, 1:1 in its middle."""
-    plane_from_source = plane.plane_from_image()
-    corners = homography.apply(plane_from_source, region.polygon_px)
-    low, high = corners.min(axis=0), corners.max(axis=0)
-    extent = (high - low) * region.px_per_plane_unit
-    scale = region.px_per_plane_unit * min(1.0, max_side_px / float(extent.max()))
-    width_px, height_px = (max(1, min(max_side_px, round(v))) for v in (high - low) * scale)
-    frame = homography.scaling(scale, scale) @ homography.translation(-low[0], -low[1])
-    return frame @ plane_from_source, (width_px, height_px)
 
 
 def residual_deg(

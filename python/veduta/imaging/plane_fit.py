@@ -7,11 +7,10 @@ both. The priors say what a photo is like when the segments do not: a phone's le
 point at the centre, a camera about level. They are weak, so "do nothing" wins only where the
 evidence is weak. A focal length from EXIF is a narrow prior.
 
-Twice: first to find the view, with a wide scale and weights that grow with the length, because
-clutter is short. Then from there to measure it, with a scale for each segment as narrow as its
-ends allow and otherwise the same say for each. The errors of real segments are peaked with heavy
-tails: most edges are straight to a fraction of a pixel, and some long ones (roofs, shutters, the
-sides of sills) run off by one or two degrees. The wide scale takes those for edges of the wall.
+Twice: first to find the view, with weights that grow with the length, because clutter is short.
+Then from there to measure it, with a scale for each segment: what its ends allow, and the scatter
+of the wall's own edges as it is on the wall. A degree there is a fraction of one in the photo where
+the edge runs away from the camera, and several where it lies across.
 
 Rejected: two free vanishing points and the focal length from their orthogonality afterwards.
 Near-frontal photos, the common case, then have an arbitrary or imaginary focal length.
@@ -42,12 +41,11 @@ _END_NOISE_PX = 0.7
 
 # Of 240 views of 60 facades of ECP and CMP under known cameras, none of them judged in
 # benchmarks/rectify.py: the median error of a segment's direction is that of ends off by 0.35 to
-# 0.55 px at every length from 8 to 50 px. For the scatter of a wall's own lines 0.2 to 0.6 degrees
-# come to the same on CMP; ECP is measured better with 0.2, street photos not better with 0.3 than
-# with 0.6. It is the wide end: walls are not all as straight as those of ECP.
+# 0.55 px at every length from 8 to 50 px. The scatter on the wall is the wide end of what comes to
+# the same (docs/facade-method.md): walls are not all as straight as those of ECP.
 _MEASURED_END_NOISE_PX = 0.5
-_WALL_SCATTER_RAD = math.radians(0.6)
-_SHARPENING_RAD = math.radians(0.7)
+_WALL_SCATTER_RAD = math.radians(1.0)
+_MOST_FORESHORTENED = 4.0
 
 _EVIDENCE = 0.25
 """Segments of one cornice are not independent: each counts for a quarter."""
@@ -98,10 +96,7 @@ def fit_plane(
     """
     width, height = size_px
     diagonal = math.hypot(width, height)
-    centred = Segments(
-        (segments.start - (width / 2, height / 2)) / diagonal,
-        (segments.end - (width / 2, height / 2)) / diagonal,
-    )
+    centred = _centred(segments, size_px)
     problem = _problem(centred, diagonal, focal_px)
     starts = _starts(centred, problem, np.random.default_rng(seed))
     if not starts:
@@ -110,13 +105,38 @@ def fit_plane(
     annealed.sort(key=lambda params: _cost(problem, params, _SCALE_RAD))
     ends = [_converged(problem, params, _SCALE_RAD) for params in annealed[:2]]
     found = min(ends, key=lambda params: _cost(problem, params, _SCALE_RAD))
-    measuring = _measuring(problem, centred, size_px)
-    best = _step(measuring, found, _SHARPENING_RAD)
-    best = _converged(measuring, best, _WALL_SCATTER_RAD)
-    normal = _normal_equations(measuring, best, _WALL_SCATTER_RAD)[0]
-    cost = _cost(measuring, best, _WALL_SCATTER_RAD)
+    return _measured(problem, centred, size_px, found, 1)
+
+
+def measure_plane(
+    start: PlaneFit, segments: Segments, focal_px: float | None, times: int
+) -> PlaneFit:
+    """The view measured from `start` with other segments, each edge being among them `times` times.
+
+    `segments` in pixels of the photo, `focal_px` as for `fit_plane`.
+    """
+    width, height = start.size_px
+    diagonal = math.hypot(width, height)
+    centred = _centred(segments, start.size_px)
+    problem = _problem(centred, diagonal, focal_px)
+    return _measured(problem, centred, start.size_px, _parameters(start), times)
+
+
+def _measured(
+    problem: _Problem, centred: Segments, size_px: tuple[int, int], start: Vector, times: int
+) -> PlaneFit:
+    measuring = _measuring(problem, centred, size_px, start, times)
+    best = _converged(measuring, start, 0.0)
+    normal = _normal_equations(measuring, best, 0.0)[0]
     covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
-    return PlaneFit(_view(best, size_px), covariance, cost, size_px)
+    return PlaneFit(_view(best, size_px), covariance, _cost(measuring, best, 0.0), size_px)
+
+
+def _centred(segments: Segments, size_px: tuple[int, int]) -> Segments:
+    """The segments in centred pixels / diagonal."""
+    middle = np.array(size_px, dtype=np.float64) / 2
+    diagonal = math.hypot(*size_px)
+    return Segments((segments.start - middle) / diagonal, (segments.end - middle) / diagonal)
 
 
 def _view(params: Vector, size_px: tuple[int, int]) -> FacadeView:
@@ -186,16 +206,34 @@ def _problem(centred: Segments, diagonal: float, focal_px: float | None) -> _Pro
     )
 
 
-def _measuring(problem: _Problem, centred: Segments, size_px: tuple[int, int]) -> _Problem:
-    """The same problem with each segment as certain as its ends make it."""
+def _measuring(
+    problem: _Problem, centred: Segments, size_px: tuple[int, int], start: Vector, times: int
+) -> _Problem:
+    """The same problem with each segment as certain as its ends and the wall make it."""
     detected_side_px = min(DETECTION_SIDE_PX, max(size_px))
     detected_diagonal_px = math.hypot(*size_px) * detected_side_px / max(size_px)
     lengths_px = np.maximum(centred.lengths() * detected_diagonal_px, 1.0)
+    scatter = _WALL_SCATTER_RAD * _degrees_per_degree_of_wall(problem, start)
+    weight = np.sqrt(lengths_px)
     return replace(
         problem,
-        weight=np.full(len(centred), _EVIDENCE),
-        noise_rad=np.asarray(_MEASURED_END_NOISE_PX / lengths_px),
+        weight=np.asarray(_EVIDENCE / times * weight / weight.mean()),
+        noise_rad=np.hypot(scatter, _MEASURED_END_NOISE_PX / lengths_px),
     )
+
+
+def _degrees_per_degree_of_wall(problem: _Problem, params: Vector) -> Vector:
+    """(n,) how far each segment turns in the photo when its edge turns on the wall, bounded."""
+    step = 1e-4
+    camera = vanishing.camera_matrix(math.exp(params[3]), params[4], params[5])
+    points = camera @ vanishing.rotation_from_angles(params[0], params[1], params[2])
+    turned = points[:, :2] @ np.array([[1.0, -step], [step, 1.0]])
+    at = problem.middle, problem.direction
+    along, up = _angles(problem, params)
+    turn_along = vanishing.angles_to_vanishing_point(*at, turned[:, 0]) - along
+    turn_up = vanishing.angles_to_vanishing_point(*at, turned[:, 1]) - up
+    turn = np.abs(np.where(np.abs(up) < np.abs(along), turn_up, turn_along)) / step
+    return np.asarray(np.clip(turn, 1.0 / _MOST_FORESHORTENED, _MOST_FORESHORTENED))
 
 
 def _starts(centred: Segments, problem: _Problem, rng: np.random.Generator) -> list[Vector]:

@@ -50,15 +50,24 @@ class Segments:
         return Segments(start, homography.apply(target_from_source, self.end))
 
 
-def detect_segments(pixels: NDArray[np.uint8], shortest_part: float = MIN_LENGTH_PART) -> Segments:
+def joined(first: Segments, second: Segments) -> Segments:
+    """The segments of both."""
+    return Segments(np.vstack([first.start, second.start]), np.vstack([first.end, second.end]))
+
+
+def detect_segments(
+    pixels: NDArray[np.uint8],
+    shortest_part: float = MIN_LENGTH_PART,
+    longest_side_px: int = DETECTION_SIDE_PX,
+) -> Segments:
     """Segments of (h, w, 3) sRGB pixels by LSD (von Gioi et al. 2010, as in OpenCV).
 
     Left out: segments shorter than `shortest_part` of the diagonal, and segments along the
-    image's own border (frames, letter boxes).
+    image's own border (frames, letter boxes). Images are first reduced to `longest_side_px`.
     """
     height, width = pixels.shape[:2]
     grey = cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY)
-    shrink = min(1.0, DETECTION_SIDE_PX / max(height, width))
+    shrink = min(1.0, longest_side_px / max(height, width))
     if shrink < 1.0:
         size = (max(1, round(width * shrink)), max(1, round(height * shrink)))
         grey = cv2.resize(grey, size, interpolation=cv2.INTER_AREA)

@@ -1,0 +1,119 @@
+"""Finding the plane of a facade in a photo: fitted to its edges, then measured as it faces us.
+
+Where a wall is seen at an angle, its far end has few pixels and short segments, and the edges that
+are found change with the view. So the photo is turned to face the fitted wall, its edges are found
+there once more, and the view is measured from both.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.plane import FacadePlane, not_found, require_evidence
+from veduta.facade.plane_region import framed, plane_region
+from veduta.geometry import homography
+from veduta.geometry.homography import Matrix, Points
+from veduta.imaging.plane_fit import fit_plane, measure_plane
+from veduta.imaging.read import Photo
+from veduta.imaging.segments import DETECTION_SIDE_PX, Segments, detect_segments, joined
+from veduta.imaging.warp import warp
+
+HELD_OUT_PART = 0.25
+SEED = 20091
+
+_MIN_SEGMENTS = 24
+_FRONTAL_SIDE_PX = 2000
+"""A wall that is strongly turned is longer than the photo where its middle keeps its size."""
+
+_MARGIN_PX = 5.0
+"""Nearer to where the photo ends, an edge of the frontal view may be that end."""
+
+_SAME_EDGE_PX = 3.0
+"""In pixels of the detection: segments of one edge, found twice, lie nearer to each other."""
+
+
+def find_plane(photo: Photo, focal_px: float | None) -> FacadePlane:
+    """The dominant vertical plane; NotFoundError with the measured reason when there is none."""
+    segments = detect_segments(photo.pixels)
+    if len(segments) < _MIN_SEGMENTS:
+        raise not_found(f"the photo has {len(segments)} straight edges, {_MIN_SEGMENTS} are needed")
+    rng = np.random.default_rng(SEED)
+    held_out = np.zeros(len(segments), dtype=np.bool_)
+    count = max(1, round(HELD_OUT_PART * len(segments)))
+    held_out[rng.permutation(len(segments))[:count]] = True
+    return plane_of_segments(segments, held_out, photo, focal_px)
+
+
+def plane_of_segments(
+    segments: Segments, held_out: NDArray[np.bool_], photo: Photo, focal_px: float | None
+) -> FacadePlane:
+    """The same with the segments and the held-out ones chosen by the caller."""
+    height, width = photo.pixels.shape[:2]
+    fit = fit_plane(segments.select(~held_out), (width, height), focal_px)
+    if fit is None:
+        raise not_found("no two directions of straight edges")
+    plane = FacadePlane(fit, fit, segments, held_out)
+    require_evidence(plane, math.hypot(width, height))
+    return _measured_facing(plane, photo, focal_px)
+
+
+def _measured_facing(plane: FacadePlane, photo: Photo, focal_px: float | None) -> FacadePlane:
+    """The plane with the edges of the view that faces the wall."""
+    height, width = photo.pixels.shape[:2]
+    shrink = min(1.0, DETECTION_SIDE_PX / max(height, width))
+    facing = _facing_segments(plane, photo, shrink)
+    held_out = plane.segments.select(plane.held_out)
+    others = facing.select(~_is_seen_in(facing, held_out, _SAME_EDGE_PX / shrink))
+    others = joined(plane.segments.select(~plane.held_out), others)
+    everything = joined(plane.segments, facing)
+    return replace(
+        plane,
+        fit=measure_plane(plane.fit, everything, focal_px, times=2),
+        judged=measure_plane(plane.fit, others, focal_px, times=2),
+    )
+
+
+def _facing_segments(plane: FacadePlane, photo: Photo, shrink: float) -> Segments:
+    """Segments found in the frontal view of the plane's region, in pixels of the photo."""
+    height, width = photo.pixels.shape[:2]
+    region = plane_region(plane, (width, height))
+    frame, size = framed(plane, region, round(_FRONTAL_SIDE_PX / shrink))
+    width_px, height_px = (max(1, round(side * shrink)) for side in size)
+    facing_from_photo: Matrix = homography.scaling(shrink, shrink) @ frame
+    pixels, _ = warp(photo.pixels, facing_from_photo, width_px, height_px)
+    found = detect_segments(pixels, longest_side_px=_FRONTAL_SIDE_PX)
+    border = homography.apply(facing_from_photo, region.polygon_px)
+    inside = _inside_by(border, found.start, _MARGIN_PX) & _inside_by(border, found.end, _MARGIN_PX)
+    return found.select(inside).mapped(homography.inverse(facing_from_photo))
+
+
+def _inside_by(border: Points, points: Points, margin: float) -> NDArray[np.bool_]:
+    """(n,) whether points lie at least `margin` within a convex polygon (as `contains`)."""
+    inside = np.ones(len(points), dtype=np.bool_)
+    for a, b in zip(border, np.roll(border, -1, axis=0), strict=True):
+        side = b - a
+        offset = points - a
+        cross = side[0] * offset[:, 1] - side[1] * offset[:, 0]
+        inside &= cross >= margin * float(np.linalg.norm(side))
+    return inside
+
+
+def _is_seen_in(segments: Segments, others: Segments, near_px: float) -> NDArray[np.bool_]:
+    """(n,) whether a segment covers the middle of one of the others, or the other way round."""
+    if not len(segments) or not len(others):
+        return np.zeros(len(segments), dtype=np.bool_)
+    covers = _is_on(others.midpoints(), segments, near_px).any(axis=0)
+    return np.asarray(covers | _is_on(segments.midpoints(), others, near_px).any(axis=1))
+
+
+def _is_on(points: Points, segments: Segments, near_px: float) -> NDArray[np.bool_]:
+    """(points, segments): within `near_px` of the segment, between its ends."""
+    offset = points[:, None] - segments.midpoints()[None]
+    direction = segments.directions()[None]
+    along = np.abs((offset * direction).sum(axis=2))
+    across = np.abs(offset[..., 0] * direction[..., 1] - offset[..., 1] * direction[..., 0])
+    return np.asarray((along <= segments.lengths()[None] / 2) & (across <= near_px))
