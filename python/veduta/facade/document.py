@@ -50,8 +50,8 @@ class Rectification(_Record):
     residual_deg: float | None = Field(
         default=None,
         description=(
-            "median angle (degrees) of straight edges that the view was not fitted to, to the"
-            " nearest axis"
+            "median angle (degrees) of straight edges to the nearest axis, in a view that was"
+            " measured without them"
         ),
     )
 

@@ -72,20 +72,23 @@ class FacadePlane:
 
 
 def require_evidence(plane: FacadePlane, diagonal_px: float) -> None:
-    """Held-out segments must run along or up the wall more often than chance makes them."""
+    """Held-out segments must run along or up the wall more often than chance makes them.
+
+    NotFoundError where they do not. At least one segment must be held out.
+    """
     weights = segment_weights(plane.segments, diagonal_px)[plane.held_out]
     along, up = (angles[plane.held_out] < _NEAR_RAD for angles in plane.angles())
     total = float(weights.sum())
     part_along = float(weights[along].sum()) / total
     part_up = float(weights[up & ~along].sum()) / total
-    of_rest = max(_MIN_UP_PART, _MIN_UP_OF_REST * (1.0 - part_along))
-    has_uprights = part_up >= min(_MIN_NEAR_PART_EACH, of_rest)
-    has_levels = part_along >= _MIN_NEAR_PART_EACH
-    if part_along + part_up < _MIN_NEAR_PART or not (has_uprights and has_levels):
+    least_of_rest = max(_MIN_UP_PART, _MIN_UP_OF_REST * (1.0 - part_along))
+    least_up = min(_MIN_NEAR_PART_EACH, least_of_rest)
+    is_each = part_up >= least_up and part_along >= _MIN_NEAR_PART_EACH
+    if part_along + part_up < _MIN_NEAR_PART or not is_each:
         raise not_found(
             f"{part_along:.0%} of the straight edges run along one wall and {part_up:.0%} up it "
             f"(a facade has {_MIN_NEAR_PART:.0%} or more together, "
-            f"{_MIN_NEAR_PART_EACH:.0%} or more each)"
+            f"{_MIN_NEAR_PART_EACH:.0%} along and {least_up:.1%} up at least)"
         )
 
 

@@ -111,9 +111,10 @@ def fit_plane(
 def measure_plane(
     start: PlaneFit, segments: Segments, focal_px: float | None, times: int
 ) -> PlaneFit:
-    """The view measured from `start` with other segments, each edge being among them `times` times.
+    """The view measured from `start` with other segments, in pixels of the photo.
 
-    `segments` in pixels of the photo, `focal_px` as for `fit_plane`.
+    `times`: how often an edge is among them; what they say together counts for so much less.
+    `focal_px` as for `fit_plane`.
     """
     width, height = start.size_px
     diagonal = math.hypot(width, height)

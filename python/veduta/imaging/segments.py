@@ -78,12 +78,14 @@ def detect_segments(
     ends = (found.astype(np.float64).reshape(-1, 2, 2) + 0.5) / shrink
     segments = Segments(ends[:, 0], ends[:, 1])
     shortest = shortest_part * float(np.hypot(height, width))
-    keep = (segments.lengths() >= shortest) & ~_on_border(segments, width, height)
+    keep = (segments.lengths() >= shortest) & ~_on_border(segments, width, height, longest_side_px)
     return segments.select(keep)
 
 
-def _on_border(segments: Segments, width: int, height: int) -> NDArray[np.bool_]:
-    margin = 3.0 * max(1.0, max(width, height) / DETECTION_SIDE_PX)
+def _on_border(
+    segments: Segments, width: int, height: int, longest_side_px: int
+) -> NDArray[np.bool_]:
+    margin = 3.0 * max(1.0, max(width, height) / longest_side_px)
     ends = np.stack([segments.start, segments.end])
     x, y = ends[..., 0], ends[..., 1]
     on_any = np.zeros(len(segments), dtype=np.bool_)
