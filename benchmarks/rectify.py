@@ -8,6 +8,7 @@ Reads `facades/street-cc0`, `facades/ecp` and `facades/cmp` of $VEDUTA_DATA (els
 from __future__ import annotations
 
 import argparse
+import multiprocessing
 import os
 import time
 from concurrent.futures import ProcessPoolExecutor
@@ -303,7 +304,11 @@ def _painted(
 
 def _measured(views: list[View], known: bool) -> NDArray[np.float64]:
     """(views, 4): corners, uniform, aspect against the truth, corners against the own lines."""
-    with ProcessPoolExecutor(initializer=cv2.setNumThreads, initargs=(1,)) as pool:
+    # Spawned, for OpenCV's threads do not survive a fork.
+    spawned = multiprocessing.get_context("spawn")
+    with ProcessPoolExecutor(
+        mp_context=spawned, initializer=cv2.setNumThreads, initargs=(1,)
+    ) as pool:
         return np.array(list(pool.map(_measured_view, views, [known] * len(views))))
 
 
