@@ -123,10 +123,11 @@ def _cuts(evidence: Evidence, skyline: Skyline) -> NDArray[np.bool_]:
     for apart in (np.maximum(both, wall / _SURELY_OTHER_WALL), all_down):
         # Too little to compare is left beside the edges of the picture.
         apart[: reach // 4] = apart[-(reach // 4) :] = 0.0
+        # The border is where the wall changes most; what parts it may peak a little beside that.
+        apart[wall < cv2.dilate(wall.reshape(1, -1), np.ones((1, 7))).ravel()] = 0.0
         for x in np.flatnonzero(apart > 1):
             near = slice(max(0, x - reach), x + reach + 1)
-            is_peak = wall[x] >= wall[max(0, x - 3) : x + 4].max()
-            if is_peak and apart[x] >= apart[near].max() and keep[near].all():
+            if apart[x] >= apart[near].max() and keep[near].all():
                 keep[x] = False
     return keep
 

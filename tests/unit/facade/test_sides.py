@@ -19,15 +19,18 @@ def sides_of(
     roofs: tuple[int, int],
     walls: tuple[tuple[int, int, int], tuple[int, int, int]],
     eaves: int = 0,
+    jut: tuple[int, slice] = (0, slice(0)),
 ) -> tuple[int, int]:
     """Columns found of a house up to EDGE and what is right of it, with their roofs' rows.
 
-    The left roof reaches `eaves` columns over the neighbour.
+    The left roof reaches `eaves` columns over the neighbour, the left wall `jut` of columns, in
+    those rows.
     """
     rng = np.random.default_rng(3)
     picture = np.empty((HEIGHT, WIDTH, 3), np.float64)
     rows = np.where(np.arange(WIDTH) < EDGE + eaves, *roofs)
     picture[:, :EDGE], picture[:, EDGE:] = walls
+    picture[jut[1], EDGE : EDGE + jut[0]] = walls[0]
     for y in range(90, HEIGHT - 40, 50):
         for x in range(20, WIDTH - 20, 45):
             picture[y : y + 28, x : x + 16] = (60, 66, 76)
@@ -50,6 +53,17 @@ def test_a_lower_house_of_nearly_the_same_colour_is_another() -> None:
 def test_eaves_that_jut_over_the_neighbour_do_not_hide_it(eaves: int) -> None:
     """The step of the roof line is beside that of the wall, at which the house ends."""
     left, right = sides_of((30, 90), (YELLOW, GREY), eaves)
+    assert left == 0
+    assert abs(right - EDGE) <= 4
+
+
+@pytest.mark.parametrize("rows", [slice(60, 150), slice(150, 300), slice(180, 300)])
+@pytest.mark.parametrize("jut", [0, 8, 14, 20])
+def test_a_part_of_the_wall_that_juts_over_the_neighbour_does_not_hide_it(
+    jut: int, rows: slice
+) -> None:
+    """What parts the two houses peaks beside where most of the wall changes."""
+    left, right = sides_of((30, 66), (BEIGE, GREY), jut=(jut, rows))
     assert left == 0
     assert abs(right - EDGE) <= 4
 
