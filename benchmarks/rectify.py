@@ -11,7 +11,7 @@ import argparse
 import multiprocessing
 import os
 import time
-from concurrent.futures import ProcessPoolExecutor
+from concurrent.futures import Executor, ProcessPoolExecutor
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -129,7 +129,7 @@ class View:
     own_from_facade: Matrix
 
 
-def cameras(views: int, draws: int) -> None:
+def cameras(pool: Executor, views: int, draws: int) -> None:
     """Corners and aspect under random cameras, in front of several backgrounds."""
     sets = {
         "ecp": sorted((DATA / "facades/ecp/images").glob("*.jpg")),
@@ -143,11 +143,11 @@ def cameras(views: int, draws: int) -> None:
         pictures = [read_image(path) for path in chosen]
         owns = [own_rectification(picture) for picture in pictures]
         as_given = [_as_given(*pair) for pair in zip(pictures, owns, strict=True)]
-        given = _measured(as_given, False)
+        given = _measured(pool, as_given, False)
         rows.append(_row(set_name, "(as given)", False, given, given[:, 0] <= 0.01))
         fits = np.tile(given[:, 0] <= 0.01, draws)
         all_fit.append(fits)
-        for setting, measured in _turned(pictures, owns, draws, rng).items():
+        for setting, measured in _turned(pool, pictures, owns, draws, rng).items():
             pooled.setdefault(setting, []).append(measured)
             rows.append(_row(set_name, *setting, measured, fits))
     fits = np.concatenate(all_fit)
@@ -176,7 +176,7 @@ def cameras(views: int, draws: int) -> None:
 
 
 def _turned(
-    pictures: list[Photo], owns: list[Matrix], draws: int, rng: np.random.Generator
+    pool: Executor, pictures: list[Photo], owns: list[Matrix], draws: int, rng: np.random.Generator
 ) -> dict[tuple[str, bool], NDArray[np.float64]]:
     """What is measured (draws x pictures, 4) by background and whether the focal is known."""
     found: dict[tuple[str, bool], list[NDArray[np.float64]]] = {}
@@ -187,7 +187,7 @@ def _turned(
                 for picture, own in zip(pictures, owns, strict=True)
             ]
             for known in (True, False):
-                found.setdefault((background, known), []).append(_measured(rendered, known))
+                found.setdefault((background, known), []).append(_measured(pool, rendered, known))
     return {setting: np.vstack(parts) for setting, parts in found.items()}
 
 
@@ -302,14 +302,9 @@ def _painted(
     return np.asarray((warped * (mask / 255) + behind * (1 - mask / 255)).round(), np.uint8)
 
 
-def _measured(views: list[View], known: bool) -> NDArray[np.float64]:
+def _measured(pool: Executor, views: list[View], known: bool) -> NDArray[np.float64]:
     """(views, 4): corners, uniform, aspect against the truth, corners against the own lines."""
-    # Spawned, for OpenCV's threads do not survive a fork.
-    spawned = multiprocessing.get_context("spawn")
-    with ProcessPoolExecutor(
-        mp_context=spawned, initializer=cv2.setNumThreads, initargs=(1,)
-    ) as pool:
-        return np.array(list(pool.map(_measured_view, views, [known] * len(views))))
+    return np.array(list(pool.map(_measured_view, views, [known] * len(views))))
 
 
 def _measured_view(view: View, known: bool) -> list[float]:
@@ -389,7 +384,10 @@ def main() -> None:
     if not arguments.parts or "street" in arguments.parts:
         street()
     if not arguments.parts or "cameras" in arguments.parts:
-        cameras(arguments.views, arguments.draws)
+        # Spawned, for OpenCV's threads do not survive a fork.
+        spawned = multiprocessing.get_context("spawn")
+        with ProcessPoolExecutor(None, spawned, cv2.setNumThreads, (1,)) as pool:
+            cameras(pool, arguments.views, arguments.draws)
 
 
 if __name__ == "__main__":

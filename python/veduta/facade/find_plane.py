@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from veduta.facade.plane import FacadePlane, not_found, require_evidence
 from veduta.facade.plane_region import framed, plane_region
-from veduta.geometry import homography
+from veduta.geometry import homography, polygon
 from veduta.geometry.homography import Matrix, Points
 from veduta.imaging.plane_fit import PlaneFit, fit_plane, measure_plane
 from veduta.imaging.read import Photo
@@ -103,19 +103,9 @@ def _facing_segments(plane: FacadePlane, photo: Photo, shrink: float) -> Segment
     pixels, _ = warp(photo.pixels, facing_from_photo, width_px, height_px)
     found = detect_segments(pixels, longest_side_px=_FRONTAL_SIDE_PX)
     border = homography.apply(facing_from_photo, region.polygon_px)
-    inside = _inside_by(border, found.start, _MARGIN_PX) & _inside_by(border, found.end, _MARGIN_PX)
+    inside = polygon.contains(border, found.start, _MARGIN_PX)
+    inside &= polygon.contains(border, found.end, _MARGIN_PX)
     return found.select(inside).mapped(homography.inverse(facing_from_photo))
-
-
-def _inside_by(border: Points, points: Points, margin: float) -> NDArray[np.bool_]:
-    """(n,) whether points lie at least `margin` within a convex polygon (as `contains`)."""
-    inside = np.ones(len(points), dtype=np.bool_)
-    for a, b in zip(border, np.roll(border, -1, axis=0), strict=True):
-        side = b - a
-        offset = points - a
-        cross = side[0] * offset[:, 1] - side[1] * offset[:, 0]
-        inside &= cross >= margin * float(np.linalg.norm(side))
-    return inside
 
 
 def _is_seen_in(segments: Segments, others: Segments, near_px: float) -> NDArray[np.bool_]:
@@ -124,21 +114,13 @@ def _is_seen_in(segments: Segments, others: Segments, near_px: float) -> NDArray
     Where two overlap, an end of one lies within the other.
     """
     seen = np.zeros(len(segments), dtype=np.bool_)
-    for end in (segments.start, segments.end):
-        seen |= _is_on(end, others, near_px)
     for first in range(0, len(segments), _AT_ONCE):
         some = slice(first, first + _AT_ONCE)
         few = Segments(segments.start[some], segments.end[some])
-        for end in (others.start, others.end):
-            seen[some] |= _near(end, few, near_px).any(axis=0)
+        for end, other_end in ((few.start, others.start), (few.end, others.end)):
+            seen[some] |= _near(end, others, near_px).any(axis=1)
+            seen[some] |= _near(other_end, few, near_px).any(axis=0)
     return seen
-
-
-def _is_on(points: Points, segments: Segments, near_px: float) -> NDArray[np.bool_]:
-    """(points,) whether each lies on any of the segments."""
-    parts = [points[i : i + _AT_ONCE] for i in range(0, len(points), _AT_ONCE)]
-    on = [_near(part, segments, near_px).any(axis=1) for part in parts]
-    return np.concatenate(on) if on else np.zeros(0, dtype=np.bool_)
 
 
 def _near(points: Points, segments: Segments, near_px: float) -> NDArray[np.bool_]:

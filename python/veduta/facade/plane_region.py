@@ -12,7 +12,6 @@ from veduta.facade.plane import FacadePlane
 from veduta.geometry import homography, polygon, vanishing
 from veduta.geometry.homography import Matrix, Points
 from veduta.imaging.plane_fit import segment_weights
-from veduta.imaging.segments import Segments
 from veduta.imaging.vanishing import horizontal_candidates
 
 MAX_STRETCH = 5.0
@@ -124,16 +123,11 @@ def _other_wall(
     size_px: tuple[int, int],
 ) -> NDArray[np.bool_] | None:
     """Segments that run along the strongest second horizontal direction, if it is a strong one."""
-    width, height = size_px
     up = plane.angles()[1] < _NEAR_RAD
     rest = ~along & ~up
     if int(rest.sum()) < 8:
         return None
-    scale = math.hypot(width, height)
-    centred = Segments(
-        (plane.segments.start - (width / 2, height / 2)) / scale,
-        (plane.segments.end - (width / 2, height / 2)) / scale,
-    )
+    centred = plane.segments.centred(size_px)
     found = horizontal_candidates(centred.select(rest), weights[rest], 1, np.random.default_rng(0))
     if not len(found.points) or found.support[0] < _OTHER_WALL_PART * weights[along & ~up].sum():
         return None

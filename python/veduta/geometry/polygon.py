@@ -50,9 +50,14 @@ def rectangle(x0: float, y0: float, x1: float, y1: float) -> Points:
     return np.array([[x0, y0], [x1, y0], [x1, y1], [x0, y1]], dtype=np.float64)
 
 
-def contains(polygon: Points, points: Points) -> NDArray[np.bool_]:
-    """(n,) whether points lie in or on a convex polygon that goes clockwise on the screen."""
+def contains(polygon: Points, points: Points, margin: float = 0.0) -> NDArray[np.bool_]:
+    """(n,) whether points lie in or on a convex polygon that goes clockwise on the screen.
+
+    With a margin, at least as far inside of each of its sides.
+    """
     inside = np.ones(len(points), dtype=np.bool_)
     for a, b in zip(polygon, np.roll(polygon, -1, axis=0), strict=True):
-        inside &= (b[0] - a[0]) * (points[:, 1] - a[1]) >= (b[1] - a[1]) * (points[:, 0] - a[0])
+        within = margin * float(np.linalg.norm(b - a))
+        from_a = points - a
+        inside &= (b[0] - a[0]) * from_a[:, 1] >= (b[1] - a[1]) * from_a[:, 0] + within
     return inside

@@ -41,11 +41,13 @@ _END_NOISE_PX = 0.7
 
 # Of 240 views of 60 facades of ECP and CMP under known cameras, none of them judged in
 # benchmarks/rectify.py: the median error of a segment's direction is that of ends off by 0.35 to
-# 0.55 px at every length from 8 to 50 px. The scatter on the wall is the wide end of what comes to
-# the same (docs/facade-method.md): walls are not all as straight as those of ECP.
+# 0.55 px at every length from 8 to 50 px. The scatter on the wall lies in a range of 0.9 to 1.2
+# degrees that comes to the same (docs/facade-method.md).
 _MEASURED_END_NOISE_PX = 0.5
 _WALL_SCATTER_RAD = math.radians(1.0)
 _MOST_FORESHORTENED = 4.0
+"""At most so much more or less turns an edge in the photo than on the wall: the view that tells it
+is not exact yet."""
 
 _EVIDENCE = 0.25
 """Segments of one cornice are not independent: each counts for a quarter."""
@@ -94,10 +96,8 @@ def fit_plane(
 
     `size_px` is (width, height) of the photo. Same arguments, same answer.
     """
-    width, height = size_px
-    diagonal = math.hypot(width, height)
-    centred = _centred(segments, size_px)
-    problem = _problem(centred, diagonal, focal_px)
+    centred = segments.centred(size_px)
+    problem = _problem(centred, math.hypot(*size_px), focal_px)
     starts = _starts(centred, problem, np.random.default_rng(seed))
     if not starts:
         return None
@@ -116,10 +116,8 @@ def measure_plane(
     `times`: how often an edge is among them; what they say together counts for so much less.
     `focal_px` as for `fit_plane`.
     """
-    width, height = start.size_px
-    diagonal = math.hypot(width, height)
-    centred = _centred(segments, start.size_px)
-    problem = _problem(centred, diagonal, focal_px)
+    centred = segments.centred(start.size_px)
+    problem = _problem(centred, math.hypot(*start.size_px), focal_px)
     return _measured(problem, centred, start.size_px, _parameters(start), times)
 
 
@@ -127,17 +125,11 @@ def _measured(
     problem: _Problem, centred: Segments, size_px: tuple[int, int], start: Vector, times: int
 ) -> PlaneFit:
     measuring = _measuring(problem, centred, size_px, start, times)
+    # The scatter is in the noise of each segment: nothing is added to it.
     best = _converged(measuring, start, 0.0)
     normal = _normal_equations(measuring, best, 0.0)[0]
     covariance = np.asarray(np.linalg.inv(normal), dtype=np.float64)
     return PlaneFit(_view(best, size_px), covariance, _cost(measuring, best, 0.0), size_px)
-
-
-def _centred(segments: Segments, size_px: tuple[int, int]) -> Segments:
-    """The segments in centred pixels / diagonal."""
-    middle = np.array(size_px, dtype=np.float64) / 2
-    diagonal = math.hypot(*size_px)
-    return Segments((segments.start - middle) / diagonal, (segments.end - middle) / diagonal)
 
 
 def _view(params: Vector, size_px: tuple[int, int]) -> FacadeView:

@@ -44,6 +44,11 @@ class Segments:
         """Those where the mask is True."""
         return Segments(self.start[mask], self.end[mask])
 
+    def centred(self, size_px: tuple[int, int]) -> Segments:
+        """From the middle of a photo of (width, height), in parts of its diagonal."""
+        middle, diagonal = np.array(size_px) / 2, float(np.hypot(*size_px))
+        return Segments((self.start - middle) / diagonal, (self.end - middle) / diagonal)
+
     def mapped(self, target_from_source: Matrix) -> Segments:
         """The segments through a homography (all must lie on one side of its horizon)."""
         start = homography.apply(target_from_source, self.start)
