@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -23,11 +22,11 @@ from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_camera import add_camera
 from veduta.formats.gltf_instances import MOST_NODES, add_instances
 from veduta.formats.gltf_lights import add_lights, add_sun
+from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
 from veduta.formats.gltf_movers import add_movers
 from veduta.formats.gltf_read import read_glb
-from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.camera_path import CameraPath
-from veduta.place.material import Texture
+from veduta.place.mesh import Mesh
 from veduta.place.mover import Vector
 from veduta.place.part import Features, Part
 from veduta.place.sunlight import Sunlight
@@ -35,9 +34,6 @@ from veduta.run.atomic import write_bytes
 
 __all__ = ["feature_columns", "glb_bytes", "read_glb", "write_glb"]
 
-JPEG_QUALITY = 90
-UNLIT = "KHR_materials_unlit"
-_LINEAR, _LINEAR_MIPMAP_LINEAR, _CLAMP, _REPEAT = 9729, 9987, 33071, 10497
 _BESIDE_UV = 1e-3
 
 
@@ -78,7 +74,7 @@ def glb_bytes(
         "meshes": [],
         "materials": [],
     }
-    materials = _Materials(root, part, binary)
+    materials = GltfMaterials(root, part.materials, lambda row: _wrap(part, row), binary)
 
     def primitives_of(chosen: NDArray[np.bool_], about_m: Vector) -> list[dict[str, Any]]:
         return _primitives(part, chosen, about_m, materials, binary)
@@ -102,7 +98,7 @@ def glb_bytes(
     return glb_container(root, bytes(binary.content))
 
 
-def feature_columns(part: Part) -> dict[str, list[Any]]:
+def feature_columns(part: Part | Mesh) -> dict[str, list[Any]]:
     """The feature table as JSON columns; NaN becomes null."""
     features: Features = part.features
     rows = range(len(features))
@@ -128,75 +124,6 @@ def _rounded(value: float) -> float | None:
     return None if math.isnan(value) else round(value, 4)
 
 
-class _Materials:
-    """The materials of the file: those of the part that are used, in the order of use."""
-
-    def __init__(self, root: dict[str, Any], part: Part, binary: GltfBin) -> None:
-        self._root, self._part, self._binary = root, part, binary
-        self._number_of: dict[int, int] = {}
-        self._images: dict[Texture, tuple[int, int]] = {}
-
-    def number(self, row: int) -> int:
-        """The number in the file of a material of the part."""
-        if row not in self._number_of:
-            entry = self._entry(row)
-            self._number_of[row] = len(self._number_of)
-            self._root["materials"].append(entry)
-        return self._number_of[row]
-
-    def _entry(self, row: int) -> dict[str, Any]:
-        material = self._part.materials[row]
-        shading: dict[str, Any] = {
-            "baseColorFactor": [
-                *(_linear(channel) for channel in material.colour),
-                material.opacity,
-            ],
-            "metallicFactor": material.metalness,
-            "roughnessFactor": material.roughness,
-        }
-        entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
-        if material.opacity < 1.0:
-            entry["alphaMode"] = "BLEND"
-        if material.glow > 0.0:
-            entry["emissiveFactor"] = [
-                round(material.glow * _linear(channel), 6) for channel in material.colour
-            ]
-        if material.texture is not None:
-            image, invented = self._pictures(material.texture)
-            shading["baseColorTexture"] = {"index": self._texture(image, _wrap(self._part, row))}
-            entry["extras"] = {"veduta": {"invented_mask": invented}}
-        if material.unlit:
-            entry["extensions"] = {UNLIT: {}}
-            if UNLIT not in self._root.setdefault("extensionsUsed", []):
-                self._root["extensionsUsed"].append(UNLIT)
-        return entry
-
-    def _pictures(self, texture: Texture) -> tuple[int, int]:
-        """The images of a texture and of its mask: once in the file, whatever colours it has."""
-        if texture not in self._images:
-            image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
-            invented = _image(self._root, _mask_png(texture), "image/png", self._binary)
-            self._images[texture] = (image, invented)
-        return self._images[texture]
-
-    def _texture(self, image: int, wrap: int) -> int:
-        """The number of the texture with this image and wrapping."""
-        samplers = self._root.setdefault("samplers", [])
-        sampler = {
-            "magFilter": _LINEAR,
-            "minFilter": _LINEAR_MIPMAP_LINEAR,
-            "wrapS": wrap,
-            "wrapT": wrap,
-        }
-        if sampler not in samplers:
-            samplers.append(sampler)
-        textures: list[dict[str, Any]] = self._root.setdefault("textures", [])
-        told = {"source": image, "sampler": samplers.index(sampler)}
-        if told not in textures:
-            textures.append(told)
-        return textures.index(told)
-
-
 def _still(part: Part) -> NDArray[np.bool_]:
     """(p,) the polygons that do not move."""
     still = np.ones(len(part.polygon_feature), dtype=np.bool_)
@@ -209,7 +136,7 @@ def _primitives(
     part: Part,
     chosen_polygons: NDArray[np.bool_],
     about_m: Vector,
-    materials: _Materials,
+    materials: GltfMaterials,
     binary: GltfBin,
 ) -> list[dict[str, Any]]:
     """One primitive for each material that the chosen polygons have; corners are about a point."""
@@ -263,31 +190,8 @@ def _wrap(part: Part, row: int) -> int:
     """
     groups = part.instances.groups if part.instances is not None else ()
     if any(row in group.materials for group in groups):
-        return _REPEAT
+        return REPEAT
     corners = np.repeat(part.polygon_material, np.diff(part.ring_offsets[part.polygon_offsets]))
     uv = part.uv[corners == row]
     beside = (uv < -_BESIDE_UV) | (uv > 1.0 + _BESIDE_UV)
-    return _REPEAT if beside.any() else _CLAMP
-
-
-def _linear(srgb: float) -> float:
-    """IEC 61966-2-1: glTF's factors are linear."""
-    value = srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
-    return round(value, 6)
-
-
-def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int:
-    images = root.setdefault("images", [])
-    images.append({"bufferView": binary.add(data), "mimeType": mime})
-    return len(images) - 1
-
-
-@lru_cache(maxsize=32)
-def _jpeg(texture: Texture) -> bytes:
-    """Encoded once for all models of a process."""
-    return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
-
-
-@lru_cache(maxsize=32)
-def _mask_png(texture: Texture) -> bytes:
-    return mask_bytes(texture.invented)
+    return REPEAT if beside.any() else CLAMP

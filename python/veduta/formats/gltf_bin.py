@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-_FLOAT, _UINT = 5126, 5125
+_COMPONENTS = {"float32": 5126, "uint32": 5125, "uint16": 5123}
 _JSON_CHUNK, _BIN_CHUNK = 0x4E4F534A, 0x004E4942
 _ARRAY_BUFFER, _ELEMENT_ARRAY_BUFFER = 34962, 34963
 
@@ -35,23 +35,29 @@ class GltfBin:
 
     def add_array(
         self,
-        values: NDArray[np.float32] | NDArray[np.uint32],
+        values: NDArray[np.float32] | NDArray[np.uint32] | NDArray[np.uint16],
         kind: str,
         *,
         bounds: bool = False,
         of_vertices: bool = True,
+        normalized: bool = False,
     ) -> int:
-        """Append an array; returns the accessor. What is not of vertices gets no buffer target."""
+        """Append an array; returns the accessor. What is not of vertices gets no buffer target.
+
+        normalized: whole numbers stand for shares, the largest for 1.
+        """
         is_index = values.dtype == np.uint32
         target = _ELEMENT_ARRAY_BUFFER if is_index else _ARRAY_BUFFER
         accessor: dict[str, Any] = {
             "bufferView": self.add(
                 np.ascontiguousarray(values).tobytes(), target if of_vertices else None
             ),
-            "componentType": _UINT if is_index else _FLOAT,
+            "componentType": _COMPONENTS[values.dtype.name],
             "count": len(values),
             "type": kind,
         }
+        if normalized:
+            accessor["normalized"] = True
         if bounds:
             accessor["min"] = values.min(axis=0).tolist()
             accessor["max"] = values.max(axis=0).tolist()

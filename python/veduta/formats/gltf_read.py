@@ -7,10 +7,7 @@ materials, textures and their masks of invented pixels come back as they were (J
 from __future__ import annotations
 
 import io
-import json
-import struct
 from collections.abc import Iterator
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -18,83 +15,29 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
+from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
 from veduta.formats.gltf_instances import INSTANCING, part_placement
 from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
-LARGEST_BYTES = 2**31
 LARGEST_PIXELS = 64 * 2**20
-_HEADER = struct.Struct("<4sII")
-_CHUNK = struct.Struct("<I4s")
-_REMEDY = "Let Veduta write it again."
-_BROKEN = (
-    ValueError, KeyError, IndexError, TypeError, AttributeError, OverflowError,
-    struct.error, OSError,
-)  # fmt: skip
 _Columns = NDArray[np.float32]
-_DTYPES = {5126: np.float32, 5125: np.uint32}
-_WIDTHS = {"SCALAR": 1, "VEC2": 2, "VEC3": 3, "VEC4": 4}
-
-
-@dataclass(frozen=True)
-class _Glb:
-    """The two chunks of a file."""
-
-    root: dict[str, Any]
-    content: bytes
-
-    def view(self, number: int) -> bytes:
-        view = self.root["bufferViews"][number]
-        start, size = int(view["byteOffset"]), int(view["byteLength"])
-        if start < 0 or size < 0 or start + size > len(self.content):
-            raise ValueError(f"buffer view {number} lies outside of the file")
-        return self.content[start : start + size]
-
-    def array(self, number: int) -> NDArray[Any]:
-        accessor = self.root["accessors"][number]
-        width = _WIDTHS[accessor["type"]]
-        dtype = np.dtype(_DTYPES[accessor["componentType"]])
-        count = int(accessor["count"])
-        data = self.view(accessor["bufferView"])
-        if len(data) != count * width * dtype.itemsize:
-            raise ValueError(f"accessor {number} does not fill its buffer view")
-        return np.frombuffer(data, dtype=dtype).reshape((count, width) if width > 1 else (count,))
 
 
 def read_glb(path: Path) -> Part:
     """Read a GLB file that Veduta wrote; raises InputError on any other."""
+    data = glb_content(path)
     try:
-        require_file(path, LARGEST_BYTES)
-        data = path.read_bytes()
-    except OSError as error:
-        raise InputError(path, f"cannot be read ({error.strerror})", _REMEDY) from error
-    try:
-        return _part(_chunks(data))
-    except _BROKEN as error:
-        raise InputError(path, f"not a GLB file of Veduta ({error})", _REMEDY) from error
+        return part_of(glb_chunks(data))
+    except BROKEN as error:
+        raise InputError(path, f"not a GLB file of Veduta ({error})", REMEDY) from error
 
 
-def _chunks(data: bytes) -> _Glb:
-    magic, version, total = _HEADER.unpack_from(data, 0)
-    if magic != b"glTF" or version != 2 or total != len(data):
-        raise ValueError("the header is not glTF 2.0's, or the file is cut short")
-    size, kind = _CHUNK.unpack_from(data, _HEADER.size)
-    start = _HEADER.size + _CHUNK.size
-    if kind != b"JSON":
-        raise ValueError("the first chunk is not JSON")
-    root = json.loads(data[start : start + size])
-    size_bin, kind_bin = _CHUNK.unpack_from(data, start + size)
-    if kind_bin != b"BIN\0":
-        raise ValueError("the second chunk is not binary")
-    first = start + size + _CHUNK.size
-    return _Glb(root, data[first : first + size_bin])
-
-
-def _part(glb: _Glb) -> Part:
+def part_of(glb: Glb) -> Part:
+    """The part in a file's chunks; one of `BROKEN` where they hold none."""
     if glb.root["asset"].get("generator") != "veduta":
         raise ValueError("another program wrote it")
     extras = glb.root["scenes"][0]["extras"]["veduta"]
@@ -112,7 +55,7 @@ def _part(glb: _Glb) -> Part:
         features.append(glb.array(attributes["_FEATURE_ID_0"])[corners][::3].astype(np.int32))
         materials.append(np.full(len(corners) // 3, primitive["material"], dtype=np.int32))
     count = sum(len(rows) for rows in features)
-    table = _features(extras["features"])
+    table = features_of(extras["features"])
     feature = np.concatenate(features)
     if count and not 0 <= int(feature.min()) <= int(feature.max()) < len(table):
         raise ValueError("a face names a feature that is not in the table")
@@ -125,14 +68,14 @@ def _part(glb: _Glb) -> Part:
         polygon_feature=feature,
         polygon_material=np.concatenate(materials),
         features=table,
-        materials=tuple(_material(glb, entry) for entry in glb.root["materials"]),
+        materials=tuple(material_of(glb, entry) for entry in glb.root["materials"]),
         attributes=dict(extras.get("attributes", {})),
         notes=tuple(extras.get("notes", ())),
         instances=_instances(glb, len(table)),
     )
 
 
-def _instances(glb: _Glb, features: int) -> Instances | None:
+def _instances(glb: Glb, features: int) -> Instances | None:
     """What stands many times; None where there is nothing."""
     found = list(_groups(glb))
     if not found:
@@ -155,7 +98,7 @@ def _instances(glb: _Glb, features: int) -> Instances | None:
     return Instances(tuple(meshes[name] for name in names), tuple(groups))
 
 
-def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[_Columns]]]:
+def _groups(glb: Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list[_Columns]]]:
     """Mesh, feature rows and places (moves, turns, stretches) of what stands many times."""
     nodes = glb.root["nodes"]
     for node in nodes:
@@ -176,7 +119,7 @@ def _groups(glb: _Glb) -> Iterator[tuple[dict[str, Any], NDArray[np.int32], list
             yield glb.root["meshes"][children[0]["mesh"]], np.array(rows, dtype=np.int32), place
 
 
-def _shared_mesh(glb: _Glb, mesh: dict[str, Any]) -> SharedMesh:
+def _shared_mesh(glb: Glb, mesh: dict[str, Any]) -> SharedMesh:
     primitives = mesh["primitives"]
     attributes = primitives[0]["attributes"]
     positions = glb.array(attributes["POSITION"])
@@ -200,7 +143,8 @@ def _z_up(vectors: NDArray[np.float32]) -> NDArray[np.float32]:
     return np.stack([vectors[:, 0], -vectors[:, 2], vectors[:, 1]], axis=1) + np.float32(0.0)
 
 
-def _features(columns: dict[str, list[Any]]) -> Features:
+def features_of(columns: dict[str, list[Any]]) -> Features:
+    """The feature table of its JSON columns."""
     unseen = [np.nan] * 4
     return Features(
         id=tuple(columns["id"]),
@@ -225,7 +169,8 @@ def _sizes(column: list[float | None]) -> NDArray[np.float64]:
     return np.array([np.nan if value is None else value for value in column], dtype=np.float64)
 
 
-def _material(glb: _Glb, entry: dict[str, Any]) -> Material:
+def material_of(glb: Glb, entry: dict[str, Any]) -> Material:
+    """A material with its texture and mask."""
     shading = entry["pbrMetallicRoughness"]
     red, green, blue = (_srgb(value) for value in shading["baseColorFactor"][:3])
     colour: Colour = (red, green, blue)
@@ -254,7 +199,7 @@ def _glow(entry: dict[str, Any]) -> float:
     return round(max(given) / brightest, 5) if max(given) > 0.0 and brightest > 0.0 else 0.0
 
 
-def _pixels(glb: _Glb, number: int, mode: str) -> NDArray[np.uint8]:
+def _pixels(glb: Glb, number: int, mode: str) -> NDArray[np.uint8]:
     image = Image.open(io.BytesIO(glb.view(glb.root["images"][number]["bufferView"])))
     if image.width * image.height > LARGEST_PIXELS:
         raise ValueError(f"image {number} is {image.width} x {image.height} pixels")

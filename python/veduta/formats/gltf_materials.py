@@ -1,0 +1,117 @@
+"""Materials of a glTF file: colours, textures once each, and the masks of invented pixels."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import lru_cache
+from typing import Any
+
+from veduta.formats.gltf_bin import GltfBin
+from veduta.imaging.encode import jpeg_bytes, mask_bytes
+from veduta.place.material import Material, Texture
+
+JPEG_QUALITY = 90
+UNLIT = "KHR_materials_unlit"
+CLAMP, REPEAT = 33071, 10497
+_LINEAR, _LINEAR_MIPMAP_LINEAR = 9729, 9987
+
+
+class GltfMaterials:
+    """The materials of the file: those of the part that are used, in the order of use.
+
+    wrap_of: how the texture of a material goes on beside its borders (`CLAMP`, `REPEAT`).
+    """
+
+    def __init__(
+        self,
+        root: dict[str, Any],
+        materials: Sequence[Material],
+        wrap_of: Callable[[int], int],
+        binary: GltfBin,
+    ) -> None:
+        self._root, self._all, self._wrap_of, self._binary = root, materials, wrap_of, binary
+        self._number_of: dict[int, int] = {}
+        self._images: dict[Texture, tuple[int, int]] = {}
+
+    def number(self, row: int) -> int:
+        """The number in the file of a material of the part."""
+        if row not in self._number_of:
+            entry = self._entry(row)
+            self._number_of[row] = len(self._number_of)
+            self._root["materials"].append(entry)
+        return self._number_of[row]
+
+    def _entry(self, row: int) -> dict[str, Any]:
+        material = self._all[row]
+        shading: dict[str, Any] = {
+            "baseColorFactor": [
+                *(_linear(channel) for channel in material.colour),
+                material.opacity,
+            ],
+            "metallicFactor": material.metalness,
+            "roughnessFactor": material.roughness,
+        }
+        entry: dict[str, Any] = {"name": material.name, "pbrMetallicRoughness": shading}
+        if material.opacity < 1.0:
+            entry["alphaMode"] = "BLEND"
+        if material.glow > 0.0:
+            entry["emissiveFactor"] = [
+                round(material.glow * _linear(channel), 6) for channel in material.colour
+            ]
+        if material.texture is not None:
+            image, invented = self._pictures(material.texture)
+            shading["baseColorTexture"] = {"index": self._texture(image, self._wrap_of(row))}
+            entry["extras"] = {"veduta": {"invented_mask": invented}}
+        if material.unlit:
+            entry["extensions"] = {UNLIT: {}}
+            if UNLIT not in self._root.setdefault("extensionsUsed", []):
+                self._root["extensionsUsed"].append(UNLIT)
+        return entry
+
+    def _pictures(self, texture: Texture) -> tuple[int, int]:
+        """The images of a texture and of its mask: once in the file, whatever colours it has."""
+        if texture not in self._images:
+            image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
+            invented = _image(self._root, _mask_png(texture), "image/png", self._binary)
+            self._images[texture] = (image, invented)
+        return self._images[texture]
+
+    def _texture(self, image: int, wrap: int) -> int:
+        """The number of the texture with this image and wrapping."""
+        samplers = self._root.setdefault("samplers", [])
+        sampler = {
+            "magFilter": _LINEAR,
+            "minFilter": _LINEAR_MIPMAP_LINEAR,
+            "wrapS": wrap,
+            "wrapT": wrap,
+        }
+        if sampler not in samplers:
+            samplers.append(sampler)
+        textures: list[dict[str, Any]] = self._root.setdefault("textures", [])
+        told = {"source": image, "sampler": samplers.index(sampler)}
+        if told not in textures:
+            textures.append(told)
+        return textures.index(told)
+
+
+def _linear(srgb: float) -> float:
+    """IEC 61966-2-1: glTF's factors are linear."""
+    value = srgb / 12.92 if srgb <= 0.04045 else ((srgb + 0.055) / 1.055) ** 2.4
+    return round(value, 6)
+
+
+def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int:
+    images = root.setdefault("images", [])
+    images.append({"bufferView": binary.add(data), "mimeType": mime})
+    return len(images) - 1
+
+
+@lru_cache(maxsize=32)
+def _jpeg(texture: Texture) -> bytes:
+    """Encoded once for all models of a process."""
+    return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
+
+
+@lru_cache(maxsize=32)
+def _mask_png(texture: Texture) -> bytes:
+    return mask_bytes(texture.invented)
