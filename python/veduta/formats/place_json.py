@@ -6,7 +6,7 @@ from pathlib import Path
 
 from pydantic import ValidationError
 
-from veduta.place.manifest import Place
+from veduta.place.manifest import LATER, Place
 from veduta.run.atomic import write_bytes
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -17,7 +17,9 @@ LARGEST_BYTES = 256 * 2**20
 
 def write_place(place: Place, path: Path) -> None:
     """Write the manifest as indented JSON."""
-    write_bytes(path, (place.model_dump_json(by_alias=True, indent=2) + "\n").encode())
+    unsaid = {name for name in LATER if not getattr(place, name)}
+    text = place.model_dump_json(by_alias=True, indent=2, exclude=unsaid)
+    write_bytes(path, (text + "\n").encode())
 
 
 def read_place(path: Path) -> Place:

@@ -27,6 +27,7 @@ def _within_folder(path: str) -> str:
     return path
 
 
+Words = Annotated[str, Field(max_length=10_000)]
 RelativePath = Annotated[str, Field(min_length=1, max_length=1024), AfterValidator(_within_folder)]
 
 
@@ -160,6 +161,13 @@ class Place(_Record):
 
     schema_: Literal["veduta/place"] = Field(default="veduta/place", alias="schema")
     version: Literal[1] = 1
+    title: Words | None = Field(default=None, description="what the place is called")
+    description: Words | None = Field(default=None, description="what it shows, in a few sentences")
+    author: Words | None = Field(default=None, description="who made it")
+    licence: Words | None = Field(default=None, description="SPDX expression, or plain words")
+    languages: list[Annotated[str, Field(max_length=35)]] = Field(
+        default=[], max_length=100, description="of the texts (BCP 47)"
+    )
     crs: str | None = Field(default=None, description="EPSG code; null where none is known")
     origin: Vector = (0.0, 0.0, 0.0)
     parts: list[PlacePart] = Field(max_length=1_000_000)
@@ -188,6 +196,10 @@ class Place(_Record):
                 seen.add(item.id)
         return self
 
+
+LATER = frozenset({"title", "description", "author", "licence", "languages"})
+"""What manifests have said only since some time: it is left out of the file where nothing is said,
+so that places that say nothing of it are written as they were."""
 
 Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour)
 _FILES = {"model", "city_model", "document", "photo", "file", "picture"}

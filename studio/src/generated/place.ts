@@ -37,6 +37,28 @@ export interface Place {
   schema?: "veduta/place";
   version?: 1;
   /**
+   * what the place is called
+   */
+  title?: string | null;
+  /**
+   * what it shows, in a few sentences
+   */
+  description?: string | null;
+  /**
+   * who made it
+   */
+  author?: string | null;
+  /**
+   * SPDX expression, or plain words
+   */
+  licence?: string | null;
+  /**
+   * of the texts (BCP 47)
+   *
+   * @maxItems 100
+   */
+  languages?: string[];
+  /**
    * EPSG code; null where none is known
    */
   crs?: string | null;

@@ -1,0 +1,137 @@
+"""A place as a folder: `place.json`, a GLB of each part, a PLY of each cloud."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.formats.gltf import write_glb
+from veduta.formats.mesh_glb import write_mesh_glb
+from veduta.formats.mesh_glb_read import read_model
+from veduta.formats.place_json import read_place, write_place
+from veduta.formats.ply import read_points, write_points
+from veduta.place import manifest
+from veduta.place.mesh import Mesh
+from veduta.place.place import Cloud, Place, PlacedPart, Standing
+from veduta.run.errors import InputError
+
+MANIFEST = "place.json"
+PARTS = "parts"
+EYE_HEIGHT_M = 1.7
+
+
+def save_place(place: Place, folder: Path) -> None:
+    """Write all of it into a folder; pictures of cameras and documents must lie there already."""
+    rows = []
+    for number, placed in enumerate(place.parts.values()):
+        name = f"{PARTS}/{_file_name(placed.id, number)}.glb"
+        (folder / PARTS).mkdir(parents=True, exist_ok=True)
+        content = placed.content
+        if isinstance(content, Mesh):
+            write_mesh_glb(content, folder / name)
+        else:
+            write_glb(content, folder / name)
+        rows.append(_part_row(placed, name))
+    clouds = []
+    for number, cloud in enumerate(place.clouds):
+        name = f"{_file_name(cloud.id, number)}.ply"
+        write_points(cloud.points_m, cloud.colours, folder / name)
+        clouds.append(_cloud_row(cloud, name))
+    described = manifest.Place(
+        title=place.title,
+        description=place.description,
+        author=place.author,
+        licence=place.licence,
+        languages=list(place.languages),
+        crs=place.crs,
+        origin=place.origin_m,
+        parts=rows,
+        points=clouds,
+        cameras=place.cameras,
+        tours=place.tours,
+        scale=place.scale,
+        sun=place.sun,
+        start=place.start or chosen_start(place),
+    )
+    write_place(described, folder / MANIFEST)
+
+
+def load_place(folder: Path) -> Place:
+    """The place in a folder; its parts are read when they are asked for.
+
+    InputError where there is no place, or its manifest is broken.
+    """
+    if not folder.is_dir():
+        raise InputError(folder, "there is no such folder", "Name one that Veduta wrote.")
+    told = read_place(folder / MANIFEST)
+    place = Place(
+        told.title, told.description, told.author, told.licence, tuple(told.languages),
+        told.crs, told.origin, told.scale, cameras=told.cameras, tours=told.tours, sun=told.sun,
+        start=told.start, folder=folder, tileset=told.tileset,
+    )  # fmt: skip
+    for row in told.parts:
+        place.parts[row.id] = _placed(row, folder)
+    for cloud in told.points:
+        points, colours = read_points(folder / cloud.file)
+        matrix = np.array(cloud.transform).reshape(4, 4).T
+        place.clouds.append(Cloud(cloud.id, points @ matrix[:3, :3].T + matrix[:3, 3], colours))
+    return place
+
+
+def chosen_start(place: Place) -> manifest.Start:
+    """A view of the whole from the south-west, a little from above; at eye height where it fits."""
+    box = place.bounds_m()
+    if box is None:
+        return manifest.Start(eye=(0.0, -5.0, EYE_HEIGHT_M), target=(0.0, 0.0, EYE_HEIGHT_M))
+    middle, size = (box[0] + box[1]) / 2.0, float(np.linalg.norm(box[1] - box[0]))
+    eye = middle + size * np.array([-0.45, -0.95, 0.35])
+    return manifest.Start(eye=_vector(eye), target=_vector(middle))
+
+
+def _file_name(identity: str, number: int) -> str:
+    """A name that every file system takes; the number parts two that would be one."""
+    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", identity).strip("-")[:64]
+    return plain if plain == identity else f"{plain or 'part'}-{number}"
+
+
+def _part_row(placed: PlacedPart, model: str) -> manifest.PlacePart:
+    low, high = placed.content.bounds_m
+    standing = placed.standing
+    return manifest.PlacePart(
+        id=placed.id,
+        name=standing.name or placed.id,
+        model=model,
+        city_model=standing.city_model,
+        document=standing.document,
+        photo=standing.photo,
+        transform=tuple(standing.transform.T.ravel().tolist()),
+        arrangement=standing.arrangement,
+        bounds=manifest.Bounds(min=low, max=high),
+        ground=standing.ground,
+        backdrop=standing.backdrop,
+    )
+
+
+def _cloud_row(cloud: Cloud, name: str) -> manifest.PlacePoints:
+    """The bounds are around nearly all points: few strays would make the place look empty."""
+    seen = np.zeros((2, 3))
+    if len(cloud.points_m):
+        seen = np.quantile(cloud.points_m, [0.005, 0.995], axis=0)
+    bounds = manifest.Bounds(min=_vector(seen[0]), max=_vector(seen[1]))
+    return manifest.PlacePoints(id=cloud.id, file=name, count=len(cloud.points_m), bounds=bounds)
+
+
+def _placed(row: manifest.PlacePart, folder: Path) -> PlacedPart:
+    standing = Standing(
+        row.name, np.array(row.transform).reshape(4, 4).T, row.arrangement, row.ground,
+        row.backdrop, row.document, row.photo, row.city_model,
+    )  # fmt: skip
+    return PlacedPart(row.id, standing, lambda: read_model(folder / row.model), row)
+
+
+def _vector(values: NDArray[np.float64]) -> manifest.Vector:
+    x, y, z = (float(value) for value in values)
+    return (x, y, z)

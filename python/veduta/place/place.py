@@ -1,0 +1,196 @@
+"""A place in memory: parts where they stand, clouds, cameras and tours in one frame.
+
+World frame: x east, y north, z up, metres from `origin_m` in `crs`. What is loaded from a folder is
+read when it is asked for: a town of thousands of parts costs no more memory than what is looked at.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.place.manifest import PlaceCamera, PlacePart, PlaceSun, Start, Tour
+from veduta.place.mesh import Mesh
+from veduta.place.part import Part
+from veduta.place.registry import folders, format_of
+from veduta.run.errors import InputError
+
+Vector = tuple[float, float, float]
+
+
+def _identity() -> NDArray[np.float64]:
+    return np.eye(4)
+
+
+@dataclass(frozen=True, eq=False)
+class Standing:
+    """Where a part stands in the place, and what it is there.
+
+    transform: (4, 4) float64, world_from_part. document, photo, city_model: files in the place's
+    folder. ground: whether one walks on it. backdrop: a picture around the others.
+    """
+
+    name: str = ""
+    transform: NDArray[np.float64] = field(default_factory=_identity)
+    arrangement: Literal["single", "invented"] = "single"
+    ground: bool = False
+    backdrop: bool = False
+    document: str | None = None
+    photo: str | None = None
+    city_model: str | None = None
+
+
+@dataclass(eq=False)
+class PlacedPart:
+    """A part and where it stands. read: brings its content where that is not in memory yet."""
+
+    id: str
+    standing: Standing
+    read: Callable[[], Part | Mesh]
+    row: PlacePart | None = None
+    """What a loaded manifest says of it; None where the part was made in memory."""
+    _content: Part | Mesh | None = None
+
+    @property
+    def content(self) -> Part | Mesh:
+        """The polygons or triangles, in the part's own frame."""
+        if self._content is None:
+            self._content = self.read()
+        return self._content
+
+    def triangles(self) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+        """Vertices (v, 3) in the world (m), and triangles (m, 3), counter-clockwise from outside.
+
+        Meshes that stand many times in a part are not among them: `place.flatten` writes them out.
+        """
+        content = self.content
+        faces = content.triangles if isinstance(content, Mesh) else content.triangles.indices
+        turn, move = self.standing.transform[:3, :3], self.standing.transform[:3, 3]
+        return content.positions_m.astype(np.float64) @ turn.T + move, faces
+
+
+@dataclass(frozen=True, eq=False)
+class Cloud:
+    """Points of the place. points_m: (n, 3) float64, world. colours: (n, 3) uint8 sRGB.
+
+    classes: (n,) uint8, ASPRS's numbers; None where nothing is known.
+    """
+
+    id: str
+    points_m: NDArray[np.float64]
+    colours: NDArray[np.uint8]
+    classes: NDArray[np.uint8] | None = None
+
+
+@dataclass(eq=False)
+class Place:
+    """What every verb ends in, and what every format is written from."""
+
+    title: str | None = None
+    description: str | None = None
+    author: str | None = None
+    licence: str | None = None
+    languages: tuple[str, ...] = ()
+    crs: str | None = None
+    origin_m: Vector = (0.0, 0.0, 0.0)
+    scale: Literal["metres", "unknown"] = "metres"
+    parts: dict[str, PlacedPart] = field(default_factory=dict)
+    clouds: list[Cloud] = field(default_factory=list)
+    cameras: list[PlaceCamera] = field(default_factory=list)
+    tours: list[Tour] = field(default_factory=list)
+    sun: PlaceSun | None = None
+    start: Start | None = None
+    """Where a visitor begins; None: chosen where the place is saved."""
+    folder: Path | None = None
+    """Where it was loaded from: the files that its cameras and parts name lie there."""
+    tileset: str | None = None
+    """Its tiles in that folder, where it has too many parts to be shown one by one."""
+
+    def add(self, part: Part | Mesh, standing: Standing | None = None) -> PlacedPart:
+        """Put a part into the place; InputError where another has its id."""
+        placed = PlacedPart(part.id, standing or Standing(), lambda: part)
+        self._add(placed)
+        return placed
+
+    def _add(self, placed: PlacedPart) -> None:
+        if placed.id in self.parts:
+            raise InputError(placed.id, "is the id of two parts of a place", "Rename one of them.")
+        self.parts[placed.id] = placed
+
+    @staticmethod
+    def load(folder: str | Path) -> Place:
+        """The place in a folder that a verb has written; InputError where there is none."""
+        return folders().load(Path(folder))
+
+    def save(self, folder: str | Path) -> None:
+        """Write it as a folder that `veduta view` shows: `place.json`, models and clouds."""
+        folders().save(self, Path(folder))
+
+    def write(self, path: str | Path) -> None:
+        """Write it as one file, in the format that its name asks for."""
+        target = Path(path)
+        format_of(target).write(self, target)
+
+    def merge(self, other: Place) -> Place:
+        """Both as one, in the frame of this one; `place.manifest.merge` has the rules.
+
+        InputError where they are in different CRS, have no scale, or share an id.
+        """
+        if self.crs != other.crs:
+            fault = f"is in another coordinate system ({other.crs}, not {self.crs})"
+            raise InputError("the place", fault, "Bring both into one coordinate system first.")
+        if "unknown" in (self.scale, other.scale):
+            fault = "has no known scale"
+            raise InputError("one of the places", fault, "Give it its scale first.")
+        shift = np.eye(4)
+        shift[:3, 3] = np.array(other.origin_m) - np.array(self.origin_m)
+        both = replace(
+            self, parts=dict(self.parts), folder=None, tileset=None,
+            clouds=[*self.clouds, *(_moved_cloud(one, shift) for one in other.clouds)],
+            cameras=[*self.cameras, *(_moved_camera(one, shift) for one in other.cameras)],
+            tours=[*self.tours, *(_moved_tour(one, shift) for one in other.tours)],
+        )  # fmt: skip
+        for placed in other.parts.values():
+            standing = replace(placed.standing, transform=shift @ placed.standing.transform)
+            both._add(PlacedPart(placed.id, standing, placed.read))
+        return both
+
+    def bounds_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
+        """Lower and upper corner (m, world) around parts and clouds; None of an empty place."""
+        corners = [_box(placed) for placed in self.parts.values()]
+        corners += [
+            np.quantile(cloud.points_m, [0.01, 0.99], axis=0)
+            for cloud in self.clouds
+            if len(cloud.points_m)
+        ]
+        if not corners:
+            return None
+        every = np.concatenate(corners)
+        return every.min(axis=0), every.max(axis=0)
+
+
+def _box(placed: PlacedPart) -> NDArray[np.float64]:
+    """(8, 3) the corners of a part's box, in the world."""
+    row = placed.row
+    low, high = placed.content.bounds_m if row is None else (row.bounds.min, row.bounds.max)
+    grid = np.array(np.meshgrid(*zip(low, high, strict=True))).reshape(3, -1).T
+    turn, move = placed.standing.transform[:3, :3], placed.standing.transform[:3, 3]
+    return np.asarray(grid @ turn.T + move, dtype=np.float64)
+
+
+def _moved_cloud(cloud: Cloud, shift: NDArray[np.float64]) -> Cloud:
+    return replace(cloud, points_m=cloud.points_m + shift[:3, 3])
+
+
+def _moved_camera(camera: PlaceCamera, shift: NDArray[np.float64]) -> PlaceCamera:
+    matrix = shift @ np.array(camera.transform).reshape(4, 4).T
+    return camera.model_copy(update={"transform": tuple(matrix.T.ravel().tolist())})
+
+
+def _moved_tour(tour: Tour, shift: NDArray[np.float64]) -> Tour:
+    return tour.model_copy(update={"eyes": (np.array(tour.eyes) + shift[:3, 3]).tolist()})

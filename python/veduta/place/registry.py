@@ -1,0 +1,82 @@
+"""How a place reaches the formats: tables that `veduta.formats` fills.
+
+Formats are built on places and import them, so a place cannot import formats. It asks for the
+table by name when something is read or written, and the table registers itself here.
+"""
+
+from __future__ import annotations
+
+import importlib
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from veduta.run.errors import InputError
+
+if TYPE_CHECKING:
+    from veduta.place.mesh import Mesh
+    from veduta.place.part import Part
+    from veduta.place.place import Place
+
+_TABLE = "veduta.formats.table"
+
+
+@dataclass(frozen=True)
+class PlaceFormat:
+    """A format for whole places. suffix: with its dot, in lower case."""
+
+    suffix: str
+    name: str
+    write: Callable[[Place, Path], None]
+
+
+@dataclass(frozen=True)
+class PlaceFolders:
+    """Places as folders with a `place.json`, and the models in them."""
+
+    save: Callable[[Place, Path], None]
+    load: Callable[[Path], Place]
+    read_model: Callable[[Path], Part | Mesh]
+
+
+_formats: dict[str, PlaceFormat] = {}
+_folders: list[PlaceFolders] = []
+
+
+def register_format(added: PlaceFormat) -> None:
+    """Offer a format for places under its suffix."""
+    _formats[added.suffix] = added
+
+
+def register_folders(added: PlaceFolders) -> None:
+    """Say how places lie in folders."""
+    _folders[:] = [added]
+
+
+def formats() -> dict[str, PlaceFormat]:
+    """All formats that places can be written in, by suffix."""
+    importlib.import_module(_TABLE)
+    return dict(sorted(_formats.items()))
+
+
+def format_of(path: Path) -> PlaceFormat:
+    """The format that a file's name asks for; the longest suffix counts (`.city.json`).
+
+    InputError where there is none.
+    """
+    known = formats()
+    fitting = [suffix for suffix in known if path.name.lower().endswith(suffix)]
+    if not fitting:
+        raise InputError(
+            path,
+            "has no ending of a format that places can be written in",
+            f"Name it with one of: {', '.join(known)}",
+        )
+    return known[max(fitting, key=len)]
+
+
+def folders() -> PlaceFolders:
+    """How places lie in folders."""
+    importlib.import_module(_TABLE)
+    return _folders[0]
