@@ -17,7 +17,12 @@ from veduta.facade.document import Element
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCUMENTS = sorted(
-    [*ROOT.glob("*.md"), *ROOT.glob("docs/**/*.md"), *ROOT.glob("benchmarks/**/*.md")]
+    [
+        *ROOT.glob("*.md"),
+        *ROOT.glob("docs/**/*.md"),
+        *ROOT.glob("benchmarks/**/*.md"),
+        *ROOT.glob("python/veduta/*/README.md"),
+    ]
 )
 SHELLS = {"bash", "sh", "shell", "console"}
 
