@@ -2,31 +2,103 @@
 
 from __future__ import annotations
 
-SUMMARY = "Write a place as a folder that any web server can show"
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from veduta.cli.export_call import ExportCall
+    from veduta.place.registry import PlaceFormat
+
+SUMMARY = "Write a place in another format, or as a folder that any web server can show"
 
 
 def run(argv: list[str]) -> int:
     """Parse the arguments and write the export; returns the exit code."""
-    import tyro
-
     from veduta.cli.arguments import parse
+    from veduta.cli.export_call import ExportCall
     from veduta.run.errors import InputError
-    from veduta.studio.export import export_web
-    from veduta.studio.options import ExportOptions
 
-    options = parse(
-        ExportOptions,
-        "veduta export",
-        argv,
-        description=f"{SUMMARY}.",
-        config=(tyro.conf.PositionalRequiredArgs, tyro.conf.FlagCreatePairsOff),
-    )
-    if options.web is None:
-        raise InputError("--web", "it is missing", "Say where to write: `--web DIR`.")
-    result = export_web(options.out, options.web, force=options.force)
-    if result.written:
-        print(f"{options.web}: {result.files} files, {result.size_bytes / 1e6:.1f} MB")
-    else:
-        print(f"{options.web}: up to date")
-    print(f"To look at it: python3 -m http.server --directory {options.web} 8000")
+    call = parse(ExportCall, "veduta export", argv)
+    if call.to == "list":
+        _tell_formats()
+        return 0
+    given = [call.file is not None, call.to is not None, call.web is not None]
+    if sum(given) != 1:
+        fault = "nothing says what to write" if not any(given) else "asks for several things"
+        raise InputError(
+            "veduta export",
+            fault,
+            "Give one of: a FILE, `--to NAME,... -o FOLDER`, `--web DIR`.",
+        )
+    if (call.to is None) != (call.folder is None):
+        raise InputError("--to and -o", "go together", "Write `--to obj,stl -o FOLDER`.")
+    return _web(call, call.web) if call.web is not None else _files(call)
+
+
+def _files(call: ExportCall) -> int:
+    """Write the place as one file or several."""
+    from veduta.place.registry import format_named, format_of
+    from veduta.run.errors import InputError
+    from veduta.studio.content import place_folder
+
+    targets: list[tuple[PlaceFormat, Path]] = []
+    if call.file is not None:
+        targets.append((format_of(call.file), call.file))
+    folder = call.folder
+    if call.to is not None and folder is not None:
+        stem = call.out.resolve().name or "place"
+        for name in call.to.split(","):
+            one = format_named(name.strip())
+            targets.append((one, folder / f"{stem}{one.suffix}"))
+        if folder.exists() and not folder.is_dir():
+            raise InputError(folder, "is a file", "Name a folder.")
+    place_folder(call.out, "export")
+    for _, target in targets:
+        if target.is_dir():
+            raise InputError(target, "is a folder", "Name a file.")
+        if target.exists() and not call.force:
+            raise InputError(target, "is there already", "Use --force, or choose another name.")
+    if folder is not None:
+        folder.mkdir(parents=True, exist_ok=True)
+    for one, target in targets:
+        _write(call.out, one, target)
     return 0
+
+
+def _write(out: Path, one: PlaceFormat, target: Path) -> None:
+    from veduta.place.flatten import TooManyTrianglesError
+    from veduta.place.place import Place
+    from veduta.run.errors import InputError, UnwritableError
+
+    if not target.parent.is_dir():
+        raise InputError(target.parent, "there is no such folder", "Make it first.")
+    place = Place.load(out)
+    try:
+        place.write(target)
+    except OSError as error:
+        fault = f"cannot be written ({error.strerror})"
+        raise UnwritableError(target, fault, "Choose another place.") from error
+    except TooManyTrianglesError as error:
+        raise InputError(out, str(error), "Write .glb, which has them once each.") from error
+    print(f"{target}: {one.title}, {target.stat().st_size / 1e6:.1f} MB")
+    if one.left_out:
+        print(f"  not in it, as the format has no word for them: {one.left_out}")
+
+
+def _web(call: ExportCall, web: Path) -> int:
+    from veduta.studio.export import export_web
+
+    result = export_web(call.out, web, force=call.force)
+    if result.written:
+        print(f"{web}: {result.files} files, {result.size_bytes / 1e6:.1f} MB")
+    else:
+        print(f"{web}: up to date")
+    print(f"To look at it: python3 -m http.server --directory {web} 8000")
+    return 0
+
+
+def _tell_formats() -> None:
+    from veduta.place.registry import formats
+
+    for suffix, one in formats().items():
+        print(f"{one.name:<12}{suffix:<14}{one.title}")

@@ -17,6 +17,7 @@ from PIL import Image
 
 from veduta.formats.gltf_chunks import BROKEN, REMEDY, Glb, glb_chunks, glb_content
 from veduta.formats.gltf_instances import INSTANCING, part_placement
+from veduta.formats.gltf_movers_read import mover_nodes, pivot_of, read_mover
 from veduta.place.instances import InstanceGroup, Instances, SharedMesh
 from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Features, Part
@@ -44,11 +45,21 @@ def part_of(glb: Glb) -> Part:
     positions, uv = [np.zeros((0, 3), np.float32)], [np.zeros((0, 2), np.float32)]
     features, materials = [np.zeros(0, np.int32)], [np.zeros(0, np.int32)]
     own = glb.root["meshes"][0]["primitives"] if "mesh" in glb.root["nodes"][0] else []
-    for primitive in own:
+    moving: list[tuple[int, int, int]] = []
+    still = np.zeros(3, dtype=np.float32)
+    pieces = [(primitive, still) for primitive in own]
+    first = sum(_triangle_count(glb, primitive) for primitive in own)
+    for number, node in mover_nodes(glb):
+        primitives = glb.root["meshes"][node["mesh"]]["primitives"]
+        pieces += [(primitive, pivot_of(glb, number)) for primitive in primitives]
+        after = first + sum(_triangle_count(glb, primitive) for primitive in primitives)
+        moving.append((number, first, after))
+        first = after
+    for primitive, about in pieces:
         attributes = primitive["attributes"]
         corners = glb.array(primitive["indices"])
         points = glb.array(attributes["POSITION"])
-        positions.append(_z_up(points[corners]))
+        positions.append(_z_up(points[corners] + about))
         flat = np.zeros((len(points), 2), dtype=np.float32)
         seen = glb.array(attributes["TEXCOORD_0"]) if "TEXCOORD_0" in attributes else flat
         uv.append(seen[corners])
@@ -72,7 +83,12 @@ def part_of(glb: Glb) -> Part:
         attributes=dict(extras.get("attributes", {})),
         notes=tuple(extras.get("notes", ())),
         instances=_instances(glb, len(table)),
+        movers=tuple(read_mover(glb, number, np.arange(a, b)) for number, a, b in moving),
     )
+
+
+def _triangle_count(glb: Glb, primitive: dict[str, Any]) -> int:
+    return int(glb.root["accessors"][primitive["indices"]]["count"]) // 3
 
 
 def _instances(glb: Glb, features: int) -> Instances | None:

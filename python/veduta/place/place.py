@@ -63,6 +63,10 @@ class PlacedPart:
             self._content = self.read()
         return self._content
 
+    def passing(self) -> Part | Mesh:
+        """The content for those who look at one part after another: what is read is not kept."""
+        return self.read() if self._content is None else self._content
+
     def triangles(self) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
         """Vertices (v, 3) in the world (m), and triangles (m, 3), counter-clockwise from outside.
 

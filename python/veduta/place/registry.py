@@ -24,11 +24,17 @@ _TABLE = "veduta.formats.table"
 
 @dataclass(frozen=True)
 class PlaceFormat:
-    """A format for whole places. suffix: with its dot, in lower case."""
+    """A format for whole places.
+
+    suffix: with its dot, in lower case. name: what `veduta export --to` calls it. title: what it
+    is. left_out: what of a place it has no word for.
+    """
 
     suffix: str
     name: str
     write: Callable[[Place, Path], None]
+    title: str = ""
+    left_out: str = ""
 
 
 @dataclass(frozen=True)
@@ -74,6 +80,16 @@ def format_of(path: Path) -> PlaceFormat:
             f"Name it with one of: {', '.join(known)}",
         )
     return known[max(fitting, key=len)]
+
+
+def format_named(name: str) -> PlaceFormat:
+    """The format of a name such as `obj`; InputError where there is none."""
+    known = {one.name: one for one in formats().values()}
+    if name not in known:
+        raise InputError(
+            name, "is no format that places are written in", f"Use {', '.join(known)}."
+        )
+    return known[name]
 
 
 def folders() -> PlaceFolders:

@@ -1,4 +1,4 @@
-"""The options of `veduta view` and `veduta export`."""
+"""The options of `veduta view`."""
 
 from __future__ import annotations
 
@@ -22,13 +22,3 @@ class ViewOptions(Options):
         default=0, description="port to listen on; 0 takes a free one"
     )
     no_browser: bool = Field(default=False, description="print the address, open no browser")
-
-
-class ExportOptions(Options):
-    """Where a place is exported to."""
-
-    out: Path = Field(description="folder with a place.json, as `veduta facade -o OUT` writes it")
-    web: Path | None = Field(
-        default=None, description="folder to write, which any static web server can show"
-    )
-    force: bool = Field(default=False, description="replace an earlier export of another place")

@@ -9,8 +9,8 @@ import pytest
 
 from veduta.cli import main as cli
 from veduta.cli.arguments import parse
+from veduta.cli.export_call import ExportCall
 from veduta.cli.facade_call import FacadeCall
-from veduta.studio.options import ExportOptions
 
 # The help of `grammar` itself is a text: its options are those of its actions.
 CALLS = [verb for verb in cli.VERBS if verb != "grammar"]
@@ -29,16 +29,17 @@ def test_help_shows_what_an_option_takes(call: str, capsys: pytest.CaptureFixtur
 
 
 def test_metavars(capsys: pytest.CaptureFixture[str]) -> None:
-    for call, said in ((ExportOptions, "--web PATH"), (FacadeCall, "--height-m FLOAT")):
+    for call, said in ((ExportCall, "--web PATH"), (FacadeCall, "--height-m FLOAT")):
         with pytest.raises(SystemExit):
             parse(call, "veduta", ["--help"])
         assert said in capsys.readouterr().out
 
 
 def test_values_are_read_as_their_type() -> None:
-    export = parse(ExportOptions, "veduta export", ["--out", "place", "--web", "None"])
+    export = parse(ExportCall, "veduta export", ["place", "--web", "None"])
     assert export.web == Path("None")
-    assert parse(ExportOptions, "veduta export", ["--out", "place"]).web is None
+    assert parse(ExportCall, "veduta export", ["place"]).web is None
+    assert parse(ExportCall, "veduta export", ["place", "x.obj"]).file == Path("x.obj")
     words = ["a.jpg", "-o", "x", "--height-m", "12", "--jobs", "3"]
     facade = parse(FacadeCall, "veduta facade", words)
     assert facade.scale.height_m == 12.0

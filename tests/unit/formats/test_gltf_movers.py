@@ -5,18 +5,21 @@ from __future__ import annotations
 import json
 import math
 import struct
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from veduta.formats.gltf import glb_bytes
+from veduta.formats.gltf import glb_bytes, read_glb, write_glb
+from veduta.formats.gltf_bin import glb_container
 from veduta.place.builder import PartBuilder
 from veduta.place.material import Material
 from veduta.place.mover import Mover
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
+from veduta.run.errors import InputError
 
 SQUARE = [(1.0, 2.0, 0.0), (2.0, 2.0, 0.0), (2.0, 2.0, 2.0), (1.0, 2.0, 2.0)]
 
@@ -94,3 +97,26 @@ def test_still_polygons_are_not_in_the_leaf_and_glass_is_seen_through() -> None:
     (glass,) = root["materials"]
     assert glass["alphaMode"] == "BLEND"
     assert glass["pbrMetallicRoughness"]["baseColorFactor"][3] == 0.25
+
+
+@pytest.mark.parametrize("opened", [0.0, 0.4])
+def test_what_moves_is_read_back(opened: float, tmp_path: Path) -> None:
+    part = part_of(opened)
+    write_glb(part, tmp_path / "door.glb")
+    back = read_glb(tmp_path / "door.glb")
+    assert back.bounds_m == part.bounds_m
+    np.testing.assert_allclose(back.feature_area_m2, part.feature_area_m2, rtol=1e-6)
+    (wrote,), (mover,) = part.movers, back.movers
+    assert (mover.name, mover.opened) == (wrote.name, opened)
+    for name in ("pivot_m", "axis", "turn_rad", "shift_m"):
+        np.testing.assert_allclose(getattr(mover, name), getattr(wrote, name), atol=1e-5)
+    assert mover.polygons.tolist() == [2, 3]
+    assert back.positions_m[6:, 1].min() == pytest.approx(2.0)
+
+
+def test_a_mover_without_an_animation_is_refused(tmp_path: Path) -> None:
+    root, content = read(glb_bytes(part_of(0.0)))
+    del root["animations"]
+    (tmp_path / "door.glb").write_bytes(glb_container(root, content))
+    with pytest.raises(InputError, match=r"door\.glb: not a GLB .* no animation says how"):
+        read_glb(tmp_path / "door.glb")
