@@ -22,11 +22,29 @@ Write = Callable[["Place", Path], None]
 
 _SURFACES = "colours and textures"
 _MOTION = "what moves, shines or is walked through (tours)"
+_MAP = "all but the outline of each part and its attributes"
+_CITY = f"{_SURFACES}, {_MOTION}"
 ROWS: tuple[tuple[str, str, str, str, str], ...] = (
     # suffix, name for --to, what it is, who writes it, what it has no word for
     (".glb", "glb", "glTF 2.0, one file", "place_glb:write_place_glb", ""),
     (".obj", "obj", "Wavefront OBJ with MTL and textures", "place_obj:write_obj", _MOTION),
     (".stl", "stl", "STL", "place_stl:write_stl", f"classes, {_SURFACES}, {_MOTION}"),
+    (".usda", "usda", "USD as text, textures beside", "place_usd:write_usd", _MOTION),
+    (".usdc", "usdc", "USD, binary, textures beside", "place_usd:write_usd", _MOTION),
+    (".usd", "usd", "USD, textures beside", "place_usd:write_usd", _MOTION),
+    (".usdz", "usdz", "USD with its textures in one file", "place_usd:write_usd", _MOTION),
+    (".dae", "dae", "COLLADA 1.4, textures beside", "place_dae:write_dae", _MOTION),
+    (".geojson", "geojson", "GeoJSON of the outlines", "place_vector:write_geojson", _MAP),
+    (".gpkg", "gpkg", "GeoPackage of the outlines", "place_vector:write_gpkg", _MAP),
+    (".gml", "citygml", "CityGML 2.0", "place_citygml:write_citygml2", _CITY),
+    (".3.gml", "citygml3", "CityGML 3.0", "place_citygml:write_citygml3", _CITY),
+    (
+        ".city.json",
+        "cityjson",
+        "CityJSON 2.0, textures beside",
+        "place_cityjson:write_place_cityjson",
+        _MOTION,
+    ),
     (".ply", "ply", "PLY mesh with colours", "place_ply:write_ply", f"textures, {_MOTION}"),
 )
 

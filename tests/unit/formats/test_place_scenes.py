@@ -1,0 +1,112 @@
+"""A place as USD and COLLADA, opened again by USD's own reader and by lxml."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from lxml import etree
+from place_sample import area_of, corners_of, sample_place
+
+from veduta.place.place import Place
+from veduta.run.errors import InputError
+
+pxr = pytest.importorskip("pxr")
+from pxr import Usd, UsdGeom, UsdShade  # noqa: E402  it may be missing
+
+COLLADA = {"c": "http://www.collada.org/2005/11/COLLADASchema"}
+
+
+@pytest.fixture(scope="module")
+def place() -> Place:
+    return sample_place()
+
+
+def area(points: np.ndarray, triangles: np.ndarray) -> float:
+    a, b, c = (points[triangles[:, place]] for place in range(3))
+    return float(np.linalg.norm(np.cross(b - a, c - a), axis=1).sum() / 2.0)
+
+
+@pytest.mark.parametrize("suffix", [".usda", ".usdc", ".usd", ".usdz"])
+def test_usd_reads_the_same_place(place: Place, suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"place{suffix}"
+    place.write(path)
+    stage = Usd.Stage.Open(str(path))
+    assert UsdGeom.GetStageUpAxis(stage) == "Z"
+    assert UsdGeom.GetStageMetersPerUnit(stage) == 1.0
+    box = UsdGeom.BBoxCache(0, ["default"]).ComputeWorldBound(stage.GetPseudoRoot()).GetRange()
+    points = corners_of(place)
+    np.testing.assert_allclose(
+        [box.GetMin(), box.GetMax()], [points.min(axis=0), points.max(axis=0)], atol=1e-4
+    )
+    meshes = [UsdGeom.Mesh(prim) for prim in stage.Traverse() if prim.IsA(UsdGeom.Mesh)]
+    found = sum(
+        area(
+            np.array(mesh.GetPointsAttr().Get(), dtype=float),
+            np.array(mesh.GetFaceVertexIndicesAttr().Get()).reshape(-1, 3),
+        )
+        for mesh in meshes
+    )
+    assert found == pytest.approx(area_of(place), rel=1e-4)
+    left = [file.name for file in tmp_path.iterdir() if file.name.startswith(".")]
+    assert left == []
+
+
+def test_usd_binds_each_face_to_a_look_of_its_class(place: Place, tmp_path: Path) -> None:
+    place.write(tmp_path / "place.usda")
+    stage = Usd.Stage.Open(str(tmp_path / "place.usda"))
+    textures = 0
+    for prim in stage.Traverse():
+        if prim.IsA(UsdShade.Shader):
+            shader = UsdShade.Shader(prim)
+            if shader.GetIdAttr().Get() == "UsdUVTexture":
+                found = shader.GetInput("file").Get().resolvedPath
+                assert Path(found).is_file()
+                textures += 1
+        if not prim.IsA(UsdGeom.Mesh):
+            continue
+        mesh = UsdGeom.Mesh(prim)
+        feature = np.array(UsdGeom.PrimvarsAPI(prim).GetPrimvar("veduta:feature").Get())
+        classes = list(prim.GetAttribute("veduta:class").Get())
+        subsets = UsdGeom.Subset.GetAllGeomSubsets(UsdGeom.Imageable(prim))
+        faces = sorted(row for one in subsets for row in one.GetIndicesAttr().Get())
+        assert faces == list(range(len(mesh.GetFaceVertexCountsAttr().Get())))
+        for one in subsets:
+            bound = UsdShade.MaterialBindingAPI(one.GetPrim()).ComputeBoundMaterial()[0]
+            look = bound.GetPrim().GetName().split("_")[0]
+            assert {classes[feature[row]] for row in one.GetIndicesAttr().Get()} == {look}
+    assert textures >= 2
+
+
+def test_usd_without_its_package(
+    place: Place, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    import sys
+
+    monkeypatch.setitem(sys.modules, "pxr", None)
+    with pytest.raises(InputError, match=r"x\.usd: .*not installed.* pip install 'veduta\[usd\]'"):
+        place.write(tmp_path / "x.usd")
+
+
+def test_collada_has_the_same_triangles(place: Place, tmp_path: Path) -> None:
+    place.write(tmp_path / "place.dae")
+    root = etree.parse(str(tmp_path / "place.dae")).getroot()
+    assert root.findtext("c:asset/c:up_axis", namespaces=COLLADA) == "Z_UP"
+    names = {node.get("id"): node.get("name") for node in root.iterfind(".//c:material", COLLADA)}
+    assert {"wall", "window", "door", "roof"} <= set(names.values())
+    found, corners = 0.0, []
+    for mesh in root.iterfind(".//c:mesh", COLLADA):
+        text = mesh.find("c:source/c:float_array", COLLADA).text
+        points = np.array(text.split(), dtype=float).reshape(-1, 3)
+        corners.append(points)
+        for triangles in mesh.iterfind("c:triangles", COLLADA):
+            assert triangles.get("material") in names
+            numbers = np.array(triangles.findtext("c:p", namespaces=COLLADA).split(), dtype=int)
+            assert len(numbers) == 3 * int(triangles.get("count"))
+            found += area(points, numbers.reshape(-1, 3))
+    assert found == pytest.approx(area_of(place), rel=1e-4)
+    every, own = np.concatenate(corners), corners_of(place)
+    np.testing.assert_allclose(every.max(axis=0), own.max(axis=0), atol=1e-4)
+    for image in root.iterfind(".//c:image/c:init_from", COLLADA):
+        assert (tmp_path / image.text).is_file()
