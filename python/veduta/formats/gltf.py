@@ -2,8 +2,9 @@
 
 glTF is y-up: (x, y, z) of the part becomes (x, z, -y) here and nowhere else. One primitive per
 material; faces have flat normals; no vertex is shared between features. The feature table is in
-`scenes[0].extras.veduta.features` as columns. A texture's mask of invented pixels is an image
-of its own (PNG, white = invented) that the material names in `extras.veduta.invented_mask`.
+`scenes[0].extras.veduta.features` as columns. Images are named by their digests. A
+texture's mask of invented pixels is an image of its own (PNG, white = invented) that the material
+names in `extras.veduta.invented_mask`; where all pixels are alike, `extras.veduta.invented` tells.
 Meshes that stand many times are nodes of their own (`gltf_instances`), and so is what moves
 (`gltf_movers`), lamps and the sun (`gltf_lights`). Tours are cameras that move (`gltf_camera`).
 """

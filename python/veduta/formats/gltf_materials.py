@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
@@ -12,6 +13,7 @@ from veduta.place.material import Material, Texture
 
 JPEG_QUALITY = 90
 UNLIT = "KHR_materials_unlit"
+DIGEST = "sha256-"
 CLAMP, REPEAT = 33071, 10497
 _LINEAR, _LINEAR_MIPMAP_LINEAR = 9729, 9987
 
@@ -31,7 +33,7 @@ class GltfMaterials:
     ) -> None:
         self._root, self._all, self._wrap_of, self._binary = root, materials, wrap_of, binary
         self._number_of: dict[int, int] = {}
-        self._images: dict[Texture, tuple[int, int]] = {}
+        self._images: dict[Texture, tuple[int, dict[str, Any]]] = {}
 
     def number(self, row: int) -> int:
         """The number in the file of a material of the part."""
@@ -59,21 +61,28 @@ class GltfMaterials:
                 round(material.glow * _linear(channel), 6) for channel in material.colour
             ]
         if material.texture is not None:
-            image, invented = self._pictures(material.texture)
+            image, told = self._pictures(material.texture)
             shading["baseColorTexture"] = {"index": self._texture(image, self._wrap_of(row))}
-            entry["extras"] = {"veduta": {"invented_mask": invented}}
+            entry["extras"] = {"veduta": told}
         if material.unlit:
             entry["extensions"] = {UNLIT: {}}
             if UNLIT not in self._root.setdefault("extensionsUsed", []):
                 self._root["extensionsUsed"].append(UNLIT)
         return entry
 
-    def _pictures(self, texture: Texture) -> tuple[int, int]:
-        """The images of a texture and of its mask: once in the file, whatever colours it has."""
+    def _pictures(self, texture: Texture) -> tuple[int, dict[str, Any]]:
+        """The image of a texture, and what of it is invented: an image where it is not all alike.
+
+        Once in the file, whatever colours it has.
+        """
         if texture not in self._images:
             image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
-            invented = _image(self._root, _mask_png(texture), "image/png", self._binary)
-            self._images[texture] = (image, invented)
+            first = bool(texture.invented.flat[0])
+            told: dict[str, Any] = {"invented": first}
+            if (texture.invented != first).any():
+                mask = _image(self._root, _mask_png(texture), "image/png", self._binary)
+                told = {"invented_mask": mask}
+            self._images[texture] = (image, told)
         return self._images[texture]
 
     def _texture(self, image: int, wrap: int) -> int:
@@ -101,8 +110,10 @@ def _linear(srgb: float) -> float:
 
 
 def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int:
+    """Its name is the digest of its content: who shows several files decodes it once."""
     images = root.setdefault("images", [])
-    images.append({"bufferView": binary.add(data), "mimeType": mime})
+    name = f"{DIGEST}{hashlib.sha256(data).hexdigest()}"
+    images.append({"name": name, "bufferView": binary.add(data), "mimeType": mime})
     return len(images) - 1
 
 

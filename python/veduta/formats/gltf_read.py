@@ -194,8 +194,7 @@ def material_of(glb: Glb, entry: dict[str, Any]) -> Material:
     if "baseColorTexture" in shading:
         source = glb.root["textures"][shading["baseColorTexture"]["index"]]["source"]
         pixels = _pixels(glb, source, "RGB")
-        mask = _pixels(glb, entry["extras"]["veduta"]["invented_mask"], "L")
-        texture = Texture(pixels=pixels, invented=mask > 127)
+        texture = Texture(pixels=pixels, invented=_invented(glb, entry, pixels))
     return Material(
         entry["name"],
         colour,
@@ -206,6 +205,14 @@ def material_of(glb: Glb, entry: dict[str, Any]) -> Material:
         _glow(entry),
         "KHR_materials_unlit" in entry.get("extensions", {}),
     )
+
+
+def _invented(glb: Glb, entry: dict[str, Any], pixels: NDArray[np.uint8]) -> NDArray[np.bool_]:
+    """(h, w) which pixels of a texture are invented: a mask, or one word for all of them."""
+    told = entry["extras"]["veduta"]
+    if "invented_mask" in told:
+        return np.asarray(_pixels(glb, told["invented_mask"], "L") > 127)
+    return np.full(pixels.shape[:2], told["invented"] is True)
 
 
 def _glow(entry: dict[str, Any]) -> float:

@@ -1,5 +1,6 @@
 /** Opens the place that the page's address asks for. */
 import type { FeatureTable } from "../core/features.ts";
+import { budgetOf } from "../core/budget.ts";
 import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
 import type { House } from "../core/house.ts";
@@ -57,12 +58,12 @@ export async function openPlace(
   const [{ loadClouds }, { fetchText }, { Frusta }, { loadHouses }, { loadParts }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
-  const grounds = place.parts.filter(({ isGround }) => isGround).map(({ model }) => fileAddress(model, address));
+  const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
   let viewer: Viewer | null = null;
   const town =
     tileset === null
       ? null
-      : new Town(fileAddress(tileset, address), grounds, () => viewer?.invalidate(), onShown);
+      : new Town(fileAddress(tileset, address), budget.tileError_px, () => viewer?.invalidate(), onShown);
   const parts =
     tileset === null
       ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))
@@ -74,7 +75,7 @@ export async function openPlace(
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
   store.update({ off: firstOff(place), hour: sunPath.firstHour });
-  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses }, store);
+  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses, budget }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {

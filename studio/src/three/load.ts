@@ -11,6 +11,7 @@ import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
 import { type Mover, moversOf } from "./movers.ts";
 import { gatherRepeated } from "./repeated-nodes.ts";
+import { SharedImages } from "./shared-images.ts";
 
 export interface LoadedPart {
   readonly part: Part;
@@ -37,21 +38,22 @@ export async function loadParts(
   onProgress: OnProgress,
 ): Promise<LoadedPart[]> {
   const loaded: LoadedPart[] = [];
+  const images = new SharedImages();
   for (const [index, part] of place.parts.entries()) {
     const share = (fraction: number): number => (index + fraction) / place.parts.length;
     onProgress(share(0), part.model);
     const bytes = await fetchBytes(fileAddress(part.model, manifest), part.model, (got, total) => {
       onProgress(share(0.9 * (total === null ? 0.5 : got / total)), part.model);
     });
-    loaded.push(await readPart(part, bytes));
+    loaded.push(await readPart(part, bytes, images));
     onProgress(share(1), part.model);
   }
   return loaded;
 }
 
-async function readPart(part: Part, bytes: ArrayBuffer): Promise<LoadedPart> {
+async function readPart(part: Part, bytes: ArrayBuffer, images: SharedImages): Promise<LoadedPart> {
   checkContainer(bytes, part.model);
-  const gltf = await parse(bytes, part.model);
+  const gltf = await parse(bytes, part.model, images);
   const { scene } = gltf;
   removeLights(scene);
   gatherRepeated(scene);
@@ -93,8 +95,9 @@ function checkContainer(bytes: ArrayBuffer, file: string): void {
   }
 }
 
-async function parse(bytes: ArrayBuffer, file: string): Promise<GLTF> {
-  return await named(file, () => new GLTFLoader().parseAsync(bytes, ""));
+async function parse(bytes: ArrayBuffer, file: string, images: SharedImages): Promise<GLTF> {
+  const loader = new GLTFLoader().register((parser) => images.pluginOf(parser));
+  return await named(file, () => loader.parseAsync(bytes, ""));
 }
 
 /** What the loader throws, said about the file. */

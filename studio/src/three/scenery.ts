@@ -15,6 +15,7 @@ import {
   Vector3,
   Vector4,
 } from "three";
+import type { Budget } from "../core/budget.ts";
 import { DAY_HOUR, type Daylight, daylightAt } from "../core/daylight.ts";
 import { drawnFromWorld } from "../core/frames.ts";
 import type { Box } from "../core/framing.ts";
@@ -52,6 +53,7 @@ export function makeScenery(
   bounds: Box,
   footprints: readonly Box3[],
   { lowest_m, scaleKnown }: { lowest_m: number | null; scaleKnown: boolean },
+  budget: Pick<Budget, "shadowSide_px">,
 ): Scenery {
   const height_m = lowest_m === null ? GROUND_HEIGHT_M : Math.min(0, lowest_m) + UNDER_GROUND_M;
   const group = new Group();
@@ -60,6 +62,9 @@ export function makeScenery(
   const sky = makeSky(toGlow);
   const sun = makeSun();
   let shaded = sphereOf(bounds);
+  const aimSun = (...aim: [DirectionalLight, Vector3, Vector3, number]): void => {
+    aimShadow(...aim, budget.shadowSide_px(aim[3]));
+  };
   aimSun(sun, toSun, shaded.centre, shaded.radius);
   // A sky light instead of an environment map: the surfaces are matt, and the map's filtering took
   // most of the loading time without a graphics card.
@@ -147,7 +152,7 @@ function makeSun(): DirectionalLight {
 }
 
 /** Frames a sphere, with room for the shadows that fall in front of it. */
-function aimSun(sun: DirectionalLight, toSun: Vector3, centre: Vector3, radius: number): void {
+function aimShadow(sun: DirectionalLight, toSun: Vector3, centre: Vector3, radius: number, size: number): void {
   sun.position.copy(centre).addScaledVector(toSun, 2 * radius);
   sun.target.position.copy(centre);
   sun.target.updateMatrixWorld();
@@ -158,7 +163,6 @@ function aimSun(sun: DirectionalLight, toSun: Vector3, centre: Vector3, radius: 
   camera.bottom = -radius;
   camera.near = 0.1;
   camera.far = 4 * radius;
-  const size = radius > 25 ? 4096 : 2048;
   sun.shadow.mapSize.set(size, size);
   sun.shadow.bias = -0.0004;
   sun.shadow.normalBias = Math.min(0.06, (2 * radius) / size);

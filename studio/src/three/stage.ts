@@ -1,5 +1,6 @@
 /** What is drawn: the place, its ground, and the sky, the sun and the plane around it. */
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
+import type { Budget } from "../core/budget.ts";
 import { daylightAt, type SunPath, sunPathOf } from "../core/daylight.ts";
 import { drawnFaces } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
@@ -41,6 +42,7 @@ export interface ViewerContent {
   readonly frusta: Frusta | null;
   readonly textures: PhotoTextures | null;
   readonly houses: readonly LoadedHouse[];
+  readonly budget: Budget;
 }
 
 export class Stage {
@@ -83,7 +85,7 @@ export class Stage {
     this.outlook = outlookOf(place.shots);
     const buildings = parts.filter(({ part }) => !part.isGround && !part.isBackdrop);
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
-    this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown });
+    this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown }, content.budget);
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);

@@ -33,8 +33,6 @@ import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
 import { TileModel } from "./tile-model.ts";
 
-/** A tile is refined where its error is larger on the screen (pixels). */
-const ERROR_PX = 14;
 const COLOURING_STRENGTH = 0.78;
 /** Levels that differ from the truth by more are nothing to walk against. */
 const WALKABLE_ERROR_M = 1;
@@ -70,7 +68,6 @@ export class Town implements Obstacles {
   readonly tables: FeatureTable[] = [];
   readonly #tiles: FlatTiles;
   readonly #models = new Map<Object3D, { model: TileModel; part: number; tile: Tile }>();
-  readonly #grounds: ReadonlySet<string>;
   readonly #floors = new Map<Object3D, Solid>();
   readonly #byPart: (TileModel | undefined)[] = [];
   readonly #solids = new Map<Object3D, Solid>();
@@ -80,12 +77,11 @@ export class Town implements Obstacles {
   #fault: Fault | null = null;
   #state: StudioState | null = null;
 
-  /** `grounds` are the tiles of the ground; `onShown` is called when other tiles are shown than before. */
-  constructor(address: URL, grounds: readonly URL[], onChange: () => void, onShown: () => void) {
+  /** `error_px`: how wrong a tile may be on the screen; `onShown` is called when other tiles are shown than before. */
+  constructor(address: URL, error_px: number, onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
-    this.#grounds = new Set(grounds.map(({ href }) => href));
     this.#tiles = new FlatTiles(address.href);
-    this.#tiles.errorTarget = ERROR_PX;
+    this.#tiles.errorTarget = error_px;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
     loader.register((parser) => this.#images.pluginOf(parser));
     this.#tiles.manager.addHandler(/\.(gltf|glb)$/i, loader);
@@ -266,7 +262,7 @@ export class Town implements Obstacles {
       this.#byPart.push(model);
       this.tables.push(model.table);
       this.#models.set(scene, { model, part, tile });
-      if (this.#grounds.has(new URL(url, location.href).href)) {
+      if (model.meshes.every(({ kind }) => kind === "ground")) {
         this.#floors.set(scene, this.#inPlace(scene, () => new Solid(model.soup(null))));
         for (const { mesh } of model.meshes) layGround(mesh);
       }

@@ -1,0 +1,106 @@
+"""What places cost in the browser: bytes, textures, draws, and the time to the first picture.
+
+`python benchmarks/studio/loading.py NAME=FOLDER ... [--mbit 1.5,10] [--result before]` serves each place with
+`veduta view`, opens it in Chromium (`visit.mjs`) and keeps `benchmarks/results/studio-RESULT.md`.
+Without folders it makes the places of its own: a street of 14 synthetic facades is not among them,
+for it takes minutes.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import subprocess
+import sys
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from pathlib import Path
+
+HERE = Path(__file__).parent
+ROOT = HERE.parent.parent
+sys.path.insert(0, str(HERE.parent))
+
+from record import Row, record  # noqa: E402
+
+VEDUTA = Path(sys.executable).parent / "veduta"
+
+
+@contextmanager
+def served(place: Path) -> Iterator[str]:
+    """The address of a place while it is served."""
+    server = subprocess.Popen(
+        [VEDUTA, "view", place, "--no-browser"], stdout=subprocess.PIPE, text=True
+    )
+    try:
+        if server.stdout is None:
+            raise RuntimeError("the server says nothing")
+        line = server.stdout.readline()
+        yield line.split()[-1]
+    finally:
+        server.terminate()
+        server.wait()
+
+
+def visit(name: str, place: Path, mbit: float, picture: Path | None) -> Row:
+    """One visit; mbit: how fast the network is (Mbit/s), 0 for no limit."""
+    with served(place) as address:
+        call = ["node", HERE / "visit.mjs", ROOT / "studio", address, str(mbit)]
+        done = subprocess.run(
+            [*call, *([picture] if picture else [])], capture_output=True, text=True, check=False
+        )
+    if done.returncode != 0:
+        return {"place": name, "mbit_s": mbit, "state": done.stderr.strip().splitlines()[-1][:80]}
+    told: dict[str, float | str] = json.loads(done.stdout)
+    rounded = {key: round(one, 2) if isinstance(one, float) else one for key, one in told.items()}
+    return {"place": name, "mbit_s": mbit, **rounded}
+
+
+def own_places(folder: Path) -> dict[str, Path]:
+    """Places that are made in less than a minute."""
+    rows = folder / "lots.geojson"
+    rows.write_text(json.dumps(_lots(60)))
+    made = {"60 lots": folder / "lots60"}
+    call = [VEDUTA, "grammar", "derive", "haussmann", "--lots", rows, "-o", made["60 lots"]]
+    subprocess.run(call, check=True, capture_output=True)
+    return made
+
+
+def _lots(count: int) -> dict[str, object]:
+    """Two rows of lots along a street, 14 m wide each."""
+    features = []
+    for number in range(count):
+        x, y = 14.0 * (number // 2), 26.0 * (number % 2)
+        ring = [[x, y], [x + 14, y], [x + 14, y + 12], [x, y + 12], [x, y]]
+        features.append(
+            {
+                "type": "Feature",
+                "properties": {"id": f"lot-{number}", "height": 18.0 + number % 5},
+                "geometry": {"type": "Polygon", "coordinates": [ring]},
+            }
+        )
+    return {"type": "FeatureCollection", "features": features}
+
+
+def main() -> None:
+    """Measure and keep."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("places", nargs="*", metavar="NAME=FOLDER")
+    parser.add_argument("--mbit", default="0", help="network speeds, commas between them")
+    parser.add_argument("--result", default="loading", help="name of the result's file")
+    parser.add_argument("--pictures", type=Path, help="folder for what was seen")
+    given = parser.parse_args()
+    with tempfile.TemporaryDirectory() as folder:
+        named = dict(one.split("=", 1) for one in given.places)
+        places = {name: Path(path) for name, path in named.items()} or own_places(Path(folder))
+        rows = []
+        for name, place in places.items():
+            for mbit in (float(speed) for speed in given.mbit.split(",")):
+                picture = given.pictures and given.pictures / f"{name.replace(' ', '-')}.png"
+                rows.append(visit(name, place, mbit, picture))
+                print(rows[-1], flush=True)
+    record(f"studio-{given.result}", rows, ["Chromium with SwiftShader, 700x450 at 0.4, 100 ms latency"])
+
+
+if __name__ == "__main__":
+    main()

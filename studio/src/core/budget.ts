@@ -1,0 +1,45 @@
+/** How much of a place a machine is asked to draw. */
+import type { Place } from "./place.ts";
+
+/** What is known of the machine: a phone has less memory for pictures, and a smaller screen. */
+export interface Machine {
+  readonly isSmall: boolean;
+}
+
+export interface Budget {
+  /** A tile is refined where its error is larger on the screen (pixels). */
+  readonly tileError_px: number;
+  /** The side of the shadow map (pixels) over a place of some radius (m). */
+  shadowSide_px(radius_m: number): number;
+}
+
+/** Streets of some dozens of houses: all their windows cost less than a town's boxes. */
+const SMALL_PLACE_M2 = 30_000;
+const FINE_PX = 4;
+const COARSE_PX = 14;
+/** So much more may be wrong on a small screen, which is held at the same distance. */
+const SMALL_SCREEN = 1.5;
+/** Shadows of a wider place are too coarse on the smaller map. */
+const NARROW_M = 25;
+
+export function budgetOf(place: Pick<Place, "parts">, { isSmall }: Machine): Budget {
+  const error_px = builtArea_m2(place) > SMALL_PLACE_M2 ? COARSE_PX : FINE_PX;
+  return {
+    tileError_px: isSmall ? SMALL_SCREEN * error_px : error_px,
+    shadowSide_px: (radius_m) => {
+      if (isSmall) return radius_m > NARROW_M ? 2048 : 1024;
+      return radius_m > NARROW_M ? 4096 : 2048;
+    },
+  };
+}
+
+/** The area that the boxes of the parts cover; infinite where one does not say its own. */
+function builtArea_m2({ parts }: Pick<Place, "parts">): number {
+  let area = 0;
+  for (const { bounds, isGround, isBackdrop } of parts) {
+    if (isGround || isBackdrop) continue;
+    if (bounds === null) return Infinity;
+    area += (bounds.max[0] - bounds.min[0]) * (bounds.max[1] - bounds.min[1]);
+  }
+  return area;
+}
