@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Annotated, Any, get_args, get_origin, get_type_hints
 
 import tyro
+from library_pages import classes_text, formats_rows, functions_text, rules_text
 from pydantic import BaseModel
 from style_tables import attribute_rows
 
@@ -155,6 +156,12 @@ def plan_values_table() -> str:
     return table(("field", "takes"), [(f"`{name}`", words) for name, words in rows])
 
 
+def formats_table() -> str:
+    """All formats that places are written in."""
+    columns = ("ending", "`--to`", "what it is", "what it has no word for", "is read")
+    return table(columns, formats_rows())
+
+
 def _words(literal: Any) -> str:
     return _listed(get_args(literal))
 
@@ -180,6 +187,8 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "options": lambda: options_table(PhotosCall),
         "files": lambda: files_table(PHOTOS_FILES),
     },
+    "library.md": {"functions": functions_text, "classes": classes_text, "rules": rules_text},
+    "formats.md": {"formats": formats_table},
     "plan.md": {
         "options": lambda: options_table(PlanCall),
         "files": lambda: files_table(PLAN_FILES),

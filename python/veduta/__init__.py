@@ -1,3 +1,79 @@
-"""Veduta turns records of real places into measured, semantic, walkable 3D."""
+"""Veduta turns records of real places into measured, semantic, walkable 3D.
+
+    >>> import veduta
+    >>> house = veduta.read_facade("photo.jpg", height_m=18.0)
+    >>> house.write("house.obj")
+
+What is here is brought when it is first asked for: `import veduta` costs nothing.
+"""
+
+from __future__ import annotations
+
+import importlib
+import os
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from veduta import grammar
+    from veduta.facade.door import read_facade
+    from veduta.grammar.door import derive
+    from veduta.photos.door import locate_photos
+    from veduta.place.load import load
+    from veduta.place.mesh import Mesh
+    from veduta.place.part import Part
+    from veduta.place.place import Cloud, Place, Standing
+    from veduta.place.semantics import Provenance, SemanticClass
+    from veduta.plan.door import read_plan
 
 __version__ = "0.1.0"
+
+# onnxruntime tells its makers of each first use, and keeps an id of the machine: not from here. It
+# reads this when it is imported, and every process of Veduta's begins with this file.
+os.environ["ORT_DISABLE_TELEMETRY"] = "1"
+
+__all__ = [
+    "Cloud",
+    "Mesh",
+    "Part",
+    "Place",
+    "Provenance",
+    "SemanticClass",
+    "Standing",
+    "__version__",
+    "derive",
+    "grammar",
+    "load",
+    "locate_photos",
+    "read_facade",
+    "read_plan",
+]
+
+_LATE = {
+    "Cloud": "place.place",
+    "Mesh": "place.mesh",
+    "Part": "place.part",
+    "Place": "place.place",
+    "Provenance": "place.semantics",
+    "SemanticClass": "place.semantics",
+    "Standing": "place.place",
+    "derive": "grammar.door",
+    "grammar": "",
+    "load": "place.load",
+    "locate_photos": "photos.door",
+    "read_facade": "facade.door",
+    "read_plan": "plan.door",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """What `_LATE` names, from the module that has it (or the module itself)."""
+    if name not in _LATE:
+        raise AttributeError(f"module 'veduta' has no attribute {name!r}")
+    module = importlib.import_module(f"veduta.{_LATE[name] or name}")
+    found = getattr(module, name) if _LATE[name] else module
+    globals()[name] = found
+    return found
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

@@ -21,8 +21,11 @@ if TYPE_CHECKING:
 _REMEDY = "Export it again as binary glTF 2.0 (.glb), with everything in one file."
 
 
-def read_glb_mesh(path: Path) -> ReadMesh:
-    """All triangles of the file's scene, y up. InputError says what is wrong."""
+def read_glb_mesh(path: Path, most_corners: int = MOST_CORNERS) -> ReadMesh:
+    """All triangles of the file's scene, y up. InputError says what is wrong.
+
+    most_corners: of all triangles together.
+    """
     # Here, as trimesh takes longer to import than all else that most calls need.
     import trimesh
 
@@ -34,19 +37,19 @@ def read_glb_mesh(path: Path) -> ReadMesh:
     try:
         scene = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
         pieces = [one for one in scene.dump() if isinstance(one, trimesh.Trimesh)]
-        return _joined(pieces)
+        return _joined(pieces, most_corners)
     except (
         ValueError, KeyError, IndexError, TypeError, AttributeError, struct.error, OSError,
     ) as error:  # fmt: skip
         raise InputError(path, f"is no mesh that can be read ({error})", _REMEDY) from error
 
 
-def _joined(pieces: list[trimesh.Trimesh]) -> ReadMesh:
+def _joined(pieces: list[trimesh.Trimesh], most_corners: int) -> ReadMesh:
     count = sum(len(piece.faces) for piece in pieces)
     if count == 0:
         raise ValueError("it has no triangles")
-    if 3 * count > MOST_CORNERS:
-        raise ValueError(f"it has {count} triangles; {MOST_CORNERS // 3} are the most")
+    if 3 * count > most_corners:
+        raise ValueError(f"it has {count} triangles; {most_corners // 3} are the most")
     points = np.concatenate([np.asarray(piece.vertices, dtype=np.float64) for piece in pieces])
     if not np.isfinite(points).all():
         raise ValueError("it has points that are no numbers")

@@ -94,14 +94,18 @@ def contents(place: Place) -> Iterator[tuple[PlacedPart, Part | Mesh]]:
 
     InputError where they are tiles, in which many buildings are one.
     """
-    if place.tileset is not None:
-        raise InputError(
-            place.folder or place.tileset,
-            "is a town in tiles, whose buildings are not files of their own",
-            "Derive it with --separate, and export that.",
-        )
     for one in place.parts.values():
-        yield one, one.passing()
+        try:
+            content = one.passing()
+        except InputError as error:
+            if place.tileset is None:
+                raise
+            raise InputError(
+                place.folder or place.tileset,
+                "is a town in tiles, whose buildings are not files of their own",
+                "Derive it with --separate, and export that.",
+            ) from error
+        yield one, content
 
 
 class LookNames:

@@ -49,6 +49,18 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
 )
 
 
+READERS = {
+    ".glb": "read_glb_place",
+    ".obj": "read_obj_place",
+    ".stl": "read_trimesh_place",
+    ".ply": "read_trimesh_place",
+    ".gml": "read_city_place",
+    ".3.gml": "read_city_place",
+    ".city.json": "read_city_place",
+}
+"""Of `formats.place_read`."""
+
+
 def _late(target: str) -> Write:
     module, name = target.split(":")
 
@@ -58,6 +70,18 @@ def _late(target: str) -> Write:
     return write
 
 
+def _late_read(name: str | None) -> Callable[[Path], Place] | None:
+    if name is None:
+        return None
+
+    def read(path: Path) -> Place:
+        found: Place = getattr(importlib.import_module("veduta.formats.place_read"), name)(path)
+        return found
+
+    return read
+
+
 register_folders(PlaceFolders(save=save_place, load=load_place, read_model=read_model))
 for _suffix, _name, _title, _target, _left_out in ROWS:
-    register_format(PlaceFormat(_suffix, _name, _late(_target), _title, _left_out))
+    _read = _late_read(READERS.get(_suffix))
+    register_format(PlaceFormat(_suffix, _name, _late(_target), _title, _left_out, _read))

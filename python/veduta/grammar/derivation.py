@@ -23,14 +23,19 @@ from numpy.typing import ArrayLike, NDArray
 
 from veduta import _core
 from veduta.grammar.assets.library import Library
+from veduta.grammar.building import build_part
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.options import LimitOptions
 from veduta.grammar.outline import Attribute
-from veduta.grammar.rules import compile_rules, find_rules, read_rules
+from veduta.grammar.rules import RuleFiles, compile_rules, find_rules, read_rules
 from veduta.grammar.textures import Textures, find_textures, read_textures
+from veduta.place.part import Part
+from veduta.place.place import Place
 from veduta.run.errors import InputError, VedutaError
 
 T = TypeVar("T")
+TEXT = "rules.cga"
+"""What faults call rules that were given as text."""
 Surroundings = tuple[_core.Surroundings, list[tuple[int, tuple[float, float, float]]]]
 
 
@@ -170,6 +175,18 @@ class Derivation:
     def columns(self) -> _core.DerivedLot:
         """Geometry and looks of all leaves at once, as columns."""
         return self._core.columns()
+
+    def part(self, part_id: str = "building") -> Part:
+        """The building as it is now; NothingBuiltError where the rules leave no surface."""
+        columns = self.columns()
+        assets = self.rules.library.assets_of(columns)
+        return build_part(columns, part_id, assets, self.rules.textures)
+
+    def place(self, part_id: str = "building") -> Place:
+        """A place with the building alone: to be saved, or written in any format."""
+        place = Place(title=part_id)
+        place.add(self.part(part_id))
+        return place
 
     def rederive(self, path: Sequence[int], edit: Edit | None = None) -> Shape | None:
         """Derive the shape at `path` anew, with `edit` instead of the one that it had.
@@ -314,11 +331,16 @@ class Shape:
 
 
 def parse(rules: str | Path, *, style: str | None = None) -> Rules:
-    """The rules of a file, or of one that Veduta brings along; InputError with all faults.
+    """The rules of a file, of a style of Veduta's, or of a text; InputError with all faults.
 
-    style: one of the styles in the file (`style Name`); `Default` where it is None.
+    A text is what has an arrow (`Lot --> extrude(10)`) or several lines; what it imports is looked
+    for in the working folder. style: one of the styles in the file (`style Name`); `Default` where
+    it is None.
     """
-    files = read_rules(find_rules(str(rules)))
+    if isinstance(rules, str) and ("-->" in rules or "\n" in rules):
+        files = RuleFiles(Path(TEXT), ((TEXT, rules),))
+    else:
+        files = read_rules(find_rules(str(rules)))
     core, library = compile_rules(files, style), Library(files.path.parent)
     library.add_written_to(core)
     textures = read_textures(find_textures(files.path, [text for _, text in files.files]))

@@ -127,9 +127,19 @@ class Place:
         self.parts[placed.id] = placed
 
     @staticmethod
-    def load(folder: str | Path) -> Place:
-        """The place in a folder that a verb has written; InputError where there is none."""
-        return folders().load(Path(folder))
+    def load(path: str | Path) -> Place:
+        """The place in a folder that a verb has written, or in a file of a format that is read.
+
+        InputError where there is none.
+        """
+        source = Path(path)
+        if not source.is_file():
+            return folders().load(source)
+        found = format_of(source)
+        if found.read is None:
+            fault = f"is a file that Veduta writes and does not read ({found.title})"
+            raise InputError(source, fault, "Name the folder with the place.json.")
+        return found.read(source)
 
     def save(self, folder: str | Path) -> None:
         """Write it as a folder that `veduta view` shows: `place.json`, models and clouds."""

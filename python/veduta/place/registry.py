@@ -27,7 +27,7 @@ class PlaceFormat:
     """A format for whole places.
 
     suffix: with its dot, in lower case. name: what `veduta export --to` calls it. title: what it
-    is. left_out: what of a place it has no word for.
+    is. left_out: what of a place it has no word for. read: None where files are only written.
     """
 
     suffix: str
@@ -35,6 +35,7 @@ class PlaceFormat:
     write: Callable[[Place, Path], None]
     title: str = ""
     left_out: str = ""
+    read: Callable[[Path], Place] | None = None
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ import trimesh
 from place_sample import area_of, corners_of, sample_place
 
 from veduta.place.mesh import Mesh
-from veduta.place.place import Place
+from veduta.place.place import Place, PlacedPart, Standing
 from veduta.place.registry import format_named, format_of, formats
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.errors import InputError
@@ -177,6 +177,11 @@ def test_endings_and_names(tmp_path: Path) -> None:
 
 def test_a_town_of_tiles_is_refused_with_the_remedy(tmp_path: Path) -> None:
     place = Place(tileset="tileset.json", folder=tmp_path)
+
+    def unreadable() -> Mesh:
+        raise InputError("tile.glb", "not a GLB file of Veduta", "Let Veduta write it again.")
+
+    place.parts["tile"] = PlacedPart("tile", Standing(), unreadable)
     for suffix in (".obj", ".glb"):
         with pytest.raises(InputError, match="--separate"):
             place.write(tmp_path / f"x{suffix}")

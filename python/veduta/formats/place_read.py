@@ -1,0 +1,183 @@
+"""Files of other programs as places: meshes, points, and the buildings of city models.
+
+A material that is named after a class (`window`, `wall.brick`) gives its surfaces that class, as
+Veduta's own writers name them; all other surfaces are `other`. glTF and OBJ are y-up, STL and PLY
+are taken to be z-up.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.formats.building_faces import MOST_CORNERS, BuildingFaces, CityFile
+from veduta.formats.citygml_read import read_citygml
+from veduta.formats.cityjson_read import read_cityjson
+from veduta.formats.glb_mesh import read_glb_mesh
+from veduta.formats.gltf_chunks import BROKEN, glb_chunks, glb_content
+from veduta.formats.mesh_glb_read import read_model
+from veduta.formats.obj_read import ReadMesh, read_obj
+from veduta.place.builder import PartBuilder
+from veduta.place.features import feature_table
+from veduta.place.material import Material
+from veduta.place.mesh import Mesh
+from veduta.place.part import Part
+from veduta.place.place import Cloud, Place, Standing
+from veduta.place.semantics import Provenance, SemanticClass
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+if TYPE_CHECKING:
+    import trimesh
+
+_CLASSES = {one.value: one for one in SemanticClass}
+_LARGEST_BYTES = 2 * 2**30
+
+
+def read_glb_place(path: Path) -> Place:
+    """A model of Veduta's as it was; of any other glTF its triangles and colours."""
+    place = Place(title=path.stem)
+    if _is_model(path):
+        place.add(read_model(path))
+    else:
+        place.add(_part(read_glb_mesh(path, MOST_CORNERS), path.stem))
+    return place
+
+
+def read_obj_place(path: Path) -> Place:
+    """The polygons of an OBJ file, with the colours of its MTL files."""
+    place = Place(title=path.stem)
+    place.add(_part(read_obj(path, path.parent), path.stem))
+    return place
+
+
+def read_trimesh_place(path: Path) -> Place:
+    """The triangles of an STL or PLY file; of a PLY file without any, its points."""
+    import trimesh
+
+    try:
+        require_file(path, _LARGEST_BYTES)
+        found = trimesh.load(path, process=False)
+    except FileNotFoundError:
+        raise InputError(path, "does not exist", "Check its name.") from None
+    except (ValueError, KeyError, IndexError, TypeError, OSError, MemoryError) as error:
+        fault = f"is no {path.suffix[1:].upper()} file that can be read ({error})"
+        raise InputError(path, fault, "Export it again.") from error
+    place = Place(title=path.stem)
+    if isinstance(found, trimesh.PointCloud):
+        points = np.asarray(found.vertices, dtype=np.float64)
+        place.clouds.append(Cloud(path.stem, points, _colours(found, len(points))))
+    elif isinstance(found, trimesh.Trimesh) and len(found.faces):
+        place.add(_mesh(found, path.stem))
+    else:
+        raise InputError(
+            path, "has neither triangles nor points", "Check that it is the right one."
+        )
+    return place
+
+
+def read_city_place(path: Path) -> Place:
+    """The buildings of a CityJSON or CityGML file, each a part."""
+    city = read_citygml(path) if path.suffix.lower() == ".gml" else read_cityjson(path)
+    if not city.buildings:
+        raise InputError(path, "has no building with polygons", "Choose a model of LoD1 or above.")
+    place = Place(title=path.stem, crs=None if city.epsg is None else f"EPSG:{city.epsg}")
+    low = _low(city)
+    place.origin_m = (float(low[0]), float(low[1]), float(low[2]))
+    for building in city.buildings:
+        own = np.concatenate([ring for rings in building.polygons for ring in rings]).min(axis=0)
+        matrix = np.eye(4)
+        matrix[:3, 3] = own - low
+        name = str(building.attributes.get("name", building.id))
+        place.add(_building(building, own), Standing(name=name, transform=matrix))
+    return place
+
+
+def _is_model(path: Path) -> bool:
+    """Whether a GLB file is one part of Veduta's."""
+    try:
+        root = glb_chunks(glb_content(path)).root
+        return "features" in root["scenes"][0]["extras"]["veduta"]
+    except (*BROKEN, RecursionError):
+        return False
+
+
+def _low(city: CityFile) -> NDArray[np.float64]:
+    low = [ring.min(axis=0) for one in city.buildings for rings in one.polygons for ring in rings]
+    least: NDArray[np.float64] = np.floor(np.min(low, axis=0))
+    return least
+
+
+def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
+    builder = PartBuilder(building.id)
+    builder.attributes |= dict(building.attributes)
+    materials: dict[SemanticClass, int] = {}
+    features: dict[SemanticClass, int] = {}
+    for rings, known in zip(building.polygons, building.classes, strict=True):
+        semantic = known or SemanticClass.OTHER
+        if semantic not in features:
+            features[semantic] = builder.feature(semantic, Provenance.MEASURED, semantic.value)
+            materials[semantic] = builder.material(Material(semantic.value))
+        moved = [ring - origin for ring in rings]
+        builder.polygon(moved, features[semantic], materials[semantic])
+    return builder.build()
+
+
+def _class_of(name: str) -> SemanticClass:
+    return _CLASSES.get(name.split(".")[0].lower(), SemanticClass.OTHER)
+
+
+def _part(read: ReadMesh, part_id: str) -> Part:
+    """Polygons as a file has them; y up becomes z up."""
+    points = read.points[read.corners]
+    count = len(read.offsets) - 1
+    names = [name or f"material {row + 1}" for row, (name, _) in enumerate(read.materials)]
+    rows = _unique([(_class_of(name), Provenance.MEASURED, name) for name in names])
+    return Part(
+        id=part_id,
+        positions_m=np.stack([points[:, 0], -points[:, 2], points[:, 1]], axis=1).astype(
+            np.float32
+        ),
+        uv=np.zeros((len(points), 2), dtype=np.float32),
+        ring_offsets=read.offsets.astype(np.int64),
+        polygon_offsets=np.arange(count + 1, dtype=np.int64),
+        polygon_feature=read.face_material.astype(np.int32),
+        polygon_material=read.face_material.astype(np.int32),
+        features=feature_table(part_id, rows),
+        materials=tuple(
+            Material(name, colour or (1.0, 1.0, 1.0))
+            for name, (_, colour) in zip(names, read.materials, strict=True)
+        ),
+    )
+
+
+def _unique(
+    rows: Sequence[tuple[SemanticClass, Provenance, str]],
+) -> list[tuple[SemanticClass, Provenance, str]]:
+    seen: dict[str, int] = {}
+    made = []
+    for semantic, provenance, name in rows:
+        count = seen[name] = seen.get(name, 0) + 1
+        made.append((semantic, provenance, name if count == 1 else f"{name} ({count})"))
+    return made
+
+
+def _mesh(found: trimesh.Trimesh, part_id: str) -> Mesh:
+    import trimesh
+
+    vertices = np.asarray(found.vertices, dtype=np.float64)
+    colours = None
+    if isinstance(found.visual, trimesh.visual.ColorVisuals) and found.visual.kind == "vertex":
+        colours = np.asarray(found.visual.vertex_colors, dtype=np.uint8)[:, :3].copy()
+    return Mesh.simple(part_id, vertices, np.asarray(found.faces), colours=colours)
+
+
+def _colours(found: trimesh.PointCloud, count: int) -> NDArray[np.uint8]:
+    given = np.asarray(found.colors, dtype=np.uint8)
+    if given.shape[:1] != (count,) or given.ndim != 2:
+        return np.full((count, 3), 200, dtype=np.uint8)
+    return given[:, :3].copy()
