@@ -52,6 +52,7 @@ def save_place(place: Place, folder: Path) -> None:
         points=clouds,
         cameras=place.cameras,
         tours=place.tours,
+        animals=place.animals,
         scale=place.scale,
         sun=place.sun,
         start=place.start or chosen_start(place),
@@ -70,7 +71,7 @@ def load_place(folder: Path) -> Place:
     place = Place(
         told.title, told.description, told.author, told.licence, tuple(told.languages),
         told.crs, told.origin, told.scale, cameras=told.cameras, tours=told.tours, sun=told.sun,
-        start=told.start, folder=folder, tileset=told.tileset,
+        start=told.start, folder=folder, tileset=told.tileset, animals=told.animals,
     )  # fmt: skip
     for row in told.parts:
         place.parts[row.id] = _placed(row, folder)

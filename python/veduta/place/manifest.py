@@ -136,6 +136,38 @@ class Tour(_Record):
         return self
 
 
+class AnimalClip(_Record):
+    """A motion of an animal, straight along +x of its part."""
+
+    name: str = Field(max_length=256, description="of the animation in the part's model")
+    seconds: Positive = Field(description="how long it is")
+    stride: Finite = Field(description="how far the animal goes in it (m)")
+    loops: bool = Field(default=False, description="whether it begins anew without a jump")
+
+
+class PlaceAnimal(_Record):
+    """A part that moves along a path: its skeleton is bent along the path's curve.
+
+    At rest it lies along +x of its part, over the origin, its ground at z = 0.
+    """
+
+    id: str = Field(min_length=1, max_length=256)
+    name: str = Field(max_length=256)
+    part: str = Field(max_length=256, description="id of the part that is the animal")
+    root: str = Field(
+        default="root", max_length=256, description="the joint that carries the way forwards"
+    )
+    length: Positive = Field(description="from head to tail (m)")
+    swims: bool = Field(
+        default=False, description="whether it keeps its height and does not lie on the ground"
+    )
+    clips: list[AnimalClip] = Field(min_length=1, max_length=100, description="the usual one first")
+    path: list[Vector] = Field(
+        min_length=2, max_length=100_000, description="on the ground, in its order (m, world frame)"
+    )
+    closed: bool = Field(default=False, description="whether the path ends where it begins")
+
+
 class PlaceSun(_Record):
     """Where the place is on the earth and when it is looked at: by these the sun stands."""
 
@@ -178,6 +210,7 @@ class Place(_Record):
     points: list[PlacePoints] = Field(default=[], max_length=1000)
     cameras: list[PlaceCamera] = Field(default=[], max_length=100_000)
     tours: list[Tour] = Field(default=[], max_length=100)
+    animals: list[PlaceAnimal] = Field(default=[], max_length=1000)
     scale: Literal["metres", "unknown"] = Field(
         default="metres", description="unknown: the unit of length is not the metre, but any"
     )
@@ -187,21 +220,26 @@ class Place(_Record):
     @model_validator(mode="after")
     def _ids_are_unique(self) -> Self:
         for kind, items in (
-            ("parts", self.parts), ("cameras", self.cameras), ("tours", self.tours)
+            ("parts", self.parts), ("cameras", self.cameras), ("tours", self.tours),
+            ("animals", self.animals),
         ):  # fmt: skip
             seen: set[str] = set()
             for item in items:
                 if item.id in seen:
                     raise ValueError(f"two {kind} have the id {item.id!r}")
                 seen.add(item.id)
+        known = {part.id for part in self.parts}
+        for animal in self.animals:
+            if animal.part not in known:
+                raise ValueError(f"the part of animal {animal.id!r} is not there")
         return self
 
 
-LATER = frozenset({"title", "description", "author", "licence", "languages"})
+LATER = frozenset({"title", "description", "author", "licence", "languages", "animals"})
 """What manifests have said only since some time: it is left out of the file where nothing is said,
 so that places that say nothing of it are written as they were."""
 
-Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour)
+Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour, PlaceAnimal)
 _FILES = {"model", "city_model", "document", "photo", "file", "picture"}
 
 
@@ -232,6 +270,7 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
         "points": _joined("cloud", first.points, second.points, shift, second_folder),
         "cameras": _joined("camera", first.cameras, second.cameras, shift, second_folder),
         "tours": _joined("tour", first.tours, second.tours, shift, second_folder),
+        "animals": _joined("animal", first.animals, second.animals, shift, second_folder),
         "tileset": None,  # the tiles of one do not show the other
     }
     return first.model_copy(update=update)
@@ -257,6 +296,9 @@ def _moved(item: Item, shift_m: list[float], folder: str) -> Item:
     update: dict[str, object]
     if isinstance(item, Tour):
         update = {"eyes": (np.array(item.eyes) + shift_m).tolist()}
+        return type(item).model_validate(item.model_dump() | update)
+    if isinstance(item, PlaceAnimal):
+        update = {"path": (np.array(item.path) + shift_m).tolist()}
         return type(item).model_validate(item.model_dump() | update)
     transform = list(item.transform)
     for axis in range(3):

@@ -14,7 +14,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.place.manifest import PlaceCamera, PlacePart, PlaceSun, Start, Tour
+from veduta.place.manifest import PlaceAnimal, PlaceCamera, PlacePart, PlaceSun, Start, Tour
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.registry import folders, format_of
@@ -107,6 +107,7 @@ class Place:
     clouds: list[Cloud] = field(default_factory=list)
     cameras: list[PlaceCamera] = field(default_factory=list)
     tours: list[Tour] = field(default_factory=list)
+    animals: list[PlaceAnimal] = field(default_factory=list)
     sun: PlaceSun | None = None
     start: Start | None = None
     """Where a visitor begins; None: chosen where the place is saved."""
@@ -168,6 +169,7 @@ class Place:
             clouds=[*self.clouds, *(_moved_cloud(one, shift) for one in other.clouds)],
             cameras=[*self.cameras, *(_moved_camera(one, shift) for one in other.cameras)],
             tours=[*self.tours, *(_moved_tour(one, shift) for one in other.tours)],
+            animals=[*self.animals, *(_moved_animal(one, shift) for one in other.animals)],
         )  # fmt: skip
         for placed in other.parts.values():
             standing = replace(placed.standing, transform=shift @ placed.standing.transform)
@@ -208,3 +210,7 @@ def _moved_camera(camera: PlaceCamera, shift: NDArray[np.float64]) -> PlaceCamer
 
 def _moved_tour(tour: Tour, shift: NDArray[np.float64]) -> Tour:
     return tour.model_copy(update={"eyes": (np.array(tour.eyes) + shift[:3, 3]).tolist()})
+
+
+def _moved_animal(animal: PlaceAnimal, shift: NDArray[np.float64]) -> PlaceAnimal:
+    return animal.model_copy(update={"path": (np.array(animal.path) + shift[:3, 3]).tolist()})

@@ -38,6 +38,8 @@ export interface Inspection {
   photoUnder(x: number, y: number): string | null;
   /** Where the guided tour is; null before it was begun. */
   tour(): { time_s: number; playing: boolean; room: string } | null;
+  /** The animals, where they are, and how far each is on its pace (0..1). */
+  animals(): { id: string; place: Vec3; pace: number }[];
   bounds(): { min: Vec3; max: Vec3 };
   stats(): ViewerStats & { load_s: number };
 }
@@ -113,6 +115,7 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
         ? null
         : { ...at, room: stretchAt(tour, at.time_s)?.name ?? "" };
     },
+    animals: () => viewer.animals.states,
     bounds: () => viewer.solid.bounds,
     stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
   };

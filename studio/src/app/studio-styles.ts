@@ -100,7 +100,11 @@ export const studioStyles = css`
     max-width: calc(100% - 2 * var(--edge) - 540px);
     min-width: 300px;
   }
-  veduta-tour-panel {
+  veduta-animal-panel.over-tour {
+    bottom: calc(var(--edge) + 118px);
+  }
+  veduta-tour-panel,
+  veduta-animal-panel {
     position: absolute;
     bottom: calc(var(--edge) + 60px);
     left: 50%;

@@ -10,6 +10,8 @@ import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
 import { durationOf, NOT_BEGUN, type TourState } from "../core/tour.ts";
+import type { AnimalState } from "../core/animal.ts";
+import "./animal-panel.ts";
 import "./feature-panel.ts";
 import { insetsOf, isNarrow } from "./free-space.ts";
 import type { HelpDialog } from "./help-dialog.ts";
@@ -154,7 +156,7 @@ export class Studio extends LitElement {
     const state = this.#store.value;
     const shown = shownFeature(session, state.selected);
     const coarse = matchMedia("(pointer: coarse)").matches;
-    const overTour = session.place.tours.length > 0 ? "over-tour" : "";
+    const overTour = session.place.tours.length + session.place.animals.length > 0 ? "over-tour" : "";
     return html`
       <header class="brand sheet">
         <img src="./icon.svg" alt="" width="26" height="26" />
@@ -174,6 +176,7 @@ export class Studio extends LitElement {
         : html`<veduta-minimap class="sheet ${overTour}" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
             .houses=${session.houses} @go=${(event: CustomEvent<Vec3[]>) => session.viewer.goTo(event.detail)}></veduta-minimap>`}
       ${this.#tourPanel(session)}
+      ${this.#animalPanel(session)}
       ${state.mode === "walk" && coarse
         ? html`<veduta-joystick class=${overTour}
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
@@ -232,6 +235,15 @@ export class Studio extends LitElement {
       @choose-tour=${(event: CustomEvent<number>) => this.#goInTour({ which: event.detail, time_s: 0 })}
       @play-tour=${() => this.#toggleTour()}
       @seek-tour=${(event: CustomEvent<number>) => this.#goInTour({ time_s: event.detail })}></veduta-tour-panel>`;
+  }
+
+  #animalPanel({ place }: Session): TemplateResult | typeof nothing {
+    if (place.animals.length === 0) return nothing;
+    const { animal } = this.#store.value;
+    return html`<veduta-animal-panel class="sheet ${place.tours.length > 0 ? "over-tour" : ""}" role="group" aria-label="The animals"
+      .animals=${place.animals} .at=${animal}
+      @change-animal=${(event: CustomEvent<Partial<AnimalState>>) => this.#store.update({ animal: { ...animal, ...event.detail } })}
+    ></veduta-animal-panel>`;
   }
 
   /** Plays on from where it was left, from its beginning after its end. */

@@ -1,5 +1,6 @@
 /** Reads `place.json`. It may come from anywhere, so nothing in it is taken on trust. */
 import type { Place as Manifest, PlaceCamera, PlacePart, PlacePoints, PlaceSun } from "../generated/place.ts";
+import { type Animal, readAnimal } from "./animal.ts";
 import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
@@ -74,6 +75,7 @@ export interface Place {
   readonly clouds: readonly Cloud[];
   readonly shots: readonly Shot[];
   readonly tours: readonly Tour[];
+  readonly animals: readonly Animal[];
   /** Whether lengths are metres. */
   readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
@@ -88,6 +90,7 @@ const MOST_PARTS = 10_000;
 const MOST_CLOUDS = 1000;
 const MOST_SHOTS = 100_000;
 const MOST_TOURS = 100;
+const MOST_ANIMALS = 1000;
 /** The part that holds the walls which `veduta photos` found in the points. */
 const WALLS = "walls";
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -108,14 +111,17 @@ export function readPlace(text: string, file: string): Place {
   const clouds = list(manifest.points ?? [], MOST_CLOUDS, "clouds of points", broken);
   const shots = list(manifest.cameras ?? [], MOST_SHOTS, "cameras", broken);
   const tours = list(manifest.tours ?? [], MOST_TOURS, "tours", broken);
+  const animals = list(manifest.animals ?? [], MOST_ANIMALS, "animals", broken);
   if (parts.length + clouds.length === 0) throw broken("the place has no parts");
   const start = record(manifest.start, () => broken("it does not say where to start"));
+  const known = parts.map((part, index) => readPart(part, `part ${index + 1}`, broken));
   return {
     tileset: readTileset(manifest.tileset, broken),
-    parts: parts.map((part, index) => readPart(part, `part ${index + 1}`, broken)),
+    parts: known,
     clouds: clouds.map((cloud, index) => readCloud(cloud, `cloud ${index + 1}`, broken)),
     shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
     tours: tours.map((tour, index) => readTour(tour, `tour ${index + 1}`, broken)),
+    animals: animals.map((animal, index) => readAnimal(animal, `animal ${index + 1}`, known, broken)),
     scaleKnown: manifest.scale !== "unknown",
     sun: readSun(manifest.sun, broken),
     start: {
@@ -208,9 +214,19 @@ function readBounds(value: unknown): Box | null {
 
 /** The corners of the boxes of all parts but the ground and what is around it, world frame: what one comes to see. */
 export function cornersOfPlace(place: Place): Vec3[] {
-  return place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }) =>
-    bounds === null || isGround || isBackdrop ? [] : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
+  const alive = new Set(place.animals.map(({ part }) => part));
+  const still = place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }, index) =>
+    bounds === null || isGround || isBackdrop || alive.has(index)
+      ? []
+      : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
   );
+  // Of an animal one sees what is around its path.
+  return [...still, ...place.animals.flatMap(aroundPath)];
+}
+
+function aroundPath({ path, length_m }: Animal): Vec3[] {
+  const size = 0.25 * length_m;
+  return path.flatMap(([x, y, z]): Vec3[] => [[x - size, y - size, z], [x + size, y + size, z + size]]);
 }
 
 /** The ground of a town ends this far below the plane around it, into which it dips (grammar/ground_margin.py). */

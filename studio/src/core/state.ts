@@ -1,4 +1,5 @@
 /** What the person has chosen to see. */
+import { type AnimalState, STANDING } from "./animal.ts";
 import type { SemanticClass } from "./classes.ts";
 import { DAY_HOUR } from "./daylight.ts";
 import type { TourState } from "./tour.ts";
@@ -48,6 +49,7 @@ export interface StudioState {
   readonly map: boolean;
   /** Null before the tour was begun. */
   readonly tour: TourState | null;
+  readonly animal: AnimalState;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -67,6 +69,7 @@ export const INITIAL_STATE: StudioState = {
   hour: DAY_HOUR,
   map: true,
   tour: null,
+  animal: STANDING,
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

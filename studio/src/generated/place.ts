@@ -88,6 +88,10 @@ export interface Place {
    */
   tours?: Tour[];
   /**
+   * @maxItems 1000
+   */
+  animals?: PlaceAnimal[];
+  /**
    * unknown: the unit of length is not the metre, but any
    */
   scale?: "metres" | "unknown";
@@ -325,6 +329,70 @@ export interface TourStretch {
   name: string;
   start_s: number;
   end_s: number;
+}
+/**
+ * A part that moves along a path: its skeleton is bent along the path's curve.
+ *
+ * At rest it lies along +x of its part, over the origin, its ground at z = 0.
+ */
+export interface PlaceAnimal {
+  id: string;
+  name: string;
+  /**
+   * id of the part that is the animal
+   */
+  part: string;
+  /**
+   * the joint that carries the way forwards
+   */
+  root?: string;
+  /**
+   * from head to tail (m)
+   */
+  length: number;
+  /**
+   * whether it keeps its height and does not lie on the ground
+   */
+  swims?: boolean;
+  /**
+   * the usual one first
+   *
+   * @minItems 1
+   * @maxItems 100
+   */
+  clips: [AnimalClip, ...AnimalClip[]];
+  /**
+   * on the ground, in its order (m, world frame)
+   *
+   * @minItems 2
+   * @maxItems 100000
+   */
+  path: [[number, number, number], [number, number, number], ...[number, number, number][]];
+  /**
+   * whether the path ends where it begins
+   */
+  closed?: boolean;
+}
+/**
+ * A motion of an animal, straight along +x of its part.
+ */
+export interface AnimalClip {
+  /**
+   * of the animation in the part's model
+   */
+  name: string;
+  /**
+   * how long it is
+   */
+  seconds: number;
+  /**
+   * how far the animal goes in it (m)
+   */
+  stride: number;
+  /**
+   * whether it begins anew without a jump
+   */
+  loops?: boolean;
 }
 /**
  * Where the place is on the earth and when it is looked at: by these the sun stands.

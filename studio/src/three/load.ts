@@ -1,5 +1,5 @@
 /** From the place to parts that can be drawn. */
-import { Group, InstancedMesh, Light, Mesh, Texture } from "three";
+import { type AnimationClip, Group, InstancedMesh, Light, Mesh, Texture } from "three";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
@@ -22,6 +22,8 @@ export interface LoadedPart {
   readonly masks: Masks;
   /** What of the meshes moves. */
   readonly movers: readonly Mover[];
+  /** The motions of its skeleton. */
+  readonly animations: readonly AnimationClip[];
 }
 
 /** `share` in 0..1 of all parts; `file` is the one in hand. */
@@ -76,7 +78,7 @@ async function readPart(part: Part, bytes: ArrayBuffer, images: SharedImages): P
   if (drawn.length === 0) throw new Fault(part.model, "there is no mesh in the model", REMEDY);
   for (const mesh of drawn) sharpenTextures(mesh);
   const masks = await named(part.model, () => loadMasks(gltf, drawn));
-  return { part, table, group, meshes, instanced, masks, movers: moversOf(gltf, meshes) };
+  return { part, table, group, meshes, instanced, masks, movers: moversOf(gltf, meshes), animations: gltf.animations };
 }
 
 /** The loader trusts the lengths in the file; a truncated one must not reach it. */

@@ -16,6 +16,7 @@ export class OrbitRig {
   readonly #bounds: Box;
   readonly #corners: readonly Vec3[];
   readonly #direction: Vec3;
+  readonly #size: number;
 
   /**
    * `corners` are those of what is to be `seen`, and that the box around them; `outlook` is where the
@@ -35,8 +36,9 @@ export class OrbitRig {
     this.#controls.enableDamping = true;
     this.#controls.dampingFactor = 0.09;
     this.#controls.zoomToCursor = true;
-    this.#controls.minDistance = 1;
-    this.#controls.maxDistance = 12 * length(subtract(seen.max, seen.min));
+    this.#size = length(subtract(seen.max, seen.min));
+    this.#controls.minDistance = Math.min(1, 0.1 * this.#size);
+    this.#controls.maxDistance = 12 * this.#size;
     this.#controls.maxPolarAngle = 0.495 * Math.PI;
     this.#controls.addEventListener("change", onChange);
   }
@@ -56,7 +58,7 @@ export class OrbitRig {
     const target = new Vector3(...drawnFromWorld(view.target));
     const camera = this.#camera.clone();
     camera.position.set(...drawnFromWorld(view.eye));
-    camera.position.y = Math.max(0.4, camera.position.y);
+    camera.position.y = Math.max(Math.min(0.4, 0.1 * this.#size), camera.position.y);
     camera.lookAt(target);
     return {
       pose: {
@@ -73,6 +75,12 @@ export class OrbitRig {
     this.#controls.target.copy(target);
   }
 
+  /** The camera and what it looks at move by so much (drawn frame). */
+  shift(by: Vector3): void {
+    this.#camera.position.add(by);
+    this.#controls.target.add(by);
+  }
+
   /** How near to the camera nothing is to be seen (m), outside of the place and above the ground. */
   get free_m(): number {
     const { min, max } = this.#bounds;
@@ -86,7 +94,7 @@ export class OrbitRig {
   advance(): boolean {
     this.#controls.target.y = Math.max(0, this.#controls.target.y);
     const moved = this.#controls.update();
-    this.#camera.position.y = Math.max(0.1, this.#camera.position.y);
+    this.#camera.position.y = Math.max(Math.min(0.1, 0.02 * this.#size), this.#camera.position.y);
     return moved;
   }
 

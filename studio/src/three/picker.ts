@@ -2,7 +2,7 @@
 import { type PerspectiveCamera, Raycaster, Vector2, Vector3 } from "three";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
-import type { Vec3 } from "../core/vector.ts";
+import { add, scale, type Vec3 } from "../core/vector.ts";
 import type { Hit } from "./solid.ts";
 import type { Stage, ViewerContent } from "./stage.ts";
 
@@ -37,6 +37,17 @@ export class Picker {
       worldFromDrawn(caster.ray.direction.toArray()),
       (feature) => this.#isVisible(feature),
     );
+  }
+
+  /** The ground there: a surface, else the level at a height (m); null towards the sky. */
+  groundAt(x: number, y: number, height_m: number): Vec3 | null {
+    const hit = this.hitAt(x, y);
+    if (hit !== null) return hit.point;
+    const caster = new Raycaster();
+    caster.setFromCamera(this.#onScreen(x, y), this.#camera);
+    const [origin, ahead] = [worldFromDrawn(caster.ray.origin.toArray()), worldFromDrawn(caster.ray.direction.toArray())];
+    const along = (height_m - origin[2]) / ahead[2];
+    return along > 0 && Number.isFinite(along) ? add(origin, scale(ahead, along)) : null;
   }
 
   /** The photo whose pyramid is there. */

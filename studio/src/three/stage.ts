@@ -10,6 +10,7 @@ import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
 import { boundsOfShots, outlookOf } from "../core/shots.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
+import { Animals } from "./animals.ts";
 import { Appearance } from "./appearance.ts";
 import { Backdrop } from "./backdrop.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
@@ -56,6 +57,7 @@ export class Stage {
   /** Where the photos look to; null where they look all about, or where there are none. */
   readonly outlook: Vec3 | null;
   readonly household: Household;
+  readonly animals: Animals;
   /** The photos that lie on the place; null where it has none. */
   readonly photos: PhotoShow | null;
   readonly #content: ViewerContent;
@@ -76,16 +78,20 @@ export class Stage {
     const ground = parts.filter(({ part }) => part.isGround);
     this.#backdrop = new Backdrop(parts);
     this.#sunPath = sunPathOf(place.sun);
-    this.solid = town ?? solidOf(place, parts, ground);
     const told = cornersOfPlace(place);
+    this.solid = town ?? solidOf(place, parts, ground, told);
     // A city model may go far beyond what the photos show.
     const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
     this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
     this.seen = boxOfPoints([...this.corners, ...told]);
     this.outlook = outlookOf(place.shots);
-    const buildings = parts.filter(({ part }) => !part.isGround && !part.isBackdrop);
+    const alive = new Set(place.animals.map(({ part }) => parts[part]));
+    const buildings = parts.filter((one) => !one.part.isGround && !one.part.isBackdrop && !alive.has(one));
     const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
     this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown }, content.budget);
+    const { solid } = this;
+    const topAt = solid instanceof Solid ? (x: number, y: number) => solid.topAt(x, y) : () => null;
+    this.animals = new Animals(place.animals, parts, topAt);
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
     this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);
@@ -129,12 +135,14 @@ export class Stage {
   /** Moves what moves by itself; true while something does. */
   advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): boolean {
     if (this.#town !== null) return false;
+    const animals = this.animals.advance(state.animal, seconds);
+    if (animals) this.#scenery.sun.shadow.needsUpdate = true;
     const { doors, lamps } = this.household.advance(state, walker, eye, seconds);
     if (doors) {
       this.#scenery.sun.shadow.needsUpdate = true;
       this.appearance.outlineSelected(state.selected);
     }
-    return doors || lamps;
+    return doors || lamps || animals;
   }
 
   /** True while a photo comes or goes. */
@@ -198,10 +206,13 @@ function solidOf(
   place: Place,
   parts: readonly LoadedPart[],
   ground: readonly LoadedPart[],
+  seen: readonly Vec3[],
 ): Solid | SolidWithDoors | OpenSpace {
   if (parts.length === 0) return new OpenSpace(boundsOfShots(place.clouds, place.shots));
-  const still = parts.map(({ part, meshes, instanced, movers }) => {
-    if (part.isBackdrop) return { meshes: [], instanced: [] };
+  const alive = new Set(place.animals.map(({ part }) => part));
+  if (alive.size === parts.length) return new OpenSpace(boxOfPoints(seen));
+  const still = parts.map(({ part, meshes, instanced, movers }, index) => {
+    if (part.isBackdrop || alive.has(index)) return { meshes: [], instanced: [] };
     const moving = new Set(movers.flatMap((mover) => mover.meshes));
     return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
   });

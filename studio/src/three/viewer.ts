@@ -1,6 +1,6 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
-import { worldFromDrawn } from "../core/frames.ts";
+import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
 import { type Hold, turnOf, wishOf } from "../core/input.ts";
 import type { Place } from "../core/place.ts";
@@ -56,6 +56,8 @@ export class Viewer {
   #stick: readonly [number, number] = [0, 0];
   #flight: Flight | null = null;
   #orbitPose: { pose: Pose; target: Vector3 } | null = null;
+  /** Where the followed animal was; null where none is followed. */
+  #followed: Vector3 | null = null;
   #request = 0;
   #frames = 0;
   #insets: Insets = NO_INSETS;
@@ -113,6 +115,11 @@ export class Viewer {
   /** What goes on in the houses of the place. */
   get household(): Stage["household"] {
     return this.#stage.household;
+  }
+
+  /** What lives in the place. */
+  get animals(): Stage["animals"] {
+    return this.#stage.animals;
   }
 
   /** Puts the walker at the first of these places (feet) where nothing is in the way. */
@@ -238,6 +245,7 @@ export class Viewer {
       this.#stage.fade(this.#store.value, this.pose, Math.min(seconds, 0.1)),
     ];
     const goesOn = moves.includes(true);
+    this.#goWithAnimal();
     this.#screen.sharpen(goesOn ? this.#pace.sharpness : 1);
     this.#draw();
     this.#pace.end(now_ms, goesOn);
@@ -270,6 +278,16 @@ export class Viewer {
       this.#orbit.steer(turn.left - wish.right, turn.up, wish.forward, Math.min(seconds, 0.1));
     }
     return this.#orbit.advance() || steering;
+  }
+
+  /** The camera keeps to the animal that it follows, as far from it as the person wants. */
+  #goWithAnimal(): void {
+    const { animal, mode } = this.#store.value;
+    const at = animal.following && mode === "orbit" ? this.#stage.animals.placeOf(animal.which) : null;
+    const before = this.#followed;
+    this.#followed = at === null ? null : new Vector3(...drawnFromWorld(at));
+    if (this.#followed === null) return;
+    this.#orbit.shift(this.#followed.clone().sub(before ?? this.#orbit.target));
   }
 
   #draw(): void {
@@ -375,6 +393,14 @@ export class Viewer {
   }
 
   #select(x: number, y: number): void {
+    const { which, leading } = this.#store.value.animal;
+    const animal = leading ? this.#stage.animals.placeOf(which) : null;
+    const goal = animal === null ? null : this.picker.groundAt(x, y, animal[2]);
+    if (animal !== null) {
+      if (goal !== null) this.#stage.animals.lead(which, goal);
+      this.invalidate();
+      return;
+    }
     const shot = this.picker.shotAt(x, y);
     if (shot !== null) this.#store.update(throughPhoto(this.#store.value, shot));
     else this.#store.update({ selected: this.picker.hitAt(x, y)?.feature ?? null });

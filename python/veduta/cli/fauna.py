@@ -1,0 +1,19 @@
+"""`veduta fauna FOOTAGE -o OUT`."""
+
+from __future__ import annotations
+
+SUMMARY = "Turn footage of an animal into a moving 3D animal"
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, do the work, say what was found and where it is."""
+    from veduta.cli.arguments import parse
+    from veduta.cli.fauna_call import FaunaCall
+    from veduta.cli.told import tell_result
+    from veduta.fauna import run_fauna
+    from veduta.run.progress import Progress
+
+    call = parse(FaunaCall, "veduta fauna", arguments)
+    progress = Progress(quiet=call.quiet)
+    result = run_fauna(call.footage, call.out, call.options(), progress, force=call.force)
+    return tell_result(result, quiet=call.quiet)

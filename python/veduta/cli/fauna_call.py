@@ -1,0 +1,43 @@
+"""The arguments of `veduta fauna`: the footage, the options, and how to run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from veduta.cli.run_arguments import Force, Out, Quiet
+from veduta.fauna.options import AnimalOptions, FaunaOptions, MotionOptions
+
+Footage = Annotated[
+    tyro.conf.Positional[Path],
+    tyro.conf.arg(
+        metavar="FOOTAGE",
+        help_behavior_hint="",
+        help=("a CSV of midlines (frame, point, t, x, y); or an animal.json to build from again"),
+    ),
+]
+
+
+@dataclass(frozen=True)
+class FaunaCall:
+    """Turn footage of an animal into a moving 3D animal.
+
+    The animal is in OUT/animal.glb with its skeleton and clips, what was found of it in
+    OUT/animal.json, and OUT/place.json has it on a path, for `veduta view`.
+
+    Exit codes: 0 done, 2 bad use or input, 3 there is no animal in the footage, 1 a bug.
+    """
+
+    footage: Footage
+    out: Out
+    animal: AnimalOptions = field(default_factory=AnimalOptions)
+    motion: MotionOptions = field(default_factory=MotionOptions)
+    force: Force = False
+    quiet: Quiet = False
+
+    def options(self) -> FaunaOptions:
+        """What changes the result."""
+        return FaunaOptions(animal=self.animal, motion=self.motion)

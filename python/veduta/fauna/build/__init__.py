@@ -1,0 +1,1 @@
+"""From the document of an animal to its mesh, its clips and its place."""

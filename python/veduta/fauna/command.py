@@ -1,0 +1,177 @@
+"""`veduta fauna`: footage, midlines or a document become an animal in a place."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from pydantic import JsonValue
+
+from veduta.fauna.build.build import Built, build_animal, place_of
+from veduta.fauna.document.load import DOCUMENT, load_animal, save_animal
+from veduta.fauna.document.schema import Animal, Source
+from veduta.fauna.motion.angles import angles_of
+from veduta.fauna.options import FaunaOptions
+from veduta.fauna.pictures import (
+    angles_over_time,
+    angles_picture,
+    axes_picture,
+    gait_picture,
+)
+from veduta.fauna.read.midlines import read_midlines
+from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
+from veduta.formats.mesh_glb import write_mesh_glb
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError
+from veduta.run.page import Table
+from veduta.run.progress import Progress
+from veduta.run.verb import VerbCall, VerbResult, run_verb
+from veduta.run.work import Work
+
+VERSION = "1"
+MODEL = "animal.glb"
+
+
+def run_fauna(
+    record: Path, out: Path, options: FaunaOptions, progress: Progress, *, force: bool = False
+) -> VerbResult:
+    """Make the animal of a record in OUT; InputError where the record is none."""
+    if not record.exists():
+        raise InputError(record, "there is no such file or folder", "Name the animal's footage.")
+    call = VerbCall(
+        command="fauna",
+        version=VERSION,
+        subject=record.stem,
+        options=options,
+        inputs=_digests(record),
+    )
+
+    def make(work: Work) -> None:
+        _make(work, record, options)
+
+    return run_verb(call, out, make, progress, force=force)
+
+
+def _digests(record: Path) -> JsonValue:
+    if record.is_file():
+        return [file_digest(record)]
+    files = sorted(path for path in record.rglob("*") if path.is_file())
+    return [f"{path.relative_to(record)} {file_digest(path)}" for path in files]
+
+
+def _make(work: Work, record: Path, options: FaunaOptions) -> None:
+    if record.suffix.lower() == ".json":
+        with work.step("document"):
+            animal = load_animal(record)
+    else:
+        described = _read(work, record, options)
+        animal = described.animal
+        _tell_axes(work, described)
+    with work.step("motion") as step:
+        built = build_animal(animal, options.motion)
+        step.counts["clips"] = len(built.gaits)
+        step.counts["states"] = max(gait.states for gait in built.gaits)
+        step.counts["refused states"] = max(gait.refused for gait in built.gaits)
+    with work.step("writing"):
+        save_animal(animal, work.folder / DOCUMENT)
+        write_mesh_glb(built.mesh, work.folder / MODEL)
+        place_of(animal, built).save(work.folder)
+    _tell(work, animal, built)
+
+
+def _read(work: Work, record: Path, options: FaunaOptions) -> Described:
+    """The animal's axis through the record, and the document from it."""
+    with work.step("axis") as step:
+        tracked: Tracked = read_midlines(record)
+        source = Source(
+            file=record.name,
+            sha256=file_digest(record),
+            frames=max(1, len(tracked.points) + len(tracked.left_out)),
+            used=max(1, len(tracked.points)),
+        )
+        described = describe(tracked, record.stem, source, options)
+        step.counts["frames"] = described.animal.source.frames
+        step.counts["used"] = described.animal.source.used
+        step.rejected.extend(described.animal.source.left_out)
+    return described
+
+
+def _tell_axes(work: Work, described: Described) -> None:
+    """Figure 11 for this animal."""
+    again = angles_of(described.states, SAMPLES)
+    work.picture(
+        "The axis through the footage",
+        "early frames blue, late ones red; a dot at the head",
+        axes_picture(described.axes),
+        wide=True,
+    )
+    middle = len(again) // 2
+    work.picture(
+        "The angle of the axis",
+        "A(s) from head to tail in a frame in the middle (blue), and what the seven Fourier"
+        " coefficients of its state keep of it (black)",
+        angles_picture(described.angles[middle], again[middle]),
+        wide=True,
+    )
+    work.picture(
+        "The angles through time",
+        "time to the right, the head at the top; a wave that runs down the body is a slanted band",
+        angles_over_time(described.angles),
+        wide=True,
+    )
+
+
+def _tell(work: Work, animal: Animal, built: Built) -> None:
+    source, motion = animal.source, animal.motion
+    for doubt in (*animal.doubts, *built.doubts):
+        work.doubt(doubt)
+    if source.left_out:
+        count = len(source.left_out)
+        work.note(f"{count} of {source.frames} frames were left out: the steps say why")
+    for gait in built.gaits:
+        if gait.states:
+            work.picture(
+                f"New motion: {gait.name}",
+                "a walk through the motion graph along its course; early blue, late red",
+                gait_picture(gait),
+                wide=True,
+            )
+    work.table(
+        Table(
+            "Clips",
+            ("clip", "seconds", "stride (m)", "loops", "states in its graph", "threshold"),
+            [
+                (
+                    gait.name, float(gait.times_s[-1]), gait.stride * animal.length.metres,
+                    "yes" if gait.loops else "no", gait.states or None, gait.threshold or None,
+                )
+                for gait in built.gaits
+            ],
+        )
+    )  # fmt: skip
+    rows = [
+        ("length (m)", animal.length.metres, animal.length.provenance, animal.length.score),
+        ("widths", None, animal.body.widths, animal.body.score),
+        ("heights", None, animal.body.heights, None),
+        ("states of the axis", len(motion.states), motion.provenance, motion.score),
+        ("speed (lengths/s)", motion.speed, motion.speed_provenance, None),
+    ]
+    work.table(Table("What is known", ("what", "value", "from", "score"), rows))
+    if built.wave is not None:
+        work.measure("wave_hz", built.wave.frequency_hz)
+        work.measure("wave_share", built.wave.share)
+    work.measure("length_m", animal.length.metres)
+    work.measure("speed_lengths_s", motion.speed)
+    work.measure("frames_used", source.used)
+    for name, meaning in (
+        (MODEL, "the animal with its skeleton and clips (glTF)"),
+        (DOCUMENT, "what was found, to edit and to build from again"),
+        ("place.json", "the animal on a path, for the studio"),
+    ):
+        work.file(name, meaning)
+    work.fact("length", f"{animal.length.metres:.3g} m ({animal.length.provenance})")
+    work.fact("frames", f"{source.used} of {source.frames}")
+    work.fact("clips", ", ".join(gait.name for gait in built.gaits))
+    work.summary = (
+        f"A {animal.kind} of {animal.length.metres:.3g} m from {source.used} of {source.frames}"
+        f" frames, with the clips {', '.join(gait.name for gait in built.gaits)}"
+    )

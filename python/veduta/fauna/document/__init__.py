@@ -1,0 +1,1 @@
+"""`animal.json`: what was found of an animal, from which all else is built."""

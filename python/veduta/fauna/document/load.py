@@ -1,0 +1,42 @@
+"""Reading and writing `animal.json`."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+from pydantic import ValidationError
+
+from veduta.fauna.document.schema import Animal
+from veduta.run.atomic import write_bytes
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+DOCUMENT = "animal.json"
+_MOST_BYTES = 200_000_000
+
+
+def load_animal(path: Path) -> Animal:
+    """The document in a file; InputError where it is none."""
+    remedy = "Give an animal.json that `veduta fauna` has written."
+    try:
+        require_file(path, _MOST_BYTES)
+        return Animal.model_validate_json(path.read_bytes())
+    except OSError as error:
+        raise InputError(path, f"cannot be read ({error.strerror})", remedy) from error
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"]) or "the file"
+        raise InputError(path, f"is no animal document: {where}: {first['msg']}", remedy) from error
+
+
+def save_animal(animal: Animal, path: Path) -> None:
+    """Write it, indented so that a person can edit it; states stand a line each."""
+    told = animal.model_dump(mode="json", by_alias=True)
+    states = told["motion"].pop("states")
+    text = json.dumps(told, indent=1, ensure_ascii=False)
+    rows = ",\n   ".join(
+        json.dumps([[round(re, 9), round(im, 9)] for re, im in state]) for state in states
+    )
+    head, mark, rest = text.partition('"motion": {\n')
+    write_bytes(path, f'{head}{mark}  "states": [\n   {rows}\n  ],\n{rest}\n'.encode())

@@ -1,0 +1,55 @@
+"""The options of `veduta fauna`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+Limbless = Literal["snake", "worm", "fish"]
+Kind = Literal["snake", "worm", "fish"]
+
+
+class AnimalOptions(Options):
+    """What the animal is."""
+
+    kind: Kind = Field(
+        default="snake",
+        description=(
+            "what kind of animal it is: a snake's tail follows its head, a worm bends where it"
+            " will, a fish has a swimmer's wave"
+        ),
+    )
+    length_m: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=100.0,
+        description="its length from head to tail, m; else that of the record, or an assumed one",
+    )
+
+
+class MotionOptions(Options):
+    """How its motion is made longer than the footage."""
+
+    seconds: float = Field(
+        default=12.0, ge=1.0, le=600.0, description="how long the new motion is at least, s"
+    )
+    states: int = Field(
+        default=160, ge=8, le=5000, description="new states that are drawn beside the footage's"
+    )
+    speed: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=20.0,
+        description="how fast it goes, body lengths a second; else as in the footage",
+    )
+    seed: int = Field(default=0, ge=0, le=2**31, description="of what is drawn at random")
+
+
+class FaunaOptions(Options):
+    """All that changes the result."""
+
+    animal: AnimalOptions = Field(default_factory=AnimalOptions)
+    motion: MotionOptions = Field(default_factory=MotionOptions)

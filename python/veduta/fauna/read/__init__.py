@@ -1,0 +1,1 @@
+"""From a record of an animal to its document."""

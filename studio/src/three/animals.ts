@@ -1,0 +1,142 @@
+/**
+ * The animals of a place, alive. A clip moves a skeleton straight along +x; here each of its joints is
+ * carried over to the curve that the animal goes along: arc length for the way ahead, the curve's normal
+ * for what is beside it. So the whole body bends where the path does.
+ */
+import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, SkinnedMesh, Vector3 } from "three";
+import type { Animal, AnimalState } from "../core/animal.ts";
+import { Course, type Ground } from "../core/course.ts";
+import { drawnFromWorld } from "../core/frames.ts";
+import type { Vec3 } from "../core/vector.ts";
+import type { LoadedPart } from "./load.ts";
+
+/** Nobody waits longer for a frame than so (s). */
+const MOST_SECONDS = 0.1;
+
+class LivingAnimal {
+  readonly animal: Animal;
+  readonly course: Course;
+  readonly #mixer: AnimationMixer;
+  readonly #bones: readonly Bone[];
+  readonly #root: Bone | null;
+  readonly #inModel = new Map<Bone, Matrix4>();
+  readonly #actions: readonly (AnimationAction | null)[];
+  #clip = -1;
+  #time_s = 0;
+
+  constructor(animal: Animal, { group, animations }: LoadedPart, ground: Ground) {
+    this.animal = animal;
+    this.course = new Course(animal, ground);
+    // The joints say where the body is in the place; its own place would move it twice.
+    group.matrix.identity();
+    group.updateMatrixWorld(true);
+    const bones = new Set<Bone>();
+    group.traverse((node) => {
+      if (!(node instanceof Mesh)) return;
+      node.frustumCulled = false;
+      if (node instanceof SkinnedMesh) for (const bone of (node as SkinnedMesh).skeleton.bones) bones.add(bone);
+    });
+    // Parents first, as a skeleton lists them.
+    this.#bones = [...bones];
+    for (const bone of this.#bones) bone.matrixWorldAutoUpdate = false;
+    this.#root = this.#bones.find(({ name }) => name === animal.root) ?? null;
+    this.#mixer = new AnimationMixer(group);
+    this.#actions = animal.clips.map(({ name }) => {
+      const clip = animations.find((one) => one.name === name);
+      return clip === undefined ? null : this.#mixer.clipAction(clip);
+    });
+    this.#play(0);
+    this.#pose();
+  }
+
+  /** World frame. */
+  get place(): Vec3 {
+    return this.course.at(0).point;
+  }
+
+  /** True while it moves. */
+  advance(wants: boolean, clip: number, seconds: number): boolean {
+    if (clip !== this.#clip) this.#play(clip);
+    const { seconds: duration = 1, stride_m = 0 } = this.animal.clips[this.#clip] ?? {};
+    const share = this.course.advance(stride_m / duration, wants, seconds);
+    if (share <= 0) return false;
+    this.#time_s = (this.#time_s + share * seconds) % duration;
+    this.#pose();
+    return true;
+  }
+
+  #play(clip: number): void {
+    this.#mixer.stopAllAction();
+    this.#clip = clip;
+    this.#time_s = 0;
+    const action = this.#actions[clip];
+    action?.reset().setLoop(this.animal.clips[clip]?.loops === true ? LoopRepeat : LoopOnce, Infinity).play();
+  }
+
+  /** Where the clip has each joint, straight ahead; then bent along the course. */
+  #pose(): void {
+    this.#mixer.setTime(this.#time_s);
+    const at = new Vector3();
+    for (const bone of this.#bones) {
+      bone.updateMatrix();
+      const above = this.#inModel.get(bone.parent as Bone);
+      const own = this.#inModel.get(bone) ?? new Matrix4();
+      if (above === undefined) own.copy(bone.matrix);
+      else own.multiplyMatrices(above, bone.matrix);
+      this.#inModel.set(bone, own);
+    }
+    const start = this.#root?.position.x ?? 0;
+    for (const bone of this.#bones) {
+      const own = this.#inModel.get(bone);
+      if (own === undefined) continue;
+      const ahead = at.setFromMatrixPosition(own).x - start;
+      const straight = own.clone().setPosition(0, at.y, at.z);
+      bone.matrixWorld.multiplyMatrices(this.#frameAt(ahead), straight);
+    }
+  }
+
+  /** The drawn frame of the course, so many metres ahead of the middle: x along it, y up from the ground. */
+  #frameAt(ahead_m: number): Matrix4 {
+    const { point, ahead } = this.course.at(ahead_m);
+    const x = new Vector3(...drawnFromWorld(ahead)).normalize();
+    const z = new Vector3().crossVectors(x, new Vector3(0, 1, 0)).normalize();
+    const y = new Vector3().crossVectors(z, x);
+    return new Matrix4().makeBasis(x, y, z).setPosition(...drawnFromWorld(point));
+  }
+}
+
+export class Animals {
+  readonly #all: readonly LivingAnimal[];
+
+  constructor(animals: readonly Animal[], parts: readonly LoadedPart[], ground: Ground) {
+    this.#all = animals.flatMap((animal) => {
+      const part = parts[animal.part];
+      return part === undefined ? [] : [new LivingAnimal(animal, part, ground)];
+    });
+  }
+
+  get count(): number {
+    return this.#all.length;
+  }
+
+  /** Where each is (world frame), and how far it is on its pace (0..1). */
+  get states(): { readonly id: string; readonly place: Vec3; readonly pace: number }[] {
+    return this.#all.map(({ animal, place, course }) => ({ id: animal.id, place, pace: course.pace }));
+  }
+
+  placeOf(which: number): Vec3 | null {
+    return this.#all[which]?.place ?? null;
+  }
+
+  /** Sends one to a point of the ground. */
+  lead(which: number, target: Vec3): void {
+    this.#all[which]?.course.leadTo(target);
+  }
+
+  /** True while one moves. */
+  advance(state: AnimalState, seconds: number): boolean {
+    const passed = Math.min(seconds, MOST_SECONDS);
+    const moves = this.#all.map((one, index) => one.advance(state.playing, index === state.which ? state.clip : 0, passed));
+    return moves.includes(true) || (state.playing && this.#all.some(({ course }) => course.pace > 0));
+  }
+}

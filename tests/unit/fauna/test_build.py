@@ -1,0 +1,145 @@
+"""The mesh, its skin and its clips, and the document that they are built from."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from scipy.spatial.transform import Rotation
+
+from veduta.fauna.build.body import slices_along
+from veduta.fauna.build.build import build_animal, place_of
+from veduta.fauna.document.load import load_animal, save_animal
+from veduta.fauna.document.schema import Animal, Body, Length, Motion, Source
+from veduta.fauna.motion.angles import axis_of, coefficients
+from veduta.fauna.options import MotionOptions
+from veduta.fauna.read.usual import usual_slices
+from veduta.place.mesh import Mesh
+from veduta.place.place import Place
+from veduta.place.skin import Clip
+from veduta.run.errors import InputError
+
+
+def sample_animal(kind: str = "fish") -> Animal:
+    """A swimmer of half a metre whose wave runs at 2 Hz."""
+    along, times = np.linspace(0.0, 1.0, 100), np.arange(60) * 0.02
+    wave = np.sin(2.0 * np.pi * (2.0 * times[:, None] - along))
+    states = coefficients((0.1 + 0.4 * along) * wave)
+    return Animal(
+        name="eel",
+        kind=kind,  # type: ignore[arg-type]
+        source=Source(file="eel.csv", sha256="", frames=60, used=60),
+        length=Length(metres=0.5, provenance="measured", score=1.0),
+        body=Body(slices=usual_slices("fish"), widths="invented", heights="invented", score=0.0),
+        motion=Motion(
+            frame_s=0.02,
+            states=np.stack([states.real, states.imag], axis=-1).tolist(),
+            frame=list(range(60)),
+            provenance="measured",
+            score=1.0,
+            speed=1.0,
+            speed_provenance="measured",
+        ),
+    )
+
+
+def posed(mesh: Mesh, clip: Clip, row: int) -> np.ndarray:
+    """Linear blend skinning by hand: (v, 3)."""
+    skin = mesh.skin
+    assert skin is not None
+    world = np.tile(np.eye(4), (len(skin.names), 1, 1))
+    for joint, parent in enumerate(skin.parent):
+        local = np.eye(4)
+        local[:3, :3] = Rotation.from_quat(clip.rotations_xyzw[row, joint]).as_matrix()
+        local[:3, 3] = clip.translations_m[row, joint]
+        world[joint] = local if parent < 0 else world[parent] @ local
+    moved = world @ np.linalg.inv(skin.rest)
+    points = np.c_[mesh.positions_m, np.ones(len(mesh.positions_m))]
+    every = np.einsum("vkab,vb->vka", moved[skin.joints], points)[..., :3]
+    return (skin.weights[..., None] * every).sum(axis=1)
+
+
+@pytest.mark.parametrize("kind", ["fish", "snake", "worm"])
+def test_the_mesh_is_closed_and_looks_outwards(kind: str) -> None:
+    mesh = build_animal(sample_animal(kind), MotionOptions(seconds=1.0, states=20)).mesh
+    corners = mesh.positions_m[mesh.triangles].astype(float)
+    middle = np.array([0.0, 0.0, corners[..., 2].mean()])
+    volume = np.einsum(
+        "ij,ij->i", corners[:, 0] - middle, np.cross(corners[:, 1] - middle, corners[:, 2] - middle)
+    )
+    assert volume.sum() > 0.0
+    ring = corners[np.abs(corners[..., 0]).max(axis=1) < 0.1]
+    out = np.cross(ring[:, 1] - ring[:, 0], ring[:, 2] - ring[:, 0])
+    assert ((ring.mean(axis=1) - middle)[:, 1:] * out[:, 1:]).sum(axis=1).min() > 0.0
+
+
+def test_slices_are_the_document_s() -> None:
+    animal = sample_animal()
+    places, wide, high = slices_along(animal)
+    for piece in animal.body.slices[15:-1:9]:
+        assert np.interp(piece.at, places, wide) / 0.5 == pytest.approx(piece.half_width, rel=0.02)
+        assert np.interp(piece.at, places, high) / 0.5 == pytest.approx(piece.half_height, rel=0.02)
+    assert wide[0] == 0.0
+
+
+def test_a_clip_puts_the_skin_around_the_axis() -> None:
+    animal = sample_animal()
+    built = build_animal(animal, MotionOptions(seconds=1.0, states=20))
+    for gait, clip in zip(built.gaits, built.mesh.clips, strict=True):
+        row = len(clip.times_s) // 3
+        rings = posed(built.mesh, clip, row).reshape(-1, 29, 3)[:, :-1].mean(axis=1)
+        axis = (axis_of(gait.angles[row : row + 1])[0] + gait.middle[row]) * 0.5
+        apart = np.linalg.norm(rings[:, None, :2] - axis[None], axis=2).min(axis=1)
+        assert apart.max() < 0.006 * 0.5
+
+
+def test_loops_close_but_for_the_stride() -> None:
+    built = build_animal(sample_animal(), MotionOptions(seconds=1.0, states=20))
+    for gait, clip in zip(built.gaits, built.mesh.clips, strict=True):
+        assert clip.loops == gait.loops
+        if not clip.loops:
+            continue
+        first, last = posed(built.mesh, clip, 0), posed(built.mesh, clip, -1)
+        assert np.allclose(last - first, [gait.stride * 0.5, 0.0, 0.0], atol=2e-6)
+
+
+def test_the_swimming_clip_is_a_period_of_the_wave() -> None:
+    built = build_animal(sample_animal(), MotionOptions(seconds=1.0, states=20))
+    assert built.gaits[0].name == "swim"
+    assert built.gaits[0].times_s[-1] == pytest.approx(0.5, rel=0.01)
+
+
+def test_the_document_comes_back_as_it_was(tmp_path: Path) -> None:
+    animal = sample_animal()
+    save_animal(animal, tmp_path / "animal.json")
+    again = load_animal(tmp_path / "animal.json")
+    assert again.model_dump(exclude={"motion"}) == animal.model_dump(exclude={"motion"})
+    assert np.allclose(again.motion.columns(), animal.motion.columns(), atol=1e-8)
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("{", "Invalid JSON"),
+        ('{"schema": "veduta/plan"}', "schema"),
+        ("[]", "is no animal document"),
+    ],
+)
+def test_bad_documents_are_refused(tmp_path: Path, text: str, fault: str) -> None:
+    path = tmp_path / "animal.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=fault):
+        load_animal(path)
+
+
+def test_a_place_keeps_its_animals(tmp_path: Path) -> None:
+    animal = sample_animal()
+    place = place_of(animal, build_animal(animal, MotionOptions(seconds=1.0, states=20)))
+    place.save(tmp_path)
+    again = Place.load(tmp_path)
+    assert again.animals == place.animals
+    content = again.parts["eel"].content
+    assert isinstance(content, Mesh)
+    assert content.skin is not None
+    assert [clip.name for clip in content.clips] == ["swim", "roam", "footage"]
