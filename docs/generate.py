@@ -20,6 +20,7 @@ from style_tables import attribute_rows
 
 from veduta.cli.demo_call import DemoCall
 from veduta.cli.facade_call import FacadeCall
+from veduta.cli.fauna_call import FaunaCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.cli.photos_call import PhotosCall
 from veduta.cli.plan_call import PlanCall
@@ -178,6 +179,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "files": lambda: files_table(FILES),
         "classes": classes_table,
     },
+    "fauna.md": {"options": lambda: options_table(FaunaCall)},
     "grammar.md": {
         "options": lambda: options_table(DeriveCall),
         "sample": lambda: options_table(SampleCall),

@@ -10,6 +10,8 @@ const TURN_LENGTHS = 0.55;
 /** Steps of a course that is made, in body lengths, and the most of them. */
 const STEP_LENGTHS = 0.08;
 const MOST_STEPS = 4000;
+/** A turn begins only where the target lies so far outside of its circle: one made of steps is not quite round. */
+const ROOM = 1.1;
 
 /** Height of the ground; null where there is none. */
 export type Ground = (x: number, y: number) => number | null;
@@ -81,6 +83,7 @@ export function courseTo(from: OnCurve, target: Vec3, step: number, radius: numb
   let yaw = Math.atan2(from.ahead[1], from.ahead[0]);
   let [x, y] = [from.point[0], from.point[1]];
   const flat: [number, number][] = [[x, y]];
+  let turning = false;
   for (let count = 0; count < MOST_STEPS; count += 1) {
     const [dx, dy] = [target[0] - x, target[1] - y];
     const away = Math.hypot(dx, dy);
@@ -89,8 +92,9 @@ export function courseTo(from: OnCurve, target: Vec3, step: number, radius: numb
     const side = turn >= 0 ? 1 : -1;
     const [cx, cy] = [x - side * radius * Math.sin(yaw), y + side * radius * Math.cos(yaw)];
     // Inside its turning circle a target is never come to: it goes straight on until it is outside.
-    const reachable = Math.hypot(target[0] - cx, target[1] - cy) >= radius;
-    if (reachable) yaw += side * Math.min(Math.abs(turn), step / radius);
+    const room = Math.hypot(target[0] - cx, target[1] - cy) / radius;
+    turning = room >= (turning ? 1 : ROOM);
+    if (turning || Math.abs(turn) < step / radius) yaw += side * Math.min(Math.abs(turn), step / radius);
     x += step * Math.cos(yaw);
     y += step * Math.sin(yaw);
     flat.push([x, y]);
