@@ -62,6 +62,69 @@ def compress_attributes(data: bytes, stride: int) -> bytes:
 def compress_indices(data: bytes, stride: int) -> bytes:
     """The same for whole numbers of `stride` bytes (2 or 4), mode INDICES."""
 
+# depth_maps.rs
+class DepthVolume:
+    """Signed distances to what depth maps show, near the surface alone."""
+    def __new__(cls, voxel_m: float, truncation_voxels: float, most_blocks: int) -> DepthVolume:
+        """voxel_m: side of a voxel. truncation_voxels: how far behind and before a surface is measured.
+        most_blocks: of 8 x 8 x 8 voxels (4 kB) that may be taken.
+        """
+    def add(
+        self, depths: _Array2[np.float32], camera: _Array1[np.float64], weights: _Array2[np.float32]
+    ) -> None:
+        """Takes in a depth map, (h, w) in metres with NaN where unknown, each pixel with its weight."""
+    def blocks(self) -> int:
+        """Blocks that are taken."""
+    def surface(self, least: float) -> tuple[_Array2[np.float64], _Array2[np.uint32]]:
+        """Vertices (m, world) and triangles of the surface, where voxels have at least this weight."""
+
+def agreeing_views(
+    depths: Sequence[_Array2[np.float32]],
+    cameras: _Array2[np.float64],
+    *,
+    most_px: float,
+    most_share: float,
+) -> _Array1[np.uint8]:
+    """For each pixel of the first depth map, row by row, how many of the others agree with it. depths:
+    (h, w) in metres, NaN where unknown; cameras: a row of 16 numbers for each.
+    """
+
+def fuse_depths(
+    depths: Sequence[_Array2[np.float32]],
+    cameras: _Array2[np.float64],
+    normals: Sequence[_Array2[np.float32]],
+    colours: Sequence[_Array2[np.uint8]],
+    used: Sequence[_Array2[np.bool_]],
+    *,
+    most_px: float,
+    most_share: float,
+    least: int,
+) -> tuple[
+    _Array2[np.float64],
+    _Array2[np.float32],
+    _Array2[np.uint8],
+    _Array1[np.uint8],
+    list[_Array1[np.uint32]],
+]:
+    """Points (m, world), normals, colours and numbers of views of what the first view shows and no
+    earlier one did, and the pixels of each view that went into them. normals (camera's frame) and
+    colours: (pixels, 3) of each view. used: pixels that have a point already, one array per view.
+    """
+
+def add_point_colours(
+    points: _Array2[np.float64],
+    normals: _Array2[np.float32],
+    depths: _Array2[np.float32],
+    camera: _Array1[np.float64],
+    colours: _Array2[np.uint8],
+    within_m: float,
+    sums: _Array2[np.float32],
+) -> _Array2[np.float32]:
+    """Adds what a view shows of each point to `sums`, (n, 5): red, green and blue times their weight,
+    the weight, and the number of views. colours: (pixels, 3). within_m: how far the view's depth may
+    lie from a point that it sees.
+    """
+
 # derivation.rs
 class Derivation:
     """A derivation that stays: shapes are named by their number in the tree, which a later
@@ -478,6 +541,38 @@ def grammar_format(name: str, text: str) -> str:
 
 def grammar_operations() -> list[str]:
     """The names of the operations that derive."""
+
+# stereo.rs
+class StereoFault(ValueError): ...
+
+def match_planes(
+    image: _Array2[np.uint8],
+    camera: _Array1[np.float64],
+    neighbours: Sequence[_Array2[np.uint8]],
+    cameras: _Array2[np.float64],
+    depths: Sequence[_Array2[np.float32] | None],
+    start: _Array2[np.float32] | None,
+    start_shape: tuple[int, int],
+    *,
+    near: float,
+    far: float,
+    sweeps: int,
+    views: int,
+    step_px: float,
+    gamma_grey: float,
+    gamma_px: float,
+    noise_grey: float,
+    consistency: float,
+    most_px: float,
+    vary_depth: float,
+    vary_normal: float,
+    seed: int,
+) -> _Array2[np.float32]:
+    """A plane for each pixel of a grey picture, by what its neighbours show: inverse depth (1/m), its
+    slopes along x and y (1/m/px), and the cost, in (pixels, 4), row by row. cameras: a row of 16
+    numbers for each neighbour (focal lengths, principal point, rotation, shift). depths: of each
+    neighbour, (h, w) in metres, or None. start: planes of this view at another size (`start_shape`).
+    """
 
 # surroundings.rs
 class Surroundings:
