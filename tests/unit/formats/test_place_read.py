@@ -35,7 +35,7 @@ def test_what_is_written_is_read(suffix: str, tmp_path: Path) -> None:
         assert matching[0].standing.name == "The house"
         found = corners_of(Place(parts={"house": matching[0]}))
         found = found + np.array(back.origin_m) - np.array(place.origin_m)
-    # Balconies and chimneys are objects of their own in CityJSON, and are not read with their building.
+    # Balconies and chimneys are objects of their own in CityJSON: not read with their building.
     apart = 1.0 if suffix == ".city.json" else 2e-4
     np.testing.assert_allclose(found.min(axis=0), expected.min(axis=0), atol=apart)
     np.testing.assert_allclose(found.max(axis=0), expected.max(axis=0), atol=apart)
