@@ -45,7 +45,9 @@ def served(place: Path) -> Iterator[str]:
 def visit(name: str, place: Path, mbit: float, picture: Path | None) -> Row:
     """One visit; mbit: how fast the network is (Mbit/s), 0 for no limit."""
     with served(place) as address:
-        call = ["node", HERE / "visit.mjs", ROOT / "studio", address, str(mbit)]
+        call: list[str | Path] = [
+            "node", HERE / "visit.mjs", ROOT / "studio", address, str(mbit)
+        ]  # fmt: skip
         done = subprocess.run(
             [*call, *([picture] if picture else [])], capture_output=True, text=True, check=False
         )
@@ -61,7 +63,7 @@ def own_places(folder: Path) -> dict[str, Path]:
     rows = folder / "lots.geojson"
     rows.write_text(json.dumps(_lots(60)))
     made = {"60 lots": folder / "lots60"}
-    call = [VEDUTA, "grammar", "derive", "haussmann", "--lots", rows, "-o", made["60 lots"]]
+    call: list[str | Path] = [VEDUTA, "grammar", "derive", "haussmann", "--lots", rows, "-o", made["60 lots"]]
     subprocess.run(call, check=True, capture_output=True)
     return made
 
