@@ -113,6 +113,24 @@ def read_image(path: Path, other_format: str = OTHER_FORMAT) -> Photo:
     )
 
 
+def image_size(path: Path) -> tuple[int, int]:
+    """Width and height (px) of an image, upright, by its header; InputError as `read_image`."""
+    try:
+        require_file(path, MAX_FILE_BYTES)
+        with _damage_is_input_error(path), Image.open(path, formats=FORMATS) as image:
+            width_px, height_px = image.size
+            turned = _camera_tags(image).orientation >= 5
+    except InputError:
+        # Whatever is wrong, reading it whole says it best.
+        read = read_image(path).pixels
+        return read.shape[1], read.shape[0]
+    except OSError as error:
+        raise InputError(path, f"cannot be read ({error.strerror})", "Check its name.") from error
+    if width_px * height_px > MAX_PIXELS or max(width_px, height_px) > MAX_SIDE_PX:
+        raise _too_large(path, f"is {width_px} x {height_px} px")
+    return (height_px, width_px) if turned else (width_px, height_px)
+
+
 def has_few_colours(path: Path, most: int) -> bool:
     """Whether an image has at most so many colours; False where it cannot be read."""
     try:

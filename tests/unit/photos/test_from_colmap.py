@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from known_structure import HEIGHT_PX, WIDTH_PX, known_structure
 
-from veduta.photos.intake.colmap_folder import ModelFiles, models_in
+from veduta.formats.colmap_folder import ModelFiles, models_in
 from veduta.photos.intake.from_colmap import given_model
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.structure import Structure, model_of

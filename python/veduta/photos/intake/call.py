@@ -8,8 +8,8 @@ from pathlib import Path
 
 from pydantic import JsonValue
 
+from veduta.formats.colmap_folder import ModelFiles, models_in
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
-from veduta.photos.intake.colmap_folder import ModelFiles, models_in
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
 from veduta.photos.intake.source import Source

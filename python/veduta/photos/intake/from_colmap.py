@@ -15,11 +15,11 @@ import numpy as np
 import pycolmap
 from scipy import sparse
 
+from veduta.formats.colmap_folder import ModelFiles, read_model
 from veduta.formats.colmap_model import ColmapCamera, ColmapImage, ColmapModel
 from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.lens import MODELS, CameraKind, LensChoice
 from veduta.photos.cameras.orient import oriented
-from veduta.photos.intake.colmap_folder import ModelFiles, read_model
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.matching.match import PairRecord
 from veduta.photos.options import Lens
