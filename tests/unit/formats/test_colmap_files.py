@@ -14,8 +14,8 @@ from hypothesis import strategies as st
 from known_structure import known_structure
 
 from veduta.formats import colmap_binary, colmap_model, colmap_text
-from veduta.formats.colmap_model import MODELS
 from veduta.formats.colmap_folder import models_in, read_model
+from veduta.formats.colmap_model import MODELS
 from veduta.photos.structure import model_of
 from veduta.run.errors import InputError
 
