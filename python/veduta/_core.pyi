@@ -8,6 +8,7 @@ import numpy as np
 _T = TypeVar("_T", bound=np.generic)
 _Array1 = np.ndarray[tuple[int], np.dtype[_T]]
 _Array2 = np.ndarray[tuple[int, int], np.dtype[_T]]
+_Array3 = np.ndarray[tuple[int, int, int], np.dtype[_T]]
 
 # assets.rs
 class MissingAsset:
@@ -572,6 +573,16 @@ def match_planes(
     slopes along x and y (1/m/px), and the cost, in (pixels, 4), row by row. cameras: a row of 16
     numbers for each neighbour (focal lengths, principal point, rotation, shift). depths: of each
     neighbour, (h, w) in metres, or None. start: planes of this view at another size (`start_shape`).
+    """
+
+# surface.rs
+class SurfaceFault(ValueError): ...
+
+def extract_surface(
+    values: _Array3[np.float32], level: float, close: bool
+) -> tuple[_Array2[np.float64], _Array2[np.uint32]]:
+    """Vertices (v, 3) in samples and triangles (m, 3), counter-clockwise seen from outside, where the
+    values (x, y, z) pass the level; less is inside, NaN is not known.
     """
 
 # surroundings.rs

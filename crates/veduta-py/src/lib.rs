@@ -21,6 +21,7 @@ mod roofs;
 mod rules;
 mod standing;
 mod stereo;
+mod surface;
 mod surroundings;
 mod texture;
 mod tile_buffers;
@@ -40,6 +41,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     derived_lots::register(m)?;
     depth_maps::register(m)?;
     stereo::register(m)?;
+    surface::register(m)?;
     surroundings::register(m)?;
     texture::register(m)?;
     tile_buffers::register(m)?;

@@ -39,6 +39,7 @@ import numpy as np
 _T = TypeVar("_T", bound=np.generic)
 _Array1 = np.ndarray[tuple[int], np.dtype[_T]]
 _Array2 = np.ndarray[tuple[int, int], np.dtype[_T]]
+_Array3 = np.ndarray[tuple[int, int, int], np.dtype[_T]]
 "#;
 
 /// The stub of these files (name and text of each), in their order; its lines are not wrapped.

@@ -119,6 +119,7 @@ impl<'a> Names<'a> {
             "HashMap" | "BTreeMap" => format!("dict[{}, {}]", python(0)?, python(1)?),
             "PyReadonlyArray1" | "PyArray1" => format!("_Array1[{}]", dtype(segment)?),
             "PyReadonlyArray2" | "PyArray2" => format!("_Array2[{}]", dtype(segment)?),
+            "PyReadonlyArray3" | "PyArray3" => format!("_Array3[{}]", dtype(segment)?),
             _ => return self.declared(file, &name, way),
         })
     }
