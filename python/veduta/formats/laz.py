@@ -37,8 +37,11 @@ def write_laz(
     *,
     crs: str | None = None,
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0),
+    classes: NDArray[np.uint8] | None = None,
 ) -> None:
     """Write (n, 3) points and their (n, 3) sRGB colours.
+
+    classes: (n,) ASPRS's numbers (2 ground, 6 building; from 64 on the user's); None: not known.
 
     crs: what `pyproj` understands (`EPSG:25832`), with metres along the axes; None where the place
     in the world is not known. origin_m: what is added to the points, in that CRS.
@@ -58,6 +61,8 @@ def write_laz(
     cloud.x, cloud.y, cloud.z = places.T
     # The format asks for the full range of 16 bits.
     cloud.red, cloud.green, cloud.blue = colours.T.astype(np.uint16) * 257
+    if classes is not None:
+        cloud.classification = classes
     cloud.return_number = np.ones(len(places), dtype=np.uint8)
     cloud.number_of_returns = np.ones(len(places), dtype=np.uint8)
     with path.open("wb") as file:

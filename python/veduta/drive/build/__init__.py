@@ -1,0 +1,1 @@
+"""From the document and the record to a place."""

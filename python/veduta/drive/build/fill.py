@@ -1,0 +1,223 @@
+"""The background without holes (sections 6.3 and 6.4), and the walls above what was scanned."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from veduta.drive.build.frame import ColumnFrame
+from veduta.drive.build.layers import Layers
+
+
+_SEEN_SHARE = 0.1
+"""A row of which less is measured is outside of the scanner's fan."""
+
+
+class Source(IntEnum):
+    """Where a pixel of the background comes from."""
+
+    NOTHING = 0
+    MEASURED = 1
+    FILLED = 2
+    INFERRED = 3
+
+
+@dataclass(frozen=True)
+class FillParameters:
+    """Thresholds of filling.
+
+    gap_m: a gap in the main depth up to this is bridged where both ends agree within `agree_m`.
+    widest_m: a hole of a wall up to this is filled from side to side. step_m: ends of a hole that
+    differ more are of two houses. road_m: the ground is filled so far out where nothing stands.
+    alone: measured pixels with fewer measured ones around (7 x 7) are removed.
+    smooth_m: how much the surface may move where it is smoothed (3 sigma of the scanner, 3.5 cm).
+    """
+
+    gap_m: float = 6.0
+    agree_m: float = 0.6
+    widest_m: float = 10.0
+    step_m: float = 1.0
+    road_m: float = 12.0
+    alone: int = 5
+    smooth_m: float = 0.1
+
+
+@dataclass(frozen=True, eq=False)
+class Background:
+    """depth: (r, c) float32 m. source: (r, c) uint8 `Source`. wall: (r, c) else it is ground.
+
+    main: (c,) the main depth with its gaps bridged (m), NaN where no wall is. foot: (c,) the first
+    row of the wall: below is ground (the paper's virtual boundary).
+    """
+
+    depth: NDArray[np.float32]
+    source: NDArray[np.uint8]
+    wall: NDArray[np.bool_]
+    main: NDArray[np.float64]
+    foot: NDArray[np.int64]
+
+
+def fill_background(
+    layers: Layers, frame: ColumnFrame, parameters: FillParameters | None = None
+) -> Background:
+    """Ground below the virtual boundary, the wall above it by rows, then by columns."""
+    chosen = parameters or FillParameters()
+    main = _bridged(layers.depths.main, frame.spacing_m, chosen)
+    foot = _virtual_boundary(layers, frame, main)
+    rows = np.arange(frame.shape[0])[:, None]
+    upper = rows >= foot
+    measured = layers.background.copy()
+    # Nothing of the wall lies below its foot, and no ground above.
+    measured[layers.wall & ~upper & ~layers.depths.across] = np.nan
+    measured[~layers.wall & upper] = np.nan
+    measured[_alone(np.isfinite(measured), chosen.alone)] = np.nan
+    source = np.where(np.isfinite(measured), Source.MEASURED, Source.NOTHING).astype(np.uint8)
+    wall = np.where(upper, measured, np.nan)
+    top = _top_rows(np.isfinite(wall), foot, frame.spacing_m)
+    inside = upper & (rows <= top) & np.isfinite(main)
+    filled = _across(wall, frame.spacing_m, chosen, axis=1)
+    filled = _across(filled, float("nan"), chosen, axis=0)
+    filled = np.where(inside & np.isnan(filled), main[None].astype(np.float32), filled)
+    filled = np.where(inside, filled, wall)
+    depth = np.where(upper, filled, _ground_depth(layers, frame, main, measured, upper, chosen))
+    depth = _smoothed(depth.astype(np.float32), upper, chosen.smooth_m)
+    # Where a beam grazes the ground its depth is noise: there the height is smoothed.
+    down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None].astype(np.float32)
+    depth = np.where(upper, depth, _smoothed(depth * down, ~upper, chosen.smooth_m) / down)
+    source[(source == Source.NOTHING) & np.isfinite(depth)] = Source.FILLED
+    return Background(depth, source, upper & np.isfinite(depth), main, foot)
+
+
+def raise_walls(background: Background, frame: ColumnFrame, tops_m: NDArray[np.float64]) -> Background:
+    """Walls go on in their plane, inferred, up to heights over the road (c,); NaN leaves one."""
+    rows = np.arange(frame.shape[0])[:, None]
+    wall = background.wall
+    highest = np.where(wall.any(axis=0), wall.shape[0] - 1 - np.argmax(wall[::-1], axis=0), -1)
+    upper = np.where(wall, background.depth, np.nan)
+    near = (rows > highest - 12) & wall
+    plane = np.full(len(tops_m), np.nan)
+    some = np.flatnonzero(near.any(axis=0))
+    if len(some):
+        told = np.nanmedian(np.where(near, upper, np.nan)[:, some], axis=0)
+        plane[some] = ndimage.median_filter(told, 9, mode="nearest")
+    over_scanner = frame.road_m + tops_m - frame.origins[:, 2]
+    limit = np.arctan2(over_scanner, plane)
+    with np.errstate(invalid="ignore"):
+        goes_on = (rows > highest) & (highest >= 0) & (frame.angles_rad[:, None] <= limit)
+    depth = np.where(goes_on, plane[None].astype(np.float32), background.depth)
+    source = np.where(goes_on, np.uint8(Source.INFERRED), background.source)
+    return Background(depth, source, wall | goes_on, background.main, background.foot)
+
+
+def _bridged(
+    main: NDArray[np.float64], spacing_m: float, chosen: FillParameters
+) -> NDArray[np.float64]:
+    """Short gaps between two pieces of one front are of that front."""
+    known = np.flatnonzero(np.isfinite(main))
+    if len(known) < 2:
+        return main
+    bridged = np.interp(np.arange(len(main)), known, main[known])
+    result = main.copy()
+    for before, after in zip(known[:-1], known[1:], strict=True):
+        short = (after - before) * spacing_m <= chosen.gap_m
+        if after - before > 1 and short and abs(main[after] - main[before]) < chosen.agree_m:
+            result[before:after] = bridged[before:after]
+    return result
+
+
+def _virtual_boundary(
+    layers: Layers, frame: ColumnFrame, main: NDArray[np.float64]
+) -> NDArray[np.int64]:
+    """(c,) the row in which the line through the main depth meets the ground (section 6.3)."""
+    columns = np.arange(len(main))
+    depth = np.where(np.isfinite(main), main, 1.0)
+    foot = frame.road_m + layers.ground.under(columns, depth) - frame.origins[:, 2]
+    row = np.searchsorted(frame.angles_rad, np.arctan2(foot, depth))
+    return np.where(np.isfinite(main), row, frame.shape[0]).astype(np.int64)
+
+
+def _top_rows(
+    wall: NDArray[np.bool_], foot: NDArray[np.int64], spacing_m: float
+) -> NDArray[np.int64]:
+    """(c,) the highest row of the wall that was seen around a column."""
+    top = np.where(wall.any(axis=0), wall.shape[0] - 1 - np.argmax(wall[::-1], axis=0), -1)
+    wide = max(int(round(3.0 / spacing_m)) | 1, 3)
+    return np.asarray(ndimage.maximum_filter1d(top, wide), dtype=np.int64)
+
+
+def _alone(filled: NDArray[np.bool_], fewest: int) -> NDArray[np.bool_]:
+    around = ndimage.uniform_filter(filled.astype(np.float32), 7, mode="constant") * 49.0
+    return np.asarray(filled & (around < fewest + 0.5))
+
+
+def _across(
+    depth: NDArray[np.floating], spacing_m: float, chosen: FillParameters, *, axis: int
+) -> NDArray[np.float32]:
+    """Linear between the nearest valid pixels on both sides along an axis, where they agree."""
+    values = np.moveaxis(np.asarray(depth, dtype=np.float32), axis, -1)
+    valid = np.isfinite(values)
+    place = np.broadcast_to(np.arange(values.shape[-1]), values.shape)
+    before = np.maximum.accumulate(np.where(valid, place, -1), axis=-1)
+    after = np.minimum.accumulate(
+        np.where(valid, place, values.shape[-1])[..., ::-1], axis=-1
+    )[..., ::-1]
+    both = ~valid & (before >= 0) & (after < values.shape[-1])
+    low = np.take_along_axis(values, np.maximum(before, 0), axis=-1)
+    high = np.take_along_axis(values, np.minimum(after, values.shape[-1] - 1), axis=-1)
+    gap = np.maximum(after - before, 1)
+    with np.errstate(invalid="ignore"):
+        both &= np.abs(high - low) < chosen.step_m
+    if np.isfinite(spacing_m):
+        both &= gap * spacing_m <= chosen.widest_m
+    share = (place - before) / gap
+    filled = np.where(both, low + share * (high - low), values)
+    return np.asarray(np.moveaxis(filled, -1, axis), dtype=np.float32)
+
+
+def _ground_depth(
+    layers: Layers,
+    frame: ColumnFrame,
+    main: NDArray[np.float64],
+    measured: NDArray[np.float32],
+    upper: NDArray[np.bool_],
+    chosen: FillParameters,
+) -> NDArray[np.float32]:
+    """(r, c) depths at which the beams below the wall meet the ground, measured ones kept."""
+    down = np.tan(np.minimum(frame.angles_rad, -1e-3))[:, None]
+    columns = np.broadcast_to(np.arange(frame.shape[1]), frame.shape)
+    height = frame.road_m - frame.origins[:, 2]
+    depth = np.broadcast_to(height / down, frame.shape)
+    limit = np.where(np.isfinite(main), main + 0.5, chosen.road_m)
+    for _ in range(3):
+        near = np.clip(depth, 0.0, limit)
+        depth = (height + layers.ground.under(columns, near)) / down
+    ground = (frame.angles_rad[:, None] < 0.0) & ~upper & (depth <= limit) & (depth > 0.0)
+    ground &= np.arange(frame.shape[0])[:, None] >= _lowest_row(measured)
+    return np.where(np.isfinite(measured), measured, np.where(ground, depth, np.nan)).astype(
+        np.float32
+    )
+
+
+def _lowest_row(measured: NDArray[np.float32]) -> int:
+    """The beams below see nothing: the road under a scanner that looks level."""
+    share = np.isfinite(measured).mean(axis=1)
+    seen = np.flatnonzero(share > _SEEN_SHARE)
+    return int(seen[0]) if len(seen) else 0
+
+
+def _smoothed(
+    depth: NDArray[np.float32], part: NDArray[np.bool_], most_m: float
+) -> NDArray[np.float32]:
+    """A median over 7 x 7 pixels of a part, where it moves the surface only by its noise."""
+    nearest = ndimage.distance_transform_edt(
+        np.isnan(depth) | ~part, return_distances=False, return_indices=True
+    )
+    filled = depth[tuple(nearest)] if part.any() else depth
+    middle = ndimage.median_filter(filled, size=(7, 7), mode="nearest")
+    with np.errstate(invalid="ignore"):
+        near = part & (np.abs(middle - depth) < most_m)
+    return np.where(near, middle, depth).astype(np.float32)

@@ -1,0 +1,103 @@
+"""The images of the drive in memory, with what hides the facades in each (section 7.1)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.drive.record import Shot
+from veduta.imaging.read import read_image
+from veduta.run.errors import InputError
+
+
+@dataclass(frozen=True)
+class MaskParameters:
+    """point_m: a foreground point hides so much around itself. closed_px: gaps between projected
+    points up to this are of the object. most_px: no point hides more.
+    sky_blue: by so much blue exceeds red in the sky, of 255; sky_light: and is so light.
+    """
+
+    point_m: float = 0.10
+    closed_px: int = 9
+    most_px: int = 12
+    nearest_m: float = 1.5
+    sky_blue: int = 18
+    sky_light: int = 110
+    leaf_green: int = 14
+    leaf_px: int = 9
+    """Leaves: 2 G - R - B exceeds this, in most of a square of so many pixels."""
+
+
+@dataclass(frozen=True, eq=False)
+class Seen:
+    """An image and what is known of it. pixels: (h, w, 3) uint8 sRGB.
+
+    hidden_m: (h, w) float32 depth of the nearest foreground there, inf where there is none.
+    sky: (h, w) bool. leaves: (h, w) bool, plants by their colour: scanners that look level do not
+    see the crowns of trees.
+    """
+
+    shot: Shot
+    pixels: NDArray[np.uint8]
+    hidden_m: NDArray[np.float32]
+    sky: NDArray[np.bool_]
+    leaves: NDArray[np.bool_]
+
+
+def look(
+    shot: Shot, foreground: NDArray[np.float64], parameters: MaskParameters | None = None
+) -> Seen:
+    """foreground: (n, 3) points in the world (m)."""
+    chosen = parameters or MaskParameters()
+    pixels = read_image(shot.path).pixels
+    if pixels.shape[:2] != (shot.height_px, shot.width_px):
+        fault = f"is {pixels.shape[1]} x {pixels.shape[0]} pixels, not as its calibration says"
+        raise InputError(shot.path, fault, "Give the image that the camera took.")
+    hidden = _hidden(shot, foreground, chosen)
+    sky = _sky(pixels, chosen)
+    return Seen(shot, pixels, hidden, sky, _leaves(pixels, sky, chosen))
+
+
+def _hidden(
+    shot: Shot, foreground: NDArray[np.float64], chosen: MaskParameters
+) -> NDArray[np.float32]:
+    """Each point hides a square of its size; what lies between close ones is hidden, too."""
+    shape = (shot.height_px, shot.width_px)
+    hidden = np.full(shape, np.inf, dtype=np.float32)
+    pixels, depth = shot.project(foreground)
+    inside = (depth > chosen.nearest_m) & (pixels >= 0).all(axis=1)
+    inside &= (pixels[:, 0] < shape[1]) & (pixels[:, 1] < shape[0])
+    at, depth = pixels[inside].astype(np.int64), depth[inside].astype(np.float32)
+    radius = np.clip(chosen.point_m * shot.focal_px[0] / depth, 1, chosen.most_px).astype(np.int64)
+    for size in np.unique(radius):
+        own = radius == size
+        layer = np.full(shape, np.inf, dtype=np.float32)
+        np.minimum.at(layer, (at[own, 1], at[own, 0]), depth[own])
+        block = np.ones((2 * int(size) + 1,) * 2, dtype=np.uint8)
+        np.minimum(hidden, cv2.erode(layer, block), out=hidden)
+    close = np.ones((chosen.closed_px, chosen.closed_px), dtype=np.uint8)
+    return np.asarray(-cv2.morphologyEx(-hidden, cv2.MORPH_CLOSE, close), dtype=np.float32)
+
+
+def _sky(pixels: NDArray[np.uint8], chosen: MaskParameters) -> NDArray[np.bool_]:
+    """Light blue that goes on from the upper border."""
+    red, blue = pixels[..., 0].astype(np.int16), pixels[..., 2].astype(np.int16)
+    blueish = (blue - red >= chosen.sky_blue) & (blue >= chosen.sky_light)
+    cleaned = cv2.morphologyEx(blueish.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    count, label = cv2.connectedComponents(cleaned)
+    from_top = np.zeros(count, dtype=bool)
+    from_top[np.unique(label[:3])] = True
+    from_top[0] = False
+    return np.asarray(from_top[label], dtype=bool)
+
+
+def _leaves(
+    pixels: NDArray[np.uint8], sky: NDArray[np.bool_], chosen: MaskParameters
+) -> NDArray[np.bool_]:
+    red, green, blue = (pixels[..., axis].astype(np.int16) for axis in range(3))
+    greenish = (2 * green - red - blue >= chosen.leaf_green).astype(np.float32)
+    most = cv2.blur(greenish, (chosen.leaf_px, chosen.leaf_px)) > 0.5
+    return np.asarray(most & ~sky, dtype=bool)

@@ -1,0 +1,132 @@
+"""One segment from its scan points to a textured mesh: the recipe, step after step."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.drive.build.atlas import Atlas, build_atlas
+from veduta.drive.build.fill import Background, fill_background, raise_walls
+from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_columns
+from veduta.drive.build.layers import Layers, PointClass, split_layers
+from veduta.drive.build.objects import find_objects
+from veduta.drive.build.pictures_of import Seen
+from veduta.drive.build.roof_line import find_roof_line
+from veduta.drive.build.surface import Surface, build_surface
+from veduta.drive.build.texture_fill import fill_texture
+from veduta.drive.document.model import DriveSegment
+from veduta.drive.options import DriveOptions
+
+NEAREST_M = 1.0
+"""Nearer to the path is the road under the vehicle."""
+TALL_M = 1.9
+"""Cars and hedges are lower; trunks and poles are not."""
+CROWN_M, CROWN_HIGH_M, CROWN_POINTS = 0.6, 3.0, 40_000
+LOWEST_DEG, HIGHEST_DEG = -85.0, 72.0
+
+
+@dataclass(frozen=True, eq=False)
+class Geometry:
+    """A segment without its foreground. objects: (r, c) number of the object before each beam."""
+
+    segment: DriveSegment
+    frame: ColumnFrame
+    layers: Layers
+    objects: NDArray[np.int32]
+    object_count: int
+    background: Background
+
+    def foreground(self) -> NDArray[np.float64]:
+        """(n, 3) the points that were taken out (m)."""
+        taken = self.layers.kind == PointClass.FOREGROUND
+        return np.asarray(self.layers.points.points[taken], dtype=np.float64)
+
+    def crowns(self, seed: int) -> NDArray[np.float64]:
+        """(n, 3) where crowns of trees may be, above what the scanner saw (m).
+
+        What is higher than cars goes on upwards, wider than below: more is hidden rather than less
+        (section 7.1).
+        """
+        high = self.layers.above > TALL_M
+        trunk = self.layers.points.points[(self.layers.kind == PointClass.FOREGROUND) & high]
+        if not len(trunk):
+            return np.zeros((0, 3))
+        random = np.random.default_rng(seed)
+        stem = trunk[random.integers(0, len(trunk), CROWN_POINTS)]
+        angle, radius = random.uniform(0, 2 * np.pi, len(stem)), random.uniform(0, 1, len(stem))
+        reach = CROWN_M * np.sqrt(radius)
+        lift = random.uniform(0.0, CROWN_HIGH_M, len(stem))
+        reach *= np.minimum(lift, 1.0)
+        spread = np.stack([reach * np.cos(angle), reach * np.sin(angle), lift], axis=1)
+        return np.asarray(stem + spread, dtype=np.float64)
+
+    def measured_walls(self) -> int:
+        """How many columns have a facade."""
+        return int(np.isfinite(self.layers.depths.main).sum())
+
+
+@dataclass(frozen=True, eq=False)
+class Textured:
+    """A segment's mesh with its texture. invented, plain: (h, w) bool texels (see `fill_texture`).
+
+    shares: of the triangles, by what is known of their texture.
+    """
+
+    geometry: Geometry
+    background: Background
+    surface: Surface
+    atlas: Atlas
+    pixels: NDArray[np.uint8]
+    invented: NDArray[np.bool_]
+    plain: NDArray[np.bool_]
+    roof_seen: NDArray[np.bool_]
+    unseen_share: float
+
+
+def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> ColumnFrame:
+    """The scanning planes of a segment. road_m: height of the scanner over the road."""
+    line = np.array(segment.line)
+    angles = np.deg2rad(np.arange(LOWEST_DEG, HIGHEST_DEG, options.columns.row_step_deg))
+    return column_frame(line, segment.side, angles, line[:, 2] - road_m)
+
+
+def reconstruct(
+    segment: DriveSegment, frame: ColumnFrame, points: NDArray[np.float64], options: DriveOptions
+) -> Geometry:
+    """Sections 5 and 6. points: (n, 3) of all sweeps that saw the segment (m, world)."""
+    farthest = options.columns.farthest_m
+    sorted_points = sort_into_columns(points, frame, NEAREST_M, farthest)
+    layers = split_layers(sorted_points, frame, farthest)
+    objects, count = find_objects(layers.foreground)
+    background = fill_background(layers, frame)
+    return Geometry(segment, frame, layers, objects, count, background)
+
+
+def texture(geometry: Geometry, seen: Sequence[Seen], options: DriveOptions) -> Textured:
+    """Section 7, and the walls up to the roof line."""
+    frame, background = geometry.frame, geometry.background
+    tops, known = find_roof_line(background, frame, seen, options.texture.wall_top_m)
+    raised = raise_walls(background, frame, tops)
+    surface = build_surface(raised.depth, raised.source, raised.wall, frame)
+    atlas = build_atlas(raised.depth, frame, seen, options.texture.texel_m)
+    if options.texture.fill:
+        pixels, invented, plain = fill_texture(atlas, options.texture.texel_m)
+    else:
+        pixels, plain = atlas.pixels, atlas.surface & ~atlas.seen
+        invented = np.zeros_like(plain)
+    unseen = _unseen_share(surface, atlas)
+    return Textured(geometry, raised, surface, atlas, pixels, invented, plain, known, unseen)
+
+
+def _unseen_share(surface: Surface, atlas: Atlas) -> float:
+    """Share of the triangles whose middle no image shows (the paper: 1.7 %)."""
+    if not len(surface.triangles):
+        return 0.0
+    height, width = atlas.seen.shape
+    middle = atlas.uv(surface.pixel)[surface.triangles].mean(axis=1)
+    at = np.clip((middle * [width, height]).astype(np.int64), 0, [width - 1, height - 1])
+    return float(1.0 - atlas.seen[at[:, 1], at[:, 0]].mean())
+

@@ -1,0 +1,55 @@
+"""The options of `veduta drive`."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+
+class ColumnOptions(Options):
+    """How full scans are cut into virtual vertical ones."""
+
+    column_spacing_m: Annotated[float, Field(ge=0.03, le=1.0)] = Field(
+        default=0.12, description="spacing of the virtual vertical scans along the path (m)"
+    )
+    row_step_deg: Annotated[float, Field(ge=0.1, le=2.0)] = Field(
+        default=0.4, description="angle between two points of a virtual vertical scan (degrees)"
+    )
+    reach_m: Annotated[float, Field(ge=0.0, le=80.0)] = Field(
+        default=40.0,
+        description="how far beyond the ends of the path full scans are used (m)",
+    )
+    farthest_m: Annotated[float, Field(ge=5.0, le=80.0)] = Field(
+        default=25.0, description="facades are looked for so far to the sides of the path (m)"
+    )
+
+
+class TextureOptions(Options):
+    """How the facades are textured."""
+
+    texel_m: Annotated[float, Field(ge=0.005, le=0.5)] = Field(
+        default=0.03, description="size of a texel on the facade (m)"
+    )
+    wall_top_m: Annotated[float, Field(ge=0.0, le=60.0)] = Field(
+        default=8.0,
+        description=(
+            "up to this height over the road a wall goes on above what the scanner saw, to the roof"
+            " line in the images (m); 0: it does not"
+        ),
+    )
+    fill: bool = Field(
+        default=True, description="invent the texture of what no image shows, and mark it"
+    )
+
+
+class DriveOptions(Options):
+    """Everything that changes the result."""
+
+    columns: ColumnOptions = Field(default_factory=ColumnOptions)
+    texture: TextureOptions = Field(default_factory=TextureOptions)
+    seed: Annotated[int, Field(ge=0)] = Field(
+        default=1, description="seed of what is drawn at random"
+    )

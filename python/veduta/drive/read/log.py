@@ -1,0 +1,40 @@
+"""What kind of log a folder is, and its reader."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from veduta.drive.read.kitti import is_kitti, read_kitti
+from veduta.drive.record import DriveRecord
+from veduta.run.errors import InputError
+
+_MOST_FILES = 200_000
+TRUTH = "labels"
+"""A folder of somebody's answers: it is no input."""
+
+
+def read_log(folder: Path, seed: int) -> DriveRecord:
+    """The drive in a folder. InputError where there is none that Veduta can read."""
+    if not folder.is_dir():
+        raise InputError(folder, "there is no such folder", "Name a folder with a drive in it.")
+    if is_kitti(folder):
+        return read_kitti(folder, seed)
+    raise InputError(
+        folder,
+        "has no drive that Veduta can read",
+        "It reads the layout of KITTI odometry (velodyne/, poses.txt, calib.txt).",
+    )
+
+
+def log_files(folder: Path) -> list[Path]:
+    """The files that a result depends on, in order; none where there is no folder."""
+    if not folder.is_dir():
+        raise InputError(folder, "there is no such folder", "Name a folder with a drive in it.")
+    found = sorted(
+        path
+        for path in folder.rglob("*")
+        if path.is_file() and TRUTH not in path.relative_to(folder).parts
+    )
+    if len(found) > _MOST_FILES:
+        raise InputError(folder, f"has more than {_MOST_FILES} files", "Name one drive's folder.")
+    return found

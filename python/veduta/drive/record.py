@@ -1,0 +1,78 @@
+"""A drive as it was recorded, in the world's frame: what readers give and all later steps take."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+@dataclass(frozen=True, eq=False)
+class Sweep:
+    """One turn of the scanner. world_from_sensor: (4, 4).
+
+    read: its points (n, 3), sensor frame (m).
+
+    What `read` gives has no NaN, no zero ranges and nothing of the vehicle itself.
+    """
+
+    name: str
+    time_s: float
+    world_from_sensor: NDArray[np.float64]
+    read: Callable[[], NDArray[np.float64]]
+
+    def world_points(self) -> NDArray[np.float64]:
+        """(n, 3) its points in the world (m)."""
+        turn, move = self.world_from_sensor[:3, :3], self.world_from_sensor[:3, 3]
+        return np.asarray(self.read() @ turn.T + move, dtype=np.float64)
+
+
+@dataclass(frozen=True, eq=False)
+class Shot:
+    """One image of the drive, without lens distortion. world_from_cam: (4, 4), x right, z forward.
+
+    focal_px, centre_px: along x and y; the centre of the upper left pixel is (0.5, 0.5).
+    """
+
+    name: str
+    path: Path
+    time_s: float
+    width_px: int
+    height_px: int
+    focal_px: tuple[float, float]
+    centre_px: tuple[float, float]
+    world_from_cam: NDArray[np.float64]
+
+    def project(
+        self, points: NDArray[np.float64]
+    ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """(n, 2) pixels and (n,) depths (m, negative behind the camera) of points (n, 3)."""
+        turn, eye = self.world_from_cam[:3, :3], self.world_from_cam[:3, 3]
+        local = (points - eye) @ turn
+        depth = local[:, 2]
+        safe = np.where(np.abs(depth) < 1e-9, 1e-9, depth)
+        pixels = local[:, :2] / safe[:, None] * np.array(self.focal_px) + np.array(self.centre_px)
+        return pixels, depth
+
+
+@dataclass(frozen=True, eq=False)
+class DriveRecord:
+    """All of a drive. World: z up, z = 0 at the road under the first sweep; metres.
+
+    given_poses: whether the path came with the record. notes: what was assumed while reading.
+    """
+
+    name: str
+    sweeps: tuple[Sweep, ...]
+    shots: tuple[Shot, ...]
+    given_poses: bool
+    crs: str | None = None
+    origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    notes: tuple[str, ...] = ()
+
+    def path(self) -> NDArray[np.float64]:
+        """(s, 3) where the scanner was at each sweep (m)."""
+        return np.array([sweep.world_from_sensor[:3, 3] for sweep in self.sweeps])
