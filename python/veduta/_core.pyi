@@ -384,6 +384,18 @@ class GrammarRules:
     @property
     def asset_names(self) -> tuple[list[str], bool]:
         """The names of assets that stand in the rules, and whether there are others that are computed."""
+    @property
+    def notes(self) -> str:
+        """What is built otherwise than the rules say, with its places; empty where nothing is."""
+    @property
+    def asks_files(self) -> tuple[bool, bool]:
+        """Whether the rules ask which files there are, and whether they read some."""
+    def add_files(
+        self, names: Sequence[str], texts: dict[str, str], pictures: dict[str, tuple[float, float]]
+    ) -> None:
+        """Makes the files of a project known: their names, the content of those that are text, and the
+        width and height of those that are pictures (px).
+        """
     def add_asset(
         self,
         name: str,
@@ -531,10 +543,8 @@ def roof_solid(
     """
 
 # rules.rs
-def grammar_imports(main: str, name: str, text: str) -> list[str]:
-    """The names of the files that the file `name` imports; `main` is the first file of the program.
-    What lies outside of its folder is left out, and reported when the program is checked.
-    """
+def grammar_imports(text: str) -> list[str]:
+    """The paths that the import statements of a text name, as they stand there."""
 
 def grammar_check(files: Sequence[tuple[str, str]]) -> tuple[str, int, int, str]: ...
 def grammar_format(name: str, text: str) -> str:

@@ -12,6 +12,7 @@ pub(crate) fn lex(text: &str, diagnostics: &mut Diagnostics) -> Tokens {
         at: if text.starts_with('\u{feff}') { 3 } else { 0 },
         tokens: Tokens::default(),
         diagnostics,
+        annotated: 0,
     };
     while lexer.at < text.len() {
         lexer.step();
@@ -29,6 +30,9 @@ struct Lexer<'a> {
     at: usize,
     tokens: Tokens,
     diagnostics: &'a mut Diagnostics,
+    /// How many brackets are open in the arguments of an annotation, which are for a user interface:
+    /// what they say is never a fault.
+    annotated: usize,
 }
 
 /// Longest first, as a prefix of one word may be another.
@@ -111,8 +115,33 @@ impl Lexer<'_> {
 
     fn push(&mut self, kind: TokenKind, length: usize) {
         let span = Span::new(self.at, self.at + length);
+        match kind {
+            TokenKind::OpenParen if self.annotated > 0 || self.is_annotation() => {
+                self.annotated += 1;
+            }
+            TokenKind::CloseParen => self.annotated = self.annotated.saturating_sub(1),
+            _ => {}
+        }
         self.tokens.tokens.push(Token { kind, span });
         self.at += length;
+    }
+
+    /// Whether the last words are `@` and a name.
+    fn is_annotation(&self) -> bool {
+        matches!(
+            self.tokens.tokens[..],
+            [
+                ..,
+                Token {
+                    kind: TokenKind::At,
+                    ..
+                },
+                Token {
+                    kind: TokenKind::Name,
+                    ..
+                }
+            ]
+        )
     }
 
     fn step(&mut self) {
@@ -283,6 +312,9 @@ impl Lexer<'_> {
     }
 
     fn report(&mut self, length: usize, message: String, hint: &str) {
+        if self.annotated > 0 {
+            return;
+        }
         let span = Span::new(self.at, self.at + length);
         let hint = Some(hint.to_string()).filter(|hint| !hint.is_empty());
         self.diagnostics

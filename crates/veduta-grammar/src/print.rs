@@ -247,9 +247,11 @@ impl Printer<'_> {
                 self.word("|");
             }
             match cell {
-                Cell::Repeat { cells, .. } => {
+                Cell::Group { cells, repeats, .. } => {
                     self.cells(cells, part);
-                    self.word("*");
+                    if *repeats {
+                        self.word("*");
+                    }
                 }
                 Cell::Part {
                     selector,

@@ -277,22 +277,23 @@ fn faults_say_what_is_wrong() {
 }
 
 #[test]
-fn what_does_not_derive_yet_is_said_before_anything_is_derived() {
+fn what_does_not_derive_is_said_before_anything_is_derived() {
     let wrong = |text: &str| {
         let program = Program::single(Source::new("test.cga", text));
         let checked = check(&program);
         assert!(!checked.has_errors(), "{}", checked.render(&program));
         let lowered = lower(&program, &checked);
+        assert!(!lowered.has_errors(), "what can be built is built");
         let faults = lowered.diagnostics.into_iter().flatten();
         faults.map(|fault| fault.message).collect::<Vec<_>>()
     };
     assert_eq!(
         wrong("Lot --> reduceGeometry(3)"),
-        ["`reduceGeometry` does not derive yet"]
+        ["`reduceGeometry` does not derive: the shape stays as it is"]
     );
     assert_eq!(
         wrong("Lot --> s(material.bumpmap.su, 1, 1)"),
-        ["`material.bumpmap.su` does not derive yet"]
+        ["`material.bumpmap.su` does not derive: it is taken for 0"]
     );
     assert_eq!(wrong("Lot --> s(abs(1), 1, 1)"), [""; 0]);
 }

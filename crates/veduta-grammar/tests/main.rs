@@ -31,6 +31,7 @@ mod inlining;
 mod measures;
 mod mutated_files;
 mod occlusion;
+mod older_forms;
 mod packing;
 mod perimeter;
 mod random_programs;

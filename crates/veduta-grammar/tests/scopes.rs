@@ -230,7 +230,10 @@ fn texture_coordinates() {
         said(&format!("{front} scaleUV(0, 4, 2) {text}")),
         ["4", "10"]
     );
-    assert!(fault("Lot --> projectUV(0)").contains("setupProjection"));
+    // Where nothing was set up, a picture lies over the scope.
+    let text =
+        "Lot --> extrude(4) comp(f) { front : projectUV(0) print(geometry.uMax(0)) A. | all : A. }";
+    assert_eq!(said(text), ["1"]);
     assert!(fault("Lot --> scaleUV(10, 1, 1)").contains("no texture layer"));
     assert!(fault("Lot --> setupProjection(0, scope.xz, 0, 1)").contains("0 m"));
 }

@@ -92,6 +92,7 @@ impl Derivation {
             overrides: overrides_of(edits.unwrap_or_default()),
             assets: rules.get().known_assets(),
             textures: rules.get().known_textures(),
+            files: rules.get().known_files(),
             neighbours,
         };
         let with = rules.get();

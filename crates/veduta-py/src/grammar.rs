@@ -8,8 +8,8 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
 use veduta_grammar::engine::{
-    asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Limits, Options,
-    State,
+    asset_names, derive, lot_form, lower_in_style, Code, Expr, ExprKind, Fault, Files as FileTable,
+    Limits, Options, State,
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
@@ -37,6 +37,9 @@ pub struct GrammarRules {
     /// The files, as faults number them.
     sources: Vec<Source>,
     assets: RwLock<Arc<Assets>>,
+    files: RwLock<Arc<FileTable>>,
+    /// What is built otherwise than the rules say, as text; empty where nothing is.
+    notes: String,
     textures: RwLock<Arc<Textures>>,
     styles: Vec<String>,
 }
@@ -102,6 +105,44 @@ impl GrammarRules {
         let found = asset_names(&self.code);
         let written = found.written.iter().map(ToString::to_string).collect();
         (written, found.computed)
+    }
+
+    /// What is built otherwise than the rules say, with its places; empty where nothing is.
+    #[getter]
+    fn notes(&self) -> String {
+        self.notes.clone()
+    }
+
+    /// Whether the rules ask which files there are, and whether they read some.
+    #[getter]
+    fn asks_files(&self) -> (bool, bool) {
+        (self.code.lists_files, self.code.reads_files)
+    }
+
+    /// Makes the files of a project known: their names, the content of those that are text, and the
+    /// width and height of those that are pictures (px).
+    fn add_files(
+        &self,
+        names: Vec<String>,
+        texts: HashMap<String, String>,
+        pictures: HashMap<String, [f64; 2]>,
+    ) -> PyResult<()> {
+        let shared = |name: String| -> Arc<str> { name.into() };
+        let mut names: Vec<Arc<str>> = names.into_iter().map(shared).collect();
+        names.sort();
+        names.dedup();
+        let texts = texts.into_iter();
+        let pictures = pictures.into_iter();
+        let files = FileTable {
+            names,
+            texts: texts
+                .map(|(name, text)| (name.into(), text.into()))
+                .collect(),
+            pictures: pictures.map(|(name, size)| (name.into(), size)).collect(),
+        };
+        let fault = |_| PyValueError::new_err("files cannot be added now");
+        *self.files.write().map_err(fault)? = Arc::new(files);
+        Ok(())
     }
 
     /// Makes an asset known. `points`: (v, 3) metres, y up. `corners`: numbers of points, face by
@@ -220,10 +261,13 @@ fn read(files: &Files, style: Option<&str>) -> Result<GrammarRules, String> {
     if lowered.has_errors() {
         return Err(rendered(&program, &lowered.diagnostics));
     }
+    let rendered_notes = rendered(&program, &lowered.diagnostics);
     Ok(GrammarRules {
         code: lowered.code,
         sources: program.units.into_iter().map(|unit| unit.source).collect(),
         assets: RwLock::default(),
+        files: RwLock::default(),
+        notes: rendered_notes,
         textures: RwLock::default(),
         styles,
     })
@@ -270,6 +314,7 @@ impl GrammarRules {
             return Err(PyValueError::new_err(WANTED));
         }
         let (assets, textures) = (self.known_assets(), self.known_textures());
+        let files = self.known_files();
         let each = seeds.iter().zip(given).zip(edits);
         let each = each.map(|((&seed, given), edits)| Options {
             seed,
@@ -277,6 +322,7 @@ impl GrammarRules {
             attributes: values(given),
             assets: assets.clone(),
             textures: textures.clone(),
+            files: files.clone(),
             overrides: overrides_of(edits),
             neighbours: Vec::new(),
         });
@@ -325,6 +371,13 @@ impl GrammarRules {
             Some(name) => AssetWanted::new_err((self.told(fault), name.to_string())),
             None => GrammarFault::new_err(self.told(fault)),
         }
+    }
+
+    /// The files that the rules may ask for.
+    pub fn known_files(&self) -> Arc<FileTable> {
+        self.files
+            .read()
+            .map_or_else(|_| Arc::default(), |known| known.clone())
     }
 
     /// The textures of known sizes.

@@ -19,46 +19,62 @@ pub fn program_of(files: &Files) -> Option<Program> {
     let (main, text) = files.first()?;
     let source = Source::new(main.clone(), text.clone());
     Some(Program::load(source, |path, importer| {
-        let name = beside(main, importer.name(), path)
-            .ok_or_else(|| "it is not in the folder of the rule file".to_string())?;
-        let found = files.iter().find(|(known, _)| *known == name);
+        let found = imported(files, importer.name(), path);
         let (name, text) = found.ok_or_else(|| "it is not there".to_string())?;
         Ok(Source::new(name.clone(), text.clone()))
     }))
 }
 
-/// The name of the file that `importer` calls `path`; None where it is outside of the folder of
-/// `main`.
-fn beside(main: &str, importer: &str, path: &str) -> Option<String> {
-    let root = main.rfind('/').map_or("", |end| &main[..=end]);
-    let mut parts: Vec<&str> = importer.strip_prefix(root)?.split('/').collect();
-    parts.pop();
-    if path.contains(['\\', ':', '\0']) || path.starts_with('/') {
-        return None;
-    }
-    for part in path.split('/') {
+/// The file that `importer` calls `path`: beside it, else wherever in the project it was found. Only
+/// files that were read before are found; who reads them sees to where they may lie.
+fn imported<'a>(files: &'a Files, importer: &str, path: &str) -> Option<&'a (String, String)> {
+    let path = path.replace('\\', "/");
+    let own = beside(importer, &path);
+    let found = files.iter().find(|(known, _)| *known == own);
+    let ends = |rest: &str| {
+        let end = format!("/{rest}");
+        let fitting = files.iter().filter(|(known, _)| *known == rest || known.ends_with(&end));
+        fitting.min_by_key(|(known, _)| known.len())
+    };
+    let plain = beside("", path.trim_start_matches('/'));
+    // A path of the workspace begins with the name of a project, which need not be its folder's.
+    let of_workspace = || plain.split_once('/').filter(|_| path.starts_with('/'));
+    found
+        .or_else(|| ends(&plain))
+        .or_else(|| of_workspace().and_then(|(_, rest)| ends(rest)))
+}
+
+/// The path of what lies beside `importer`, without `.` and `..` where they can be done.
+fn beside(importer: &str, path: &str) -> String {
+    let folder = importer.rfind('/').map_or("", |end| &importer[..=end]);
+    let whole = match path.starts_with('/') {
+        true => path.to_string(),
+        false => format!("{folder}{path}"),
+    };
+    let mut parts: Vec<&str> = Vec::new();
+    for part in whole.split('/') {
         match part {
             "" | "." => {}
-            ".." => {
-                parts.pop()?;
+            ".." if parts.last().is_some_and(|last| *last != "..") => {
+                parts.pop();
             }
             name => parts.push(name),
         }
     }
-    (!parts.is_empty()).then(|| format!("{root}{}", parts.join("/")))
+    let start = if whole.starts_with('/') { "/" } else { "" };
+    format!("{start}{}", parts.join("/"))
 }
 
-/// The names of the files that the file `name` imports; `main` is the first file of the program.
-/// What lies outside of its folder is left out, and reported when the program is checked.
+/// The paths that the import statements of a text name, as they stand there.
 #[pyfunction]
-fn grammar_imports(py: Python<'_>, main: &str, name: &str, text: &str) -> Vec<String> {
+fn grammar_imports(py: Python<'_>, text: &str) -> Vec<String> {
     py.detach(|| {
         let file = parse(text, &mut Names::new()).file;
         let paths = file.items.iter().filter_map(|item| match &item.kind {
             ItemKind::Import(import) => Some(import.path.value.to_string()),
             _ => None,
         });
-        paths.filter_map(|path| beside(main, name, &path)).collect()
+        paths.collect()
     })
 }
 

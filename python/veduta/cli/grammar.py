@@ -65,27 +65,24 @@ def run(arguments: list[str]) -> int:
 def _check(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import CheckCall
-    from veduta.grammar.assets.library import Library
+    from veduta.grammar.otherwise import otherwise
     from veduta.grammar.rules import check_rules, compile_rules, find_rules, read_rules
-    from veduta.grammar.textures import missing_textures, texture_faults
+    from veduta.grammar.textures import texture_faults
     from veduta.run.report import counted
 
     call = parse(CheckCall, "veduta grammar check", arguments)
-    rules = read_rules(find_rules(call.rules))
+    rules = read_rules(find_rules(call.rules), call.project, call.library)
     verdict = check_rules(rules)
     print(verdict.told, end="")
     faults: list[str] = []
-    missing: list[str] = []
-    if not verdict.errors and not verdict.underived:
-        faults = Library(rules.path.parent).faults(compile_rules(rules))
-        faults += texture_faults(text for _, text in rules.files)
+    told: list[str] = []
+    if not verdict.errors:
+        faults = texture_faults(text for _, text in rules.files)
         print("".join(f"error: {fault}\n" for fault in faults), end="")
-        missing = [] if faults else missing_textures(rules.path, rules.files)
-        print("".join(f"warning: {told}\n" for told in missing), end="")
-    if verdict.underived:
-        print(f"This is read, but does not derive yet:\n{verdict.underived}", end="")
+        told = [] if faults else otherwise(rules, compile_rules(rules))
+        print("".join(f"warning: {one}\n" for one in told), end="")
     errors = verdict.errors + len(faults)
-    warnings = verdict.warnings + len(missing)
+    warnings = verdict.warnings + len(told)
     print(f"{call.rules}: {counted(errors, 'error')}, {counted(warnings, 'warning')}")
     return 2 if errors else 0
 
@@ -139,6 +136,8 @@ def _derive(arguments: list[str]) -> int:
         options,
         progress,
         edits_path=call.edits,
+        project=call.project,
+        libraries=call.library,
         force=call.force,
         jobs=call.jobs,
     )

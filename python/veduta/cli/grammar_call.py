@@ -104,6 +104,25 @@ Attr = Annotated[
     ),
 ]
 
+Project = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="CityEngine project of the rule file, with its `assets` and `rules`; found by itself"
+        " where `rules` lies beside them",
+    ),
+]
+LibraryFolders = Annotated[
+    tyro.conf.UseAppendAction[tuple[Path, ...]],
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="a folder beside the project in which imports and assets are looked for, too (such as"
+        " ESRI.lib); may be given several times",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class CheckCall:
@@ -113,6 +132,8 @@ class CheckCall:
     """
 
     rules: Rules
+    project: Project = None
+    library: LibraryFolders = ()
 
 
 @dataclass(frozen=True)
@@ -140,6 +161,8 @@ class DeriveCall:
     lots: LotsFile = None
     attr: Attr = ()
     edits: Edits = None
+    project: Project = None
+    library: LibraryFolders = ()
     derive: DeriveOptions = field(default_factory=DeriveOptions)
     limits: LimitOptions = field(default_factory=LimitOptions)
     read: LotOptions = field(default_factory=LotOptions)

@@ -21,6 +21,7 @@ from veduta.grammar.failures import Failures
 from veduta.grammar.levels import FULL, PANELS, PLAIN, VOLUME
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.project import SearchPath
 from veduta.grammar.quadtree import squares
 from veduta.grammar.reported import FILE, Values, as_attributes, as_json, sums_of, table, values_of
 from veduta.grammar.textures import read_textures, with_builtin
@@ -58,7 +59,7 @@ class Block:
 class Job:
     """A block to work on; `files` are the rule files, `source` is what failures name.
 
-    folder: where the rules lie, and the assets that they name. textures: the files of the pictures
+    search: where what the rules name lies. textures: the files of the pictures
     that the rules name, by those names. separate: whether each building gets a GLB of its own.
     city: the file for the buildings as lines of CityJSON, None where they are not wanted.
     """
@@ -67,7 +68,7 @@ class Job:
     files: tuple[tuple[str, str], ...]
     options: GrammarOptions
     source: str
-    folder: Path
+    search: SearchPath
     out: Path
     work: Path
     separate: bool
@@ -118,7 +119,7 @@ class BlockResult:
 
 def run_block(job: Job) -> dict[str, Any]:
     """Derive each lot and write its tiles, its model and its line of CityJSON; the summary."""
-    by = deriver(job.files, job.folder, job.options, job.block.beside)
+    by = deriver(job.files, job.search, job.options, job.block.beside)
     folder = job.work / "tiles"
     with writing_to(job.out):
         folder.mkdir(parents=True, exist_ok=True)
@@ -130,6 +131,7 @@ def run_block(job: Job) -> dict[str, Any]:
     for number, node in enumerate(squares(middles, NODE_LOTS)):
         _node(job, by, f"{number:02d}", [job.block.lots[row] for row in node], result)
     reported = table(result.reported)
+    result.notes.update(dict.fromkeys(by.library.told_missing(), 1))
     with timed_step(result.steps, "write"), writing_to(job.out):
         result.tile = result.town.finish()
         if reported is not None:

@@ -27,6 +27,8 @@ from veduta.grammar.building import build_part
 from veduta.grammar.edits import Edit, path_text
 from veduta.grammar.options import LimitOptions
 from veduta.grammar.outline import Attribute
+from veduta.grammar.project import SearchPath
+from veduta.grammar.project_files import project_files
 from veduta.grammar.rules import RuleFiles, compile_rules, find_rules, read_rules
 from veduta.grammar.textures import Textures, find_textures, read_textures
 from veduta.place.part import Part
@@ -338,12 +340,15 @@ def parse(rules: str | Path, *, style: str | None = None) -> Rules:
     it is None.
     """
     if isinstance(rules, str) and ("-->" in rules or "\n" in rules):
-        files = RuleFiles(Path(TEXT), ((TEXT, rules),))
+        files = RuleFiles(Path(TEXT), ((TEXT, rules),), SearchPath.of(Path()))
     else:
         files = read_rules(find_rules(str(rules)))
-    core, library = compile_rules(files, style), Library(files.path.parent)
+    core, library = compile_rules(files, style), Library(files.search)
     library.add_written_to(core)
-    textures = read_textures(find_textures(files.path, [text for _, text in files.files]))
+    asked = project_files(files.search, core)
+    asked.add_to(core)
+    texts = [text for _, text in files.files]
+    textures = read_textures(find_textures(files.path, texts, files.search, asked.names))
     return Rules(files.path, core, library, textures)
 
 

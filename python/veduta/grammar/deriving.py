@@ -6,7 +6,6 @@ import functools
 import hashlib
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
 from typing import TypeVar
 
 from veduta import _core
@@ -16,7 +15,8 @@ from veduta.grammar.levels import FULL, Levels, levels_of
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
-from veduta.run.errors import InputError
+from veduta.grammar.project import SearchPath
+from veduta.grammar.project_files import project_files
 
 Vector = tuple[float, float, float]
 Made = TypeVar("Made", _core.DerivedLots, _core.Surroundings)
@@ -27,7 +27,6 @@ class Deriver:
     """Compiled rules with their assets, and how they are to be derived.
 
     beside: the lots that stand beside each, by its id, where the rules ask about them.
-    refused: why an asset could not be made known, by its name.
     """
 
     rules: _core.GrammarRules
@@ -35,7 +34,6 @@ class Deriver:
     levels: Levels
     options: GrammarOptions
     beside: Mapping[str, Sequence[Lot]] = field(default_factory=dict)
-    refused: dict[str, str] = field(default_factory=dict)
 
     def together(self, lots: Sequence[Lot], level: float) -> _core.DerivedLots:
         """The lots at a level of detail, on the engine's side.
@@ -101,8 +99,7 @@ class Deriver:
         told = derived.fault(row)
         if told is None:
             return fault_told(lot.edits, derived.edit_faults(row))
-        why = self.refused.get(derived.missing_asset(row) or "")
-        return f"{told} ({why})" if why else told
+        return told
 
     def _complete(self, make: Callable[[], Made]) -> Made:
         """What `make` gives, again where lots want assets whose names only the derivation shows."""
@@ -115,14 +112,9 @@ class Deriver:
         """Make the assets known that are wanted; whether there is a new one."""
         wanted = {made.missing_asset(row) for row in range(len(made))}
         names = {name for name in wanted if name is not None}
-        added = False
-        for name in sorted(names - set(self.refused)):
-            try:
-                self.library.add_to(self.rules, name)
-                added = True
-            except InputError as error:
-                self.refused[name] = str(error)
-        return added
+        for name in sorted(names):
+            self.library.add_to(self.rules, name)
+        return bool(names)
 
     def _seeds(self, lots: Sequence[Lot]) -> list[int]:
         return [seed_of(lot, self.options.derive.seed) for lot in lots]
@@ -143,25 +135,26 @@ class Deriver:
 
 @functools.lru_cache(maxsize=1)
 def _compiled(
-    files: tuple[tuple[str, str], ...], style: str | None, folder: Path
+    files: tuple[tuple[str, str], ...], style: str | None, search: SearchPath
 ) -> tuple[_core.GrammarRules, Library]:
-    """Compiled once in each process, with the assets that are named in the rules."""
-    rules, library = _core.GrammarRules(list(files), style), Library(folder)
+    """Compiled once in each process, with the assets and files that the rules name."""
+    rules, library = _core.GrammarRules(list(files), style), Library(search)
     library.add_written_to(rules)
+    project_files(search, rules).add_to(rules)
     return rules, library
 
 
 def deriver(
     files: tuple[tuple[str, str], ...],
-    folder: Path,
+    search: SearchPath,
     options: GrammarOptions,
     beside: Mapping[str, Sequence[Lot]] | None = None,
 ) -> Deriver:
-    """What derives by these files; `folder` is where they lie, and the assets that they name.
+    """What derives by these files; `search` says where what they name lies.
 
     beside: the lots that stand beside each, by its id, where the rules ask about them.
     """
-    rules, library = _compiled(files, options.derive.style, folder)
+    rules, library = _compiled(files, options.derive.style, search)
     levels = levels_of(rules, options.attributes.values)
     return Deriver(rules, library, levels, options, beside or {})
 

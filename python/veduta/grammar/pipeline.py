@@ -27,13 +27,16 @@ from veduta.grammar.joining import tables, write_ground, write_ground_city, writ
 from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.otherwise import otherwise
 from veduta.grammar.placing import place_of, placed_how, town_of
+from veduta.grammar.project import SearchPath
+from veduta.grammar.project_files import project_files
 from veduta.grammar.report import Whole, derive_report
 from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.squares import FEW, Square, Squares, squares_of, told
-from veduta.grammar.textures import find_textures, missing_textures, read_textures, textures_digests
+from veduta.grammar.textures import find_textures, read_textures, textures_digests
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.errors import InputError
@@ -43,15 +46,13 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "9"
+VERSION = "10"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
 SHOWN_WHOLE = 8
 """Up to so many lots are shown by their own models; more by tiles, which share meshes and pictures:
 60 lots are 1.2 MB then and not 46, and 15 draws a frame and not 1,759."""
-MOST_MISSING = 20
-"""Pictures that are not there, and named."""
 SEQUENCE = 1000
 """More lots than these are CityJSONSeq, which is read a line at a time."""
 TILESET = "tileset.json"
@@ -96,13 +97,20 @@ def run_derive(
     progress: Progress,
     *,
     edits_path: Path | None = None,
+    project: Path | None = None,
+    libraries: Sequence[Path] = (),
     force: bool = False,
     jobs: int | None = None,
 ) -> DeriveResult:
-    """Build every lot in OUT, by the rules of `run.outputs`."""
+    """Build every lot in OUT, by the rules of `run.outputs`.
+
+    project, libraries: as `rules.read_rules` has them.
+    """
     steps: list[StepRecord] = []
     with timed_step(steps, "read"):
-        call = _call(rules_name, lots_path, edits_path, options, _room_for(out), progress)
+        call = _call(
+            rules_name, lots_path, edits_path, options, _room_for(out), progress, project, libraries
+        )
     lots = call.lots
     with contextlib.closing(lots), open_out(out, COMMAND, call.key, force=force) as folder:
         result = DeriveResult(out, len(lots.lots) + len(lots.failures), steps=steps)
@@ -129,17 +137,18 @@ def _room_for(out: Path) -> Path:
 class _Call:
     """What a call is given, read and checked, and the keys of what is to be made of it.
 
-    source: what failures name. folder: where the rules lie. untextured: which pictures are
-    missing, in words. keys: of the blocks. key: of all.
+    source: what failures name. search: where what the rules name lies. told: what is built
+    otherwise than the rules say, and which assets and pictures are missing, in words. keys: of the
+    blocks. key: of all.
     """
 
     rules_name: str
     source: str
-    folder: Path
+    search: SearchPath
     files: tuple[tuple[str, str], ...]
     options: GrammarOptions
     textures: Mapping[str, str]
-    untextured: tuple[str, ...]
+    told: tuple[str, ...]
     lots: Lots
     squares: Squares
     keys: dict[str, str]
@@ -152,7 +161,7 @@ class _Call:
             self.files,
             self.options,
             self.source,
-            self.folder,
+            self.search,
             folder.path,
             folder.work_path(square.name),
             is_separate(self.options, self.lots),
@@ -168,19 +177,21 @@ def _call(
     options: GrammarOptions,
     room: Path,
     progress: Progress,
+    project: Path | None,
+    libraries: Sequence[Path],
 ) -> _Call:
     """Read and check all that is given; InputError names what is wrong.
 
     room: the folder that large lots may lie in.
     """
-    rules = read_rules(find_rules(rules_name))
+    rules = read_rules(find_rules(rules_name), project, libraries)
     compiled = compile_rules(rules, options.derive.style)
     options = check_options(compiled, rules.path, options)
-    assets = Library(rules.path.parent).digest(compiled)
+    assets = Library(rules.search).digest(compiled)
     files = tuple(rules.texts)
-    textures = find_textures(rules.path, [text for _, text in files])
+    asked = project_files(rules.search, compiled)
+    textures = find_textures(rules.path, [text for _, text in files], rules.search, asked.names)
     read_textures(textures)
-    untextured = tuple(missing_textures(rules.path, rules.files)[:MOST_MISSING])
     edits = {} if edits_path is None else read_edits(edits_path)
     lots = _lots(lots_path, options, room, progress)
     if edits_path is not None:
@@ -191,6 +202,7 @@ def _call(
     squares = squares_of(lots.lots, ask_beside=compiled.asks_beside)
     source = rules_name if lots_path is None else str(lots_path)
     made_of: list[JsonValue] = [files_digest(files), assets, textures_digests(textures)]
+    made_of += [asked.digest()] if asked.names else []
     keys = {
         square.name: _key("block", options, [*made_of, told(squares.block(square))])
         for square in squares.every
@@ -201,11 +213,11 @@ def _call(
     return _Call(
         rules_name,
         source,
-        rules.path.parent,
+        rules.search,
         files,
         options,
         textures,
-        untextured,
+        tuple(otherwise(rules, compiled)),
         lots,
         squares,
         keys,
@@ -301,7 +313,7 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     """What the place consists of, in the order of the lots."""
     result.failures.add_all(call.lots.failures, call.lots.failures.untold)
     result.notes += call.lots.notes
-    result.notes += [f"{told}: the plain colour is seen" for told in call.untextured]
+    result.notes += call.told
     for square in call.squares.every:
         item = folder.record.items.get(square.name)
         if item is None:

@@ -1,18 +1,21 @@
 """Rule files: where they are, what they import, whether they can be used.
 
 A rule file is named by its path, or by a style that Veduta brings along (`haussmann`, or as it is
-stored, `styles/haussmann.cga`). What it imports is read from its own folder and the folders below,
-and from nowhere else.
+stored, `styles/haussmann.cga`). What it imports is read from its own folder, from the folders of
+its project and from libraries (`project`), and from nowhere else.
 """
 
 from __future__ import annotations
 
 import difflib
 import os
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from veduta import _core
+from veduta.grammar.encodings import decoded
+from veduta.grammar.project import SearchPath, search_path, with_folders
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -25,10 +28,16 @@ SUFFIX = ".cga"
 
 @dataclass(frozen=True)
 class RuleFiles:
-    """A rule file and what it imports: the name of each file as messages have it, and its text."""
+    """A rule file and what it imports: the name of each file as messages have it, and its text.
+
+    search: where assets, pictures and tables that the files name are looked for.
+    notes: what is said of the files, such as their encodings.
+    """
 
     path: Path
     files: tuple[tuple[str, str], ...]
+    search: SearchPath
+    notes: tuple[str, ...] = ()
 
     @property
     def texts(self) -> list[tuple[str, str]]:
@@ -71,20 +80,42 @@ def find_rules(name: str) -> Path:
     raise InputError(name, "is neither a file nor a style", hint)
 
 
-def read_rules(path: Path) -> RuleFiles:
-    """The file and all that it imports, as far as it is there; checking names what is missing."""
-    main = path.as_posix()
-    root = os.path.realpath(path.parent)
-    files = {main: read_text(path)}
+def read_rules(
+    path: Path, project: Path | None = None, libraries: Sequence[Path] = ()
+) -> RuleFiles:
+    """The file and all that it imports, as far as it is there; checking names what is missing.
+
+    project: the folder that the file belongs to; found by itself where it is None. libraries:
+    folders beside it in which imports and assets are looked for, too.
+    """
+    main = os.path.normpath(path).replace(os.sep, "/")
+    search = search_path(path, project, libraries)
+    files: dict[str, str] = {}
+    notes: list[str] = []
     open_names = [main]
     while open_names:
         importer = open_names.pop(0)
-        for name in _core.grammar_imports(main, importer, files[importer]):
-            if name in files or not _is_file_below(root, name) or len(files) >= MAX_FILES:
+        text, encoding = _read(Path(importer))
+        if encoding is not None:
+            notes.append(f"{importer}: is not UTF-8, and was read as {encoding}")
+        files[importer] = text
+        for written in _core.grammar_imports(text):
+            name = _imported(importer, written, search)
+            full = len(files) + len(open_names) >= MAX_FILES
+            if name is None or name in files or name in open_names or full:
                 continue
-            files[name] = read_text(Path(name))
             open_names.append(name)
-    return RuleFiles(path, tuple(files.items()))
+    return RuleFiles(path, tuple(files.items()), with_folders(search, files), tuple(notes))
+
+
+def _imported(importer: str, written: str, search: SearchPath) -> str | None:
+    """The file that an import statement names, as a name of it; None where there is none."""
+    plain = written.replace("\\", "/")
+    own = Path(importer).parent / plain
+    for path in (own, *search.candidates(plain)):
+        if search.holds(path):
+            return os.path.normpath(path).replace(os.sep, "/")
+    return None
 
 
 def check_rules(rules: RuleFiles) -> Verdict:
@@ -115,6 +146,11 @@ def compile_rules(rules: RuleFiles, style: str | None = None) -> _core.GrammarRu
 
 def read_text(path: Path) -> str:
     """The text of a rule file; InputError where it is none."""
+    return _read(path)[0]
+
+
+def _read(path: Path) -> tuple[str, str | None]:
+    """The text, and its encoding where that is not UTF-8."""
     try:
         require_file(path, MAX_BYTES)
         content = path.read_bytes()
@@ -124,16 +160,7 @@ def read_text(path: Path) -> str:
         raise InputError(
             path, f"cannot be read ({error.strerror})", "Check its permissions."
         ) from error
-    try:
-        return content.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        line = content[: error.start].count(b"\n") + 1
-        raise InputError(
-            path, f"is not text in UTF-8 (line {line})", "Save it as UTF-8."
-        ) from error
-
-
-def _is_file_below(root: str, name: str) -> bool:
-    """Whether a file is there, and no link leads out of the folder."""
-    real = os.path.realpath(name)
-    return os.path.isfile(real) and os.path.commonpath([root, real]) == root
+    if b"\0" in content and not content.startswith((b"\xff\xfe", b"\xfe\xff")):
+        line = content[: content.index(0)].count(b"\n") + 1
+        raise InputError(path, f"is no text (line {line})", "Name a rule file (.cga).")
+    return decoded(content)

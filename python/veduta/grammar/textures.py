@@ -1,8 +1,8 @@
 """The pictures that rule files name in `texture`: where they are, and what is in them.
 
 A name that begins with `builtin/textures/` is a texture that Veduta brings along (`surfaces`).
-Others are files, looked for below the folder of the rule file, and nowhere else. A file may have a
-mask beside it, `NAME.invented.png`, in which white says what nobody has photographed.
+Others are files, looked for in the folders of the rule file's project (`project`). A file may have
+a mask beside it, `NAME.invented.png`, in which white says what nobody has photographed.
 """
 
 from __future__ import annotations
@@ -20,7 +20,10 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
+from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import PREFIX, mean_colour, painted, sizes_m, sources_digest
+from veduta.grammar.surfaces.patterns import PATTERNS, pattern_of
+from veduta.grammar.surfaces.patterns import PREFIX as PATTERN
 from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import read_image
 from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
@@ -37,9 +40,12 @@ JPEG_QUALITY = 85
 _SAMPLES = 512
 """Rows and columns that a mean colour is taken of."""
 _NAMED = re.compile(
-    rf'"({PREFIX}[^"\n\0]{{1,100}}|[^"\n\0]{{1,400}}\.(?:jpe?g|png|webp|tiff?))"', re.IGNORECASE
+    rf'"({PREFIX}[^"\n\0]{{1,100}}|{PATTERN}\w{{1,40}}|'
+    r'[^"\n\0]{1,400}\.(?:jpe?g|png|webp|tiff?|bmp|tga))"',
+    re.IGNORECASE,
 )
 
+_PICTURE = re.compile(r"\.(?:jpe?g|png|webp|tiff?|bmp|tga)$", re.IGNORECASE)
 _SHOWN = re.compile(
     r'//[^\n]*|#[^\n]*|/\*.*?\*/|\btexture\s*\(\s*"(?P<name>[^"\n]*)"\s*\)|"[^"\n]*"', re.DOTALL
 )
@@ -60,7 +66,9 @@ class Textures(Mapping[str, Texture]):
 
     def __getitem__(self, name: str) -> Texture:
         path = name if is_known(name) else self._files[name]
-        return _painted(path) if is_builtin(path) else _read(path, *_changed(path))
+        if _is_made(path):
+            return _painted(path)
+        return _read(path, *_changed(path))
 
     def __contains__(self, name: object) -> bool:
         return name in self._files or (isinstance(name, str) and is_known(name))
@@ -77,25 +85,40 @@ def is_builtin(name: str) -> bool:
     return name.startswith(PREFIX)
 
 
+def _is_made(path: str) -> bool:
+    """Whether a texture is no file: built-in, or a test picture."""
+    return is_builtin(path) or pattern_of(path) is not None
+
+
 def is_known(name: str) -> bool:
     """Whether there is a built-in texture of this name."""
     return name in sizes_m()
 
 
-def find_textures(rules: Path, texts: Sequence[str]) -> dict[str, str]:
+def find_textures(
+    rules: Path,
+    texts: Sequence[str],
+    search: SearchPath | None = None,
+    listed: Iterable[str] = (),
+) -> dict[str, str]:
     """The pictures that the texts name, by those names: files, or the names of built-in ones.
+
+    search: where they are looked for; below the folder of the rule file where it is None. listed:
+    names that the rules may compute from the files of the project; those that are pictures count.
 
     A file that is not there is not among them; InputError for a built-in one that is not there.
     """
-    folder = os.path.realpath(rules.parent)
+    places = search or SearchPath.of(rules.parent)
     found: dict[str, str] = {}
-    for name in _named(texts):
-        path = os.path.realpath(os.path.join(folder, name))
+    computed = [name for name in listed if _PICTURE.search(name)][:MAX_TEXTURES]
+    for name in dict.fromkeys([*_named(texts), *computed]):
         if is_builtin(name):
             mean_colour(name)
             found[name] = name
-        elif os.path.isfile(path) and os.path.commonpath([folder, path]) == folder:
-            found[name] = path
+        elif pattern_of(name) is not None:
+            found[name] = name
+        elif (path := places.find(name)) is not None:
+            found[name] = os.path.realpath(path)
         if len(found) > MAX_TEXTURES:
             raise InputError(rules, f"names more than {MAX_TEXTURES} pictures", "Use fewer.")
     return found
@@ -122,17 +145,19 @@ def texture_faults(texts: Iterable[str]) -> list[str]:
     return told
 
 
-def missing_textures(rules: Path, files: Iterable[tuple[str, str]]) -> list[str]:
+def missing_textures(
+    rules: Path, files: Iterable[tuple[str, str]], search: SearchPath | None = None
+) -> list[str]:
     """Where the files, by name and text, write `texture` with a picture that is not there."""
     files = list(files)
-    found = find_textures(rules, [text for _, text in files])
+    found = find_textures(rules, [text for _, text in files], search)
     told = []
     for file, text in files:
         for match in _SHOWN.finditer(text):
             name = match["name"]
             if name and not is_builtin(name) and name not in found:
                 line = text.count("\n", 0, match.start()) + 1
-                why = f"no picture `{name}` lies in the folder of {rules.name} or below it"
+                why = f"no picture `{name}` lies where {rules.name} or its project has pictures"
                 told.append(f"{file}:{line}: {why}")
     return told
 
@@ -146,7 +171,7 @@ def textures_digests(files: Mapping[str, str]) -> dict[str, JsonValue]:
     """What the pictures and their masks are: a result of others is not taken for theirs."""
     told: dict[str, JsonValue] = {}
     for name, path in files.items():
-        if is_builtin(path):
+        if _is_made(path):
             told[name] = [sources_digest()]
             continue
         mask = Path(path).with_name(mask_name(path))
@@ -158,7 +183,7 @@ def read_textures(files: Mapping[str, str]) -> Textures:
     """The pictures of `find_textures`; InputError where a file cannot be read."""
     textures = Textures(files)
     for name, path in files.items():
-        if not is_builtin(path):
+        if not _is_made(path):
             _ = textures[name]
     return textures
 
@@ -178,6 +203,8 @@ def mean_of(path: str) -> Colour:
     """The mean colour (sRGB, 0..1) of a picture of `find_textures`: what it is from afar."""
     if is_builtin(path):
         return mean_colour(path)
+    if _is_made(path):
+        return mean_light(_painted(path).pixels)
     return _mean_read(path, *_changed(path))
 
 
@@ -200,7 +227,8 @@ def _mean_read(path: str, written: int, mask_written: int) -> Colour:
 @lru_cache(maxsize=64)
 def _painted(name: str) -> Texture:
     """Painted once in each process; nobody has photographed it."""
-    pixels = painted(name)
+    pattern = pattern_of(name)
+    pixels = painted(name) if pattern is None else PATTERNS[pattern]()
     return Texture(pixels=pixels, invented=np.ones(pixels.shape[:2], dtype=np.bool_))
 
 

@@ -58,7 +58,7 @@ Lot --> texture("brick.png") print("texture(") texture("") texture("builtin/text
 X --> texture("deep/stone.png") texture("no picture")
 """
     told = missing_textures(folder / "a.cga", [("a.cga", text)])
-    where = "lies in the folder of a.cga or below it"
+    where = "lies where a.cga or its project has pictures"
     assert told == [
         f"a.cga:5: no picture `none.png` {where}",
         f"a.cga:6: no picture `no picture` {where}",
@@ -67,11 +67,11 @@ X --> texture("deep/stone.png") texture("no picture")
 
 def test_deriving_tells_the_pictures_that_are_not_there(tmp_path: Path) -> None:
     rules = tmp_path / "a.cga"
-    rules.write_text('Lot --> extrude(5)\n  texture("builtin:uvtest.png") House.')
+    rules.write_text('Lot --> extrude(5)\n  texture("none.png") House.')
     options = GrammarOptions(output=OutputOptions(city=False))
     result = run_derive(str(rules), None, tmp_path / "out", options, Progress(quiet=True), jobs=1)
     assert result.exit_code == 0
-    told = "a.cga:2: no picture `builtin:uvtest.png` lies in the folder of a.cga or below it"
+    told = "a.cga:2: no picture `none.png` lies where a.cga or its project has pictures"
     assert f"{tmp_path / told}: the plain colour is seen" in result.notes
 
 

@@ -20,6 +20,7 @@ from veduta.grammar.levels import FULL
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
+from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import mean_colour
 from veduta.grammar.textures import find_textures, mean_light, with_builtin
 from veduta.grammar.tile_pictures import MAX_SIDE, picture_files, tile_pictures
@@ -43,7 +44,7 @@ PIXELS = np.full((8, 8, 3), (200, 100, 50), dtype=np.uint8)
 
 
 def lots_of(count: int) -> _core.DerivedLots:
-    by = deriver((("rules.cga", RULES),), Path(), GrammarOptions())
+    by = deriver((("rules.cga", RULES),), SearchPath.of(Path()), GrammarOptions())
     outline = np.array([[0.0, 0.0], [12.0, 0.0], [12.0, 9.0], [0.0, 9.0]])
     lots = [Lot(f"{k}", f"{k}", (outline,), (0.0, 0.0, 0.0), {}) for k in range(count)]
     return by.together(lots, FULL)

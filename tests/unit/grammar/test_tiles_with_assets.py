@@ -19,6 +19,7 @@ from veduta.grammar.deriving import deriver
 from veduta.grammar.levels import FULL
 from veduta.grammar.lot import Lot
 from veduta.grammar.options import GrammarOptions
+from veduta.grammar.project import SearchPath
 from veduta.grammar.town import PROVENANCES
 from veduta.place.part import Part
 
@@ -43,7 +44,7 @@ def lot(name: str = "house", **given: str) -> Lot:
 
 @pytest.fixture(scope="module")
 def made() -> tuple[Part, _core.DerivedLots]:
-    by = deriver((("rules.cga", RULES),), Path(), GrammarOptions())
+    by = deriver((("rules.cga", RULES),), SearchPath.of(Path()), GrammarOptions())
     lots = by.together([lot()], FULL)
     columns = lots.columns(0)
     assert len(columns.instance_feature) > 20
@@ -136,18 +137,17 @@ def test_cityjson_has_the_faces_of_assets(made: tuple[Part, _core.DerivedLots]) 
     assert points.max(axis=0) == pytest.approx(part.bounds_m[1], abs=2e-2)
 
 
-def test_an_asset_that_is_nowhere_fails_its_lot_alone() -> None:
-    by = deriver((("rules.cga", RULES),), Path(), GrammarOptions())
+def test_a_box_stands_for_an_asset_that_is_nowhere() -> None:
+    by = deriver((("rules.cga", RULES),), SearchPath.of(Path()), GrammarOptions())
     both = [lot("good"), lot("bad", pane="porthole")]
     lots = by.together(both, FULL)
-    assert by.fault(lots, 0, both[0]) is None
-    told = by.fault(lots, 1, both[1])
-    assert told is not None
+    assert [by.fault(lots, row, both[row]) for row in (0, 1)] == [None, None]
+    (told,) = by.library.told_missing()
     assert "builtin/window-porthole" in told
     assert "is no asset that Veduta brings along" in told
-    assert len(lots.columns(0).instance_feature) > 20
-    with pytest.raises(ValueError, match="builtin/window-porthole"):
-        lots.columns(1)
+    counts = [len(lots.columns(row).instance_feature) for row in (0, 1)]
+    assert counts[0] == counts[1] > 20
+    assert by.library["builtin/window-porthole"].slots[0].name == "missing"
 
 
 def test_slots_must_fit_the_faces() -> None:
@@ -169,7 +169,7 @@ Door --> set(material.name, "door") color("#304050") s(1, 2.2, 0) i("builtin/doo
 @pytest.mark.parametrize("front_m", [1.5, 150.0])
 def test_textures_of_assets_lie_in_tiles_as_in_models(front_m: float) -> None:
     """One door is merged, a hundred share a mesh; each place has the model's coordinates."""
-    by = deriver((("rules.cga", DOORS),), Path(), GrammarOptions())
+    by = deriver((("rules.cga", DOORS),), SearchPath.of(Path()), GrammarOptions())
     outline = np.array([[0.0, 0.0], [front_m, 0.0], [front_m, 5.0], [0.0, 5.0]])
     lots = by.together([Lot("street", "street", (outline,), (0.0, 0.0, 0.0), {})], FULL)
     name, mean = "builtin/textures/wood", (0.5, 0.5, 0.5)

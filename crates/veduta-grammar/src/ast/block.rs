@@ -124,14 +124,19 @@ pub enum Cell<T> {
         body: T,
         span: Span,
     },
-    /// `{ cell | … }*`: cells that are repeated as a group.
-    Repeat { cells: Vec<Cell<T>>, span: Span },
+    /// `{ cell | … }*`: cells that are repeated as a group; without the star they stand once, as
+    /// if the brackets were not there.
+    Group {
+        cells: Vec<Cell<T>>,
+        repeats: bool,
+        span: Span,
+    },
 }
 
 impl<T> Cell<T> {
     pub fn span(&self) -> Span {
         match self {
-            Cell::Part { span, .. } | Cell::Repeat { span, .. } => *span,
+            Cell::Part { span, .. } | Cell::Group { span, .. } => *span,
         }
     }
 }

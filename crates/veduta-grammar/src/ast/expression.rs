@@ -103,7 +103,7 @@ fn highest(list: &[Expr]) -> u16 {
 fn highest_cell(cells: &[Cell<Expr>]) -> u16 {
     let each = cells.iter().map(|cell| match cell {
         Cell::Part { selector, body, .. } => selector.height.max(body.height),
-        Cell::Repeat { cells, .. } => highest_cell(cells).saturating_add(1),
+        Cell::Group { cells, .. } => highest_cell(cells).saturating_add(1),
     });
     each.max().unwrap_or(0)
 }

@@ -62,6 +62,12 @@ const EXTRUSIONS: Words = &[
     "world.up.flatTop",
     "face.normal",
     "vertex.normal",
+    "x",
+    "y",
+    "z",
+    "world.x",
+    "world.y",
+    "world.z",
 ];
 const FACES_OF_SCOPE: Words = &["center", "front", "back", "left", "right", "top", "bottom"];
 const INSERT: Words = &[
@@ -135,6 +141,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("roofSkillion", &[1, 2, 3, 4], &[ROOF_VALUES]),
     plain("roofVault", &[1, 2, 3, 4], &[]),
     op("innerRectangle", &[1], &[&["scope", "edge"]], SHAPE_CELLS),
+    plain("innerRect", &[0], &[]), // the older form of innerRectangle
     plain("primitiveQuad", &[0, 2], &[]),
     plain("primitiveDisk", &[0, 1, 2], &[]),
     plain("primitiveCube", &[0, 3], &[]),
@@ -180,9 +187,10 @@ pub const OPERATIONS: &[Operation] = &[
     op("intersect", &[0, 1], &[SWAP], BlockKind::Operand),
     // Texturing
     plain("texture", &[1], &[]),
-    plain("setupProjection", &[4, 6, 7], &[NONE, PROJECTIONS]),
+    plain("setupProjection", &[4, 5, 6, 7], &[NONE, PROJECTIONS]),
     plain("projectUV", &[1], &[]),
     plain("translateUV", &[3], &[]),
+    plain("offsetUV", &[3], &[]), // the older name of translateUV
     plain("scaleUV", &[3], &[]),
     plain("normalizeUV", &[3], &[NONE, &["uv", "uvUniform", "u", "v"], &["separatePerFace", "collectiveAllFaces"]]),
     plain("tileUV", &[3], &[]),
@@ -199,7 +207,7 @@ pub const OPERATIONS: &[Operation] = &[
     plain("center", &[1], &[AXIS_SETS]),
     // Scope
     plain("alignScopeToAxes", &[0, 1], &[ALIGN_AXES]),
-    plain("alignScopeToGeometry", &[3], &[UP, &["world.lowest", "largest", "any"], &["world.lowest", "longest"]]),
+    plain("alignScopeToGeometry", &[2, 3], &[UP, &["world.lowest", "largest", "any", "auto"], &["world.lowest", "longest", "auto"]]),
     plain("alignScopeToGeometryBBox", &[1], &[&["xy", "yx", "xz", "zx", "yz", "zy"]]),
     plain("rotateScope", &[3], &[]),
     plain("setPivot", &[2], &[&["xyz", "yzx", "zxy"]]),

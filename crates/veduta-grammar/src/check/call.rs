@@ -62,8 +62,8 @@ impl Checker<'_> {
         }
     }
 
-    /// A name without a rule is a leaf, and worth a warning; with arguments or a block, or in
-    /// lower case as operations are, it is an error.
+    /// A name without a rule is a leaf, and worth a warning; with a block, or in lower case as
+    /// operations are, it is an error.
     fn report_no_rule(&mut self, call: &Call) {
         let name = &call.name;
         let place = self.place(name);
@@ -86,7 +86,7 @@ impl Checker<'_> {
         }
         let hint = self.suggest_rule(name);
         let is_operation = text.starts_with(|first: char| first.is_ascii_lowercase());
-        if call.args.is_some() || call.block.is_some() || is_operation {
+        if call.block.is_some() || is_operation {
             let message = format!("there is no operation or rule `{text}`");
             let fault = Diagnostic::error(name.span, message);
             return self.diagnostics.add(fault.with_hint(hint));
@@ -115,7 +115,21 @@ impl Checker<'_> {
         if operation.name == "set" {
             self.settable(call);
         }
+        self.older_form(call, operation.name, count);
         self.operation_block(call, operation.block);
+    }
+
+    /// Forms that the reference no longer lists: they derive, and it is said how.
+    fn older_form(&mut self, call: &Call, name: &str, count: usize) {
+        let message = match (name, count) {
+            ("setupProjection", 5) => "an older form: the fifth argument moves the texture along u",
+            ("alignScopeToGeometry", 2) => "an older form: the longest edge is taken",
+            ("innerRect", _) => "an older form of `innerRectangle(scope) { shape : … }`",
+            ("offsetUV", _) => "the older name of `translateUV`",
+            _ => return,
+        };
+        self.diagnostics
+            .add(Diagnostic::warning(call.name.span, message));
     }
 
     /// `set` changes attributes only.
@@ -230,7 +244,7 @@ impl Checker<'_> {
         for cell in cells {
             match cell {
                 Cell::Part { body, .. } => self.body(body),
-                Cell::Repeat { cells, .. } => self.cell_bodies(cells),
+                Cell::Group { cells, .. } => self.cell_bodies(cells),
             }
         }
     }

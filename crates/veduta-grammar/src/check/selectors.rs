@@ -21,8 +21,12 @@ impl Checker<'_> {
         for cell in cells {
             let (selector, body) = match cell {
                 Cell::Part { selector, body, .. } => (selector, body),
-                Cell::Repeat { cells, span } => {
-                    self.no_repeat(*span);
+                Cell::Group {
+                    cells,
+                    repeats,
+                    span,
+                } => {
+                    self.repeats_nothing(*repeats, *span);
                     self.selector_cells(cells, words, rest, part);
                     continue;
                 }
@@ -69,7 +73,7 @@ impl Checker<'_> {
     pub fn size_cells(&mut self, cells: &[Cell<Body>]) {
         for cell in cells {
             match cell {
-                Cell::Repeat { cells, .. } => self.size_cells(cells),
+                Cell::Group { cells, .. } => self.size_cells(cells),
                 Cell::Part {
                     selector,
                     depth,

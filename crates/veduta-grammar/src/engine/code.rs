@@ -6,6 +6,7 @@ use crate::ast::{BinaryOp, UnaryOp};
 use crate::shape::Kind;
 use crate::{Span, Symbol};
 
+use super::files::FileFunction;
 use super::functions::Function;
 use super::measures::Measure;
 use super::operations::OperationId;
@@ -25,6 +26,10 @@ pub struct Code {
     pub asks: bool,
     /// Whether one asks about shapes of other lots.
     pub asks_beside: bool,
+    /// Whether they ask which files there are.
+    pub lists_files: bool,
+    /// Whether they read what stands in files.
+    pub reads_files: bool,
     /// Whether a rule trims shapes.
     pub trims: bool,
     /// The texts of all symbols.
@@ -114,6 +119,11 @@ pub enum ExprKind {
     /// A function of the current shape's geometry.
     Measure {
         measure: Measure,
+        args: Vec<Expr>,
+    },
+    /// A function of the project's files.
+    Files {
+        function: FileFunction,
         args: Vec<Expr>,
     },
     /// A question about other shapes.

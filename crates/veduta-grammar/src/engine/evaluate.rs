@@ -59,6 +59,13 @@ impl Run<'_> {
                     .of(scene.state, object, &values)
                     .map_err(|message| Fault::at(expr.span, message))
             }
+            ExprKind::Files { function, args } => {
+                let values = self.values(args, scene)?;
+                let files = self.options.files.clone();
+                self.take(files.names.len(), expr.span)?;
+                let value = function.call(&files, &values, || scene.stream.draw());
+                value.map_err(|message| Fault::at(expr.span, message))
+            }
             ExprKind::Query { query, args } => {
                 let values = self.values(args, scene)?;
                 self.answer(*query, &values, scene.state, expr.span)

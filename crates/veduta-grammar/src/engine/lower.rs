@@ -54,6 +54,8 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             instance,
             asks: false,
             asks_beside: false,
+            lists_files: false,
+            reads_files: false,
             trims: false,
             diagnostics: vec![Vec::new(); program.units.len()],
         };
@@ -62,6 +64,8 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
         lowering.definitions(&checked.definitions[unit].rules, &mut lowered.code);
         lowered.code.asks |= lowering.asks;
         lowered.code.asks_beside |= lowering.asks_beside;
+        lowered.code.lists_files |= lowering.lists_files;
+        lowered.code.reads_files |= lowering.reads_files;
         lowered.code.trims |= lowering.trims;
         for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
             let new = new.into_iter().filter(|one| !all.contains(one));
@@ -160,6 +164,8 @@ pub(super) struct Lowering<'a> {
     pub asks: bool,
     /// Whether one asks about shapes of other lots.
     pub asks_beside: bool,
+    pub lists_files: bool,
+    pub reads_files: bool,
     pub trims: bool,
     checked: &'a Checked,
     instances: &'a [Instance],
@@ -349,11 +355,9 @@ impl<'a> Lowering<'a> {
         self.diagnostics[unit].push(Diagnostic::error(span, message));
     }
 
-    /// The fault of something that the checker knows and the engine does not.
-    pub fn unknown(&mut self, name: Ident) {
-        self.fault(
-            name.span,
-            format!("`{}` does not derive yet", self.text(name)),
-        );
+    /// What is built otherwise than the rules say.
+    pub fn warn(&mut self, span: Span, message: impl Into<String>) {
+        let unit = self.own().unit;
+        self.diagnostics[unit].push(Diagnostic::warning(span, message));
     }
 }

@@ -61,7 +61,9 @@ impl Lowering<'_> {
             Some(Target::Operation(_)) => match OperationId::named(self.text(call.name)) {
                 Some(id) => Step::Operation(Box::new(self.operation(id, call))),
                 None => {
-                    self.unknown(call.name);
+                    let name = self.text(call.name);
+                    let built = "the shape stays as it is";
+                    self.warn(call.name.span, format!("`{name}` does not derive: {built}"));
                     Step::Push(Body::Steps(Vec::new()))
                 }
             },
@@ -72,14 +74,18 @@ impl Lowering<'_> {
     }
 
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
-        let args = call.args();
+        let mut args = call.args();
         self.trims |= id.trims();
         self.asks |= id.asks();
         let (fewest, most) = id.arguments();
-        if args.len() < fewest || args.len() > most {
-            let name = self.text(call.name);
+        let name = self.text(call.name);
+        if args.len() < fewest {
             let message = format!("`{name}` with {} arguments does not derive yet", args.len());
             self.fault(call.span, message);
+        } else if args.len() > most {
+            let message = format!("`{name}` derives without what follows its argument {most}");
+            self.warn(call.span, message);
+            args = &args[..most];
         }
         let (mut cells, repeat) = match &call.block {
             Some(Block::Cells { cells, repeat, .. }) => (self.cells(cells), *repeat),
@@ -126,24 +132,44 @@ impl Lowering<'_> {
     }
 
     fn cells(&mut self, cells: &[ast::Cell<ast::Body>]) -> Vec<Cell> {
-        cells.iter().map(|cell| self.cell(cell)).collect()
+        let mut lowered = Vec::with_capacity(cells.len());
+        for cell in cells {
+            self.cell(cell, &mut lowered);
+        }
+        lowered
     }
 
-    fn cell(&mut self, cell: &ast::Cell<ast::Body>) -> Cell {
+    /// Appends the cell; those of a group that does not repeat stand where it stands.
+    fn cell(&mut self, cell: &ast::Cell<ast::Body>, lowered: &mut Vec<Cell>) {
         match cell {
-            ast::Cell::Repeat { cells, .. } => Cell::Repeat(self.cells(cells)),
+            ast::Cell::Group {
+                cells,
+                repeats: true,
+                ..
+            } => {
+                let inner = self.cells(cells);
+                lowered.push(Cell::Repeat(inner));
+            }
+            ast::Cell::Group { cells, .. } => {
+                for cell in cells {
+                    self.cell(cell, lowered);
+                }
+            }
             ast::Cell::Part {
                 selector,
                 depth,
                 combined,
                 body,
                 ..
-            } => Cell::Part {
-                selector: self.selector(selector),
-                depth: depth.as_ref().map(|depth| self.expr(depth)),
-                combined: *combined,
-                body: self.body(body),
-            },
+            } => {
+                let part = Cell::Part {
+                    selector: self.selector(selector),
+                    depth: depth.as_ref().map(|depth| self.expr(depth)),
+                    combined: *combined,
+                    body: self.body(body),
+                };
+                lowered.push(part);
+            }
         }
     }
 

@@ -4,6 +4,7 @@ use crate::ast::{self, ExprKind as Ast, Ident};
 use crate::{Span, Target};
 
 use super::code::{ComponentValue, Expr, ExprKind};
+use super::files::FileFunction;
 use super::functions::Function;
 use super::lower::{Lowering, Number};
 use super::measures::Measure;
@@ -124,8 +125,15 @@ impl Lowering<'_> {
         }
     }
 
-    /// A function of the current shape, or of those around it.
+    /// A function of the project's files, of the current shape, or of those around it.
     fn of_shape(&mut self, name: Ident, args: Vec<Expr>) -> ExprKind {
+        if let Some((function, fewest, most)) = FileFunction::named(self.text(name)) {
+            if (fewest..=most).contains(&args.len()) {
+                self.lists_files = true;
+                self.reads_files |= function.reads();
+                return ExprKind::Files { function, args };
+            }
+        }
         if let Some(measure) = Measure::named(self.text(name)) {
             return ExprKind::Measure { measure, args };
         }
@@ -147,7 +155,9 @@ impl Lowering<'_> {
     }
 
     fn not_yet(&mut self, name: Ident) -> ExprKind {
-        self.unknown(name);
+        let name_told = self.text(name);
+        let message = format!("`{name_told}` does not derive: it is taken for 0");
+        self.warn(name.span, message);
         ExprKind::Number(0.0)
     }
 

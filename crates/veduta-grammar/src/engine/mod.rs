@@ -12,6 +12,7 @@ mod converting;
 mod draws;
 mod evaluate;
 mod fault;
+mod files;
 mod frame;
 mod functions;
 mod globals;
@@ -51,6 +52,7 @@ pub use asset_names::{asset_names, AssetNames};
 pub use code::{Code, Expr, ExprKind};
 pub use draws::Taken;
 pub use fault::Fault;
+pub use files::{FileFunction, Files};
 pub use limits::{Limit, Limits};
 pub use lot::lot_form;
 pub use lower::{lower, lower_in_style, Lowered};
@@ -73,6 +75,7 @@ pub fn function_names() -> impl Iterator<Item = &'static str> {
     functions::Function::names()
         .chain(measures::Measure::names())
         .chain(queries::Query::names())
+        .chain(files::TABLE.iter().map(|entry| entry.0))
         .chain(["comp"])
 }
 

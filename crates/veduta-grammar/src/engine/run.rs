@@ -12,6 +12,7 @@ use super::clock::{Clock, Over};
 use super::code::{Code, Expr, Rule};
 use super::draws::{Draws, LogSum};
 use super::fault::Fault;
+use super::files::Files;
 use super::frame::{Fate, Frame};
 use super::globals::Global;
 use super::limits::{Limit, Limits};
@@ -38,6 +39,8 @@ pub struct Options {
     /// Textures of known sizes by name: metres to the right and up, all above 0. They lie in
     /// metres where no rule says how they lie.
     pub textures: Arc<HashMap<Arc<str>, [f64; 2]>>,
+    /// The files of the project, where the rules ask for them.
+    pub files: Arc<Files>,
     /// What stands around the start shape.
     pub neighbours: Vec<Neighbour>,
 }

@@ -99,7 +99,11 @@ fn cells(words: &mut Words, list: &[Cell<Body>], repeat: bool) -> Doc {
 
 fn cell(words: &mut Words, cell: &Cell<Body>) -> Doc {
     match cell {
-        Cell::Repeat { cells: list, .. } => cells(words, list, true),
+        Cell::Group {
+            cells: list,
+            repeats,
+            ..
+        } => cells(words, list, *repeats),
         Cell::Part {
             selector,
             depth,

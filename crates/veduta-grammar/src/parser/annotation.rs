@@ -20,7 +20,7 @@ impl Parser<'_> {
         let start = self.advance().span;
         let name = self.plain_name("of an annotation")?;
         let args = if self.is(TokenKind::OpenParen) {
-            Some(self.list(TokenKind::CloseParen, Self::annotation_arg)?)
+            Some(self.annotation_args()?)
         } else {
             None
         };
@@ -29,6 +29,19 @@ impl Parser<'_> {
             args,
             span: self.since(start),
         })
+    }
+
+    /// The arguments as far as they are values. Others are for a user interface, as this knows it or
+    /// a later one will: they are passed over, to the bracket that closes them.
+    fn annotation_args(&mut self) -> Parsed<Vec<AnnotationArg>> {
+        let Some(end) = self.after_partner(self.at()) else {
+            return self.list(TokenKind::CloseParen, Self::annotation_arg);
+        };
+        let args = self.quietly(|parser| parser.list(TokenKind::CloseParen, Self::annotation_arg));
+        if args.is_err() {
+            self.go_to(end);
+        }
+        Ok(args.unwrap_or_default())
     }
 
     fn annotation_arg(&mut self) -> Parsed<AnnotationArg> {

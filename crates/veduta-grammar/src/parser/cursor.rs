@@ -103,6 +103,19 @@ impl<'a> Parser<'a> {
         found
     }
 
+    /// Goes on at the word with an index.
+    pub fn go_to(&mut self, index: usize) {
+        self.at = index.min(self.tokens.len() - 1);
+    }
+
+    /// Runs `part` without filing what is wrong there.
+    pub fn quietly<T>(&mut self, part: impl FnOnce(&mut Self) -> Parsed<T>) -> Parsed<T> {
+        let kept = std::mem::take(self.diagnostics);
+        let result = part(self);
+        *self.diagnostics = kept;
+        result
+    }
+
     /// The word that must come next. `place` says what it belongs to.
     pub fn expect(&mut self, kind: TokenKind, place: &str) -> Parsed<Token> {
         if self.is(kind) {

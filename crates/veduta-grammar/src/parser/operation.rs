@@ -154,12 +154,13 @@ impl Parser<'_> {
         let start = self.span();
         if self.is(TokenKind::OpenBrace) {
             let cells = self.nested(|parser| parser.cells(sizes, part))?;
-            self.expect(
-                TokenKind::Star,
-                "after a group of cells, which repeats them",
-            )?;
+            let repeats = self.eat(TokenKind::Star);
             let span = self.since(start);
-            return Ok(Cell::Repeat { cells, span });
+            return Ok(Cell::Group {
+                cells,
+                repeats,
+                span,
+            });
         }
         let selector = self.selector()?;
         let combined = match self.kind() {

@@ -71,6 +71,14 @@ pub fn said(text: &str) -> Vec<String> {
     tree(text).messages
 }
 
+/// The same with other options.
+pub fn said_with(text: &str, options: &Options) -> Vec<String> {
+    let code = code(text);
+    derive(&code, code.start.unwrap(), lot(), options)
+        .unwrap()
+        .messages
+}
+
 /// The faces of all leaves of a name, in the world.
 pub fn mesh_of(tree: &Tree, name: &str) -> Vec<Mesh> {
     tree.leaves()

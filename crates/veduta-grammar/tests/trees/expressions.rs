@@ -147,8 +147,10 @@ pub fn cells<T: std::fmt::Debug + Clone + 'static>(
             }
         });
     let cell = cell.prop_recursive(2, 6, 3, |cell| {
-        prop::collection::vec(cell, 1..3).prop_map(|cells| Cell::Repeat {
+        let inner = prop::collection::vec(cell, 1..3);
+        (inner, any::<bool>()).prop_map(|(cells, repeats)| Cell::Group {
             cells,
+            repeats,
             span: nowhere(),
         })
     });

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-import os
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -19,18 +19,9 @@ WELD = 1e-6
 """Points nearer than this share of the mesh's extent are one."""
 
 
-def read_asset(name: str, folder: Path) -> Asset:
-    """The asset of a file below the folder; InputError says what is wrong with it."""
-    path = folder / name
-    root = os.path.realpath(folder)
-    real = os.path.realpath(path)
-    if os.path.commonpath([root, real]) != root:
-        raise InputError(
-            path, "lies outside of the rule file's folder", "Move it below that folder."
-        )
-    if not os.path.isfile(real):
-        raise InputError(path, "does not exist", "Check the name in the rule file.")
-    mesh = read_obj(path, folder) if path.suffix.lower() == ".obj" else read_glb_mesh(path)
+def read_asset(name: str, path: Path) -> Asset:
+    """The asset of a file, by the name that rules have for it; InputError says what is wrong."""
+    mesh = read_obj(path, path.parent) if path.suffix.lower() == ".obj" else read_glb_mesh(path)
     asset = _cleaned(name, mesh)
     if asset is None:
         raise InputError(path, "has no face with an area", "Check it in the program it comes from.")
@@ -54,7 +45,7 @@ def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
             face_slot=material[kept],
             slots=tuple(Slot(label or "surface", colour) for label, colour in mesh.materials),
         )
-        asset = _compact(asset)
+        asset = _flattened(_compact(asset))
         try:
             _ = asset.triangles
         except _core.PolygonFault:
@@ -64,6 +55,19 @@ def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
             continue
         return asset
     return None
+
+
+def _flattened(asset: Asset) -> Asset:
+    """Flat where it is thinner than `WELD` of its extent: a file's last digits are no thickness,
+    and a scope that is filled would stretch them to its own size.
+    """
+    extent = np.ptp(asset.points_m, axis=0)
+    thin = extent < WELD * float(extent.max())
+    if not thin.any():
+        return asset
+    points = asset.points_m.copy()
+    points[:, thin] = points[:, thin].mean(axis=0)
+    return replace(asset, points_m=points)
 
 
 def _welded(mesh: ReadMesh) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int32]]:

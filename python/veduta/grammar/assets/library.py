@@ -1,4 +1,7 @@
-"""Assets by name: built-in ones, and files beside the rule file."""
+"""Assets by name: built-in ones, and files of the rule file's project.
+
+An asset that is not there leaves the box of its scope, in a colour of its own, and is named.
+"""
 
 from __future__ import annotations
 
@@ -12,6 +15,8 @@ from veduta.formats.obj_read import LARGEST_BYTES
 from veduta.grammar.assets.asset import Asset, Slot
 from veduta.grammar.assets.catalogue import PREFIX, builtin, builtin_names, parts_of
 from veduta.grammar.assets.from_file import SUFFIXES, read_asset
+from veduta.grammar.assets.primitives import missing_box, primitive
+from veduta.grammar.project import SearchPath
 from veduta.grammar.surfaces.catalogue import PREFIX as TEXTURES
 from veduta.grammar.surfaces.catalogue import sizes_m, sources_digest
 from veduta.run.errors import InputError
@@ -22,10 +27,14 @@ _READ = (*SUFFIXES, ".mtl")
 
 
 class Library:
-    """What `i` may insert; `folder` is that of the rule file, below which files are looked for."""
+    """What `i` may insert. search: where files are looked for; a folder alone is one, too.
 
-    def __init__(self, folder: Path) -> None:
-        self.folder = folder
+    missing: why an asset that rules name is not there, by its name.
+    """
+
+    def __init__(self, search: SearchPath | Path) -> None:
+        self.search = search if isinstance(search, SearchPath) else SearchPath.of(search)
+        self.missing: dict[str, str] = {}
         self._known: dict[str, Asset] = {}
 
     def __getitem__(self, name: str) -> Asset:
@@ -35,14 +44,18 @@ class Library:
         return self._known[name]
 
     def add_to(self, rules: _core.GrammarRules, name: str) -> None:
-        """Hand an asset to the engine; InputError where there is none."""
-        asset = self[name]
+        """Hand an asset to the engine; where there is none, the box that stands for it."""
+        try:
+            asset = self[name]
+        except InputError as error:
+            self.missing[name] = str(error)
+            asset = self._known[name] = missing_box(name)
         slots = [(slot.colour, slot.fallback, textured(slot)) for slot in asset.slots]
         faces = (asset.points_m, asset.corners, asset.offsets)
         rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
-        """Hand over the assets whose names stand in the rules; InputError where one is none.
+        """Hand over the assets whose names stand in the rules.
 
         And the sizes of the built-in textures, which lie in metres.
         """
@@ -55,18 +68,26 @@ class Library:
         return {name: self[name] for name in derived.asset_names}
 
     def digest(self, rules: _core.GrammarRules) -> str:
-        """The digest of all assets that the rules may name; InputError where one is none."""
+        """The digest of all assets that the rules may name, those that are missing among them."""
         written, computed = rules.asset_names
         total = hashlib.sha256(sources_digest().encode())
         for name in written:
-            asset = self[name]
+            try:
+                asset = self[name]
+            except InputError:
+                total.update(f"{name} is missing".encode())
+                continue
             total.update(f"{name} {asset.slots}".encode())
             for column in (asset.points_m, asset.corners, asset.offsets, asset.face_slot):
                 total.update(column.tobytes())
-        for path in _files_below(self.folder) if computed else ():
-            total.update(f"{path.relative_to(self.folder)} {path.stat().st_size}".encode())
+        for root, path in self._files() if computed else ():
+            total.update(f"{path.relative_to(root)} {path.stat().st_size}".encode())
             total.update(hashlib.sha256(path.read_bytes()).digest())
         return total.hexdigest()
+
+    def told_missing(self) -> list[str]:
+        """What to say of the assets that are missing."""
+        return [f"{why} A box stands for it." for why in self.missing.values()]
 
     def faults(self, rules: _core.GrammarRules) -> list[str]:
         """What is wrong with the assets whose names stand in the rules."""
@@ -79,7 +100,7 @@ class Library:
         return told
 
     def _found(self, name: str) -> Asset:
-        asset = builtin(name)
+        asset = builtin(name) or primitive(name)
         if asset is not None:
             return asset
         if name.startswith(PREFIX):
@@ -94,7 +115,20 @@ class Library:
             raise InputError(name, "is no asset that Veduta brings along", hint)
         if not name.lower().endswith(SUFFIXES):
             raise InputError(name, "is no OBJ or GLB file", f"Built-in assets begin with {PREFIX}")
-        return read_asset(name, self.folder)
+        path = self.search.find(name)
+        if path is None:
+            looked = ", ".join(str(folder) for folder in self.search.folders)
+            fault = f"does not exist in any folder in which it is looked for ({looked})"
+            raise InputError(name, fault, "Check the name in the rule file.")
+        return read_asset(name, path)
+
+    def _files(self) -> list[tuple[Path, Path]]:
+        """Asset files of all folders that are searched, each with its folder, once."""
+        seen: dict[Path, Path] = {}
+        for folder in self.search.folders:
+            for path in _files_below(folder):
+                seen.setdefault(path, folder)
+        return [(folder, path) for path, folder in seen.items()]
 
 
 def textured(slot: Slot) -> tuple[str, tuple[float, float]] | None:

@@ -9,6 +9,7 @@ use super::super::frame::Frame;
 use super::super::run::Run;
 use super::setbacks::run_pieces;
 use super::word;
+use crate::shape::Form;
 
 /// `innerRectangle(scope) { shape : A | remainder : B }` finds in each face the largest rectangle
 /// with sides along the scope's axes, `innerRectangle(edge)` the largest with a side along an edge
@@ -19,9 +20,34 @@ use super::word;
 /// CityEngine the rectangle is one in the plane of the face, not as seen along an axis of the scope.
 pub fn inner_rectangle(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let by_edge = word(run, op, 0, frame)?.as_ref() == "edge";
-    let whole = frame.state.clone();
-    let mesh = whole.form.world_mesh();
-    let axes = whole.form.scope.axes;
+    let (inner, rest) = parted(run, op, frame, by_edge)?;
+    run_pieces(run, op, frame, |cell| match cell {
+        Some(_) => inner.clone(),
+        None => rest.clone(),
+    })
+}
+
+/// `innerRect()`, the older form: the shape becomes the largest rectangles in its faces, with sides
+/// along the scope's axes.
+pub fn inner_rect(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
+    let (inner, _) = parted(run, op, frame, false)?;
+    if !inner.is_empty() {
+        let axes = frame.state.form.scope.axes;
+        frame.state.form = Form::around(inner, axes, false);
+        frame.changed();
+    }
+    Ok(())
+}
+
+/// The largest rectangle of each face, and what remains of them.
+fn parted(
+    run: &mut Run<'_>,
+    op: &Operation,
+    frame: &Frame,
+    by_edge: bool,
+) -> Result<(Mesh, Mesh), Fault> {
+    let mesh = frame.state.form.world_mesh();
+    let axes = frame.state.form.scope.axes;
     let (mut inner, mut rest) = (Mesh::new(), Mesh::new());
     for face in mesh.faces() {
         let normal = face.normal();
@@ -40,10 +66,7 @@ pub fn inner_rectangle(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> 
             None => rest.append(&mesh.of_faces([face.index()])),
         }
     }
-    run_pieces(run, op, frame, |cell| match cell {
-        Some(_) => inner.clone(),
-        None => rest.clone(),
-    })
+    Ok((inner, rest))
 }
 
 /// Lines across a face that are tried beside those through its corners: each with each.

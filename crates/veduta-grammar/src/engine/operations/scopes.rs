@@ -117,6 +117,14 @@ fn signs(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<DVec3, 
     Ok(signs)
 }
 
+/// `auto` of older rule files as the word for it now.
+fn automatic(value: Value, now: &str) -> Value {
+    match &value {
+        Value::Text(word) if word.as_ref() == "auto" => Value::text(now),
+        _ => value,
+    }
+}
+
 /// `alignScopeToGeometry(yUp | zUp, face, edge)`: x of the scope along an edge of a face, y or z
 /// along the face's normal. The face is a number (-1 is the last), `world.lowest`, `largest`, or
 /// `any`, with which the edge is looked for in all; the edge a number within the face,
@@ -127,7 +135,12 @@ pub fn align_to_geometry(
     frame: &mut Frame,
 ) -> Result<(), Fault> {
     let up = word(run, op, 0, frame)?;
-    let (which, edge) = (value(run, op, 1, frame)?, value(run, op, 2, frame)?);
+    let which = value(run, op, 1, frame)?;
+    let edge = match op.args.len() {
+        3 => value(run, op, 2, frame)?,
+        _ => Value::text("longest"), // the older form does not say it
+    };
+    let (which, edge) = (automatic(which, "any"), automatic(edge, "longest"));
     let mesh = frame.state.form.world_mesh();
     if mesh.is_empty() {
         return Ok(());

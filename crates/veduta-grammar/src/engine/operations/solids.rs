@@ -11,7 +11,7 @@ use super::{length, word};
 use crate::shape::{Form, Geometry};
 
 /// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
-/// (also `y`), or another axis of the scope. The scope holds the solid afterwards. A height of 0
+/// (also `world.y`), or another axis of the world or the scope. The scope holds the solid afterwards. A height of 0
 /// leaves the faces as they are.
 pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let last = op.args.len() - 1;
@@ -25,7 +25,9 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     let axes = form.scope.axes;
     let along = match direction.as_deref() {
         None | Some("face.normal" | "vertex.normal") => normal(form),
-        Some("world.up" | "world.up.flatTop") => DVec3::Y,
+        Some("world.up" | "world.up.flatTop" | "world.y") => DVec3::Y,
+        Some("world.x") => DVec3::X,
+        Some("world.z") => DVec3::Z,
         Some("x") => axes.x_axis,
         Some("y") => axes.y_axis,
         Some("z") => axes.z_axis,

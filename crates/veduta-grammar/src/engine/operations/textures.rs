@@ -12,6 +12,7 @@ use super::super::frame::Frame;
 use super::super::run::Run;
 use super::super::texture_map::{layer, map_of, TextureMap};
 use super::{axes, number, word};
+use crate::shape::Scope;
 
 /// `setupProjection(layer, scope.xy, width, height)`, with `, x, y` after it, and with `, x, y,
 /// depth`: the texture is to lie along two axes of the scope, or of the world (`world.xz`), each
@@ -45,7 +46,7 @@ pub fn set_up(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
             return Err(Fault::at(op.span, "a texture of 0 m"));
         }
         grow[place] = direction / size;
-        if op.args.len() >= 6 {
+        if op.args.len() > 4 + place {
             moved[place] = -number(run, op, 4 + place, frame)? / size;
         }
     }
@@ -59,16 +60,24 @@ pub fn set_up(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     Ok(())
 }
 
-/// `projectUV(layer)`: the texture lies as `setupProjection` of the shape or a parent has said.
+/// `projectUV(layer)`: the texture lies as `setupProjection` of the shape or a parent has said; over
+/// the scope's x and y where none has.
 pub fn project(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let layer = layer_at(run, op, 0, frame)?;
     let extra = frame.state.extra.as_ref();
-    let Some(map) = extra.and_then(|extra| extra.projections[layer]) else {
-        let message = format!("setupProjection has not been called for layer {layer}");
-        return Err(Fault::at(op.span, message));
-    };
+    let known = extra.and_then(|extra| extra.projections[layer]);
+    let map = known.unwrap_or_else(|| over_scope(&frame.state.form.scope));
     set(frame, layer, map);
     Ok(())
+}
+
+/// What lies where nothing was set up: one picture over the scope's x and y.
+fn over_scope(scope: &Scope) -> TextureMap {
+    let over = |axis: usize| match scope.size[axis] {
+        size if size > 0.0 => scope.axes.col(axis) / size,
+        _ => scope.axes.col(axis),
+    };
+    TextureMap::from(scope.origin, [over(0), over(1)])
 }
 
 /// `translateUV(layer, u, v)`: adds to the coordinates.

@@ -1,0 +1,124 @@
+//! Forms of older rule files, and of files of others: they derive as they were meant.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use veduta_grammar::engine::{Files, Options};
+
+use super::support::{said, said_with, tree};
+
+fn sizes(text: &str) -> Vec<String> {
+    said(text)
+}
+
+#[test]
+fn a_group_without_a_star_stands_once() {
+    let told = |cells: &str| {
+        sizes(&format!(
+            "Lot --> split(x) {{ {cells} }} A --> print(scope.sx)"
+        ))
+    };
+    // The lot is 10 m wide.
+    assert_eq!(
+        told("2 : A | { ~1 : A | 3 : A } | 1 : A"),
+        ["2", "4", "3", "1"]
+    );
+    assert_eq!(told("2 : A | { ~1 : A }* | 2 : A").len(), 8);
+    assert_eq!(told("{ { 4 : A } | ~1 : A }"), ["4", "6"]);
+}
+
+#[test]
+fn the_axes_of_the_world_are_directions() {
+    let height = |direction: &str| {
+        let found = tree(&format!("Lot --> extrude({direction}, 7)"));
+        let leaf = found.leaves().next().unwrap();
+        leaf.state.form.world_mesh().volume()
+    };
+    for direction in ["world.y", "world.up", "y"] {
+        assert!(
+            (height(direction) - 10.0 * 6.0 * 7.0).abs() < 1e-9,
+            "{direction}"
+        );
+    }
+}
+
+#[test]
+fn older_operations_do_what_newer_ones_do() {
+    assert_eq!(said("Lot --> innerRect print(geometry.area)"), ["60"]);
+    assert_eq!(
+        said("Lot --> offsetUV(0, 0.5, 0) print(geometry.uMin(0))"),
+        ["0.5"]
+    );
+    let moved = "setupProjection(0, scope.xz, 2, 2, 1) projectUV(0) print(geometry.uMin(0))";
+    assert_eq!(said(&format!("Lot --> {moved}")), ["-0.5"]);
+    let longest = "alignScopeToGeometry(yUp, 0) print(scope.sx)";
+    assert_eq!(said(&format!("Lot --> s(4, '1, '1) {longest}")), ["6"]);
+}
+
+fn project() -> Options {
+    let names = [
+        "a/roof.png",
+        "a/wall_1.jpg",
+        "a/wall_2.jpg",
+        "heights.csv",
+        "wall.jpg",
+    ];
+    let table = "name;height\nhouse;9.5\ntower;40\n";
+    let files = Files {
+        names: names.iter().map(|&name| name.into()).collect(),
+        texts: HashMap::from([("heights.csv".into(), table.into())]),
+        pictures: HashMap::from([("wall.jpg".into(), [400.0, 200.0])]),
+    };
+    Options {
+        files: Arc::new(files),
+        ..Options::default()
+    }
+}
+
+#[test]
+fn files_are_found_by_patterns() {
+    let told = |value: &str| said_with(&format!("Lot --> print({value})"), &project());
+    assert_eq!(told("fileSearch(\"*.jpg\")"), ["wall.jpg"]);
+    assert_eq!(
+        told("fileSearch(\"a/wall*.jpg\")"),
+        ["a/wall_1.jpg;a/wall_2.jpg"]
+    );
+    assert_eq!(
+        told("fileSearch(\"$wall*.JPG\")"),
+        ["a/wall_1.jpg;a/wall_2.jpg;wall.jpg"]
+    );
+    assert_eq!(told("fileSearch(\"*.gif\")"), [""]);
+    assert_eq!(told("fileExists(\"/a/roof.png\")"), ["true"]);
+    assert_eq!(told("fileExists(\"roof.png\")"), ["false"]);
+    assert_eq!(
+        told("imageInfo(\"wall.jpg\", sx) / imageInfo(\"wall.jpg\", sy)"),
+        ["2"]
+    );
+}
+
+#[test]
+fn a_random_file_is_one_of_those_that_fit() {
+    let text = "Lot --> split(x) { { 0.25 : A }* } A --> print(fileRandom(\"a/wall*\"))";
+    let told = said_with(text, &project());
+    let each =
+        ["a/wall_1.jpg", "a/wall_2.jpg"].map(|name| told.iter().filter(|one| *one == name).count());
+    assert_eq!(each[0] + each[1], 40);
+    assert!(each.iter().all(|&count| count > 8), "{each:?}");
+    assert_eq!(
+        said_with(text, &project()),
+        told,
+        "the same seed, the same files"
+    );
+    assert_eq!(
+        said_with("Lot --> print(fileRandom(\"*.tif\"))", &project()),
+        [""]
+    );
+}
+
+#[test]
+fn tables_are_read_into_arrays() {
+    let told = |value: &str| said_with(&format!("Lot --> print({value})"), &project());
+    assert_eq!(told("nRows(readStringTable(\"heights.csv\"))"), ["3"]);
+    assert_eq!(told("readStringTable(\"heights.csv\")[2, 0]"), ["tower"]);
+    assert_eq!(told("readFloatTable(\"heights.csv\")[1, 1]"), ["9.5"]);
+}
