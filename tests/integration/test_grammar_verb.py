@@ -164,7 +164,6 @@ def test_rules_that_run_away_are_stopped(tmp_path: Path, lots: Path) -> None:
 def bad_calls(folder: Path) -> dict[str, tuple[list[object], str]]:
     (folder / "good.cga").write_text(RULES)
     (folder / "bad.cga").write_text("Lot --> extrud(3)")
-    (folder / "later.cga").write_text("Lot --> softenNormals(3)")
     (folder / "empty.geojson").write_text('{"type": "FeatureCollection", "features": []}')
     good = folder / "good.cga"
     derive: list[object] = ["derive", good, "-o", folder / "out"]
@@ -173,7 +172,6 @@ def bad_calls(folder: Path) -> dict[str, tuple[list[object], str]]:
         "no rules": (["derive", folder / "none.cga", "-o", folder / "out"], "Check its name."),
         "style": (["derive", "hausman", "-o", folder / "out"], "Did you mean `haussmann`?"),
         "fault": (["derive", folder / "bad.cga", "-o", folder / "out"], "did you mean `extrude`?"),
-        "underived": (["derive", folder / "later.cga", "-o", folder / "out"], "softenNormals"),
         "no lots": ([*derive, "--lots", folder / "none.geojson"], "Check its name."),
         "empty": ([*derive, "--lots", folder / "empty.geojson"], "Give it polygons."),
         "rules as lots": ([*derive, "--lots", good], "Save it as GeoJSON."),
