@@ -1,0 +1,17 @@
+"""Cameras of any source, and how a picture looks without what its lens did."""
+
+from veduta.cameras.camera import Camera, CameraSet
+from veduta.cameras.lens import shown, straight_camera, undistorted
+from veduta.cameras.projection import Parted, part_projection
+from veduta.cameras.reading import read_cameras
+
+__all__ = [
+    "Camera",
+    "CameraSet",
+    "Parted",
+    "part_projection",
+    "read_cameras",
+    "shown",
+    "straight_camera",
+    "undistorted",
+]

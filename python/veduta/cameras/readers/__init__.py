@@ -1,0 +1,1 @@
+"""One file for each source of cameras: `find` says whether it is there, `read` reads it."""
