@@ -10,10 +10,11 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.fauna_call import FaunaCall
     from veduta.cli.told import tell_result
-    from veduta.fauna import run_fauna
+    from veduta.fauna import Record, run_fauna
     from veduta.run.progress import Progress
 
     call = parse(FaunaCall, "veduta fauna", arguments)
+    record = Record(call.footage, call.masks, call.background)
     progress = Progress(quiet=call.quiet)
-    result = run_fauna(call.footage, call.out, call.options(), progress, force=call.force)
+    result = run_fauna(record, call.out, call.options(), progress, force=call.force)
     return tell_result(result, quiet=call.quiet)

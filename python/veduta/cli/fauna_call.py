@@ -9,14 +9,35 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.fauna.options import AnimalOptions, FaunaOptions, MotionOptions
+from veduta.fauna.options import AnimalOptions, FaunaOptions, FootageOptions, MotionOptions
 
 Footage = Annotated[
     tyro.conf.Positional[Path],
     tyro.conf.arg(
         metavar="FOOTAGE",
         help_behavior_hint="",
-        help=("a CSV of midlines (frame, point, t, x, y); or an animal.json to build from again"),
+        help=(
+            "a video or a folder of frames; a CSV of midlines (frame, point, t, x, y); or an"
+            " animal.json to build from again"
+        ),
+    ),
+]
+
+
+Masks = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="FOLDER",
+        help_behavior_hint="",
+        help="silhouettes of the animal, a picture for each frame, white where it is",
+    ),
+]
+BackgroundPicture = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="PICTURE",
+        help_behavior_hint="",
+        help="what the camera sees without the animal; else it is estimated from the frames",
     ),
 ]
 
@@ -34,10 +55,13 @@ class FaunaCall:
     footage: Footage
     out: Out
     animal: AnimalOptions = field(default_factory=AnimalOptions)
+    reading: FootageOptions = field(default_factory=FootageOptions)
+    masks: Masks = None
+    background: BackgroundPicture = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> FaunaOptions:
         """What changes the result."""
-        return FaunaOptions(animal=self.animal, motion=self.motion)
+        return FaunaOptions(animal=self.animal, footage=self.reading, motion=self.motion)

@@ -2,5 +2,6 @@
 
 from veduta.fauna.command import run_fauna
 from veduta.fauna.options import FaunaOptions
+from veduta.fauna.recipe import Record
 
-__all__ = ["FaunaOptions", "run_fauna"]
+__all__ = ["FaunaOptions", "Record", "run_fauna"]

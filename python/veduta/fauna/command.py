@@ -7,19 +7,14 @@ from pathlib import Path
 from pydantic import JsonValue
 
 from veduta.fauna.build.build import Built, build_animal, place_of
+from veduta.fauna.document.coat import COAT, load_coat, save_coat
 from veduta.fauna.document.load import DOCUMENT, load_animal, save_animal
-from veduta.fauna.document.schema import Animal, Source
-from veduta.fauna.motion.angles import angles_of
+from veduta.fauna.document.schema import Animal
 from veduta.fauna.options import FaunaOptions
-from veduta.fauna.pictures import (
-    angles_over_time,
-    angles_picture,
-    axes_picture,
-    gait_picture,
-)
-from veduta.fauna.read.midlines import read_midlines
-from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
+from veduta.fauna.pictures import gait_picture
+from veduta.fauna.recipe import Record, read_record
 from veduta.formats.mesh_glb import write_mesh_glb
+from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.page import Table
@@ -32,17 +27,22 @@ MODEL = "animal.glb"
 
 
 def run_fauna(
-    record: Path, out: Path, options: FaunaOptions, progress: Progress, *, force: bool = False
+    record: Record, out: Path, options: FaunaOptions, progress: Progress, *, force: bool = False
 ) -> VerbResult:
     """Make the animal of a record in OUT; InputError where the record is none."""
-    if not record.exists():
-        raise InputError(record, "there is no such file or folder", "Name the animal's footage.")
+    for path in (record.path, record.masks, record.background):
+        if path is not None and not path.exists():
+            raise InputError(path, "there is no such file or folder", "Name what there is.")
+    inputs: JsonValue = [
+        None if path is None else _digests(path)
+        for path in (record.path, record.masks, record.background)
+    ]
     call = VerbCall(
         command="fauna",
         version=VERSION,
-        subject=record.stem,
+        subject=record.path.stem,
         options=options,
-        inputs=_digests(record),
+        inputs=inputs,
     )
 
     def make(work: Work) -> None:
@@ -58,66 +58,29 @@ def _digests(record: Path) -> JsonValue:
     return [f"{path.relative_to(record)} {file_digest(path)}" for path in files]
 
 
-def _make(work: Work, record: Path, options: FaunaOptions) -> None:
-    if record.suffix.lower() == ".json":
+def _make(work: Work, record: Record, options: FaunaOptions) -> None:
+    coat: Texture | None = None
+    if record.path.suffix.lower() == ".json":
         with work.step("document"):
-            animal = load_animal(record)
+            animal = load_animal(record.path)
+            if animal.body.coat is not None:
+                coat = load_coat(record.path.parent / animal.body.coat)
     else:
-        described = _read(work, record, options)
-        animal = described.animal
-        _tell_axes(work, described)
+        read = read_record(work, record, options)
+        animal, coat = read.described.animal, read.coat
     with work.step("motion") as step:
-        built = build_animal(animal, options.motion)
+        built = build_animal(animal, options.motion, coat)
         step.counts["clips"] = len(built.gaits)
         step.counts["states"] = max(gait.states for gait in built.gaits)
         step.counts["refused states"] = max(gait.refused for gait in built.gaits)
     with work.step("writing"):
         save_animal(animal, work.folder / DOCUMENT)
+        if coat is not None:
+            save_coat(coat, work.folder / COAT)
+            work.file(COAT, "its coat from the footage; half transparent where it is invented")
         write_mesh_glb(built.mesh, work.folder / MODEL)
         place_of(animal, built).save(work.folder)
     _tell(work, animal, built)
-
-
-def _read(work: Work, record: Path, options: FaunaOptions) -> Described:
-    """The animal's axis through the record, and the document from it."""
-    with work.step("axis") as step:
-        tracked: Tracked = read_midlines(record)
-        source = Source(
-            file=record.name,
-            sha256=file_digest(record),
-            frames=max(1, len(tracked.points) + len(tracked.left_out)),
-            used=max(1, len(tracked.points)),
-        )
-        described = describe(tracked, record.stem, source, options)
-        step.counts["frames"] = described.animal.source.frames
-        step.counts["used"] = described.animal.source.used
-        step.rejected.extend(described.animal.source.left_out)
-    return described
-
-
-def _tell_axes(work: Work, described: Described) -> None:
-    """Figure 11 for this animal."""
-    again = angles_of(described.states, SAMPLES)
-    work.picture(
-        "The axis through the footage",
-        "early frames blue, late ones red; a dot at the head",
-        axes_picture(described.axes),
-        wide=True,
-    )
-    middle = len(again) // 2
-    work.picture(
-        "The angle of the axis",
-        "A(s) from head to tail in a frame in the middle (blue), and what the seven Fourier"
-        " coefficients of its state keep of it (black)",
-        angles_picture(described.angles[middle], again[middle]),
-        wide=True,
-    )
-    work.picture(
-        "The angles through time",
-        "time to the right, the head at the top; a wave that runs down the body is a slanted band",
-        angles_over_time(described.angles),
-        wide=True,
-    )
 
 
 def _tell(work: Work, animal: Animal, built: Built) -> None:

@@ -30,6 +30,17 @@ class AnimalOptions(Options):
     )
 
 
+class FootageOptions(Options):
+    """How the footage is read."""
+
+    fps: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=10_000.0,
+        description="frames a second; else as the video says, 25 for a folder of frames",
+    )
+
+
 class MotionOptions(Options):
     """How its motion is made longer than the footage."""
 
@@ -52,4 +63,5 @@ class FaunaOptions(Options):
     """All that changes the result."""
 
     animal: AnimalOptions = Field(default_factory=AnimalOptions)
+    footage: FootageOptions = Field(default_factory=FootageOptions)
     motion: MotionOptions = Field(default_factory=MotionOptions)

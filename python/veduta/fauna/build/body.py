@@ -10,7 +10,7 @@ from veduta.fauna.build.skeleton import axis_height_m, skin_of, spine_of
 from veduta.fauna.document.schema import Animal
 from veduta.fauna.motion.angles import Floats
 from veduta.place.features import feature_table
-from veduta.place.material import Material
+from veduta.place.material import Material, Texture
 from veduta.place.mesh import Mesh
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.place.skin import Clip
@@ -44,8 +44,8 @@ def slices_along(animal: Animal) -> tuple[Floats, Floats, Floats]:
     return places, *(np.interp(places, at, half) * rounding * length for half in (wide, high))
 
 
-def body_mesh(animal: Animal, clips: tuple[Clip, ...]) -> Mesh:
-    """The skinned mesh with its texture and clips.
+def body_mesh(animal: Animal, clips: tuple[Clip, ...], coat: Texture | None = None) -> Mesh:
+    """The skinned mesh with its texture (None: a painted one) and clips.
 
     The frame is that of `build.skeleton`. UV: u along the body from the head, v around it from the
     belly over its left, the back (0.5) and its right.
@@ -71,7 +71,7 @@ def body_mesh(animal: Animal, clips: tuple[Clip, ...]) -> Mesh:
         positions_m=flat.astype(np.float32),
         triangles=triangles,
         features=feature_table(name, [(SemanticClass.OTHER, provenance, "body")]),
-        materials=(Material("coat", roughness=0.55, texture=painted_coat(animal.kind)),),
+        materials=(Material("coat", roughness=0.55, texture=coat or painted_coat(animal.kind)),),
         triangle_feature=np.zeros(len(triangles), dtype=np.int32),
         triangle_material=np.zeros(len(triangles), dtype=np.int32),
         normals=_normals(positions).reshape(-1, 3).astype(np.float32),

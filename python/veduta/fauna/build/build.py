@@ -17,6 +17,7 @@ from veduta.fauna.motion.states import StateSampling
 from veduta.fauna.motion.wave import FEWEST_CYCLES, Wave, swimming_wave
 from veduta.fauna.options import MotionOptions
 from veduta.place.manifest import AnimalClip, PlaceAnimal, Start
+from veduta.place.material import Texture
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, Standing
 
@@ -35,8 +36,8 @@ class Built:
     doubts: tuple[str, ...]
 
 
-def build_animal(animal: Animal, options: MotionOptions) -> Built:
-    """All that follows from a document, edited or not."""
+def build_animal(animal: Animal, options: MotionOptions, coat: Texture | None = None) -> Built:
+    """All that follows from a document, edited or not, and from its coat."""
     motion = animal.motion
     states = motion.columns()
     times = np.array(motion.frame, dtype=np.float64) * motion.frame_s
@@ -51,7 +52,7 @@ def build_animal(animal: Animal, options: MotionOptions) -> Built:
     gaits += [roam, seen_gait("footage", states, times, speed)]
     spine = spine_of(animal)
     clips = tuple(spine_clip(gait, spine, animal.length.metres) for gait in gaits)
-    return Built(body_mesh(animal, clips), tuple(gaits), wave, tuple(doubts))
+    return Built(body_mesh(animal, clips, coat), tuple(gaits), wave, tuple(doubts))
 
 
 def _wave(animal: Animal, angles: Floats, times: Floats) -> tuple[Wave | None, list[str]]:

@@ -60,6 +60,9 @@ class Body(_Record):
     slices: list[Slice] = Field(min_length=3, max_length=1000)
     widths: Origin
     heights: Origin
+    coat: Literal["coat.png"] | None = Field(
+        default=None, description="the texture beside this file; null: one painted by its kind"
+    )
     score: Share = Field(description="of the widths, as of the length; 0 where none was measured")
 
     @model_validator(mode="after")

@@ -9,8 +9,8 @@ from scipy.optimize import minimize_scalar
 
 from veduta.fauna.motion.angles import Complexes, Floats
 
-FEWEST_CYCLES = 1.2
-"""A wave that the footage does not hold once and a little more is not claimed."""
+FEWEST_CYCLES = 1.0
+"""A wave that the footage does not hold once is not claimed."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -50,9 +50,10 @@ class Tracked:
 
 @dataclass(frozen=True, eq=False)
 class Described:
-    """The document, and the axes in body lengths that it was made from, for the report."""
+    """The document, and what it was made from: the good frames, and their axes in body lengths."""
 
     animal: Animal
+    tracked: Tracked
     axes: Floats
     angles: Floats
     states: Complexes
@@ -95,7 +96,7 @@ def describe(tracked: Tracked, name: str, source: Source, options: FaunaOptions)
         ),
         doubts=doubts,
     )
-    return Described(animal, axes / usual, angles, states)
+    return Described(animal, tracked, axes / usual, angles, states)
 
 
 def _lengths(points: Floats) -> Floats:

@@ -1,0 +1,141 @@
+"""The frames of footage: a video, or a folder of pictures in the order of their names."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.imaging.read import SUFFIXES, read_image
+from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
+
+VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".webm", ".mpg", ".mpeg")
+_MOST_FRAMES = 600
+"""Of longer footage every second, third, ... frame is read."""
+_MOST_BYTES = 3_000_000_000
+_MOST_FILE_BYTES = 20_000_000_000
+_ASSUMED_FPS = 25.0
+_FEWEST = 5
+_REMEDY = "Give a video, or a folder of frames (JPEG, PNG, TIFF, WebP) named in their order."
+
+
+@dataclass(frozen=True, eq=False)
+class Footage:
+    """frames: (t, h, w, 3) uint8 sRGB. number: (t,) of each frame in the record. frame_s: between
+    two that follow in the record. assumed: whether that time was assumed.
+    """
+
+    frames: NDArray[np.uint8]
+    number: NDArray[np.int64]
+    frame_s: float
+    assumed: bool
+
+    @property
+    def size(self) -> tuple[int, int]:
+        """Height and width (px)."""
+        return int(self.frames.shape[1]), int(self.frames.shape[2])
+
+
+def read_footage(path: Path, fps: float | None) -> Footage:
+    """All frames; InputError where there are none, or they cannot be read."""
+    if path.is_dir():
+        frames, number = _folder(path)
+        rate: float | None = None
+    else:
+        frames, number, rate = _video(path)
+    if len(frames) < _FEWEST:
+        fault = f"has {len(frames)} frames: motion is not seen in fewer than {_FEWEST}"
+        raise InputError(path, fault, _REMEDY)
+    assumed = fps is None and rate is None
+    return Footage(frames, number, 1.0 / (fps or rate or _ASSUMED_FPS), assumed)
+
+
+def read_masks(folder: Path, footage: Footage) -> NDArray[np.bool_]:
+    """(t, h, w) the silhouettes in a folder of masks, white on black, one for each frame."""
+    remedy = "Give a mask of the frame's size for each frame, white where the animal is."
+    files = pictures_in(folder)
+    if not files:
+        raise InputError(folder, "holds no masks", remedy)
+    if len(files) <= int(footage.number[-1]):
+        fault = f"holds {len(files)} masks for {int(footage.number[-1]) + 1} frames"
+        raise InputError(folder, fault, remedy)
+    masks = []
+    for number in footage.number:
+        file = files[int(number)]
+        pixels = read_image(file).pixels
+        if pixels.shape[:2] != footage.size:
+            sizes = f"is {pixels.shape[1]} x {pixels.shape[0]} px, and its frame is not"
+            raise InputError(file, sizes, remedy)
+        masks.append(pixels.max(axis=2) > 127)
+    return np.stack(masks)
+
+
+def pictures_in(folder: Path) -> list[Path]:
+    """The pictures in a folder by their names; InputError where there is no such folder."""
+    if not folder.is_dir():
+        raise InputError(folder, "there is no such folder", _REMEDY)
+    files = [path for path in folder.iterdir() if path.suffix.lower() in SUFFIXES]
+    return sorted(files, key=lambda path: path.name)
+
+
+def _step(count: int) -> int:
+    return max(1, -(-count // _MOST_FRAMES))
+
+
+def _folder(path: Path) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
+    files = pictures_in(path)
+    if not files:
+        raise InputError(path, "holds no pictures", _REMEDY)
+    number = np.arange(0, len(files), _step(len(files)))
+    first = read_image(files[0]).pixels
+    _require_room(path, first.nbytes * len(number))
+    frames = np.empty((len(number), *first.shape), dtype=np.uint8)
+    for row, place in enumerate(number):
+        pixels = read_image(files[int(place)]).pixels
+        if pixels.shape != first.shape:
+            fault = f"is {pixels.shape[1]} x {pixels.shape[0]} px, and the first frame is not"
+            raise InputError(files[int(place)], fault, "Give frames of one size.")
+        frames[row] = pixels
+    return frames, number.astype(np.int64)
+
+
+def _video(path: Path) -> tuple[NDArray[np.uint8], NDArray[np.int64], float | None]:
+    try:
+        require_file(path, _MOST_FILE_BYTES)
+    except OSError as error:
+        raise InputError(path, f"cannot be read ({error.strerror})", _REMEDY) from error
+    video = cv2.VideoCapture(str(path))
+    try:
+        if not video.isOpened():
+            raise InputError(path, "is no video that can be read", _REMEDY)
+        told = int(video.get(cv2.CAP_PROP_FRAME_COUNT))
+        rate = float(video.get(cv2.CAP_PROP_FPS))
+        step = _step(max(told, 1))
+        frames: list[NDArray[np.uint8]] = []
+        number: list[int] = []
+        place = 0
+        while len(frames) < _MOST_FRAMES and video.grab():
+            if place % step == 0:
+                read, pixels = video.retrieve()
+                if read:
+                    if not frames:
+                        _require_room(path, pixels.nbytes * min(max(told, 1), _MOST_FRAMES))
+                    frames.append(np.ascontiguousarray(pixels[..., ::-1], dtype=np.uint8))
+                    number.append(place)
+            place += 1
+    finally:
+        video.release()
+    if not frames:
+        raise InputError(path, "is no video that can be read", _REMEDY)
+    known = rate if 0.1 < rate < 10_000.0 else None
+    return np.stack(frames), np.array(number, dtype=np.int64), known
+
+
+def _require_room(path: Path, size: int) -> None:
+    if size > _MOST_BYTES:
+        fault = f"takes {size / 1e9:.1f} GB of memory"
+        raise InputError(path, fault, "Give smaller frames, or fewer of them.")

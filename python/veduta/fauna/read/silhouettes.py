@@ -1,0 +1,161 @@
+"""Silhouettes: what differs from the background and is no shadow, cleaned and followed in time."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.fauna.read.background import Background
+from veduta.run.errors import NotFoundError
+
+Masks = NDArray[np.bool_]
+
+
+@dataclass(frozen=True)
+class SilhouetteLooks:
+    """What an animal's silhouette is, and what it is not."""
+
+    noise: float = 5.0
+    """So many times the noise, a pixel differs from the background."""
+    least: float = 18.0
+    """And by so many grey levels at least."""
+    otsu_share: float = 0.6
+    """And by this share of what parts both kinds of pixels best (Otsu)."""
+    shadow: tuple[float, float] = (0.35, 0.95)
+    """A shadow leaves this share of the background's light, and its colour as it is."""
+    shadow_colour: float = 0.06
+    """How far the shares of the three colours may be from each other in a shadow."""
+    smallest: float = 2e-4
+    """An animal covers this share of a frame at least."""
+    second: float = 0.5
+    """Another thing of this share of the largest one's area is a second animal."""
+    many: float = 0.6
+    """In this share of the frames, for then it is no passing thing."""
+    border: float = 0.01
+    """A silhouette that touches the frame's border along this share of its outline is cut."""
+    spread: float = 0.35
+    """A frame whose area is farther from the usual one by this share is no good frame."""
+
+
+@dataclass(frozen=True, eq=False)
+class Silhouettes:
+    """masks: (t, h, w) bool of the good frames, given by `rows` of the footage. score: (t,) 0..1.
+    left_out: (row, reason) of the others.
+    """
+
+    masks: Masks
+    rows: NDArray[np.int64]
+    score: NDArray[np.float64]
+    left_out: tuple[tuple[int, str], ...]
+
+
+def differing(frames: NDArray[np.uint8], background: Background, looks: SilhouetteLooks) -> Masks:
+    """(t, h, w) where each frame differs from the background and is no shadow on it."""
+    behind = background.pixels.astype(np.int16)
+    found = np.empty(frames.shape[:3], dtype=np.bool_)
+    light = np.maximum(background.pixels.astype(np.float32), 1.0)
+    for row, frame in enumerate(frames):
+        apart = np.abs(frame.astype(np.int16) - behind).max(axis=2).astype(np.uint8)
+        parted, _ = cv2.threshold(apart, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
+        level = max(looks.noise * background.noise, looks.least, looks.otsu_share * float(parted))
+        differs = apart > level
+        share = frame.astype(np.float32) / light
+        low, high = share.min(axis=2), share.max(axis=2)
+        grey = (high - low) < looks.shadow_colour
+        shadow = grey & (low > looks.shadow[0]) & (high < looks.shadow[1])
+        found[row] = differs & ~shadow
+    return found
+
+
+def silhouettes_of(raw: Masks, looks: SilhouetteLooks, what: str) -> Silhouettes:
+    """The animal's own silhouette in each frame; NotFoundError where there is no such thing.
+
+    raw: (t, h, w), everything that differs, or masks that somebody made.
+    """
+    area_px = raw.shape[1] * raw.shape[2]
+    masks = np.zeros_like(raw)
+    areas, seconds = np.zeros(len(raw)), np.zeros(len(raw))
+    cut = np.zeros(len(raw), dtype=np.bool_)
+    before: Masks | None = None
+    for row, mask in enumerate(raw):
+        clean, second = _animal(mask, before)
+        masks[row], areas[row] = clean, float(clean.sum())
+        seconds[row] = second / max(areas[row], 1.0)
+        cut[row] = _touches_border(clean, looks.border)
+        before = clean if areas[row] > looks.smallest * area_px else before
+    seen = areas > looks.smallest * area_px
+    _require_one_animal(seen, seconds, cut, looks, what)
+    usual = float(np.median(areas[seen & ~cut]))
+    spread = np.abs(areas - usual) / usual
+    reasons = {
+        "nothing differs from the background there": ~seen,
+        "the frame's border cuts the animal": seen & cut,
+        "its silhouette is not as large as in the others": seen & ~cut & (spread > looks.spread),
+    }
+    left_out = [
+        (int(row), reason) for reason, rows in reasons.items() for row in np.flatnonzero(rows)
+    ]
+    good = seen & ~cut & (spread <= looks.spread)
+    score = np.clip(1.0 - spread, 0.0, 1.0) * np.clip(1.0 - seconds, 0.0, 1.0)
+    return Silhouettes(masks[good], np.flatnonzero(good), score[good], tuple(sorted(left_out)))
+
+
+def _require_one_animal(
+    seen: Masks, seconds: NDArray[np.float64], cut: Masks, looks: SilhouetteLooks, what: str
+) -> None:
+    if seen.sum() < 2:
+        raise NotFoundError(
+            "an animal",
+            f"nothing in {what} differs from its background in more than {int(seen.sum())} frames",
+            "Give a background image (--background) or masks (--masks), or other footage.",
+        )
+    double = float((seconds[seen] > looks.second).mean())
+    if double > looks.many:
+        raise NotFoundError(
+            "one animal",
+            f"two things of nearly the same size differ from the background in {double:.0%} of"
+            " the frames",
+            "Give masks of one of them (--masks), or cut the footage to it.",
+        )
+    if not (seen & ~cut).any():
+        raise NotFoundError(
+            "the whole animal",
+            f"the border of the frame cuts it in all {int(seen.sum())} frames that show it",
+            "Give footage in which it is seen whole.",
+        )
+
+
+def _animal(mask: Masks, before: Masks | None) -> tuple[Masks, float]:
+    """The thing that is the animal, without gaps, and the area of the next largest.
+
+    It is the one that overlaps most with what it was before; at the beginning the largest one.
+    """
+    shape = mask.astype(np.uint8)
+    shape = cv2.morphologyEx(shape, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
+    shape = cv2.morphologyEx(shape, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    count, labels, stats, _ = cv2.connectedComponentsWithStats(shape, connectivity=8)
+    if count < 2:
+        return np.zeros_like(mask), 0.0
+    areas = stats[1:, cv2.CC_STAT_AREA].astype(np.float64)
+    worth = areas.copy()
+    if before is not None:
+        reach = cv2.dilate(before.astype(np.uint8), np.ones((9, 9), np.uint8)) > 0
+        inside = np.bincount(labels[reach], minlength=count)[1:]
+        worth = areas * (0.1 + inside / np.maximum(areas, 1.0))
+    chosen = int(worth.argmax())
+    rest = np.delete(areas, chosen)
+    outline, _ = cv2.findContours(
+        (labels == chosen + 1).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
+    )
+    filled = np.zeros_like(shape)
+    cv2.drawContours(filled, outline, -1, 1, cv2.FILLED)
+    return filled.astype(np.bool_), float(rest.max()) if len(rest) else 0.0
+
+
+def _touches_border(mask: Masks, share: float) -> bool:
+    border = sum(int(edge.sum()) for edge in (mask[0], mask[-1], mask[:, 0], mask[:, -1]))
+    outline = np.sqrt(float(mask.sum())) * 4.0
+    return border > share * outline

@@ -1,0 +1,162 @@
+"""Reading a record of an animal: midlines, or footage; what was seen goes into the report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.fauna.document.coat import COAT
+from veduta.fauna.document.schema import Source
+from veduta.fauna.motion.angles import angles_of
+from veduta.fauna.options import FaunaOptions
+from veduta.fauna.pictures import angles_over_time, angles_picture, axes_picture
+from veduta.fauna.read.coat import coat_from_above
+from veduta.fauna.read.footage import Footage, read_footage
+from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
+from veduta.fauna.read.midlines import read_midlines
+from veduta.fauna.read.overlap import drawn_body, overlap
+from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
+from veduta.fauna.seen_pictures import silhouettes_picture
+from veduta.place.material import Texture
+from veduta.run.digests import file_digest
+from veduta.run.work import Work
+
+
+@dataclass(frozen=True)
+class Record:
+    """What the user gives: the footage, and perhaps masks and a background picture."""
+
+    path: Path
+    masks: Path | None = None
+    background: Path | None = None
+
+
+@dataclass(frozen=True, eq=False)
+class Read:
+    """What came of it; coat: None where the record shows no skin."""
+
+    described: Described
+    coat: Texture | None
+
+
+def read_record(work: Work, record: Record, options: FaunaOptions) -> Read:
+    """The document of the animal in the record, and its coat."""
+    if record.path.suffix.lower() == ".csv":
+        with work.step("axis") as step:
+            tracked = read_midlines(record.path)
+            read = Read(_described(record, tracked, options), None)
+            step.rejected.extend(read.described.animal.source.left_out)
+    else:
+        read = _from_footage(work, record, options)
+    _tell_axes(work, read.described)
+    return read
+
+
+def _described(record: Record, tracked: Tracked, options: FaunaOptions) -> Described:
+    path = record.path
+    source = Source(
+        file=path.name,
+        sha256=file_digest(path) if path.is_file() else "",
+        frames=max(1, len(tracked.points) + len(tracked.left_out)),
+        used=max(1, len(tracked.points)),
+    )
+    return describe(tracked, path.stem, source, options)
+
+
+def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
+    with work.step("frames") as step:
+        footage = read_footage(record.path, options.footage.fps)
+        step.counts["frames"] = len(footage.frames)
+    if footage.assumed:
+        work.doubt(
+            f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
+            " assumed (--fps)"
+        )
+    with work.step("silhouettes") as step:
+        found, background = silhouettes_in(
+            footage, record.masks, record.background, record.path.name
+        )
+        step.counts["good"] = len(found.rows)
+        step.rejected.extend(f"frame {footage.number[row]}: {why}" for row, why in found.left_out)
+    if background is not None and background.filled > 0.0:
+        work.note(
+            f"{background.filled:.2%} of the background is never seen: the animal stays there, and"
+            " it was filled from around"
+        )
+    with work.step("axis") as step:
+        seen = Seen(found, axes_in(found), background)
+        described = _described(record, tracked_axes(footage, seen), options)
+        step.counts["used"] = described.animal.source.used
+    with work.step("coat"):
+        read = _with_coat(footage, described)
+    _tell_silhouettes(work, footage, seen, read.described)
+    return read
+
+
+def _with_coat(footage: Footage, described: Described) -> Read:
+    """The footage's colours; the document names them."""
+    animal, tracked = described.animal, described.tracked
+    rows = np.searchsorted(footage.number, tracked.frame)
+    points, half = _in_pixels(footage, described)
+    coat = coat_from_above(footage.frames[rows], points, half)
+    body = animal.body.model_copy(update={"coat": COAT})
+    return Read(replace(described, animal=animal.model_copy(update={"body": body})), coat)
+
+
+def _in_pixels(
+    footage: Footage, described: Described
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """(t, n, 2) the axes, y down, and (n,) the body's half width along them."""
+    points = described.tracked.points.copy()
+    points[..., 1] = footage.size[0] - points[..., 1]
+    slices = described.animal.body.slices
+    lengths = np.linalg.norm(np.diff(points, axis=1), axis=2).sum(axis=1)
+    along = np.linspace(0.0, 1.0, points.shape[1])
+    share = np.interp(along, [piece.at for piece in slices], [piece.half_width for piece in slices])
+    return points, share * float(np.median(lengths))
+
+
+def _tell_silhouettes(work: Work, footage: Footage, seen: Seen, described: Described) -> None:
+    points, half = _in_pixels(footage, described)
+    rows = np.searchsorted(footage.number, described.tracked.frame)
+    place = {int(row): number for number, row in enumerate(seen.silhouettes.rows)}
+    scores = [
+        overlap(drawn_body(line, half, footage.size), seen.silhouettes.masks[place[int(row)]])
+        for line, row in zip(points, rows, strict=True)
+    ]
+    work.measure("silhouette_iou_median", float(np.median(scores)))
+    work.measure("silhouette_iou_worst", float(np.min(scores)))
+    work.picture(
+        "Silhouettes and their axis",
+        "six of the good frames: the silhouette's outline (red), the axis (green), its head (dot)",
+        silhouettes_picture(footage, seen, points, rows),
+        wide=True,
+    )
+
+
+def _tell_axes(work: Work, described: Described) -> None:
+    """Figure 11 for this animal."""
+    again = angles_of(described.states, SAMPLES)
+    work.picture(
+        "The axis through the footage",
+        "early frames blue, late ones red; a dot at the head",
+        axes_picture(described.axes),
+        wide=True,
+    )
+    middle = len(again) // 2
+    work.picture(
+        "The angle of the axis",
+        "A(s) from head to tail in a frame in the middle (blue), and what the seven Fourier"
+        " coefficients of its state keep of it (black)",
+        angles_picture(described.angles[middle], again[middle]),
+        wide=True,
+    )
+    work.picture(
+        "The angles through time",
+        "time to the right, the head at the top; a wave that runs down the body is a slanted band",
+        angles_over_time(described.angles),
+        wide=True,
+    )

@@ -1,0 +1,47 @@
+"""The report's picture of what was seen: outlines and axes over the frames."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.fauna.motion.angles import Floats
+from veduta.fauna.read.footage import Footage
+from veduta.fauna.read.limbless import Seen
+
+_PANELS = 6
+_SIDE = 380
+_OUTLINE, _AXIS = (214, 48, 40), (40, 190, 70)
+
+
+def silhouettes_picture(
+    footage: Footage, seen: Seen, points: Floats, rows: NDArray[np.int64]
+) -> NDArray[np.uint8]:
+    """Six frames side by side in two lines, cut to where the animal goes.
+
+    points: (t, n, 2) px, y down, of the frames `rows` of the footage.
+    """
+    place = {int(row): number for number, row in enumerate(seen.silhouettes.rows)}
+    low = np.maximum(points.min(axis=(0, 1)) - 25.0, 0.0)
+    high = np.minimum(points.max(axis=(0, 1)) + 25.0, [footage.size[1], footage.size[0]])
+    (left, top), (right, bottom) = low.astype(int), high.astype(int)
+    scale = _SIDE / max(bottom - top, 1)
+    scale = min(scale, 1.4 * _SIDE / max(right - left, 1))
+    panels = []
+    for number in np.linspace(0, len(rows) - 1, _PANELS).round().astype(int):
+        row = int(rows[number])
+        cut = footage.frames[row][top:bottom, left:right]
+        panel = cv2.resize(cut, None, fx=scale, fy=scale, interpolation=cv2.INTER_AREA)
+        mask = seen.silhouettes.masks[place[row]][top:bottom, left:right].astype(np.uint8)
+        large = cv2.resize(mask, panel.shape[1::-1], interpolation=cv2.INTER_NEAREST)
+        outlines, _ = cv2.findContours(large, cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
+        cv2.drawContours(panel, outlines, -1, _OUTLINE, 1, cv2.LINE_AA)
+        line = np.round((points[number] - [left, top]) * scale * 8).astype(np.int32)
+        cv2.polylines(panel, [line], False, _AXIS, 2, cv2.LINE_AA, shift=3)
+        head = (int(line[0, 0]), int(line[0, 1]))
+        cv2.circle(panel, head, 4 * 8, _AXIS, -1, cv2.LINE_AA, shift=3)
+        panels.append(cv2.copyMakeBorder(panel, 2, 2, 2, 2, cv2.BORDER_CONSTANT, value=(255,) * 3))
+    half = _PANELS // 2
+    rows_of = [np.hstack(panels[:half]), np.hstack(panels[half:])]
+    return np.ascontiguousarray(np.vstack(rows_of), dtype=np.uint8)
