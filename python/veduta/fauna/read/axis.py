@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter1d, map_coordinates
-from scipy.sparse import coo_array
+from scipy.sparse import coo_array, csr_array
 from scipy.sparse.csgraph import dijkstra
 
 from veduta.fauna.motion.angles import Floats, equal_steps
@@ -43,10 +43,11 @@ def medial_axis(mask: NDArray[np.bool_], count: int) -> Axis | None:
     cropped = np.pad(mask[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1], 4)
     factor = float(np.clip(_LARGEST_PX / max(cropped.shape), 0.0, 1.0))
     factor = max(factor, min(4.0, _SMALLEST_PX / max(cropped.shape)))
-    soft = cv2.resize(
+    resized = cv2.resize(
         cv2.GaussianBlur(cropped.astype(np.float32), (0, 0), 0.8), None, fx=factor, fy=factor,
         interpolation=cv2.INTER_AREA if factor < 1.0 else cv2.INTER_CUBIC,
     )  # fmt: skip
+    soft = np.asarray(resized, dtype=np.float32)
     way = _longest_way(soft > 0.5)
     if way is None or len(way) < 8:
         return None
@@ -77,9 +78,10 @@ def _longest_way(mask: NDArray[np.bool_]) -> Floats | None:
         second.append(other[joined])
         length.append(np.full(int(joined.sum()), float(np.hypot(down, right))))
     shape = (len(x), len(x))
-    graph = coo_array(
+    pairs = coo_array(
         (np.concatenate(length), (np.concatenate(first), np.concatenate(second))), shape=shape
-    ).tocsr()
+    )
+    graph = csr_array(pairs)
     start = int(_farthest(graph, 0)[0])
     end, before = _farthest(graph, start)
     way = [end]
@@ -88,7 +90,7 @@ def _longest_way(mask: NDArray[np.bool_]) -> Floats | None:
     return np.stack([x[way], y[way]], axis=1).astype(np.float64)
 
 
-def _farthest(graph: coo_array, start: int) -> tuple[int, NDArray[np.int32]]:
+def _farthest(graph: csr_array, start: int) -> tuple[int, NDArray[np.int32]]:
     """The pixel that is farthest from one, and the way back from it."""
     found = dijkstra(graph, directed=False, indices=np.array([start]), return_predecessors=True)
     away = np.where(np.isfinite(found[0][0]), found[0][0], -1.0)

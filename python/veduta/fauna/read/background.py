@@ -57,10 +57,7 @@ def estimated_background(frames: Pixels, looks: BackgroundLooks) -> Background:
     level = max(looks.noise * noise, looks.least)
     apart = np.abs(few.astype(np.int16) - median).max(axis=3)
     own = float(np.median((apart > level).sum(axis=(1, 2))))
-    varied = cv2.morphologyEx(
-        (apart.max(axis=0) > level).astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8)
-    )
-    place = _largest_filled(varied)
+    place = _largest_filled(apart.max(axis=0) > level)
     if own <= 0.0 or float(place.sum()) > looks.stays * own:
         return Background(median, noise, 0.0, given=False)
     reach = max(3, round(0.1 * float(np.sqrt(place.sum()))))
@@ -83,17 +80,18 @@ def _noise(frames: Pixels, background: Pixels) -> float:
     return float(1.4826 * np.median(apart)) + 0.5
 
 
-def _largest_filled(varied: NDArray[np.uint8]) -> NDArray[np.uint8]:
+def _largest_filled(changed: NDArray[np.bool_]) -> NDArray[np.uint8]:
     """The largest connected place, closed over gaps, with what it encloses."""
+    varied = cv2.morphologyEx(changed.astype(np.uint8), cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
     size = max(3, round(0.02 * max(varied.shape)) | 1)
     closed = cv2.morphologyEx(varied, cv2.MORPH_CLOSE, np.ones((size, size), np.uint8))
     count, labels, stats, _ = cv2.connectedComponentsWithStats(closed, connectivity=8)
     if count < 2:
-        return np.zeros_like(varied)
+        return np.zeros(changed.shape, dtype=np.uint8)
     row = 1 + int(stats[1:, cv2.CC_STAT_AREA].argmax())
     outlines, _ = cv2.findContours(
         (labels == row).astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE
     )
-    filled = np.zeros_like(varied)
+    filled = np.zeros(changed.shape, dtype=np.uint8)
     cv2.drawContours(filled, outlines, -1, 1, cv2.FILLED)
     return filled

@@ -28,6 +28,8 @@ class SilhouetteLooks:
     """A shadow leaves this share of the background's light, and its colour as it is."""
     shadow_colour: float = 0.06
     """How far the shares of the three colours may be from each other in a shadow."""
+    blur_px: float = 1.2
+    """Of the frame, where shadows are told by their colour."""
     smallest: float = 2e-4
     """An animal covers this share of a frame at least."""
     second: float = 0.5
@@ -62,9 +64,10 @@ def differing(frames: NDArray[np.uint8], background: Background, looks: Silhouet
         parted, _ = cv2.threshold(apart, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
         level = max(looks.noise * background.noise, looks.least, looks.otsu_share * float(parted))
         differs = apart > level
-        share = frame.astype(np.float32) / light
+        # One pixel's noise would be a colour of its own.
+        share = cv2.GaussianBlur(frame, (0, 0), looks.blur_px).astype(np.float32) / light
         low, high = share.min(axis=2), share.max(axis=2)
-        grey = (high - low) < looks.shadow_colour
+        grey = (high - low) < looks.shadow_colour + background.noise / light.mean(axis=2)
         shadow = grey & (low > looks.shadow[0]) & (high < looks.shadow[1])
         found[row] = differs & ~shadow
     return found
@@ -133,9 +136,8 @@ def _animal(mask: Masks, before: Masks | None) -> tuple[Masks, float]:
 
     It is the one that overlaps most with what it was before; at the beginning the largest one.
     """
-    shape = mask.astype(np.uint8)
-    shape = cv2.morphologyEx(shape, cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
-    shape = cv2.morphologyEx(shape, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
+    closed = cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_CLOSE, np.ones((5, 5), np.uint8))
+    shape = cv2.morphologyEx(closed, cv2.MORPH_OPEN, np.ones((3, 3), np.uint8))
     count, labels, stats, _ = cv2.connectedComponentsWithStats(shape, connectivity=8)
     if count < 2:
         return np.zeros_like(mask), 0.0
@@ -158,4 +160,4 @@ def _animal(mask: Masks, before: Masks | None) -> tuple[Masks, float]:
 def _touches_border(mask: Masks, share: float) -> bool:
     border = sum(int(edge.sum()) for edge in (mask[0], mask[-1], mask[:, 0], mask[:, -1]))
     outline = np.sqrt(float(mask.sum())) * 4.0
-    return border > share * outline
+    return bool(border > share * outline)
