@@ -760,3 +760,59 @@ def weigh_models(
     of the former. Each comes with the matches that it explains; the errors of the fundamental matrix
     are the noise, of `least_sigma_px` at least.
     """
+
+# walk.rs
+class WalkFault(ValueError): ...
+
+def walk_label_costs(
+    first: Sequence[_Array2[np.float32]],
+    second: Sequence[_Array2[np.float32]],
+    scales: Sequence[float],
+    own: _Array2[np.float32],
+    there: _Array2[np.float32],
+    scale: _Array1[np.int32],
+    lines: _Array2[np.float32],
+    offsets: _Array2[np.float32],
+    steps: _Array1[np.int32],
+    *,
+    radius: int,
+    band_px: float,
+    noise: float,
+) -> _Array2[np.float32]:
+    """The cost of each label (columns) at each node (rows): 1 - correlation, 4 where it lies outside.
+
+    first, second: grey images, each shrunk by each of the scales. own, there: (n, 2) where a node
+    lies in `first` and, by geometry, in `second` (px of the unshrunk images). scale: (n) index of
+    its scale; negative: it is the larger in `first`. lines: (n, 3) epipolar lines in `second` of
+    unit normal, 0 for none. offsets: (l, 2) px in `second`; steps: (l) along the scales.
+    """
+
+def walk_potts(
+    costs: _Array2[np.float32],
+    node: _Array2[np.int32],
+    right: _Array2[np.float32],
+    down: _Array2[np.float32],
+    solver: str,
+    *,
+    rounds: int,
+) -> tuple[_Array1[np.uint32], float, float]:
+    """A labelling of low Potts energy, its energy, and what no labelling goes below.
+
+    costs: (n, l). node: (rows, columns) the numbers of the nodes row by row, -1 for none. right,
+    down: the weight between a node and the one on its right, below it. solver: "trws" or "icm".
+    """
+
+def walk_rasterise(
+    screen: _Array2[np.float32],
+    carried: _Array2[np.float32],
+    triangles: _Array2[np.uint32],
+    width: int,
+    height: int,
+    *,
+    near: float,
+) -> tuple[_Array2[np.float32], _Array2[np.float32], _Array2[np.int32]]:
+    """Triangles drawn: (h, w) depth, infinite where nothing is; (h w, c) what the surface carries there;
+    (h, w) which triangle it is, -1 for none.
+
+    screen: (v, 3) x and y (px) and depth (m) of the vertices. carried: (v, c). triangles: (t, 3).
+    """

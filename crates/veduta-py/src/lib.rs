@@ -28,6 +28,7 @@ mod tile_buffers;
 mod tiles;
 mod two_views;
 mod volumes;
+mod walk;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
@@ -46,5 +47,6 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     texture::register(m)?;
     tile_buffers::register(m)?;
     two_views::register(m)?;
-    polygons::register(m)
+    polygons::register(m)?;
+    walk::register(m)
 }

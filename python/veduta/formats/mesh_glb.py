@@ -106,6 +106,9 @@ def _attributes(
     for name, uv in (("TEXCOORD_0", mesh.uv), ("TEXCOORD_1", mesh.uv_second)):
         if uv is not None:
             attributes[name] = binary.add_array(uv[used], "VEC2")
+    for name, values in mesh.values.items():
+        column = values[used].astype(np.float32)[:, None]
+        attributes[f"_{name.upper()}"] = binary.add_array(column, "SCALAR")
     if mesh.colours is not None:
         shares = linear_of_srgb(mesh.colours[used].astype(np.float64) / 255.0)
         opaque = np.column_stack([shares, np.ones(len(used))])

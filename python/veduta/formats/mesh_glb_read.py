@@ -70,6 +70,11 @@ def _mesh(glb: Glb) -> Mesh:
         clips=() if skin is None else tuple(_clips(glb, skin)),
         attributes=dict(told.get("attributes", {})),
         notes=tuple(told.get("notes", ())),
+        values={
+            name[1:].lower(): column
+            for name, column in joined.items()
+            if name.startswith("_") and name != "_FEATURE_ID_0"
+        },
         extras={name: value for name, value in told.items() if name not in _OWN},
     )
 

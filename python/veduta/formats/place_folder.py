@@ -53,6 +53,7 @@ def save_place(place: Place, folder: Path) -> None:
         cameras=place.cameras,
         tours=place.tours,
         animals=place.animals,
+        walks=place.walks,
         scale=place.scale,
         sun=place.sun,
         start=place.start or chosen_start(place),
@@ -70,8 +71,9 @@ def load_place(folder: Path) -> Place:
     told = read_place(folder / MANIFEST)
     place = Place(
         told.title, told.description, told.author, told.licence, tuple(told.languages),
-        told.crs, told.origin, told.scale, cameras=told.cameras, tours=told.tours, sun=told.sun,
-        start=told.start, folder=folder, tileset=told.tileset, animals=told.animals,
+        told.crs, told.origin, told.scale, cameras=told.cameras, tours=told.tours,
+        walks=told.walks, sun=told.sun, start=told.start, folder=folder, tileset=told.tileset,
+        animals=told.animals,
     )  # fmt: skip
     for row in told.parts:
         place.parts[row.id] = _placed(row, folder)
@@ -85,11 +87,20 @@ def load_place(folder: Path) -> Place:
 def chosen_start(place: Place) -> manifest.Start:
     """A view of the whole from the south-west, a little from above; at eye height where it fits."""
     box = place.bounds_m()
+    if place.walks:
+        return _walk_start(place.walks[0])
     if box is None:
         return manifest.Start(eye=(0.0, -5.0, EYE_HEIGHT_M), target=(0.0, 0.0, EYE_HEIGHT_M))
     middle, size = (box[0] + box[1]) / 2.0, float(np.linalg.norm(box[1] - box[0]))
     eye = middle + size * np.array([-0.45, -0.95, 0.35])
     return manifest.Start(eye=_vector(eye), target=_vector(middle))
+
+
+def _walk_start(walk: manifest.Walk) -> manifest.Start:
+    """Where the way begins, and as one looks there."""
+    matrix = np.array(walk.keys[0].transform).reshape(4, 4).T
+    eye, ahead = matrix[:3, 3], matrix[:3, 2]
+    return manifest.Start(eye=_vector(eye), target=_vector(eye + 5.0 * ahead))
 
 
 def _file_name(identity: str, number: int) -> str:

@@ -168,6 +168,58 @@ class PlaceAnimal(_Record):
     closed: bool = Field(default=False, description="whether the path ends where it begins")
 
 
+class WalkKey(_Record):
+    """A position on the way of a walk. Camera frame: x right, y down, z forward."""
+
+    id: str = Field(min_length=1, max_length=256)
+    picture: RelativePath = Field(description="what is seen there, without the lens's distortion")
+    width_px: int = Field(gt=0)
+    height_px: int = Field(gt=0)
+    focal_px: tuple[Positive, Positive] = Field(description="along x and y, of the picture")
+    centre_px: tuple[Finite, Finite] = Field(description="principal point, of the picture")
+    transform: Matrix = Field(description="world_from_camera, 4x4, column-major")
+
+
+class WalkTransition(_Record):
+    """The way between two key positions, and how one view becomes the other."""
+
+    start: int = Field(ge=0, description="number of the key position where it begins")
+    end: int = Field(ge=0, description="number of the one where it ends")
+    kind: Literal["morph", "fade", "cut"]
+    forth: RelativePath | None = Field(
+        default=None,
+        description="glTF of the start's model, in its camera's frame: a morph target of where it"
+        " ends, and a second set of texture coordinates in the end's picture",
+    )
+    back: RelativePath | None = Field(default=None, description="the same of the end's model")
+    score_db: Finite | None = Field(
+        default=None, description="how well one end's view was predicted from the other's (PSNR)"
+    )
+
+    @model_validator(mode="after")
+    def _morphs_have_models(self) -> Self:
+        if self.kind == "morph" and (self.forth is None or self.back is None):
+            raise ValueError("a transition that morphs names no models")
+        return self
+
+
+class Walk(_Record):
+    """A way along key positions on which geometry and texture morph from view to view."""
+
+    id: str = Field(min_length=1, max_length=256)
+    name: str
+    document: RelativePath | None = None
+    speed_m_s: Positive = Field(default=1.4, description="at which it is played")
+    keys: list[WalkKey] = Field(min_length=1, max_length=20_000)
+    transitions: list[WalkTransition] = Field(max_length=100_000)
+
+    @model_validator(mode="after")
+    def _transitions_are_between_keys(self) -> Self:
+        if any(max(one.start, one.end) >= len(self.keys) for one in self.transitions):
+            raise ValueError(f"a transition of walk {self.id!r} has an end that is not there")
+        return self
+
+
 class PlaceSun(_Record):
     """Where the place is on the earth and when it is looked at: by these the sun stands."""
 
@@ -211,6 +263,7 @@ class Place(_Record):
     cameras: list[PlaceCamera] = Field(default=[], max_length=100_000)
     tours: list[Tour] = Field(default=[], max_length=100)
     animals: list[PlaceAnimal] = Field(default=[], max_length=1000)
+    walks: list[Walk] = Field(default=[], max_length=100)
     scale: Literal["metres", "unknown"] = Field(
         default="metres", description="unknown: the unit of length is not the metre, but any"
     )
@@ -222,6 +275,7 @@ class Place(_Record):
         for kind, items in (
             ("parts", self.parts), ("cameras", self.cameras), ("tours", self.tours),
             ("animals", self.animals),
+            ("walks", self.walks),
         ):  # fmt: skip
             seen: set[str] = set()
             for item in items:
@@ -235,22 +289,22 @@ class Place(_Record):
         return self
 
 
-LATER = frozenset({"title", "description", "author", "licence", "languages", "animals"})
+LATER = frozenset({"title", "description", "author", "licence", "languages", "animals", "walks"})
 """What manifests have said only since some time: it is left out of the file where nothing is said,
 so that places that say nothing of it are written as they were."""
 
-Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour, PlaceAnimal)
-_FILES = {"model", "city_model", "document", "photo", "file", "picture"}
+Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour, PlaceAnimal, Walk)
+_FILES = {"model", "city_model", "document", "photo", "file", "picture", "forth", "back"}
 
 
 def merge(first: Place, second: Place, second_folder: str = "") -> Place:
     """Join two places into one in the frame of the first.
 
     The rule: both are in the same CRS (or both in none), and both have a scale. Parts, points,
-    cameras and tours of the second move by the difference of the origins, and their files are
-    looked for below `second_folder`. One that both have under one id is kept once if it is the same
-    in all that it says, and refused otherwise: an id names one thing. They keep their order, the
-    first place's before the second's; the start and the sun are the first's.
+    cameras, tours and walks of the second move by the difference of the origins, and their files
+    are looked for below `second_folder`. One that both have under one id is kept once if it is the
+    same in all that it says, and refused otherwise: an id names one thing. They keep their order,
+    the first place's before the second's; the start and the sun are the first's.
     """
     if first.crs != second.crs:
         raise InputError(
@@ -271,6 +325,7 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
         "cameras": _joined("camera", first.cameras, second.cameras, shift, second_folder),
         "tours": _joined("tour", first.tours, second.tours, shift, second_folder),
         "animals": _joined("animal", first.animals, second.animals, shift, second_folder),
+        "walks": _joined("walk", first.walks, second.walks, shift, second_folder),
         "tileset": None,  # the tiles of one do not show the other
     }
     return first.model_copy(update=update)
@@ -300,12 +355,28 @@ def _moved(item: Item, shift_m: list[float], folder: str) -> Item:
     if isinstance(item, PlaceAnimal):
         update = {"path": (np.array(item.path) + shift_m).tolist()}
         return type(item).model_validate(item.model_dump() | update)
+    if isinstance(item, Walk):
+        keys = [one.model_copy(update=_placed(one, shift_m, folder)) for one in item.keys]
+        ways = [one.model_copy(update=_filed(one, folder)) for one in item.transitions]
+        update = {"keys": keys, "transitions": ways, **_filed(item, folder)}
+        return item.model_copy(update=update)
+    return type(item).model_validate(item.model_dump() | _placed(item, shift_m, folder))
+
+
+def _placed(
+    item: PlacePart | PlacePoints | PlaceCamera | WalkKey, shift_m: list[float], folder: str
+) -> dict[str, object]:
     transform = list(item.transform)
     for axis in range(3):
         transform[12 + axis] += shift_m[axis]
-    update = {"transform": tuple(transform)}
+    return {"transform": tuple(transform), **_filed(item, folder)}
+
+
+def _filed(item: BaseModel, folder: str) -> dict[str, object]:
+    """The files of an item, below the folder."""
+    update: dict[str, object] = {}
     for field in _FILES & set(type(item).model_fields):
         path = getattr(item, field)
         if path is not None and folder:
             update[field] = str(PurePosixPath(folder) / path)
-    return type(item).model_validate(item.model_dump() | update)
+    return update

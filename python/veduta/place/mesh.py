@@ -33,6 +33,7 @@ class Mesh:
     triangle_feature, triangle_material: (m,) int32. normals: (v, 3) float32, unit; None: smooth
     ones are made where they are needed. uv, uv_second: (v, 2) float32, glTF's: origin at the
     texture's upper left. colours: (v, 3) uint8 sRGB, which multiply the material's colour.
+    values: further numbers of the vertices, (v,) float32 by name (in the file `_NAME`).
     extras: what a verb has to tell its player in the studio, under names of its own.
     """
 
@@ -53,6 +54,7 @@ class Mesh:
     attributes: Mapping[str, str | int | float] = field(default_factory=dict)
     notes: tuple[str, ...] = ()
     extras: Mapping[str, JsonValue] = field(default_factory=dict)
+    values: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         vertices, faces = len(self.positions_m), len(self.triangles)
@@ -80,6 +82,7 @@ class Mesh:
         """ValueError where a column of the vertices has another length."""
         columns: list[NDArray[Any] | None]
         columns = [self.normals, self.uv, self.uv_second, self.colours]
+        columns += [*self.values.values()]
         columns += [morph.positions_m for morph in self.morphs]
         columns += [] if self.skin is None else [self.skin.joints]
         if any(column is not None and len(column) != count for column in columns):

@@ -9,18 +9,28 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from pathlib import Path
-from typing import Literal
+from typing import Literal, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.place.manifest import PlaceAnimal, PlaceCamera, PlacePart, PlaceSun, Start, Tour
+from veduta.place.manifest import (
+    PlaceAnimal,
+    PlaceCamera,
+    PlacePart,
+    PlaceSun,
+    Start,
+    Tour,
+    Walk,
+    WalkKey,
+)
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.registry import folders, format_of
 from veduta.run.errors import InputError
 
 Vector = tuple[float, float, float]
+Camera = TypeVar("Camera", PlaceCamera, WalkKey)
 
 
 def _identity() -> NDArray[np.float64]:
@@ -108,6 +118,7 @@ class Place:
     cameras: list[PlaceCamera] = field(default_factory=list)
     tours: list[Tour] = field(default_factory=list)
     animals: list[PlaceAnimal] = field(default_factory=list)
+    walks: list[Walk] = field(default_factory=list)
     sun: PlaceSun | None = None
     start: Start | None = None
     """Where a visitor begins; None: chosen where the place is saved."""
@@ -170,6 +181,7 @@ class Place:
             cameras=[*self.cameras, *(_moved_camera(one, shift) for one in other.cameras)],
             tours=[*self.tours, *(_moved_tour(one, shift) for one in other.tours)],
             animals=[*self.animals, *(_moved_animal(one, shift) for one in other.animals)],
+            walks=[*self.walks, *(_moved_walk(one, shift) for one in other.walks)],
         )  # fmt: skip
         for placed in other.parts.values():
             standing = replace(placed.standing, transform=shift @ placed.standing.transform)
@@ -203,7 +215,11 @@ def _moved_cloud(cloud: Cloud, shift: NDArray[np.float64]) -> Cloud:
     return replace(cloud, points_m=cloud.points_m + shift[:3, 3])
 
 
-def _moved_camera(camera: PlaceCamera, shift: NDArray[np.float64]) -> PlaceCamera:
+def _moved_walk(walk: Walk, shift: NDArray[np.float64]) -> Walk:
+    return walk.model_copy(update={"keys": [_moved_camera(key, shift) for key in walk.keys]})
+
+
+def _moved_camera(camera: Camera, shift: NDArray[np.float64]) -> Camera:
     matrix = shift @ np.array(camera.transform).reshape(4, 4).T
     return camera.model_copy(update={"transform": tuple(matrix.T.ravel().tolist())})
 

@@ -21,9 +21,13 @@ def part_files(folder: Path) -> dict[str, Path]:
     if place.tileset is not None:
         files = {name: _inside(folder, name) for name in _tiles(folder, place.tileset)}
     needed = [part.model for part in place.parts] + [cloud.file for cloud in place.points]
+    for walk in place.walks:
+        needed += [key.picture for key in walk.keys]
+        needed += [name for way in walk.transitions for name in (way.forth, way.back) if name]
     beside = [camera.picture for camera in place.cameras]
     for part in place.parts:
         beside += [name for name in (part.photo, part.city_model, part.document) if name]
+    beside += [walk.document for walk in place.walks if walk.document]
     must = set(needed)
     for name in needed + beside:
         path = _inside(folder, name)

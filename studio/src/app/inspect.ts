@@ -4,6 +4,7 @@
  * degrees. The page says that it is ready (or failed) in `<html data-veduta="ready|error">`.
  */
 import type { Feature } from "../core/features.ts";
+import type { MorphState } from "../core/morph-walk.ts";
 import { roomsOf } from "../core/room-map.ts";
 import type { StudioState } from "../core/state.ts";
 import { stretchAt } from "../core/tour.ts";
@@ -40,6 +41,8 @@ export interface Inspection {
   tour(): { time_s: number; playing: boolean; room: string } | null;
   /** The animals, where they are, and how far each is on its pace (0..1). */
   animals(): { id: string; place: Vec3; pace: number }[];
+  /** Where one is on a walk from view to view; null where one is on none. */
+  stroll(): MorphState | null;
   bounds(): { min: Vec3; max: Vec3 };
   stats(): ViewerStats & { load_s: number };
 }
@@ -116,6 +119,7 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
         : { ...at, room: stretchAt(tour, at.time_s)?.name ?? "" };
     },
     animals: () => viewer.animals.states,
+    stroll: () => store.value.morph,
     bounds: () => viewer.solid.bounds,
     stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
   };

@@ -4,6 +4,7 @@ import { budgetOf } from "../core/budget.ts";
 import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
 import type { House } from "../core/house.ts";
+import type { MorphState } from "../core/morph-walk.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
@@ -50,12 +51,13 @@ export async function openPlace(
     import("../three/frusta.ts"),
     import("../three/houses.ts"),
     import("../three/load.ts"),
+    import("../three/morph-show.ts"),
     import("../three/photo-textures.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ loadClouds }, { fetchText }, { Frusta }, { loadHouses }, { loadParts }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
+  const [{ loadClouds }, { fetchText }, { Frusta }, { loadHouses }, { loadParts }, { MorphShow }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
@@ -75,7 +77,9 @@ export async function openPlace(
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
   store.update({ off: firstOff(place), hour: sunPath.firstHour });
-  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses, budget }, store);
+  const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, () => viewer?.invalidate(), onFault);
+  if (morphs !== null) store.update({ morph: strollFrom(0) });
+  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses, budget, morphs }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {
@@ -99,6 +103,12 @@ export async function openPlace(
       return photo === null ? null : fileAddress(photo, address).href;
     },
   };
+}
+
+/** At the beginning of a walk; whoever wants less motion goes from view to view at once. */
+export function strollFrom(which: number): MorphState {
+  const instant = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  return { which, at: 0, playing: false, look: "picture", instant };
 }
 
 /** Walls and a model of the same buildings lie in one another: the model is seen first. */

@@ -104,7 +104,8 @@ export const studioStyles = css`
     bottom: calc(var(--edge) + 118px);
   }
   veduta-tour-panel,
-  veduta-animal-panel {
+  veduta-animal-panel,
+  veduta-morph-panel {
     position: absolute;
     bottom: calc(var(--edge) + 60px);
     left: 50%;

@@ -31,6 +31,7 @@ import "./photo-panel.ts";
 import "./records-panel.ts";
 import { openPlace, type Session } from "./session.ts";
 import { shownFeature } from "./shown-feature.ts";
+import { changeStroll, nextLook, playStroll, strollPanel, toggleStroll, wheelOn } from "./stroll.ts";
 import { studioStyles } from "./studio-styles.ts";
 import { theme } from "./theme.ts";
 import "./toolbar.ts";
@@ -143,7 +144,8 @@ export class Studio extends LitElement {
 
   override render(): TemplateResult {
     return html`
-      <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}></canvas>
+      <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}
+        @wheel=${(event: WheelEvent) => wheelOn(event, this.session, this.#store)}></canvas>
       ${this.session !== null && this.fault === null ? this.#panels(this.session) : nothing}
       ${this.session === null && this.fault === null
         ? html`<veduta-loading .share=${this.progress.share} .file=${this.progress.file}></veduta-loading>`
@@ -156,13 +158,13 @@ export class Studio extends LitElement {
     const state = this.#store.value;
     const shown = shownFeature(session, state.selected);
     const coarse = matchMedia("(pointer: coarse)").matches;
-    const overTour = session.place.tours.length + session.place.animals.length > 0 ? "over-tour" : "";
+    const overTour = session.place.tours.length + session.place.animals.length + session.place.walks.length > 0 ? "over-tour" : "";
     return html`
       <header class="brand sheet">
         <img src="./icon.svg" alt="" width="26" height="26" />
         <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
       </header>
-      <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.mode}
+      <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.morph === null ? state.mode : "walk"}
         .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour, session.sunPath).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
         @command=${(event: CustomEvent<Command>) => this.#do(event.detail)}></veduta-toolbar>
@@ -176,8 +178,8 @@ export class Studio extends LitElement {
         : html`<veduta-minimap class="sheet ${overTour}" role="region" aria-label="Map" ?hidden=${state.mode !== "walk" || !state.map}
             .houses=${session.houses} @go=${(event: CustomEvent<Vec3[]>) => session.viewer.goTo(event.detail)}></veduta-minimap>`}
       ${this.#tourPanel(session)}
-      ${this.#animalPanel(session)}
-      ${state.mode === "walk" && coarse
+      ${this.#animalPanel(session)}${strollPanel(session, this.#store)}
+      ${(state.mode === "walk" || state.morph !== null) && coarse
         ? html`<veduta-joystick class=${overTour}
             @stick=${(event: CustomEvent<readonly [number, number]>) => session.viewer.setStick(...event.detail)}
           ></veduta-joystick>`
@@ -315,8 +317,8 @@ export class Studio extends LitElement {
     if (session === null) return;
     const { viewer } = session;
     const actions: Record<Command, () => void> = {
-      orbit: () => this.#store.update({ mode: "orbit", shot: null }),
-      walk: () => this.#store.update({ mode: "walk", shot: null }),
+      orbit: () => this.#store.update({ mode: "orbit", shot: null, morph: null }),
+      walk: () => (session.place.walks.length > 0 ? changeStroll(this.#store, {}) : this.#store.update({ mode: "walk", shot: null })),
       reset: () => {
         this.#leaveFree(session);
         viewer.resetView();
@@ -335,7 +337,9 @@ export class Studio extends LitElement {
       lights: () => this.#changeHouse("lights"),
       doors: () => this.#changeHouse("doors"),
       map: () => this.#changeHouse("map"),
-      tour: () => this.#toggleTour(),
+      tour: () => (session.place.walks.length > 0 ? playStroll(session, this.#store) : this.#toggleTour()),
+      stroll: () => toggleStroll(session, this.#store),
+      "morph-look": () => nextLook(this.#store),
       close: () => this.#close(),
     };
     actions[command]();

@@ -1,11 +1,14 @@
 /** What the page says of itself: the title of the place, and what one can do. */
+import { metresTo } from "../core/morph-walk.ts";
 import { standsAlone } from "../core/place.ts";
 import type { StudioState } from "../core/state.ts";
 import type { Session } from "./session.ts";
 
 export function titleOf(session: Session): string {
   if (session.town !== null) return "A town of many buildings";
-  const { shots, scaleKnown } = session.place;
+  const { shots, scaleKnown, walks } = session.place;
+  const walk = walks[0];
+  if (walk !== undefined) return `A walk of ${metresTo(walk, walk.transitions.length).toFixed(1)} m`;
   const parts = session.place.parts.filter(({ layer }) => layer === "model");
   if (shots.length > 0 || parts.length === 0) {
     const photos = shots.length === 1 ? "1 photo" : `${shots.length} photos`;
@@ -19,6 +22,7 @@ export function titleOf(session: Session): string {
 }
 
 export function hintOf(state: StudioState, coarse: boolean, hasPhotos: boolean): string {
+  if (state.morph !== null) return coarse ? "Stick to walk on, drag to look" : "W and S or the wheel to walk · drag to look · 1 for the whole";
   if (state.projected !== null && !coarse) return "T takes the photo off the place · N and B throw the others";
   if (state.mode === "orbit" && hasPhotos) {
     return coarse ? "Drag to turn, tap a photo to look through it" : "Drag to turn · scroll to zoom · click a photo to look through it";

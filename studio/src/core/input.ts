@@ -19,6 +19,8 @@ export type Command =
   | "doors"
   | "map"
   | "tour"
+  | "stroll"
+  | "morph-look"
   | "help"
   | "close";
 
@@ -60,6 +62,8 @@ export const COMMAND_BINDINGS: readonly Binding<Command>[] = [
   { codes: ["KeyO"], action: "doors", shown: "O", text: "In a house: doors open as you come, or all stand open" },
   { codes: ["KeyK"], action: "map", shown: "K", text: "In a house: the map, while walking" },
   { codes: ["KeyG"], action: "tour", shown: "G", text: "Play or pause the guided tour" },
+  { codes: ["Digit3"], action: "stroll", shown: "3", text: "On a walk from view to view: go on it, or leave it" },
+  { codes: ["KeyJ"], action: "morph-look", shown: "J", text: "On a walk from view to view: picture, geometry, counterparts" },
   { codes: ["KeyH", "F1"], action: "help", shown: "?", text: "This help" },
   { codes: ["Escape"], action: "close", shown: "Esc", text: "Close what is open, let go of the surface" },
 ];

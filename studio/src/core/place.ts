@@ -5,6 +5,7 @@ import { Fault } from "./fault.ts";
 import { worldPoint } from "./frames.ts";
 import { type Box, cornersOf } from "./framing.ts";
 import type { Layer } from "./state.ts";
+import { type MorphWalk, readMorphWalk } from "./morph-walk.ts";
 import { readTour, type Tour } from "./tour.ts";
 import type { Vec3 } from "./vector.ts";
 
@@ -76,6 +77,7 @@ export interface Place {
   readonly shots: readonly Shot[];
   readonly tours: readonly Tour[];
   readonly animals: readonly Animal[];
+  readonly walks: readonly MorphWalk[];
   /** Whether lengths are metres. */
   readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
@@ -91,6 +93,7 @@ const MOST_CLOUDS = 1000;
 const MOST_SHOTS = 100_000;
 const MOST_TOURS = 100;
 const MOST_ANIMALS = 1000;
+const MOST_WALKS = 100;
 /** The part that holds the walls which `veduta photos` found in the points. */
 const WALLS = "walls";
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -112,6 +115,7 @@ export function readPlace(text: string, file: string): Place {
   const shots = list(manifest.cameras ?? [], MOST_SHOTS, "cameras", broken);
   const tours = list(manifest.tours ?? [], MOST_TOURS, "tours", broken);
   const animals = list(manifest.animals ?? [], MOST_ANIMALS, "animals", broken);
+  const walks = list(manifest.walks ?? [], MOST_WALKS, "walks", broken);
   if (parts.length + clouds.length === 0) throw broken("the place has no parts");
   const start = record(manifest.start, () => broken("it does not say where to start"));
   const known = parts.map((part, index) => readPart(part, `part ${index + 1}`, broken));
@@ -122,6 +126,7 @@ export function readPlace(text: string, file: string): Place {
     shots: shots.map((shot, index) => readShot(shot, `camera ${index + 1}`, broken)),
     tours: tours.map((tour, index) => readTour(tour, `tour ${index + 1}`, broken)),
     animals: animals.map((animal, index) => readAnimal(animal, `animal ${index + 1}`, known, broken)),
+    walks: walks.map((walk, index) => readMorphWalk(walk, `walk ${index + 1}`, broken, isInside)),
     scaleKnown: manifest.scale !== "unknown",
     sun: readSun(manifest.sun, broken),
     start: {

@@ -2,6 +2,7 @@
 import { type AnimalState, STANDING } from "./animal.ts";
 import type { SemanticClass } from "./classes.ts";
 import { DAY_HOUR } from "./daylight.ts";
+import type { MorphState } from "./morph-walk.ts";
 import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
@@ -50,6 +51,8 @@ export interface StudioState {
   /** Null before the tour was begun. */
   readonly tour: TourState | null;
   readonly animal: AnimalState;
+  /** Null where one is not on a walk from view to view. */
+  readonly morph: MorphState | null;
 }
 
 export const INITIAL_STATE: StudioState = {
@@ -70,6 +73,7 @@ export const INITIAL_STATE: StudioState = {
   map: true,
   tour: null,
   animal: STANDING,
+  morph: null,
 };
 
 /** Looking through a photo; one that lies on the surfaces gives way to it. */

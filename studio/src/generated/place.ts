@@ -92,6 +92,10 @@ export interface Place {
    */
   animals?: PlaceAnimal[];
   /**
+   * @maxItems 100
+   */
+  walks?: Walk[];
+  /**
    * unknown: the unit of length is not the metre, but any
    */
   scale?: "metres" | "unknown";
@@ -393,6 +397,103 @@ export interface AnimalClip {
    * whether it begins anew without a jump
    */
   loops?: boolean;
+}
+/**
+ * A way along key positions on which geometry and texture morph from view to view.
+ */
+export interface Walk {
+  id: string;
+  name: string;
+  document?: string | null;
+  /**
+   * at which it is played
+   */
+  speed_m_s?: number;
+  /**
+   * @minItems 1
+   * @maxItems 20000
+   */
+  keys: [WalkKey, ...WalkKey[]];
+  /**
+   * @maxItems 100000
+   */
+  transitions: WalkTransition[];
+}
+/**
+ * A position on the way of a walk. Camera frame: x right, y down, z forward.
+ */
+export interface WalkKey {
+  id: string;
+  /**
+   * what is seen there, without the lens's distortion
+   */
+  picture: string;
+  width_px: number;
+  height_px: number;
+  /**
+   * along x and y, of the picture
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  focal_px: [number, number];
+  /**
+   * principal point, of the picture
+   *
+   * @minItems 2
+   * @maxItems 2
+   */
+  centre_px: [number, number];
+  /**
+   * world_from_camera, 4x4, column-major
+   *
+   * @minItems 16
+   * @maxItems 16
+   */
+  transform: [
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number,
+    number
+  ];
+}
+/**
+ * The way between two key positions, and how one view becomes the other.
+ */
+export interface WalkTransition {
+  /**
+   * number of the key position where it begins
+   */
+  start: number;
+  /**
+   * number of the one where it ends
+   */
+  end: number;
+  kind: "morph" | "fade" | "cut";
+  /**
+   * glTF of the start's model, in its camera's frame: a morph target of where it ends, and a second set of texture coordinates in the end's picture
+   */
+  forth?: string | null;
+  /**
+   * the same of the end's model
+   */
+  back?: string | null;
+  /**
+   * how well one end's view was predicted from the other's (PSNR)
+   */
+  score_db?: number | null;
 }
 /**
  * Where the place is on the earth and when it is looked at: by these the sun stands.

@@ -16,6 +16,7 @@ import { Backdrop } from "./backdrop.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
 import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
+import type { MorphShow } from "./morph-show.ts";
 import { Household, type LoadedHouse } from "./household.ts";
 import { layGround } from "./ground-material.ts";
 import type { LoadedPart } from "./load.ts";
@@ -44,6 +45,8 @@ export interface ViewerContent {
   readonly textures: PhotoTextures | null;
   readonly houses: readonly LoadedHouse[];
   readonly budget: Budget;
+  /** The walks from view to view; null where the place has none. */
+  readonly morphs: MorphShow | null;
 }
 
 export class Stage {

@@ -11,6 +11,7 @@ import type { Walker } from "../core/walking.ts";
 import { FramePace } from "./frame-pace.ts";
 import type { Frusta } from "./frusta.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
+import type { MorphShow } from "./morph-show.ts";
 import { OrbitRig } from "./orbit-rig.ts";
 import type { ShownPhoto } from "./photo-show.ts";
 import { Picker } from "./picker.ts";
@@ -42,6 +43,7 @@ export class Viewer {
   readonly #store: Store<StudioState>;
   readonly #town: Town | null;
   readonly #frusta: Frusta | null;
+  readonly #morphs: MorphShow | null;
   readonly #renderer: WebGLRenderer;
   readonly #stage: Stage;
   readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
@@ -72,11 +74,13 @@ export class Viewer {
     this.#screen = new Screen(canvas, this.#renderer);
     this.#town = town;
     this.#frusta = frusta;
+    this.#morphs = content.morphs;
     this.#stage = new Stage(place, content, () => this.invalidate());
     const { solid } = this.#stage;
     const { min, max } = solid.bounds;
     this.#camera.far = Math.max(this.#camera.far, 3 * Math.hypot(max[0] - min[0], max[1] - min[1]));
     this.#orbit = new OrbitRig(this.#camera, canvas, this.#stage, () => this.invalidate());
+    this.#orbit.enabled = store.value.morph === null;
     this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
     this.#guide = place.tours.length === 0 ? null : new TourGuide(place.tours, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
@@ -104,6 +108,8 @@ export class Viewer {
   /** Compiles and draws once, so that the first picture the person sees is whole. */
   async prepare(): Promise<void> {
     await this.#town?.settle(this.#camera);
+    const { morph } = this.#store.value;
+    if (morph !== null) await this.#morphs?.settle(morph);
     await this.#renderer.compileAsync(this.#stage.scene, this.#camera);
     this.#draw();
   }
@@ -155,11 +161,12 @@ export class Viewer {
 
   /** World frame. */
   get pose(): { eye: Vec3; direction: Vec3; fov_deg: number } {
-    const direction = this.#camera.getWorldDirection(new Vector3());
+    const camera = (this.#store.value.morph === null ? null : this.#morphs?.camera) ?? this.#camera;
+    const direction = camera.getWorldDirection(new Vector3());
     return {
-      eye: worldFromDrawn(this.#camera.position.toArray()),
+      eye: worldFromDrawn(camera.position.toArray()),
       direction: worldFromDrawn(direction.toArray()),
-      fov_deg: this.#camera.fov,
+      fov_deg: camera.fov,
     };
   }
 
@@ -191,6 +198,9 @@ export class Viewer {
   }
 
   resetView(): void {
+    this.#morphs?.lookAhead();
+    this.invalidate();
+    if (this.#store.value.morph !== null) return;
     if (this.#store.value.shot !== null) {
       this.#orbitPose = null;
       this.#store.update({ shot: null });
@@ -224,6 +234,7 @@ export class Viewer {
     this.#town?.dispose();
     this.#stage.photos?.dispose();
     this.#frusta?.dispose();
+    this.#morphs?.dispose();
     cancelAnimationFrame(this.#request);
     this.#resizes.disconnect();
     this.#pointer.dispose();
@@ -253,6 +264,12 @@ export class Viewer {
   }
 
   #advance(seconds: number): boolean {
+    const { morph } = this.#store.value;
+    if (morph !== null && this.#morphs !== null) {
+      const next = this.#morphs.advance(morph, wishOf(this.#held, this.#stick), turnOf(this.#held), Math.min(seconds, 0.1));
+      if (next !== null) this.#store.update({ morph: next });
+      return next !== null;
+    }
     if (this.#flight !== null) {
       if (this.#flight.advance(this.#camera, Math.min(seconds, 0.35))) this.#flight = null;
       return true;
@@ -291,6 +308,13 @@ export class Viewer {
   }
 
   #draw(): void {
+    const { morph } = this.#store.value;
+    if (morph !== null && this.#morphs !== null) {
+      this.#morphs.draw(this.#renderer, morph);
+      this.#frames += 1;
+      this.onDrawn();
+      return;
+    }
     this.#keepDepth();
     if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
     this.#renderer.render(this.#stage.scene, this.#camera);
@@ -311,6 +335,7 @@ export class Viewer {
   #follow(now: StudioState, before: StudioState): void {
     if (now.tour !== before.tour) this.#goOnTour(now, before);
     if (now.mode !== before.mode) this.#changeMode(now.mode);
+    if ((now.morph === null) !== (before.morph === null)) this.#orbit.enabled = now.morph === null && now.mode === "orbit";
     if (now.shot !== before.shot) this.#lookThrough(now.shot, before.shot);
     const shows = now.hidden !== before.hidden || now.off !== before.off || now.point_px !== before.point_px;
     if (shows || now.shot !== before.shot) this.#stage.showLayers(now);
@@ -385,6 +410,12 @@ export class Viewer {
   }
 
   #look(dx: number, dy: number, captured: boolean): void {
+    if (this.#store.value.morph !== null) {
+      const turn = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX / 2;
+      this.#morphs?.look(dx * turn, dy * turn);
+      this.invalidate();
+      return;
+    }
     if (this.#store.value.mode !== "walk" || this.#flight !== null) return;
     this.#guide?.stop();
     const scale = captured ? -MOUSE_RAD_PX : DRAG_RAD_PX;
@@ -393,6 +424,7 @@ export class Viewer {
   }
 
   #select(x: number, y: number): void {
+    if (this.#store.value.morph !== null) return;
     const { which, leading } = this.#store.value.animal;
     const animal = leading ? this.#stage.animals.placeOf(which) : null;
     const goal = animal === null ? null : this.picker.groundAt(x, y, animal[2]);

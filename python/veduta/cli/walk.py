@@ -1,0 +1,21 @@
+"""`veduta walk DIR -o OUT`."""
+
+from __future__ import annotations
+
+SUMMARY = "Turn stereo views along a path into a walk that morphs from view to view"
+
+
+def run(arguments: list[str]) -> int:
+    """Parse the arguments, do the work, say what was found and where it is."""
+    from veduta.cli.arguments import parse
+    from veduta.cli.told import tell_result
+    from veduta.cli.walk_call import WalkCall
+    from veduta.run.progress import Progress
+    from veduta.walk.command import run_walk
+
+    call = parse(WalkCall, "veduta walk", arguments)
+    result = run_walk(
+        call.folder, call.out, call.options(), Progress(quiet=call.quiet),
+        calibration=call.calibration, force=call.force,
+    )  # fmt: skip
+    return tell_result(result, quiet=call.quiet)

@@ -1,0 +1,59 @@
+"""A local model (section 3.2): what a key position shows, and how far away it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.walk.build.screen import Points, Screen
+from veduta.walk.build.sky import find_sky
+from veduta.walk.build.stereo import StereoSettings, match_stereo
+from veduta.walk.rig import Image, Rig, StereoPair
+
+SKY_M = 2000.0
+"""Where the sky is put; nothing that stereo sees is as far."""
+FARTHEST_M = 1000.0
+
+
+@dataclass(frozen=True, eq=False)
+class LocalModel:
+    """L = (X, Y, Z, I, dom): the maps follow from the depth and the screen.
+
+    image: (h, w, 3). depth_m: (h, w) float32 without gaps. measured: (h, w), the valid domain: where
+    stereo is sure; elsewhere depth was carried over from around. sky: (h, w).
+    """
+
+    key: str
+    screen: Screen
+    image: Image
+    depth_m: NDArray[np.float32]
+    measured: NDArray[np.bool_]
+    sky: NDArray[np.bool_]
+
+    @cached_property
+    def points(self) -> Points:
+        """(h, w, 3) X, Y, Z in the camera's frame (m)."""
+        return self.screen.points(self.screen.pixels, self.depth_m)
+
+    @cached_property
+    def grey(self) -> NDArray[np.float32]:
+        """(h, w) light, 0..255."""
+        return cv2.cvtColor(self.image, cv2.COLOR_RGB2GRAY).astype(np.float32)
+
+
+def build_local_model(
+    pair: StereoPair, rig: Rig, settings: StereoSettings = StereoSettings()
+) -> LocalModel:
+    """Section 3.2: stereo, filters, and the maps of the left camera."""
+    found = match_stereo(pair.left, pair.right, rig, settings)
+    sky = find_sky(pair.left, found.left - np.float32(rig.shift_px))
+    nearest_px = rig.focal_px[0] * rig.baseline_m / FARTHEST_M
+    disparity = np.maximum(found.filled - rig.shift_px, nearest_px)
+    depth = rig.focal_px[0] * rig.baseline_m / disparity
+    depth = np.where(sky, SKY_M, depth).astype(np.float32)
+    measured = np.isfinite(found.left) & ~sky
+    return LocalModel(pair.key, Screen.of(rig), pair.left, depth, measured, sky)

@@ -1,0 +1,124 @@
+"""What a walker sees on the way from one key position to the next: the same as the player draws.
+
+Two meshes, each with both pictures: that of the one position morphing onwards and that of the next
+morphing backwards. Equation (1) moves their vertices, (2) mixes their colours; where both see a
+surface they are weighed by the morph parameter, where one is before the other the nearer is seen.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta._core import walk_rasterise
+from veduta.walk.build.mesh import MorphMesh
+from veduta.walk.build.morph import inverse
+from veduta.walk.build.sampling import sampled
+from veduta.walk.build.screen import Screen
+from veduta.walk.rig import Image
+
+Matrix = NDArray[np.float64]
+NEAR_M = 0.3
+
+
+@dataclass(frozen=True)
+class Mixing:
+    """tolerance: by how much (a share) a surface may lie behind another to be the same. torn: the
+    weight of what spans a break in depth. floor: the least weight of a mesh at its own far end.
+    """
+
+    tolerance: float = 0.04
+    torn: float = 0.002
+    floor: float = 0.001
+
+
+@dataclass(frozen=True, eq=False)
+class Layer:
+    """A mesh drawn. colour: (h, w, 3) float32; weight: (h, w), 0 where nothing is; depth: (h, w)."""
+
+    colour: NDArray[np.float32]
+    weight: NDArray[np.float32]
+    depth: NDArray[np.float32]
+
+
+@dataclass(frozen=True, eq=False)
+class Transition:
+    """Both meshes of a transition, and the pose between its ends."""
+
+    forth: MorphMesh
+    back: MorphMesh
+    second_from_first: Matrix
+    first_image: Image
+    second_image: Image
+
+
+def draw_between(
+    transition: Transition, m: float, cam_from_first: Matrix, screen: Screen, mixing: Mixing = Mixing()
+) -> tuple[Image, NDArray[np.bool_]]:
+    """The picture at m (0..1) of a camera; and (h, w) where anything is seen."""
+    first_from_second = inverse(transition.second_from_first)
+    own = draw_mesh(
+        transition.forth, m, first_from_second, cam_from_first, screen,
+        transition.first_image, transition.second_image, mixing,
+    )  # fmt: skip
+    cam_from_second = chained(cam_from_first, first_from_second)
+    other = draw_mesh(
+        transition.back, 1.0 - m, transition.second_from_first, cam_from_second, screen,
+        transition.second_image, transition.first_image, mixing,
+    )  # fmt: skip
+    return mixed(own, other, m, mixing)
+
+
+def chained(after: Matrix, before: Matrix) -> Matrix:
+    """(3, 4) of one pose after another."""
+    return np.column_stack([after[:, :3] @ before[:, :3], after[:, :3] @ before[:, 3] + after[:, 3]])
+
+
+def draw_mesh(
+    mesh: MorphMesh, m: float, own_from_other: Matrix, cam_from_own: Matrix, screen: Screen,
+    own_image: Image, other_image: Image, mixing: Mixing = Mixing(),
+) -> Layer:  # fmt: skip
+    """A mesh at m of its way: equations (1) and (2)."""
+    arrived = mesh.destinations @ own_from_other[:, :3].T + own_from_other[:, 3]
+    points = (1.0 - m) * mesh.points + m * arrived
+    seen, depth = screen.project(points @ cam_from_own[:, :3].T + cam_from_own[:, 3])
+    placed = np.column_stack([np.nan_to_num(seen, nan=-1e6), depth]).astype(np.float32)
+    carried = np.column_stack([mesh.uv, mesh.uv_second, mesh.psi]).astype(np.float32)
+    drawn, flat, which = walk_rasterise(
+        placed, carried, mesh.triangles, screen.width_px, screen.height_px, near=NEAR_M
+    )
+    values = flat.reshape(screen.height_px, screen.width_px, 5)
+    own = _sampled(own_image, values[..., 0:2])
+    other = _sampled(other_image, values[..., 2:4])
+    share = (m * values[..., 4])[..., None]
+    seen_there = which >= 0
+    torn = np.where(seen_there, mesh.torn[np.maximum(which, 0)], False)
+    weight = np.where(torn, mixing.torn, 1.0) * seen_there
+    return Layer((1.0 - share) * own + share * other, weight.astype(np.float32), drawn)
+
+
+def _sampled(image: Image, uv: NDArray[np.float32]) -> NDArray[np.float32]:
+    height, width = image.shape[:2]
+    return sampled(image, uv * np.array([width, height], dtype=np.float32))
+
+
+def mixed(own: Layer, other: Layer, m: float, mixing: Mixing = Mixing()) -> tuple[Image, NDArray[np.bool_]]:
+    """Both layers as one picture."""
+    nearest = np.minimum(own.depth, other.depth)
+    total = np.zeros(own.weight.shape, dtype=np.float32)
+    colour = np.zeros_like(own.colour)
+    for layer, share in ((own, 1.0 - m), (other, m)):
+        with np.errstate(invalid="ignore"):
+            behind = np.nan_to_num((layer.depth - nearest) / nearest, nan=0.0, posinf=1e3)
+        weight = layer.weight * max(share, mixing.floor) * np.exp(-((behind / mixing.tolerance) ** 2))
+        colour += weight[..., None] * layer.colour
+        total += weight
+    seen = total > 1e-7
+    picture = colour / np.maximum(total, 1e-9)[..., None]
+    if not seen.all():
+        # Nothing was ever seen here: what is around it closes over the hole.
+        picture = cv2.inpaint(np.clip(picture, 0, 255).astype(np.uint8), (~seen).astype(np.uint8), 3, cv2.INPAINT_TELEA).astype(np.float32)
+    return np.clip(np.round(picture), 0, 255).astype(np.uint8), seen

@@ -1,0 +1,121 @@
+"""Disparities of a rectified pair: semi-global matching, checked from right to left, and filtered."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.walk.rig import Image, Rig
+
+_SIXTEENTHS = 16.0
+
+
+@dataclass(frozen=True)
+class StereoSettings:
+    """Of OpenCV's StereoSGBM (Hirschmueller 2008).
+
+    nearest: depth of the nearest surface that is looked for, in baselines. block_px: of the cost.
+    most: disparities at most. check_px: how far left and right may disagree. speckle_px: smaller
+    pieces are noise. median_px, sigma_px: of the two filters of section 3.2. smoothness, edge: of
+    the weighted least squares (Min et al. 2014) that carry disparities into what has none.
+    """
+
+    nearest: float = 10.0
+    block_px: int = 5
+    most: int = 256
+    check_px: float = 1.25
+    speckle_px: int = 60
+    median_px: int = 5
+    sigma_px: float = 1.0
+    smoothness: float = 4000.0
+    edge: float = 1.2
+
+
+@dataclass(frozen=True, eq=False)
+class Disparities:
+    """left: (h, w) float32, NaN where nothing is sure. filled: the same without gaps."""
+
+    left: NDArray[np.float32]
+    filled: NDArray[np.float32]
+
+
+def match_stereo(
+    left: Image, right: Image, rig: Rig, settings: StereoSettings = StereoSettings()
+) -> Disparities:
+    """Section 3.2: the disparity (px, left x minus right x) of each pixel of the left picture."""
+    count = _disparities(rig, settings)
+    lowest = int(np.floor(rig.shift_px))
+    matcher = cv2.StereoSGBM.create(
+        minDisparity=lowest, numDisparities=count, blockSize=settings.block_px,
+        P1=8 * 3 * settings.block_px**2, P2=32 * 3 * settings.block_px**2, disp12MaxDiff=-1,
+        uniquenessRatio=5, speckleWindowSize=settings.speckle_px, speckleRange=1, preFilterCap=31,
+        mode=cv2.STEREO_SGBM_MODE_SGBM_3WAY,
+    )  # fmt: skip
+    padded = [_padded(image, count + lowest) for image in (left, right)]
+    forth = matcher.compute(*padded)[:, count + lowest :]
+    flipped = [_padded(np.ascontiguousarray(image[:, ::-1]), count + lowest) for image in (right, left)]
+    back = matcher.compute(*flipped)[:, count + lowest :][:, ::-1]
+    nothing = (lowest - 1) * _SIXTEENTHS
+    disparity = np.where(forth > nothing, forth / _SIXTEENTHS, np.nan).astype(np.float32)
+    other = np.where(back > nothing, back / _SIXTEENTHS, np.nan).astype(np.float32)
+    checked = _agreed(disparity, other, settings.check_px)
+    sure = _smoothed(checked, settings)
+    return Disparities(sure, _filled(sure, left, settings))
+
+
+def _disparities(rig: Rig, settings: StereoSettings) -> int:
+    """How many are looked for: a multiple of 16."""
+    nearest = rig.focal_px[0] / settings.nearest
+    wanted = min(nearest, settings.most, rig.width_px / 3.0)
+    return max(16, int(np.ceil(wanted / 16.0)) * 16)
+
+
+def _padded(image: Image, columns: int) -> Image:
+    """With grey columns on the left: what lies there is outside of the right picture."""
+    return cv2.copyMakeBorder(image, 0, 0, max(0, columns), 0, cv2.BORDER_REPLICATE)  # type: ignore[return-value]
+
+
+def _agreed(
+    left: NDArray[np.float32], right: NDArray[np.float32], limit_px: float
+) -> NDArray[np.float32]:
+    """What the right picture's disparity leads back from."""
+    rows, columns = np.indices(left.shape)
+    target = np.round(columns - np.nan_to_num(left)).astype(np.int64)
+    inside = (target >= 0) & (target < left.shape[1])
+    seen = right[rows, np.clip(target, 0, left.shape[1] - 1)]
+    with np.errstate(invalid="ignore"):
+        agree = inside & (np.abs(seen - left) <= limit_px)
+    return np.where(agree, left, np.nan).astype(np.float32)
+
+
+def _smoothed(disparity: NDArray[np.float32], settings: StereoSettings) -> NDArray[np.float32]:
+    """A median against spurious values, then a Gaussian that does not reach over edges of depth."""
+    known = np.isfinite(disparity)
+    filled = np.where(known, disparity, 0.0).astype(np.float32)
+    median = cv2.medianBlur(filled, settings.median_px)
+    kept = known & (np.abs(median - filled) < 2.0)
+    median = np.where(kept, median, 0.0).astype(np.float32)
+    size = 2 * int(np.ceil(2.0 * settings.sigma_px)) + 1
+    smooth = cv2.bilateralFilter(median, size, 0.8, settings.sigma_px)
+    return np.where(kept, smooth, np.nan).astype(np.float32)
+
+
+def _filled(
+    disparity: NDArray[np.float32], guide: Image, settings: StereoSettings
+) -> NDArray[np.float32]:
+    """Carried over gaps by weighted least squares along the picture's edges."""
+    known = np.isfinite(disparity)
+    if not known.any():
+        return np.zeros_like(disparity)
+    smoother = cv2.ximgproc.createFastGlobalSmootherFilter(
+        guide, settings.smoothness, settings.edge * 10.0
+    )
+    weight = known.astype(np.float32)
+    carried = smoother.filter(np.where(known, disparity, 0.0).astype(np.float32))
+    share = smoother.filter(weight)
+    middle = float(np.nanmedian(disparity))
+    spread = np.where(share > 1e-4, carried / np.maximum(share, 1e-4), middle)
+    return np.where(known, disparity, spread).astype(np.float32)

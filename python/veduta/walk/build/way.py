@@ -1,0 +1,87 @@
+"""One transition of the walk, from two local models: pose, morphs, meshes, and what they are worth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.run.errors import NotFoundError
+from veduta.walk.build.flow import FlowSettings
+from veduta.walk.build.judge import JudgeLimits, Verdict, judge
+from veduta.walk.build.local_model import LocalModel
+from veduta.walk.build.matches import match_features
+from veduta.walk.build.mesh import MeshSettings, MorphMesh, mesh_of
+from veduta.walk.build.morph import find_morphs, inverse
+from veduta.walk.build.pose import relative_pose
+from veduta.walk.rig import Image, Rig
+
+Matrix = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class WaySettings:
+    """The parameters of a transition's steps."""
+
+    flow: FlowSettings = FlowSettings()
+    mesh: MeshSettings = MeshSettings()
+    judge: JudgeLimits = JudgeLimits()
+
+
+@dataclass(frozen=True, eq=False)
+class Way:
+    """A transition. forth, back: None where the two key positions have nothing in common.
+
+    predicted: the end's view from the start's colours. figures: what the document tells.
+    """
+
+    second_from_first: Matrix
+    forth: MorphMesh | None = None
+    back: MorphMesh | None = None
+    verdict: Verdict | None = None
+    predicted: Image | None = None
+    matches: int = 0
+    residual_px: float | None = None
+    energies: tuple[float, float, float] | None = None
+    why: str = ""
+
+    @property
+    def distance_m(self) -> float:
+        """Between the two left cameras."""
+        return float(np.linalg.norm(self.second_from_first[:, 3]))
+
+    @property
+    def kind(self) -> Literal["morph", "fade", "cut"]:
+        """morph, fade or cut."""
+        if self.forth is None or self.back is None:
+            return "cut"
+        return "fade" if self.why else "morph"
+
+
+def find_way(
+    first: LocalModel, second: LocalModel, rig: Rig, settings: WaySettings = WaySettings()
+) -> Way:
+    """From one key position to the next; a cut where nothing is in common."""
+    matches = match_features(first, second)
+    try:
+        pose = relative_pose(first, second, rig, matches)
+    except NotFoundError as error:
+        return Way(np.eye(4)[:3], why=error.evidence)
+    forth, back = find_morphs(first, second, pose.second_from_first, settings.flow)
+    meshes = mesh_of(forth, settings.mesh), mesh_of(back, settings.mesh)
+    psi = float(forth.region.mean()), float(back.region.mean())
+    there, picture = judge(
+        meshes[0], pose.second_from_first, second.screen, first.image, second.image, psi[0],
+        settings.judge,
+    )  # fmt: skip
+    here, _ = judge(
+        meshes[1], inverse(pose.second_from_first), first.screen, second.image, first.image, psi[1],
+        settings.judge,
+    )  # fmt: skip
+    labelling = forth.flow.labelling
+    return Way(
+        pose.second_from_first, *meshes, there, picture, int(pose.inliers.sum()), pose.residual_px,
+        (labelling.energy, labelling.energy_icm, labelling.bound), there.why or here.why,
+    )  # fmt: skip

@@ -1,0 +1,51 @@
+"""A transition as arrays, so that a killed run need not find it again."""
+
+from __future__ import annotations
+
+import json
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.walk.build.judge import Verdict
+from veduta.walk.build.mesh import MorphMesh
+from veduta.walk.build.way import Way
+
+_COLUMNS = ("points", "destinations", "uv", "uv_second", "psi", "triangles", "torn")
+
+
+def arrays_of(way: Way) -> dict[str, NDArray[Any]]:
+    """All of it, by name."""
+    told = {
+        "matches": way.matches, "residual_px": way.residual_px, "energies": way.energies,
+        "why": way.why, "verdict": None if way.verdict is None else asdict(way.verdict),
+    }  # fmt: skip
+    arrays: dict[str, NDArray[Any]] = {
+        "pose": way.second_from_first,
+        "told": np.frombuffer(json.dumps(told).encode(), dtype=np.uint8),
+    }
+    if way.predicted is not None:
+        arrays["predicted"] = way.predicted
+    for name, mesh in (("forth", way.forth), ("back", way.back)):
+        if mesh is not None:
+            arrays |= {f"{name}_{column}": getattr(mesh, column) for column in _COLUMNS}
+    return arrays
+
+
+def way_of(arrays: dict[str, NDArray[Any]]) -> Way:
+    """The transition again."""
+    told = json.loads(arrays["told"].tobytes())
+    forth, back = (
+        MorphMesh(*(arrays[f"{name}_{column}"] for column in _COLUMNS))
+        if f"{name}_points" in arrays
+        else None
+        for name in ("forth", "back")
+    )
+    return Way(
+        arrays["pose"], forth, back,
+        None if told["verdict"] is None else Verdict(**told["verdict"]),
+        arrays.get("predicted"), told["matches"], told["residual_px"],
+        None if told["energies"] is None else tuple(told["energies"]), told["why"],
+    )  # fmt: skip

@@ -1,0 +1,1 @@
+"""`walk.json`: the key positions, the transitions between them, and how good each is."""

@@ -1,0 +1,73 @@
+"""What `walk.json` says."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, Self
+
+from pydantic import BaseModel, ConfigDict, Field, model_validator
+
+VERSION = 1
+Finite = Annotated[float, Field(allow_inf_nan=False)]
+Matrix = Annotated[tuple[Finite, ...], Field(min_length=16, max_length=16)]
+Kind = Literal["morph", "fade", "cut"]
+
+
+class _Record(BaseModel):
+    model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
+
+
+class RigRecord(_Record):
+    """The rectified rig. Pixel centres at (0.5, 0.5)."""
+
+    width_px: int = Field(gt=0)
+    height_px: int = Field(gt=0)
+    focal_px: tuple[Finite, Finite]
+    centre_px: tuple[Finite, Finite]
+    centre_right_px: Finite
+    baseline_m: Finite = Field(gt=0.0)
+
+
+class KeyRecord(_Record):
+    """A key position: its pictures, and where the left camera was (world frame, z up)."""
+
+    id: str = Field(min_length=1, max_length=256)
+    left: str
+    right: str
+    transform: Matrix = Field(description="world_from_camera, 4x4, column-major, metres")
+
+
+class TransitionRecord(_Record):
+    """From one key position to another. kind and why may be edited."""
+
+    start: str
+    end: str
+    kind: Kind
+    why: str = ""
+    distance_m: Finite | None = None
+    residual_px: Finite | None = Field(default=None, description="of the pose (root mean square)")
+    matches: int = 0
+    psi: Finite | None = Field(default=None, description="share of the start's picture in Psi")
+    score_db: Finite | None = Field(default=None, description="of the end's view as predicted")
+    unmoved_db: Finite | None = Field(default=None, description="of the start's picture as it is")
+    energy: Finite | None = None
+    energy_icm: Finite | None = None
+    energy_bound: Finite | None = None
+
+
+class WalkDocument(_Record):
+    """The document of a walk."""
+
+    schema_: Literal["veduta/walk"] = Field(default="veduta/walk", alias="schema")
+    version: Literal[1] = 1
+    rig: RigRecord
+    keys: list[KeyRecord] = Field(min_length=1, max_length=20_000)
+    transitions: list[TransitionRecord] = Field(max_length=100_000)
+
+    @model_validator(mode="after")
+    def _ends_are_there(self) -> Self:
+        known = {key.id for key in self.keys}
+        for one in self.transitions:
+            for end in (one.start, one.end):
+                if end not in known:
+                    raise ValueError(f"a transition names {end!r}, which is no key position")
+        return self

@@ -1,0 +1,48 @@
+"""The options of `veduta walk`."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+
+class TakeOptions(Options):
+    """Which of the pictures make the walk."""
+
+    every: int = Field(default=1, ge=1, le=1000, description="take every n-th key position")
+    first: int = Field(default=0, ge=0, description="number of the first key position, from 0")
+    count: int | None = Field(default=None, ge=1, description="how many key positions at most")
+
+
+class MorphOptions(Options):
+    """How views are matched and become one another."""
+
+    solver: Literal["trws", "icm"] = Field(
+        default="trws", description="of the labels: message passing, or iterated conditional modes"
+    )
+    step_px: int = Field(default=4, ge=2, le=32, description="between the nodes of a mesh (px)")
+    least_gain_db: float = Field(
+        default=0.7,
+        ge=-20.0,
+        le=20.0,
+        description="a transition that predicts the next view by less than this better than the"
+        " unmoved picture does is cross-faded (dB)",
+    )
+
+
+class PlayOptions(Options):
+    """How the walk is shown."""
+
+    speed_m_s: float = Field(default=1.4, gt=0.0, le=50.0, description="of the walk (m/s)")
+    quality: int = Field(default=88, ge=1, le=100, description="of the pictures (WebP)")
+
+
+class WalkOptions(Options):
+    """All that changes the result."""
+
+    take: TakeOptions = TakeOptions()
+    morph: MorphOptions = MorphOptions()
+    play: PlayOptions = PlayOptions()

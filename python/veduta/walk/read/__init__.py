@@ -1,0 +1,1 @@
+"""From a folder of stereo pictures to rectified pairs."""

@@ -1,0 +1,71 @@
+"""OpenCV's YAML of a stereo calibration: M1, D1, M2, D2, R, T, as its samples write it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.run.errors import InputError
+from veduta.walk.rig import RigCalibration
+
+_NAMES = {
+    "left": ("M1", "K1", "cameraMatrix1", "camera_matrix_left"),
+    "right": ("M2", "K2", "cameraMatrix2", "camera_matrix_right"),
+    "left lens": ("D1", "distCoeffs1", "dist_coeffs_left"),
+    "right lens": ("D2", "distCoeffs2", "dist_coeffs_right"),
+    "rotation": ("R",),
+    "translation": ("T",),
+}
+_REMEDY = "Give OpenCV's matrices M1, D1, M2, D2, R and T (T in metres) in one YAML file."
+_CENTRE = 0.5
+"""OpenCV counts pixels from the centre of the first one."""
+
+
+def read_opencv(path: Path, text: str) -> RigCalibration:
+    """The rig in a YAML file; InputError where a matrix is missing or broken."""
+    try:
+        storage = cv2.FileStorage(text, cv2.FILE_STORAGE_READ | cv2.FILE_STORAGE_MEMORY)
+    except (cv2.error, SystemError) as error:
+        raise InputError(path, "is no YAML of OpenCV", _REMEDY) from error
+    found = {role: _matrix(storage, names) for role, names in _NAMES.items()}
+    storage.release()
+    left, right = (_camera(path, found[side], side) for side in ("left", "right"))
+    turn, move = found["rotation"], found["translation"]
+    if move is None or move.size != 3 or not 1e-4 < float(np.linalg.norm(move)) < 100.0:
+        raise InputError(path, "has no translation T of three numbers in metres", _REMEDY)
+    turn = np.eye(3) if turn is None else turn
+    if turn.shape != (3, 3) or np.abs(turn @ turn.T - np.eye(3)).max() > 1e-4:
+        raise InputError(path, "R is no rotation", _REMEDY)
+    lens, lens_right = (_lens(found[side]) for side in ("left lens", "right lens"))
+    return RigCalibration(
+        path, left, right, np.column_stack([turn, move.ravel()]), lens, lens_right
+    )
+
+
+def _lens(matrix: NDArray[np.float64] | None) -> tuple[float, ...]:
+    return () if matrix is None else tuple(matrix.ravel().tolist())
+
+
+def _matrix(storage: cv2.FileStorage, names: tuple[str, ...]) -> NDArray[np.float64] | None:
+    for name in names:
+        node = storage.getNode(name)
+        if not node.empty() and node.isMap():
+            matrix = node.mat()
+            return None if matrix is None else np.asarray(matrix, dtype=np.float64)
+    return None
+
+
+def _camera(path: Path, matrix: NDArray[np.float64] | None, side: str) -> NDArray[np.float64]:
+    if (
+        matrix is None
+        or matrix.shape != (3, 3)
+        or not np.isfinite(matrix).all()
+        or matrix[0, 0] <= 0.0
+    ):
+        raise InputError(path, f"has no camera matrix of the {side} camera", _REMEDY)
+    matrix = matrix.copy()
+    matrix[:2, 2] += _CENTRE
+    return matrix

@@ -1,0 +1,172 @@
+/** A walk along key positions: what it is, where one is on it, and what has to be loaded there. */
+import type { Walk as WalkRecord, WalkKey, WalkTransition } from "../generated/place.ts";
+import type { Fault } from "./fault.ts";
+import type { Matrix4 } from "./frames.ts";
+
+/** A position on the way. Camera frame: x right, y down, z forward. */
+export interface Station {
+  readonly id: string;
+  readonly picture: string;
+  readonly width_px: number;
+  readonly height_px: number;
+  readonly focal_px: readonly [number, number];
+  readonly centre_px: readonly [number, number];
+  readonly worldFromCamera: Matrix4;
+}
+
+/** How the view of one station becomes that of another, by their numbers. */
+export interface Transition {
+  readonly start: number;
+  readonly end: number;
+  readonly kind: "morph" | "fade" | "cut";
+  readonly forth: string | null;
+  readonly back: string | null;
+  readonly score_db: number | null;
+}
+
+export interface MorphWalk {
+  readonly id: string;
+  readonly name: string;
+  readonly speed_m_s: number;
+  readonly stations: readonly Station[];
+  readonly transitions: readonly Transition[];
+  /** For each transition, how far its ends are from each other (m). */
+  readonly lengths_m: readonly number[];
+}
+
+/** What is drawn: the morph, its triangles, or where it has counterparts. */
+export type MorphLook = "picture" | "geometry" | "psi";
+
+/** Where the person is on which of the walks; `at` counts transitions: 1.5 is in the middle of the second. */
+export interface MorphState {
+  readonly which: number;
+  readonly at: number;
+  readonly playing: boolean;
+  readonly look: MorphLook;
+  /** From station to station without anything between. */
+  readonly instant: boolean;
+}
+
+export const NEXT_LOOK: Readonly<Record<MorphLook, MorphLook>> = { picture: "geometry", geometry: "psi", psi: "picture" };
+
+const MOST_STATIONS = 20_000;
+const MOST_TRANSITIONS = 100_000;
+/** Shorter than this nobody walks: a cut, or a turn on the spot (m). */
+const SHORTEST_M = 0.5;
+
+type Fields<T> = { readonly [Key in keyof T]?: unknown };
+
+export function readMorphWalk(
+  value: unknown,
+  which: string,
+  broken: (fault: string) => Fault,
+  isInside: (path: unknown) => path is string,
+): MorphWalk {
+  const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
+  if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
+  const walk = value as Fields<WalkRecord>;
+  const { id, name } = walk;
+  if (typeof id !== "string") throw bad("id");
+  if (typeof name !== "string") throw bad("name");
+  const keys = listOf(walk.keys, MOST_STATIONS, () => bad("keys"));
+  const ways = listOf(walk.transitions, MOST_TRANSITIONS, () => bad("transitions"));
+  const stations = keys.map((key) => readStation(key, isInside, () => bad("keys")));
+  if (stations.length === 0) throw bad("keys");
+  const transitions = ways.map((way) => readTransition(way, stations.length, isInside, () => bad("transitions")));
+  const { speed_m_s = 1.4 } = walk;
+  if (typeof speed_m_s !== "number" || !(speed_m_s > 0)) throw bad("speed_m_s");
+  return { id, name, speed_m_s, stations, transitions, lengths_m: transitions.map((way) => lengthOf(stations, way)) };
+}
+
+function lengthOf(stations: readonly Station[], { start, end }: Transition): number {
+  const [from, to] = [stations[start]?.worldFromCamera, stations[end]?.worldFromCamera];
+  if (from === undefined || to === undefined) return SHORTEST_M;
+  return Math.max(SHORTEST_M, Math.hypot(...[12, 13, 14].map((row) => (to[row] ?? 0) - (from[row] ?? 0))));
+}
+
+function readStation(value: unknown, isInside: (path: unknown) => path is string, bad: () => Fault): Station {
+  if (typeof value !== "object" || value === null) throw bad();
+  const { id, picture, width_px, height_px, focal_px, centre_px, transform } = value as Fields<WalkKey>;
+  if (typeof id !== "string" || !isInside(picture)) throw bad();
+  if (!isLength(width_px) || !isLength(height_px) || !isPair(focal_px) || !isPair(centre_px)) throw bad();
+  if (Math.min(...focal_px) <= 0) throw bad();
+  if (!Array.isArray(transform) || transform.length !== 16 || !transform.every((v) => Number.isFinite(v))) throw bad();
+  return { id, picture, width_px, height_px, focal_px, centre_px, worldFromCamera: transform as number[] };
+}
+
+function readTransition(
+  value: unknown,
+  stations: number,
+  isInside: (path: unknown) => path is string,
+  bad: () => Fault,
+): Transition {
+  if (typeof value !== "object" || value === null) throw bad();
+  const { start, end, kind, forth = null, back = null, score_db = null } = value as Fields<WalkTransition>;
+  const isStation = (n: unknown): n is number => Number.isInteger(n) && (n as number) >= 0 && (n as number) < stations;
+  if (!isStation(start) || !isStation(end)) throw bad();
+  if (kind !== "morph" && kind !== "fade" && kind !== "cut") throw bad();
+  const file = (path: unknown): string | null => {
+    if (path !== null && !isInside(path)) throw bad();
+    return path;
+  };
+  const models = { forth: file(forth), back: file(back) };
+  if (kind === "morph" && (models.forth === null || models.back === null)) throw bad();
+  return { start, end, kind, ...models, score_db: typeof score_db === "number" ? score_db : null };
+}
+
+function isLength(value: unknown): value is number {
+  return Number.isInteger(value) && (value as number) > 0;
+}
+
+function isPair(value: unknown): value is [number, number] {
+  return Array.isArray(value) && value.length === 2 && value.every((v) => Number.isFinite(v));
+}
+
+function listOf(value: unknown, most: number, bad: () => Fault): unknown[] {
+  if (!Array.isArray(value) || value.length > most) throw bad();
+  return value as unknown[];
+}
+
+/** The transition in which one is, and how far: 0 at its start, 1 at its end. */
+export function placeOn(walk: MorphWalk, at: number): { transition: number; m: number } {
+  const count = walk.transitions.length;
+  if (count === 0) return { transition: 0, m: 0 };
+  const inside = Math.min(Math.max(at, 0), count);
+  const transition = Math.min(Math.floor(inside), count - 1);
+  return { transition, m: inside - transition };
+}
+
+/** Where one is after walking so many metres on, backwards where they are negative; both ends stop. */
+export function walkedOn(walk: MorphWalk, at: number, metres: number): number {
+  let now = Math.min(Math.max(at, 0), walk.transitions.length);
+  let left = metres;
+  while (left !== 0) {
+    const ahead = left > 0;
+    const transition = ahead ? Math.floor(now) : Math.ceil(now) - 1;
+    const length = walk.lengths_m[transition];
+    if (length === undefined) break;
+    const room = ahead ? transition + 1 - now : now - transition;
+    const step = Math.min(Math.abs(left) / length, room);
+    now = ahead ? now + step : now - step;
+    if (step === room) now = ahead ? transition + 1 : transition;
+    left -= Math.sign(left) * step * length;
+    if (Math.abs(left) < 1e-9) break;
+  }
+  return now;
+}
+
+/** How far the way goes up to a place on it (m). */
+export function metresTo(walk: MorphWalk, at: number): number {
+  return walk.lengths_m.reduce((sum, length, n) => sum + length * Math.min(1, Math.max(0, at - n)), 0);
+}
+
+/** The transitions that have to be there: the one in which one is, one ahead and one behind. */
+export function nearTransitions(walk: MorphWalk, at: number): number[] {
+  const { transition } = placeOn(walk, at);
+  return [transition, transition + 1, transition - 1].filter((n) => n >= 0 && n < walk.transitions.length);
+}
+
+/** Without what lies between: the station that is nearer. */
+export function nearestStation(at: number): number {
+  return Math.round(at);
+}

@@ -1,0 +1,96 @@
+/** One of the two models of a transition, drawn into a picture of its own with its depth. */
+import {
+  BufferAttribute,
+  BufferGeometry,
+  DepthTexture,
+  Mesh,
+  NearestFilter,
+  type PerspectiveCamera,
+  Scene,
+  type Texture,
+  UnsignedIntType,
+  type WebGLRenderer,
+  WebGLRenderTarget,
+} from "three";
+import type { MorphLook, Station } from "../core/morph-walk.ts";
+import { axesOf, drawnFromCamera } from "../core/pinhole.ts";
+import { layerMaterial, layerUniforms, setLook } from "./morph-material.ts";
+import type { EndModel } from "./morph-load.ts";
+
+/** Where a picture without a model stands (m): about as far as the sky. */
+const FAR_M = 1800;
+
+export class MorphLayer {
+  readonly target: WebGLRenderTarget;
+  readonly #scene = new Scene();
+  readonly #uniforms = layerUniforms();
+  readonly #seen: Mesh;
+  readonly #torn: Mesh;
+  readonly #sheet: Mesh;
+  #sheetOf: Station | null = null;
+
+  constructor() {
+    this.target = new WebGLRenderTarget(1, 1, { minFilter: NearestFilter, magFilter: NearestFilter });
+    this.target.depthTexture = new DepthTexture(1, 1, UnsignedIntType);
+    this.#seen = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, false));
+    this.#torn = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, true));
+    this.#sheet = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, false));
+    for (const mesh of [this.#seen, this.#torn, this.#sheet]) {
+      mesh.frustumCulled = false;
+      mesh.matrixAutoUpdate = false;
+      this.#scene.add(mesh);
+    }
+  }
+
+  /** What stands at a station: its model on the way to another, or its picture alone. */
+  show(station: Station, model: EndModel | null, own: Texture | null, other: Texture | null, m: number, look: MorphLook): void {
+    const matrix = drawnFromCamera(axesOf({ ...station, name: station.id }));
+    for (const mesh of [this.#seen, this.#torn, this.#sheet]) mesh.matrix.fromArray(matrix);
+    this.#seen.visible = this.#torn.visible = model !== null && own !== null;
+    this.#sheet.visible = model === null && own !== null;
+    if (model !== null) {
+      this.#seen.geometry = model.seen;
+      this.#torn.geometry = model.torn;
+      this.#torn.visible &&= model.torn.hasAttribute("position");
+    } else if (this.#sheetOf !== station) {
+      this.#sheet.geometry.dispose();
+      this.#sheet.geometry = sheet(station);
+      this.#sheetOf = station;
+    }
+    this.#uniforms.m.value = model === null ? 0 : m;
+    this.#uniforms.own.value = own;
+    this.#uniforms.other.value = other ?? own;
+    setLook(this.#uniforms, look);
+  }
+
+  draw(renderer: WebGLRenderer, camera: PerspectiveCamera, width: number, height: number): void {
+    if (this.target.width !== width || this.target.height !== height) this.target.setSize(width, height);
+    renderer.setRenderTarget(this.target);
+    renderer.setClearColor(0x000000, 0);
+    renderer.clear();
+    renderer.render(this.#scene, camera);
+  }
+
+  dispose(): void {
+    this.target.depthTexture?.dispose();
+    this.target.dispose();
+    this.#sheet.geometry.dispose();
+  }
+}
+
+/** The station's picture on a plane far away, in the frame of its camera (y up, looking along -z). */
+function sheet({ width_px, height_px, focal_px, centre_px }: Station): BufferGeometry {
+  const x = (px: number): number => ((px - centre_px[0]) / focal_px[0]) * FAR_M;
+  const y = (px: number): number => (-(px - centre_px[1]) / focal_px[1]) * FAR_M;
+  const [left, right, top, bottom] = [x(0), x(width_px), y(0), y(height_px)];
+  const positions = [left, top, -FAR_M, right, top, -FAR_M, left, bottom, -FAR_M, right, bottom, -FAR_M];
+  const geometry = new BufferGeometry();
+  const uv = new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]);
+  geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
+  geometry.setAttribute("uv", new BufferAttribute(uv, 2));
+  geometry.setAttribute("uvThere", new BufferAttribute(uv, 2));
+  geometry.setAttribute("psi", new BufferAttribute(new Float32Array(4), 1));
+  geometry.setAttribute("moved", new BufferAttribute(new Float32Array(12), 3));
+  geometry.setIndex([0, 2, 1, 1, 2, 3]);
+  return geometry;
+}

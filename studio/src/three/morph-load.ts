@@ -1,0 +1,173 @@
+/** Loading what a walk needs near the person: the models of transitions, and the pictures of stations. */
+import { BufferAttribute, BufferGeometry, LinearMipmapLinearFilter, Mesh, NoColorSpace, Texture } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { Fault, faultOf } from "../core/fault.ts";
+import { type MorphWalk, nearTransitions } from "../core/morph-walk.ts";
+import { fileAddress } from "../core/place.ts";
+import { fetchBytes } from "./fetch.ts";
+
+const REMEDY = "Write the walk again with `veduta walk`.";
+const ANISOTROPY = 8;
+
+/** One end's model: what was seen there, and what spans breaks in depth. */
+export interface EndModel {
+  readonly seen: BufferGeometry;
+  readonly torn: BufferGeometry;
+}
+
+/** Both models of a transition; null while they are on their way, or where it does not morph. */
+export interface WayModels {
+  readonly forth: EndModel;
+  readonly back: EndModel;
+}
+
+export class MorphFiles {
+  readonly #walk: MorphWalk;
+  readonly #manifest: URL;
+  readonly #onArrival: () => void;
+  readonly #onFault: (fault: Fault) => void;
+  readonly #ways = new Map<number, WayModels | null>();
+  readonly #pictures = new Map<number, Texture | null>();
+  #wanted = new Set<number>();
+
+  constructor(walk: MorphWalk, manifest: URL, onArrival: () => void, onFault: (fault: Fault) => void) {
+    this.#walk = walk;
+    this.#manifest = manifest;
+    this.#onArrival = onArrival;
+    this.#onFault = onFault;
+  }
+
+  way(transition: number): WayModels | null {
+    return this.#ways.get(transition) ?? null;
+  }
+
+  picture(station: number): Texture | null {
+    return this.#pictures.get(station) ?? null;
+  }
+
+  /** How many models of transitions are held. */
+  get held(): number {
+    return this.#ways.size;
+  }
+
+  /** Asks for what is near, and lets go of the rest. */
+  follow(at: number): void {
+    const near = nearTransitions(this.#walk, at);
+    this.#wanted = new Set(near);
+    const stations = new Set(near.flatMap((n) => [this.#walk.transitions[n]?.start ?? 0, this.#walk.transitions[n]?.end ?? 0]));
+    if (near.length === 0) stations.add(0);
+    for (const [transition, models] of this.#ways) {
+      if (this.#wanted.has(transition)) continue;
+      this.#ways.delete(transition);
+      for (const end of models === null ? [] : [models.forth, models.back]) dispose(end);
+    }
+    for (const [station, picture] of this.#pictures) {
+      if (stations.has(station)) continue;
+      this.#pictures.delete(station);
+      picture?.dispose();
+    }
+    for (const station of stations) if (!this.#pictures.has(station)) void this.#fetchPicture(station);
+    for (const transition of near) if (!this.#ways.has(transition)) void this.#fetchWay(transition);
+  }
+
+  /** Until what one sees at a place is there. */
+  async settle(at: number): Promise<void> {
+    this.follow(at);
+    const first = nearTransitions(this.#walk, at)[0];
+    const way = first === undefined ? undefined : this.#walk.transitions[first];
+    const ends = way === undefined ? [0] : [way.start, way.end];
+    for (;;) {
+      const waits = ends.some((end) => this.#pictures.get(end) === null) || (way?.kind === "morph" && this.#ways.get(first ?? 0) === null);
+      if (!waits) return;
+      await new Promise((resolve) => setTimeout(resolve, 30));
+    }
+  }
+
+  dispose(): void {
+    this.#wanted.clear();
+    for (const models of this.#ways.values()) for (const end of models === null ? [] : [models.forth, models.back]) dispose(end);
+    for (const picture of this.#pictures.values()) picture?.dispose();
+    this.#ways.clear();
+    this.#pictures.clear();
+  }
+
+  async #fetchWay(transition: number): Promise<void> {
+    const { forth, back } = this.#walk.transitions[transition] ?? {};
+    if (forth === null || forth === undefined || back === null || back === undefined) return;
+    this.#ways.set(transition, null);
+    try {
+      const models = { forth: await this.#model(forth), back: await this.#model(back) };
+      if (this.#ways.get(transition) === null && this.#wanted.has(transition)) this.#ways.set(transition, models);
+      else for (const end of [models.forth, models.back]) dispose(end);
+      this.#onArrival();
+    } catch (error) {
+      this.#ways.delete(transition);
+      this.#onFault(faultOf(error));
+    }
+  }
+
+  async #fetchPicture(station: number): Promise<void> {
+    const file = this.#walk.stations[station]?.picture;
+    if (file === undefined) return;
+    this.#pictures.set(station, null);
+    try {
+      const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
+      const bitmap = await createImageBitmap(new Blob([bytes]));
+      const texture = new Texture(bitmap);
+      texture.flipY = false;
+      texture.colorSpace = NoColorSpace;
+      texture.minFilter = LinearMipmapLinearFilter;
+      texture.anisotropy = ANISOTROPY;
+      texture.needsUpdate = true;
+      texture.addEventListener("dispose", () => bitmap.close());
+      if (this.#pictures.get(station) === null) this.#pictures.set(station, texture);
+      else texture.dispose();
+      this.#onArrival();
+    } catch (error) {
+      this.#pictures.delete(station);
+      this.#onFault(faultOf(error));
+    }
+  }
+
+  async #model(file: string): Promise<EndModel> {
+    const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
+    const { scene } = await new GLTFLoader().parseAsync(bytes, "").catch((error: unknown) => {
+      throw new Fault(file, `the model is broken (${error instanceof Error ? error.message : String(error)})`, REMEDY);
+    });
+    const geometries = new Map<string, BufferGeometry>();
+    scene.traverse((node) => {
+      if (!(node instanceof Mesh)) return;
+      const mesh = node as Mesh;
+      const material = [mesh.material].flat()[0];
+      geometries.set(material?.name ?? "", taken(mesh.geometry, file));
+      material?.dispose();
+    });
+    const seen = geometries.get("seen");
+    if (seen === undefined) throw new Fault(file, "it holds no surface that was seen", REMEDY);
+    return { seen, torn: geometries.get("between") ?? new BufferGeometry() };
+  }
+}
+
+/** The columns under the names that the shaders have for them. */
+function taken(geometry: BufferGeometry, file: string): BufferGeometry {
+  const column = (name: string): BufferAttribute => {
+    const attribute = geometry.getAttribute(name);
+    if (attribute instanceof BufferAttribute) return attribute;
+    throw new Fault(file, `its mesh has no ${name}`, REMEDY);
+  };
+  const moved = geometry.morphAttributes.position?.[0];
+  if (!(moved instanceof BufferAttribute)) throw new Fault(file, "its mesh does not morph", REMEDY);
+  const own = new BufferGeometry();
+  own.setIndex(geometry.index);
+  own.setAttribute("position", column("position"));
+  own.setAttribute("uv", column("uv"));
+  own.setAttribute("uvThere", column("uv1"));
+  own.setAttribute("psi", column("_psi"));
+  own.setAttribute("moved", moved);
+  return own;
+}
+
+function dispose({ seen, torn }: EndModel): void {
+  seen.dispose();
+  torn.dispose();
+}

@@ -1,0 +1,154 @@
+/** Draws a walk from view to view: two models, each with both pictures, laid over one another. */
+import {
+  Euler,
+  Matrix4,
+  Mesh,
+  OrthographicCamera,
+  PerspectiveCamera,
+  PlaneGeometry,
+  Quaternion,
+  Scene,
+  Vector2,
+  Vector3,
+  type WebGLRenderer,
+} from "three";
+import type { Fault } from "../core/fault.ts";
+import { type MorphState, type MorphWalk, nearestStation, placeOn, type Station, walkedOn } from "../core/morph-walk.ts";
+import { axesOf, drawnFromCamera } from "../core/pinhole.ts";
+import { MorphFiles } from "./morph-load.ts";
+import { MorphLayer } from "./morph-layer.ts";
+import { mixMaterial, mixUniforms } from "./morph-material.ts";
+
+const NEAR_M = 0.3;
+const FAR_M = 4000;
+/** Looking aside: no further than there are pictures, by and large. */
+const MOST_YAW = 1.4;
+const MOST_PITCH = 0.9;
+const TURN_RAD_S = 0.8;
+const RUN = 3;
+
+export class MorphShow {
+  readonly #walks: readonly MorphWalk[];
+  readonly #files: readonly MorphFiles[];
+  readonly #camera = new PerspectiveCamera(40, 1, NEAR_M, FAR_M);
+  readonly #own = new MorphLayer();
+  readonly #other = new MorphLayer();
+  readonly #mix = mixUniforms(NEAR_M, FAR_M);
+  readonly #screen = new Scene();
+  readonly #flat = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  #yaw = 0;
+  #pitch = 0;
+
+  constructor(walks: readonly MorphWalk[], manifest: URL, onArrival: () => void, onFault: (fault: Fault) => void) {
+    this.#walks = walks;
+    this.#files = walks.map((walk) => new MorphFiles(walk, manifest, onArrival, onFault));
+    const plane = new Mesh(new PlaneGeometry(2, 2), mixMaterial(this.#mix));
+    plane.frustumCulled = false;
+    this.#screen.add(plane);
+  }
+
+  /** Until what one sees first is there. */
+  async settle(state: MorphState): Promise<void> {
+    await this.#files[state.which]?.settle(state.at);
+  }
+
+  /** The models that are held of the walk that one is on. */
+  held(which: number): number {
+    return this.#files[which]?.held ?? 0;
+  }
+
+  /** In the drawn frame. */
+  get camera(): PerspectiveCamera {
+    return this.#camera;
+  }
+
+  look(left: number, up: number): void {
+    this.#yaw = clamp(this.#yaw + left, MOST_YAW);
+    this.#pitch = clamp(this.#pitch + up, MOST_PITCH);
+  }
+
+  lookAhead(): void {
+    this.#yaw = 0;
+    this.#pitch = 0;
+  }
+
+  /** After so many seconds; null where nothing changes. */
+  advance(
+    state: MorphState,
+    wish: { readonly forward: number; readonly run: boolean },
+    turn: { readonly left: number; readonly up: number },
+    seconds: number,
+  ): MorphState | null {
+    const walk = this.#walks[state.which];
+    if (walk === undefined) return null;
+    this.look(turn.left * TURN_RAD_S * seconds, turn.up * TURN_RAD_S * seconds);
+    const steered = wish.forward !== 0;
+    const pace = walk.speed_m_s * (steered ? wish.forward * (wish.run ? RUN : 1) : state.playing ? 1 : 0);
+    if (pace === 0) return turn.left === 0 && turn.up === 0 ? null : { ...state };
+    const at = walkedOn(walk, state.at, pace * seconds);
+    const ended = at === state.at;
+    return { ...state, at, playing: state.playing && !steered && !ended };
+  }
+
+  draw(renderer: WebGLRenderer, state: MorphState): void {
+    const walk = this.#walks[state.which];
+    const files = this.#files[state.which];
+    if (walk === undefined || files === undefined) return;
+    const at = state.instant ? nearestStation(state.at) : state.at;
+    files.follow(at);
+    const { transition, m } = placeOn(walk, at);
+    const way = walk.transitions[transition];
+    const [start, end] = [walk.stations[way?.start ?? 0], walk.stations[way?.end ?? 0]];
+    if (start === undefined || end === undefined) return;
+    const whole = way?.kind === "cut" ? Math.round(m) : m;
+    const size = renderer.getDrawingBufferSize(new Vector2());
+    this.#aim(start, end, whole, size.x / size.y);
+    const models = files.way(transition);
+    const [own, other] = [files.picture(way?.start ?? 0), files.picture(way?.end ?? 0)];
+    this.#own.show(start, models?.forth ?? null, own, other, m, state.look);
+    this.#other.show(end, models?.back ?? null, other, own, 1 - m, state.look);
+    const before = renderer.autoClear;
+    renderer.autoClear = false;
+    this.#own.draw(renderer, this.#camera, size.x, size.y);
+    this.#other.draw(renderer, this.#camera, size.x, size.y);
+    renderer.setRenderTarget(null);
+    this.#mix.ownColour.value = this.#own.target.texture;
+    this.#mix.ownDepth.value = this.#own.target.depthTexture;
+    this.#mix.otherColour.value = this.#other.target.texture;
+    this.#mix.otherDepth.value = this.#other.target.depthTexture;
+    this.#mix.m.value = whole;
+    renderer.render(this.#screen, this.#flat);
+    renderer.autoClear = before;
+  }
+
+  dispose(): void {
+    for (const files of this.#files) files.dispose();
+    this.#own.dispose();
+    this.#other.dispose();
+  }
+
+  /** Between the two cameras, turned as the person looks; the picture covers the canvas. */
+  #aim(start: Station, end: Station, m: number, aspect: number): void {
+    const [from, to] = [poseOf(start), poseOf(end)];
+    this.#camera.position.lerpVectors(from.eye, to.eye, m);
+    const aside = new Quaternion().setFromEuler(new Euler(this.#pitch, this.#yaw, 0, "YXZ"));
+    this.#camera.quaternion.slerpQuaternions(from.turn, to.turn, m).multiply(aside);
+    const high = 2 * Math.atan(start.height_px / 2 / start.focal_px[1]);
+    const wide = 2 * Math.atan(start.width_px / 2 / start.focal_px[0] / aspect);
+    this.#camera.fov = (Math.min(high, wide) * 180) / Math.PI;
+    this.#camera.aspect = aspect;
+    this.#camera.updateProjectionMatrix();
+    this.#camera.updateMatrixWorld();
+  }
+}
+
+function poseOf(station: Station): { eye: Vector3; turn: Quaternion } {
+  const matrix = new Matrix4().fromArray(drawnFromCamera(axesOf({ ...station, name: station.id })));
+  const [eye, turn] = [new Vector3(), new Quaternion()];
+  matrix.decompose(eye, turn, new Vector3());
+  return { eye, turn };
+}
+
+function clamp(value: number, most: number): number {
+  return Math.min(most, Math.max(-most, value));
+}

@@ -1,0 +1,73 @@
+import { describe, expect, it } from "vitest";
+import { Fault } from "../../src/core/fault.ts";
+import { metresTo, type MorphWalk, nearTransitions, placeOn, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
+import { isInside } from "../../src/core/place.ts";
+
+const station = (id: string, y: number): object => ({
+  id,
+  picture: `walk/${id}.webp`,
+  width_px: 400,
+  height_px: 200,
+  focal_px: [300, 300],
+  centre_px: [200, 100],
+  transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, y, 0, 1],
+});
+const morph = { start: 0, end: 1, kind: "morph", forth: "walk/a.glb", back: "walk/b.glb", score_db: 20 };
+const record = {
+  id: "walk",
+  name: "Walk",
+  speed_m_s: 2,
+  keys: [station("a", 0), station("b", 2), station("c", 6)],
+  transitions: [morph, { start: 1, end: 2, kind: "cut", forth: null, back: null, score_db: null }],
+};
+const read = (change: object = {}): MorphWalk =>
+  readMorphWalk({ ...record, ...change }, "walk 1", (fault) => new Fault("place.json", fault, "Mend it."), isInside);
+
+describe("a walk from view to view", () => {
+  it("is read with the lengths of its transitions", () => {
+    const walk = read();
+    expect(walk.lengths_m).toEqual([2, 4]);
+    expect(walk.transitions.map(({ kind }) => kind)).toEqual(["morph", "cut"]);
+  });
+
+  it.each([
+    [{ keys: [] }, "keys"],
+    [{ keys: [{ ...station("a", 0), picture: "../x.webp" }] }, "keys"],
+    [{ keys: [{ ...station("a", 0), transform: [1] }] }, "keys"],
+    [{ keys: [{ ...station("a", 0), focal_px: [0, 1] }] }, "keys"],
+    [{ transitions: [{ ...morph, end: 9 }] }, "transitions"],
+    [{ transitions: [{ ...morph, kind: "jump" }] }, "transitions"],
+    [{ transitions: [{ ...morph, back: null }] }, "transitions"],
+    [{ transitions: [{ ...morph, forth: "/a.glb" }] }, "transitions"],
+    [{ speed_m_s: 0 }, "speed_m_s"],
+    [{ name: 3 }, "name"],
+  ])("refuses %j", (change, field) => {
+    expect(() => read(change)).toThrow(new RegExp(`walk 1 has no proper "${field}"`));
+  });
+
+  it("knows the transition and the morph parameter of a place, both ends included", () => {
+    const walk = read();
+    expect(placeOn(walk, -1)).toEqual({ transition: 0, m: 0 });
+    expect(placeOn(walk, 1)).toEqual({ transition: 1, m: 0 });
+    expect(placeOn(walk, 1.25)).toEqual({ transition: 1, m: 0.25 });
+    expect(placeOn(walk, 7)).toEqual({ transition: 1, m: 1 });
+    expect(placeOn(read({ keys: [station("a", 0)], transitions: [] }), 0.4)).toEqual({ transition: 0, m: 0 });
+  });
+
+  it("walks metres across transitions of different lengths, and stops at both ends", () => {
+    const walk = read();
+    expect(walkedOn(walk, 0, 1)).toBeCloseTo(0.5);
+    expect(walkedOn(walk, 0.5, 2)).toBeCloseTo(1.25);
+    expect(walkedOn(walk, 1.25, -2)).toBeCloseTo(0.5);
+    expect(walkedOn(walk, 0.5, -9)).toBe(0);
+    expect(walkedOn(walk, 0.5, 99)).toBe(2);
+    for (let metres = 0; metres <= 6; metres += 0.37) expect(metresTo(walk, walkedOn(walk, 0, metres))).toBeCloseTo(metres);
+  });
+
+  it("asks for the transition that one is in, one ahead and one behind", () => {
+    const walk = read({ transitions: [morph, morph, morph, morph] });
+    expect(nearTransitions(walk, 0)).toEqual([0, 1]);
+    expect(nearTransitions(walk, 2.5)).toEqual([2, 3, 1]);
+    expect(nearTransitions(walk, 4)).toEqual([3, 2]);
+  });
+});
