@@ -1,0 +1,1 @@
+"""The texture of any triangle mesh from photos that see it."""
