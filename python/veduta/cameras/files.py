@@ -27,7 +27,7 @@ _MAT_DAMAGE = (
     TypeError,
     KeyError,
     IndexError,
-    NotImplementedError,
+    RuntimeError,
     OSError,
     EOFError,
     OverflowError,
