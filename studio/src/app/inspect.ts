@@ -44,7 +44,8 @@ export interface Inspection {
   /** Where one is on a walk from view to view; null where one is on none. */
   stroll(): MorphState | null;
   bounds(): { min: Vec3; max: Vec3 };
-  stats(): ViewerStats & { load_s: number };
+  /** `loading`: files on their way; `missing`: those that did not come. */
+  stats(): ViewerStats & { load_s: number; loading: number; missing: string[] };
 }
 
 declare global {
@@ -121,6 +122,10 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     animals: () => viewer.animals.states,
     stroll: () => store.value.morph,
     bounds: () => viewer.solid.bounds,
-    stats: () => ({ ...viewer.stats, load_s: session.loadSeconds }),
+    stats: () => {
+      const { waiting, missing } = session.onTheWay;
+      const loading = waiting + (session.town?.isLoading === true ? 1 : 0);
+      return { ...viewer.stats, load_s: session.loadSeconds, loading, missing: missing.map(({ file }) => file) };
+    },
   };
 }

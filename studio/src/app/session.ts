@@ -8,6 +8,9 @@ import type { MorphState } from "../core/morph-walk.ts";
 import { fileAddress, placeAddress, readPlace, type Place } from "../core/place.ts";
 import type { FeatureRef, Layer, StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
+import { Arrivals, type Missing } from "../three/arrivals.ts";
+import { fetchText } from "../three/fetch.ts";
+import type { LoadedHouse } from "../three/household.ts";
 import type { Town } from "../three/town.ts";
 import type { Viewer } from "../three/viewer.ts";
 
@@ -20,6 +23,10 @@ export interface Session {
   readonly sunPath: SunPath;
   /** Whether there are lamps in them. */
   readonly hasLamps: boolean;
+  /** Files that are on their way, and those that did not come. */
+  readonly onTheWay: { readonly waiting: number; readonly missing: readonly Missing[] };
+  /** Asks at once for what did not come. */
+  askNow(): void;
   readonly viewer: Viewer;
   readonly loadSeconds: number;
   /** A place that is streamed; its tables grow as tiles arrive. */
@@ -32,6 +39,9 @@ export interface Session {
   /** A photo of the place, no larger than wanted. */
   readonly bitmap: (index: number, side_px: number) => Promise<ImageBitmap>;
 }
+
+/** A place of so few parts is shown when all have come: they belong together, as a house and its garden do. */
+const FEW_PARTS = 4;
 
 export async function openPlace(
   page: URL,
@@ -47,18 +57,21 @@ export async function openPlace(
   // three.js is most of the program; it arrives while the place does.
   const drawing = Promise.all([
     import("../three/clouds.ts"),
-    import("../three/fetch.ts"),
     import("../three/frusta.ts"),
     import("../three/houses.ts"),
     import("../three/load.ts"),
     import("../three/morph-show.ts"),
+    import("../three/part-slot.ts"),
+    import("../three/shared-images.ts"),
     import("../three/photo-textures.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
-  const [{ loadClouds }, { fetchText }, { Frusta }, { loadHouses }, { loadParts }, { MorphShow }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] = await drawing;
+  // The index of the place and the first models need none of it.
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
+  const [{ loadClouds }, { Frusta }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot }, { SharedImages }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] =
+    await drawing;
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
   let viewer: Viewer | null = null;
@@ -66,12 +79,33 @@ export async function openPlace(
     tileset === null
       ? null
       : new Town(fileAddress(tileset, address), budget.tileError_px, () => viewer?.invalidate(), onShown);
-  const parts =
-    tileset === null
-      ? await loadParts(place, address, (share, file) => onProgress(0.97 * share, file))
-      : [];
+  const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
+  const images = new SharedImages();
+  const houses: LoadedHouse[] = [];
+  let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
+  const shares = parts.map(() => 0);
+  const bring = async (index: number): Promise<void> => {
+    const slot = parts[index];
+    if (slot === undefined) return;
+    const loaded = await loadPart(slot.part, address, images, (got, total) => {
+      shares[index] = total === null ? 0.5 : got / total;
+      onProgress(0.97 * Math.max(0.02, mean(shares)), slot.part.model);
+    });
+    slot.take(loaded);
+    tables = [...tables]; // the panels count anew
+    viewer?.take(index);
+    const house = await loadHouse(slot, address, houses.length, onFault);
+    if (house === null) return;
+    houses.push(house);
+    viewer?.household.take(house);
+  };
+  const arrivals = new Arrivals(tileset === null ? place.parts : [], place.start.eye, bring, onShown);
+  arrivals.start();
   await town?.open((share) => onProgress(share, "tileset.json"));
-  const houses = await loadHouses(parts, address, onFault);
+  const isFew = parts.length <= FEW_PARTS || parts.some(({ part }) => part.bounds === null);
+  await (isFew ? arrivals.tried() : arrivals.first());
+  const [firstMissing] = arrivals.missing;
+  if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
   const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
@@ -84,11 +118,24 @@ export async function openPlace(
   onProgress(1, "");
   return {
     place,
-    tables: town?.tables ?? parts.map(({ table }) => table),
+    get tables() {
+      return town?.tables ?? tables;
+    },
     town,
     sunPath,
-    houses: houses.map(({ house }) => house),
-    hasLamps: houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0)),
+    get houses() {
+      return houses.map(({ house }) => house);
+    },
+    get hasLamps() {
+      return houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0));
+    },
+    get onTheWay() {
+      return { waiting: arrivals.waiting, missing: town?.missing ?? arrivals.missing };
+    },
+    askNow: () => {
+      arrivals.askNow();
+      town?.askNow();
+    },
     records: recordsOf(place, town !== null),
     nameOf: (ref) => town?.nameOf(ref) ?? place.parts[ref.part]?.name ?? "",
     viewer,
@@ -109,6 +156,10 @@ export async function openPlace(
 export function strollFrom(which: number): MorphState {
   const instant = matchMedia("(prefers-reduced-motion: reduce)").matches;
   return { which, at: 0, playing: false, look: "picture", instant };
+}
+
+function mean(values: readonly number[]): number {
+  return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }
 
 /** Walls and a model of the same buildings lie in one another: the model is seen first. */

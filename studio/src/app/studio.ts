@@ -23,6 +23,7 @@ import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
 import "./message-card.ts";
+import "./missing-panel.ts";
 import "./minimap.ts";
 import type { Minimap } from "./minimap.ts";
 import { savePicture, toggleFullscreen } from "./page-actions.ts";
@@ -38,6 +39,8 @@ import "./toolbar.ts";
 import "./tour-panel.ts";
 import { isTyping } from "./typing.ts";
 import { hintOf, titleOf } from "./words.ts";
+
+const LOST = "The browser took the graphics card away from this page; the picture comes back with it";
 
 export class Studio extends LitElement {
   static override properties = {
@@ -80,14 +83,13 @@ export class Studio extends LitElement {
     addEventListener("keydown", (event) => this.#onKey(event, true));
     addEventListener("keyup", (event) => this.#onKey(event, false));
     addEventListener("blur", () => this.session?.viewer.releaseKeys());
-    this.#canvas.addEventListener("webglcontextlost", () => {
-      this.#fail(
-        new Fault(
-          "The graphics card",
-          "the browser took it away from this page",
-          "Close other pages that draw in 3D, then try again.",
-        ),
-      );
+    this.#canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault(); // else it is not given back
+      this.notice = LOST;
+    });
+    this.#canvas.addEventListener("webglcontextrestored", () => {
+      this.session?.viewer.restore();
+      this.#say("The picture is back");
     });
     void this.#open();
   }
@@ -111,7 +113,9 @@ export class Studio extends LitElement {
         (fault) => this.#say(fault.message),
       );
       this.session = session;
-      if (session.houses.length > 0) session.viewer.onDrawn = () => this.#drawMap(session);
+      session.viewer.onDrawn = () => {
+        if (session.houses.length > 0) this.#drawMap(session);
+      };
       document.title = `${titleOf(session)} · Veduta`;
       window.veduta = inspect(session, this.#store);
       await this.updateComplete;
@@ -172,6 +176,8 @@ export class Studio extends LitElement {
       <veduta-feature-panel class="sheet" role="region" aria-label="The selected surface" ?hidden=${shown === null}
         .shown=${shown} @close-panel=${() => this.#store.update({ selected: null })}
         @select-row=${(event: CustomEvent<number>) => this.#selectRow(event.detail)}></veduta-feature-panel>
+      <veduta-missing class="sheet" .waiting=${session.onTheWay.waiting} .missing=${session.onTheWay.missing}
+        @ask-now=${() => session.askNow()}></veduta-missing>
       ${this.#photoPanel(session)}
       ${session.houses.length === 0
         ? nothing

@@ -13,6 +13,9 @@ export class Fault extends Error {
   }
 }
 
+/** What did not come; it may come when it is asked for again. */
+export class Absent extends Fault {}
+
 /** Any thrown value as a fault; one that nobody foresaw says so and keeps its own words. */
 export function faultOf(error: unknown): Fault {
   if (error instanceof Fault) return error;

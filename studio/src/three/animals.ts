@@ -9,6 +9,7 @@ import { Course, type Ground } from "../core/course.ts";
 import { drawnFromWorld } from "../core/frames.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { LoadedPart } from "./load.ts";
+import type { PartSlot } from "./part-slot.ts";
 
 /** Nobody waits longer for a frame than so (s). */
 const MOST_SECONDS = 0.1;
@@ -106,22 +107,39 @@ class LivingAnimal {
 }
 
 export class Animals {
-  readonly #all: readonly LivingAnimal[];
+  readonly #animals: readonly Animal[];
+  readonly #parts: readonly PartSlot[];
+  readonly #ground: Ground;
+  /** By their numbers in the place; null while the model is on its way. */
+  readonly #all: (LivingAnimal | null)[];
 
-  constructor(animals: readonly Animal[], parts: readonly LoadedPart[], ground: Ground) {
-    this.#all = animals.flatMap((animal) => {
-      const part = parts[animal.part];
-      return part === undefined ? [] : [new LivingAnimal(animal, part, ground)];
-    });
+  constructor(animals: readonly Animal[], parts: readonly PartSlot[], ground: Ground) {
+    this.#animals = animals;
+    this.#parts = parts;
+    this.#ground = ground;
+    this.#all = animals.map(() => null);
+    for (const [index, { isThere }] of parts.entries()) if (isThere) this.take(index);
+  }
+
+  /** The model of a part has come: those that are of it live. */
+  take(part: number): void {
+    const slot = this.#parts[part];
+    for (const [index, animal] of this.#animals.entries()) {
+      if (animal.part === part && slot !== undefined) this.#all[index] = new LivingAnimal(animal, slot, this.#ground);
+    }
   }
 
   get count(): number {
-    return this.#all.length;
+    return this.#living.length;
+  }
+
+  get #living(): LivingAnimal[] {
+    return this.#all.filter((one) => one !== null);
   }
 
   /** Where each is (world frame), and how far it is on its pace (0..1). */
   get states(): { readonly id: string; readonly place: Vec3; readonly pace: number }[] {
-    return this.#all.map(({ animal, place, course }) => ({ id: animal.id, place, pace: course.pace }));
+    return this.#living.map(({ animal, place, course }) => ({ id: animal.id, place, pace: course.pace }));
   }
 
   placeOf(which: number): Vec3 | null {
@@ -136,7 +154,7 @@ export class Animals {
   /** True while one moves. */
   advance(state: AnimalState, seconds: number): boolean {
     const passed = Math.min(seconds, MOST_SECONDS);
-    const moves = this.#all.map((one, index) => one.advance(state.playing, index === state.which ? state.clip : 0, passed));
-    return moves.includes(true) || (state.playing && this.#all.some(({ course }) => course.pace > 0));
+    const moves = this.#all.map((one, index) => one?.advance(state.playing, index === state.which ? state.clip : 0, passed) ?? false);
+    return moves.includes(true) || (state.playing && this.#living.some(({ course }) => course.pace > 0));
   }
 }

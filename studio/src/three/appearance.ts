@@ -15,20 +15,24 @@ const COLOURING_STRENGTH = 0.78;
 export class Appearance {
   readonly outline = new Outline();
   readonly #parts: readonly LoadedPart[];
-  readonly #tints: readonly DataTexture[];
+  readonly #tints: (DataTexture | undefined)[] = [];
   readonly #maskStrength = { value: 0 };
 
   constructor(parts: readonly LoadedPart[]) {
     this.#parts = parts;
-    this.#tints = parts.map((part) => tintTexture(part.table.rows.length));
-    for (const [index, part] of parts.entries()) {
-      const tints = this.#tints[index];
-      if (tints === undefined) continue;
-      for (const { mesh } of [...part.meshes, ...part.instanced]) {
-        for (const material of [mesh.material].flat()) {
-          const mask = part.masks.get(material) ?? null;
-          addTint(material, { tints, mask, maskStrength: this.#maskStrength });
-        }
+    for (const index of parts.keys()) this.take(index);
+  }
+
+  /** Takes over the materials of a part that has come. */
+  take(index: number): void {
+    const part = this.#parts[index];
+    if (part === undefined || part.meshes.length + part.instanced.length === 0) return;
+    const tints = tintTexture(part.table.rows.length);
+    this.#tints[index] = tints;
+    for (const { mesh } of [...part.meshes, ...part.instanced]) {
+      for (const material of [mesh.material].flat()) {
+        const mask = part.masks.get(material) ?? null;
+        addTint(material, { tints, mask, maskStrength: this.#maskStrength });
       }
     }
   }

@@ -31,14 +31,13 @@ export interface DoorState {
 }
 
 export class Doors implements Obstacles {
-  readonly #doors: readonly Door[];
+  readonly #doors: Door[] = [];
 
-  /** They are closed at first. */
-  constructor(parts: readonly LoadedPart[]) {
-    this.#doors = parts.flatMap((loaded, part) => {
-      const rows = new Set(loaded.movers.map(({ row }) => row));
-      return [...rows].map((row) => doorOf(parts, part, row));
-    });
+  /** Takes over those of a part that has come. They are closed at first. */
+  take(parts: readonly LoadedPart[], part: number): void {
+    const movers = parts[part]?.movers ?? [];
+    const rows = new Set(movers.map(({ row }) => row));
+    for (const row of rows) this.#doors.push(doorOf(movers, part, row));
   }
 
   get faceCount(): number {
@@ -90,13 +89,12 @@ export class Doors implements Obstacles {
   }
 }
 
-function doorOf(parts: readonly LoadedPart[], part: number, row: number): Door {
-  const movers = parts[part]?.movers.filter((mover) => mover.row === row) ?? [];
+function doorOf(all: readonly Mover[], part: number, row: number): Door {
+  const movers = all.filter((mover) => mover.row === row);
   for (const mover of movers) mover.pose(0);
   const leaves = movers.map((mover): Leaf => {
-    // The parts keep their numbers: a hit says which of them it is on.
-    const alone = parts.map((_, index) => ({ meshes: index === part ? mover.meshes : [], instanced: [] }));
-    return { mover, solid: new Solid(soupOf(alone)), closed: mover.place.clone() };
+    const alone = { meshes: mover.meshes, instanced: [] };
+    return { mover, solid: new Solid(soupOf([alone], part)), closed: mover.place.clone() };
   });
   const doorway = doorwayOf(movers.flatMap(cornersOf));
   return { feature: { part, row }, doorway, leaves, share: 0 };
@@ -134,40 +132,4 @@ function hitOf(
 /** A point of the world by a motion of the drawn frame. */
 function moved(point: Vec3, motion: Matrix4): Vec3 {
   return worldFromDrawn(new Vector3(...drawnFromWorld(point)).applyMatrix4(motion).toArray());
-}
-
-/** What stands still, and the doors in it. */
-export class SolidWithDoors implements Obstacles {
-  readonly doors: Doors;
-  readonly #still: Solid;
-
-  constructor(still: Solid, doors: Doors) {
-    this.#still = still;
-    this.doors = doors;
-  }
-
-  get bounds(): Solid["bounds"] {
-    return this.#still.bounds;
-  }
-
-  get faceCount(): number {
-    return this.#still.faceCount + this.doors.faceCount;
-  }
-
-  pushOut(feet: Vec3, body: Body): Vec3 | null {
-    const first = this.#still.pushOut(feet, body);
-    const second = this.doors.pushOut(first === null ? feet : add(feet, first), body);
-    return first === null ? second : second === null ? first : add(first, second);
-  }
-
-  groundAt(x: number, y: number): number | null {
-    return this.#still.groundAt(x, y);
-  }
-
-  firstHit(origin: Vec3, direction: Vec3, isVisible: (feature: FeatureRef) => boolean): Hit | null {
-    const still = this.#still.firstHit(origin, direction, isVisible);
-    const leaf = this.doors.firstHit(origin, direction, isVisible);
-    if (still === null || leaf === null) return still ?? leaf;
-    return leaf.distance_m < still.distance_m ? leaf : still;
-  }
 }

@@ -1,5 +1,5 @@
 /** Fetching with progress, and with faults that say what to do. */
-import { Fault } from "../core/fault.ts";
+import { Absent, Fault } from "../core/fault.ts";
 
 /** More than a browser tab can hold; refused before memory is taken. */
 const MOST_BYTES = 1_500_000_000;
@@ -40,7 +40,7 @@ async function get(url: URL, file: string): Promise<Response> {
   });
   if (response.ok) return response;
   if (response.status === 404) {
-    throw new Fault(
+    throw new Absent(
       file,
       "the file is not there",
       "Check that the folder is complete, or write the place again, for example with `veduta facade`.",
@@ -53,12 +53,12 @@ async function get(url: URL, file: string): Promise<Response> {
       "Open the whole address that `veduta view` printed, with its token.",
     );
   }
-  throw new Fault(file, `the server answers ${response.status}`, "Look at the server's own messages.");
+  throw new Absent(file, `the server answers ${response.status}`, "Look at the server's own messages.");
 }
 
 function interrupted(file: string, error: unknown): Fault {
   const words = error instanceof Error ? error.message : String(error);
-  return new Fault(
+  return new Absent(
     file,
     `it could not be fetched (${words})`,
     "Check that the server still runs (`veduta view`), then try again.",

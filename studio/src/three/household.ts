@@ -21,20 +21,28 @@ const EVENING = 0.5;
 export class Household {
   /** Light around the lamps. */
   readonly group = new Group();
-  readonly #houses: readonly House[];
-  readonly #doors: Doors | null;
-  readonly #lights: readonly RoomLights[];
+  readonly #houses: House[] = [];
+  readonly #doorsNow: () => Doors | null;
+  readonly #lights: RoomLights[] = [];
   #day = 1;
 
-  constructor(houses: readonly LoadedHouse[], doors: Doors | null) {
-    this.#houses = houses.map(({ house }) => house);
-    this.#doors = doors;
-    this.#lights = houses.map(({ house, part }) => new RoomLights(house, part));
-    for (const { glow } of this.#lights) this.group.add(glow);
+  /** `doors` are those that there are now. */
+  constructor(houses: readonly LoadedHouse[], doors: () => Doors | null) {
+    this.#doorsNow = doors;
+    for (const house of houses) this.take(house);
+  }
+
+  /** A house whose model and document have come. */
+  take({ house, part }: LoadedHouse): void {
+    const lights = new RoomLights(house, part);
+    lights.day = this.#day;
+    this.#houses.push(house);
+    this.#lights.push(lights);
+    this.group.add(lights.glow);
   }
 
   get doors(): Doors | null {
-    return this.#doors;
+    return this.#doorsNow();
   }
 
   /** How far the lamps of each room of a house are on (0..1), by its number over all storeys. */
@@ -55,7 +63,7 @@ export class Household {
   advance(state: StudioState, walker: Walker, eye: Vec3, seconds: number): { doors: boolean; lamps: boolean } {
     const walks = state.mode === "walk";
     const heading = state.tour?.playing === true ? null : walker.heading;
-    const doors = this.#doors?.advance(walks ? { feet: walker.feet, heading } : null, state.doors === "open", seconds) ?? false;
+    const doors = this.doors?.advance(walks ? { feet: walker.feet, heading } : null, state.doors === "open", seconds) ?? false;
     const here = walks ? this.whereabouts(walker.feet) : null;
     let lamps = false;
     for (const [house, lights] of this.#lights.entries()) {

@@ -9,25 +9,26 @@ import type { LoadedPart } from "./load.ts";
 /** Maps and lamps are for those whom one visits; a place of many more is a town. */
 const MOST_HOUSES = 40;
 
-/** A document that is broken or not there is told, and its house shown without map and lamps. */
-export async function loadHouses(
-  parts: readonly LoadedPart[],
+/**
+ * The house of a part that has come, where it is one and there are not too many already. A document that
+ * is broken or not there is told, and its house shown without map and lamps.
+ */
+export async function loadHouse(
+  part: LoadedPart,
   manifest: URL,
+  already: number,
   onFault: (fault: Fault) => void,
-): Promise<LoadedHouse[]> {
-  const houses: LoadedHouse[] = [];
-  for (const part of parts) {
-    const file = part.part.document;
-    if (file === null || !isInhabited(part) || houses.length >= MOST_HOUSES) continue;
-    try {
-      const text = await fetchText(fileAddress(file, manifest), file);
-      const house = readHouse(text, file, part.part.worldFromPart);
-      if (house !== null) houses.push({ house, part });
-    } catch (error) {
-      onFault(faultOf(error));
-    }
+): Promise<LoadedHouse | null> {
+  const file = part.part.document;
+  if (file === null || !isInhabited(part) || already >= MOST_HOUSES) return null;
+  try {
+    const text = await fetchText(fileAddress(file, manifest), file);
+    const house = readHouse(text, file, part.part.worldFromPart);
+    return house === null ? null : { house, part };
+  } catch (error) {
+    onFault(faultOf(error));
+    return null;
   }
-  return houses;
 }
 
 /** Buildings that were made of their outsides alone have no ceilings. */

@@ -4,8 +4,8 @@ import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js"
 import { readFeatureTable, type FeatureTable } from "../core/features.ts";
 import { drawnFromModel } from "../core/frames.ts";
 import { Fault } from "../core/fault.ts";
-import { fileAddress, type Part, type Place } from "../core/place.ts";
-import { fetchBytes } from "./fetch.ts";
+import { fileAddress, type Part } from "../core/place.ts";
+import { fetchBytes, type OnBytes } from "./fetch.ts";
 import { featureMesh, type FeatureMesh } from "./feature-mesh.ts";
 import { instancedFeatures, type InstancedFeatures } from "./instanced-mesh.ts";
 import { loadMasks, type Masks } from "./invented-mask.ts";
@@ -26,31 +26,15 @@ export interface LoadedPart {
   readonly animations: readonly AnimationClip[];
 }
 
-/** `share` in 0..1 of all parts; `file` is the one in hand. */
-export type OnProgress = (share: number, file: string) => void;
-
 const REMEDY = "Write the model again, for example with `veduta facade`.";
 const GLB_MAGIC = 0x46546c67;
 /** Texture size at a grazing angle costs little and keeps a street's walls sharp. */
 const ANISOTROPY = 8;
 
-export async function loadParts(
-  place: Place,
-  manifest: URL,
-  onProgress: OnProgress,
-): Promise<LoadedPart[]> {
-  const loaded: LoadedPart[] = [];
-  const images = new SharedImages();
-  for (const [index, part] of place.parts.entries()) {
-    const share = (fraction: number): number => (index + fraction) / place.parts.length;
-    onProgress(share(0), part.model);
-    const bytes = await fetchBytes(fileAddress(part.model, manifest), part.model, (got, total) => {
-      onProgress(share(0.9 * (total === null ? 0.5 : got / total)), part.model);
-    });
-    loaded.push(await readPart(part, bytes, images));
-    onProgress(share(1), part.model);
-  }
-  return loaded;
+/** Fetches and reads a part; `onBytes` hears how much of it has come. */
+export async function loadPart(part: Part, manifest: URL, images: SharedImages, onBytes: OnBytes): Promise<LoadedPart> {
+  const bytes = await fetchBytes(fileAddress(part.model, manifest), part.model, onBytes);
+  return await readPart(part, bytes, images);
 }
 
 async function readPart(part: Part, bytes: ArrayBuffer, images: SharedImages): Promise<LoadedPart> {

@@ -153,7 +153,8 @@ const BOX_CORNERS = [
 /** What a soup takes of a part. */
 export type Soupable = Pick<LoadedPart, "meshes" | "instanced">;
 
-export function soupOf(parts: readonly Soupable[]): Soup {
+/** `first` is the number of the first part in the place. */
+export function soupOf(parts: readonly Soupable[], first = 0): Soup {
   const own = parts.flatMap(({ meshes }) => meshes);
   const firstBoxFace = own.reduce((faces, mesh) => faces + mesh.rowOfFace.length, 0);
   const instances = parts.flatMap(({ instanced }) =>
@@ -173,7 +174,7 @@ export function soupOf(parts: readonly Soupable[]): Soup {
     for (const { mesh, faces, rowOfFace } of meshes) {
       const position = mesh.geometry.getAttribute("position");
       soup.rowOfFace.set(rowOfFace, face);
-      soup.partOfFace.fill(part, face, face + rowOfFace.length);
+      soup.partOfFace.fill(first + part, face, face + rowOfFace.length);
       for (const [k, vertex] of faces.entries()) {
         corner.fromBufferAttribute(position, vertex).applyMatrix4(mesh.matrixWorld);
         soup.positions.set(worldFromDrawn(corner.toArray()), 9 * face + 3 * k);
@@ -181,12 +182,12 @@ export function soupOf(parts: readonly Soupable[]): Soup {
       face += rowOfFace.length;
     }
   }
-  addBoxes(soup, parts);
+  addBoxes(soup, parts, first);
   return soup;
 }
 
 /** Twelve triangles for each instance: the box of its mesh where it stands. */
-function addBoxes(soup: Soup, parts: readonly Soupable[]): void {
+function addBoxes(soup: Soup, parts: readonly Soupable[], first: number): void {
   const corner = new Vector3();
   let face = soup.firstBoxFace;
   for (const [part, { instanced }] of parts.entries()) {
@@ -195,7 +196,7 @@ function addBoxes(soup: Soup, parts: readonly Soupable[]): void {
       for (const [index, row] of target.rows.entries()) {
         const place = placeOf(target, index);
         soup.rowOfFace.fill(row, face, face + BOX_FACES);
-        soup.partOfFace.fill(part, face, face + BOX_FACES);
+        soup.partOfFace.fill(first + part, face, face + BOX_FACES);
         for (const [k, bits] of BOX_CORNERS.entries()) {
           corner.set(bits & 1 ? max.x : min.x, bits & 2 ? max.y : min.y, bits & 4 ? max.z : min.z);
           soup.positions.set(worldFromDrawn(corner.applyMatrix4(place).toArray()), 9 * face + 3 * k);

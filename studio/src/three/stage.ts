@@ -2,7 +2,7 @@
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
 import type { Budget } from "../core/budget.ts";
 import { daylightAt, type SunPath, sunPathOf } from "../core/daylight.ts";
-import { drawnFaces } from "../core/frames.ts";
+import { drawnFaces, drawnFromWorld, worldPoint } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
@@ -14,17 +14,16 @@ import { Animals } from "./animals.ts";
 import { Appearance } from "./appearance.ts";
 import { Backdrop } from "./backdrop.ts";
 import { samplePoints, sizePoints } from "./clouds.ts";
-import { Doors, SolidWithDoors } from "./doors.ts";
 import type { Frusta } from "./frusta.ts";
 import type { MorphShow } from "./morph-show.ts";
 import { Household, type LoadedHouse } from "./household.ts";
 import { layGround } from "./ground-material.ts";
-import type { LoadedPart } from "./load.ts";
 import { OpenSpace } from "./open-space.ts";
+import type { PartSlot } from "./part-slot.ts";
 import { PhotoShow } from "./photo-show.ts";
 import type { PhotoTextures } from "./photo-textures.ts";
+import { PlaceSolid } from "./place-solid.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
-import { Solid, soupOf } from "./solid.ts";
 import type { Town } from "./town.ts";
 
 /** Of a town only what is around the person throws shadows; they move when the person has gone far. */
@@ -38,7 +37,7 @@ const FEWEST_POINTS = 300;
 const USUAL_DEPTH = 0.3;
 
 export interface ViewerContent {
-  readonly parts: readonly LoadedPart[];
+  readonly parts: readonly PartSlot[];
   readonly town: Town | null;
   readonly clouds: Group;
   readonly frusta: Frusta | null;
@@ -52,7 +51,7 @@ export interface ViewerContent {
 export class Stage {
   readonly scene = new Scene();
   /** What one meets with: surfaces, or nothing but a space where there are photos alone. */
-  readonly solid: Solid | SolidWithDoors | Town | OpenSpace;
+  readonly solid: PlaceSolid | Town | OpenSpace;
   readonly appearance: Appearance;
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
@@ -68,7 +67,7 @@ export class Stage {
   readonly #surfaces = new Scene();
   readonly #town: Town | null;
   readonly #scenery: Scenery;
-  readonly #backdrop: Backdrop;
+  #backdrop: Backdrop;
   readonly #sunPath: SunPath;
   #changes = 0;
   #shaded = { centre: new Vector3(Infinity, 0, 0), tiles: -1 };
@@ -78,27 +77,26 @@ export class Stage {
     const { parts, town, clouds, frusta, textures, houses } = content;
     this.#content = content;
     this.#town = town;
-    const ground = parts.filter(({ part }) => part.isGround);
     this.#backdrop = new Backdrop(parts);
     this.#sunPath = sunPathOf(place.sun);
+    const alive = new Set(place.animals.map(({ part }) => part));
     const told = cornersOfPlace(place);
-    this.solid = town ?? solidOf(place, parts, ground, told);
+    this.solid = town ?? solidOf(place, parts, alive, told);
     // A city model may go far beyond what the photos show.
     const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
     this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
     this.seen = boxOfPoints([...this.corners, ...told]);
     this.outlook = outlookOf(place.shots);
-    const alive = new Set(place.animals.map(({ part }) => parts[part]));
-    const buildings = parts.filter((one) => !one.part.isGround && !one.part.isBackdrop && !alive.has(one));
-    const footprints = buildings.map(({ group }) => new Box3().setFromObject(group));
+    const buildings = parts.filter(({ part }, index) => !part.isGround && !part.isBackdrop && !alive.has(index));
+    const footprints = buildings.flatMap(footprintOf);
     this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown }, content.budget);
     const { solid } = this;
-    const topAt = solid instanceof Solid ? (x: number, y: number) => solid.topAt(x, y) : () => null;
+    const topAt = solid instanceof PlaceSolid ? (x: number, y: number) => solid.topAt(x, y) : () => null;
     this.animals = new Animals(place.animals, parts, topAt);
     this.appearance = new Appearance(parts);
     // After the tints: rooms light the colours that are shown.
-    this.household = new Household(houses, this.solid instanceof SolidWithDoors ? this.solid.doors : null);
-    for (const { meshes } of ground) for (const { mesh } of meshes) layGround(mesh);
+    this.household = new Household(houses, () => (this.solid instanceof PlaceSolid ? this.solid.doors : null));
+    for (const slot of parts) layIfGround(slot);
     this.scene.add(this.#scenery.group, this.appearance.outline.group, clouds, this.#surfaces, this.household.group);
     for (const { group } of parts) this.#surfaces.add(group);
     if (town !== null) this.#surfaces.add(town.group);
@@ -119,7 +117,22 @@ export class Stage {
 
   /** Who walks here. */
   get body(): Body {
-    return this.solid instanceof SolidWithDoors ? INDOOR_BODY : DEFAULT_WALK.body;
+    return this.household.doors === null ? DEFAULT_WALK.body : INDOOR_BODY;
+  }
+
+  /** The model of a part has come. */
+  take(index: number, state: StudioState): void {
+    const { parts } = this.#content;
+    const slot = parts[index];
+    if (slot === undefined) return;
+    this.appearance.take(index);
+    layIfGround(slot);
+    if (this.solid instanceof PlaceSolid) this.solid.take(index);
+    this.animals.take(index);
+    this.#backdrop = new Backdrop(parts);
+    this.light(state.hour);
+    this.appearance.tint(state);
+    this.showLayers(state);
   }
 
   /** Shows what the person wants to see, and hides the rest. */
@@ -205,20 +218,20 @@ export class Stage {
   }
 }
 
-function solidOf(
-  place: Place,
-  parts: readonly LoadedPart[],
-  ground: readonly LoadedPart[],
-  seen: readonly Vec3[],
-): Solid | SolidWithDoors | OpenSpace {
+/** Where a building stands, or will; drawn frame. */
+function footprintOf({ part, group, isThere }: PartSlot): Box3[] {
+  if (isThere) return [new Box3().setFromObject(group)];
+  if (part.bounds === null) return [];
+  const corners = cornersOf(part.bounds).map((corner) => new Vector3(...drawnFromWorld(worldPoint(part.worldFromPart, corner))));
+  return [new Box3().setFromPoints(corners)];
+}
+
+/** What lives is nothing that one bumps into. */
+function solidOf(place: Place, parts: readonly PartSlot[], alive: ReadonlySet<number>, seen: readonly Vec3[]): PlaceSolid | OpenSpace {
   if (parts.length === 0) return new OpenSpace(boundsOfShots(place.clouds, place.shots));
-  const alive = new Set(place.animals.map(({ part }) => part));
-  if (alive.size === parts.length) return new OpenSpace(boxOfPoints(seen));
-  const still = parts.map(({ part, meshes, instanced, movers }, index) => {
-    if (part.isBackdrop || alive.has(index)) return { meshes: [], instanced: [] };
-    const moving = new Set(movers.flatMap((mover) => mover.meshes));
-    return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
-  });
-  const solid = new Solid(soupOf(still), ground.length > 0 ? new Solid(soupOf(ground)) : null);
-  return parts.some(({ movers }) => movers.length > 0) ? new SolidWithDoors(solid, new Doors(parts)) : solid;
+  return alive.size === parts.length ? new OpenSpace(boxOfPoints(seen)) : new PlaceSolid(parts, alive);
+}
+
+function layIfGround({ part, meshes }: PartSlot): void {
+  if (part.isGround) for (const { mesh } of meshes) layGround(mesh);
 }

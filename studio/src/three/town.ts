@@ -20,7 +20,8 @@ import {
 import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.js";
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { CLASS_LOOKS, PROVENANCE_LOOKS, type Provenance, type SemanticClass } from "../core/classes.ts";
-import { Fault } from "../core/fault.ts";
+import { Asking } from "../core/asking.ts";
+import { Absent, Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { FeatureTable } from "../core/features.ts";
 import type { Box } from "../core/framing.ts";
@@ -28,6 +29,7 @@ import type { FeatureRef, StudioState } from "../core/state.ts";
 import { TileTable } from "../core/tile-table.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
+import type { Missing } from "./arrivals.ts";
 import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
@@ -38,7 +40,8 @@ const COLOURING_STRENGTH = 0.78;
 const WALKABLE_ERROR_M = 1;
 /** Obstacles of so many tiles are kept. */
 const MOST_SOLIDS = 6;
-const LOAD_PATIENCE_MS = 60_000;
+/** Of a tile that was dropped; what is chosen keeps its number. */
+const GONE: FeatureTable = { rows: [] };
 
 interface VedutaTile extends Tile {
   extras?: { veduta?: { world_m?: readonly number[] } };
@@ -74,7 +77,8 @@ export class Town implements Obstacles {
   readonly #images = new SharedImages();
   readonly #onChange: () => void;
   #changes = 0;
-  #fault: Fault | null = null;
+  readonly #missing = new Map<string, Fault>();
+  readonly #asking = new Asking(() => this.#askAgain());
   #state: StudioState | null = null;
 
   /** `error_px`: how wrong a tile may be on the screen; `onShown` is called when other tiles are shown than before. */
@@ -93,7 +97,10 @@ export class Town implements Obstacles {
     });
     this.#tiles.addEventListener("dispose-model", ({ scene }) => this.#drop(scene));
     this.#tiles.addEventListener("load-error", ({ error, url }) => {
-      this.#fault ??= new Fault(String(url), error.message, "Write the place again, or copy it whole.");
+      const file = String(url).split("/").slice(-3).join("/");
+      this.#missing.set(String(url), new Absent(file, error.message, "Check that the server still runs (`veduta view`)."));
+      this.#asking.failed();
+      onShown();
     });
     this.#tiles.addEventListener("tile-visibility-change", () => {
       this.#changes += 1;
@@ -107,9 +114,8 @@ export class Town implements Obstacles {
   /** Fetches the tree, which says how large the place is. */
   async open(onProgress: (share: number) => void): Promise<void> {
     const box = new Box3();
-    const end = performance.now() + LOAD_PATIENCE_MS;
     while (!this.#tiles.getBoundingBox(box)) {
-      this.#stopAtFault(end);
+      this.#stopAtFault();
       this.#advance();
       await pause();
     }
@@ -117,17 +123,15 @@ export class Town implements Obstacles {
     onProgress(0.3);
   }
 
-  /** Waits until what is seen now is there. */
+  /** Waits until something of what is seen now is there: the rest comes while one looks. */
   async settle(camera: PerspectiveCamera): Promise<void> {
     this.#tiles.setCamera(camera);
     this.#tiles.setResolution(camera, 1280, 800);
-    const end = performance.now() + LOAD_PATIENCE_MS;
     camera.updateMatrixWorld();
-    for (let calm = 0; calm < 3; ) {
-      this.#stopAtFault(end);
+    while (this.tileCount === 0) {
+      if (!this.isLoading) this.#stopAtFault();
       this.#advance();
       await pause();
-      calm = this.isLoading || this.#models.size === 0 ? 0 : calm + 1;
     }
   }
 
@@ -136,6 +140,16 @@ export class Town implements Obstacles {
     const { stats } = this.#tiles as unknown as { stats: Partial<Record<string, number>> };
     const { downloading, parsing, queued } = stats;
     return (downloading ?? 0) + (parsing ?? 0) + (queued ?? 0) > 0;
+  }
+
+  /** Tiles that did not come. */
+  get missing(): Missing[] {
+    return [...this.#missing].map(([file, fault]) => ({ file, fault }));
+  }
+
+  /** Does not wait for the end of a pause. */
+  askNow(): void {
+    this.#asking.now();
   }
 
   /** Tiles that are drawn now. */
@@ -239,6 +253,7 @@ export class Town implements Obstacles {
   }
 
   dispose(): void {
+    this.#asking.dispose();
     this.#tiles.dispose();
     this.#images.dispose();
   }
@@ -254,7 +269,14 @@ export class Town implements Obstacles {
     this.#tiles.update();
   }
 
+  #askAgain(): void {
+    this.#missing.clear();
+    this.#tiles.resetFailedTiles();
+    this.#onChange();
+  }
+
   #take(scene: Object3D, tile: Tile, url: string): void {
+    this.#asking.succeeded();
     try {
       const { metadata } = (tile as unknown as { engineData: { metadata: GLTF } }).engineData;
       const model = new TileModel(scene, tableOf(metadata, url));
@@ -269,14 +291,17 @@ export class Town implements Obstacles {
       if (this.#state !== null) dress(model, this.#state);
     } catch (error) {
       if (!(error instanceof Fault)) throw error;
-      this.#fault ??= error;
+      this.#missing.set(url, error);
     }
     this.#onChange();
   }
 
   #drop(scene: Object3D): void {
     const known = this.#models.get(scene);
-    if (known !== undefined) this.#byPart[known.part] = undefined;
+    if (known !== undefined) {
+      this.#byPart[known.part] = undefined;
+      this.tables[known.part] = GONE;
+    }
     this.#models.delete(scene);
     this.#solids.delete(scene);
     this.#floors.delete(scene);
@@ -304,7 +329,9 @@ export class Town implements Obstacles {
       new Vector3(feet[0] + body.radius_m, feet[1] + body.radius_m, feet[2] + body.height_m),
     );
     for (const [scene, { model, tile }] of this.#models) {
-      if (tile.geometricError > WALKABLE_ERROR_M || this.#isCovered(tile)) continue;
+      // Where nothing finer has come yet, what is drawn stops a walker, too.
+      const isWalkable = tile.geometricError <= WALKABLE_ERROR_M ? !this.#isCovered(tile) : this.#tiles.visibleTiles.has(tile);
+      if (!isWalkable) continue;
       const box = this.#inPlace(scene, () => new Box3().setFromObject(scene));
       const low = worldFromDrawn(box.min.toArray());
       const high = worldFromDrawn(box.max.toArray());
@@ -342,11 +369,10 @@ export class Town implements Obstacles {
     return seen;
   }
 
-  #stopAtFault(end_ms: number): void {
-    if (this.#fault !== null) throw this.#fault;
-    if (performance.now() > end_ms) {
-      throw new Fault("tileset.json", "its tiles do not arrive", "Check the connection, then try again.");
-    }
+  /** There is nothing to show without what is missing. */
+  #stopAtFault(): void {
+    const [first] = this.#missing.values();
+    if (first !== undefined) throw first;
   }
 }
 

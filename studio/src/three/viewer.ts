@@ -128,6 +128,19 @@ export class Viewer {
     return this.#stage.animals;
   }
 
+  /** The model of a part has come. */
+  take(part: number): void {
+    this.#stage.take(part, this.#store.value);
+    this.#walk.body = this.#stage.body;
+    this.invalidate();
+  }
+
+  /** The browser has given the graphics card back: everything goes there again. */
+  restore(): void {
+    this.#stage.showLayers(this.#store.value);
+    this.invalidate();
+  }
+
   /** Puts the walker at the first of these places (feet) where nothing is in the way. */
   goTo(places: readonly Vec3[]): void {
     if (!this.#walk.goTo(places)) return;

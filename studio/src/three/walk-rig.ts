@@ -34,7 +34,7 @@ const FOV_WIDE_DEG = 60;
 const FOV_UPRIGHT_DEG = 78;
 
 export class WalkRig {
-  readonly options: WalkOptions;
+  options: WalkOptions;
   readonly #start: { readonly eye: Vec3; readonly target: Vec3 };
   readonly #obstacles: Obstacles;
   #walker: Walker;
@@ -52,6 +52,11 @@ export class WalkRig {
     this.#start = start;
     this.#obstacles = obstacles;
     this.#walker = this.#standingAtStart();
+  }
+
+  /** Who walks: narrower where there are doors. */
+  set body(body: Body) {
+    this.options = { ...this.options, body };
   }
 
   get walker(): Walker {
