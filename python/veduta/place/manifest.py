@@ -13,6 +13,9 @@ from veduta.run.errors import InputError
 VERSION = 1
 IDENTITY: tuple[float, ...] = (1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1)
 
+FARTHEST_M = 1e7
+"""No coordinate of a projected CRS is larger: from the equator to a pole it is 10,000 km."""
+
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Positive = Annotated[float, Field(gt=0, allow_inf_nan=False)]
 Vector = tuple[Finite, Finite, Finite]
@@ -25,6 +28,15 @@ def _within_folder(path: str) -> str:
     if not parts or path.startswith("/") or ".." in parts or "\\" in path or ":" in parts[0]:
         raise ValueError(f"{path!r} is not a path below the folder of place.json")
     return path
+
+
+def _check_placement(transform: tuple[float, ...], what: str) -> None:
+    """ValueError where a transform (4x4, column-major) puts something nowhere, or too far away."""
+    matrix = np.array(transform).reshape(4, 4).T
+    if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0] or np.linalg.det(matrix[:3, :3]) <= 0.0:
+        raise ValueError(f"the transform of {what} is no placement in space")
+    if np.abs(matrix).max() > FARTHEST_M:
+        raise ValueError(f"the transform of {what} puts it more than {FARTHEST_M:,.0f} m away")
 
 
 Words = Annotated[str, Field(max_length=10_000)]
@@ -66,10 +78,8 @@ class PlacePart(_Record):
     )
 
     @model_validator(mode="after")
-    def _is_affine(self) -> Self:
-        matrix = np.array(self.transform).reshape(4, 4).T
-        if matrix[3].tolist() != [0.0, 0.0, 0.0, 1.0] or np.linalg.det(matrix[:3, :3]) <= 0.0:
-            raise ValueError(f"the transform of part {self.id!r} is no placement in space")
+    def _stands_somewhere(self) -> Self:
+        _check_placement(self.transform, f"part {self.id!r}")
         return self
 
 
@@ -84,6 +94,11 @@ class PlacePoints(_Record):
     count: int = Field(ge=0)
     bounds: Bounds = Field(description="around nearly all of the points; a few lie far off")
 
+    @model_validator(mode="after")
+    def _stands_somewhere(self) -> Self:
+        _check_placement(self.transform, f"cloud {self.id!r}")
+        return self
+
 
 class PlaceCamera(_Record):
     """A photo in the place where it was taken. Camera frame: x right, y down, z forward."""
@@ -96,6 +111,11 @@ class PlaceCamera(_Record):
     focal_px: tuple[Positive, Positive] = Field(description="along x and y, of the picture")
     centre_px: tuple[Finite, Finite] = Field(description="principal point, of the picture")
     transform: Matrix = Field(description="world_from_camera, 4x4, column-major")
+
+    @model_validator(mode="after")
+    def _stands_somewhere(self) -> Self:
+        _check_placement(self.transform, f"camera {self.id!r}")
+        return self
 
 
 class TourStretch(_Record):

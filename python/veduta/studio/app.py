@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import mimetypes
-import os
 from pathlib import Path
 
 from fastapi import FastAPI, Request
-from fastapi.staticfiles import StaticFiles
 from starlette.responses import FileResponse, RedirectResponse, Response
 from starlette.types import ASGIApp
 
+from veduta.studio.files import VisibleFiles
 from veduta.studio.guard import Guard
 
 # The machine's own tables may lack these, or have others.
@@ -20,19 +19,6 @@ _TYPES = {
     ".woff2": "font/woff2",
     ".svg": "image/svg+xml",
 }
-
-
-class VisibleFiles(StaticFiles):
-    """Files below one folder; names that begin with a dot (work, temporary) are not there.
-
-    The base class resolves each path, links included, and refuses what leads out of the folder.
-    """
-
-    def lookup_path(self, path: str) -> tuple[str, os.stat_result | None]:
-        """Full path and status of a file, None where it may not be seen."""
-        if any(name.startswith(".") for name in Path(path).parts) or "\0" in path:
-            return "", None
-        return super().lookup_path(path)
 
 
 def make_app(static: Path, place: Path, token: str | None) -> ASGIApp:
@@ -48,5 +34,5 @@ def make_app(static: Path, place: Path, token: str | None) -> ASGIApp:
         return FileResponse(static / "index.html", media_type="text/html")
 
     app.mount("/place", VisibleFiles(directory=place), name="place")
-    app.mount("/", VisibleFiles(directory=static), name="studio")
+    app.mount("/", VisibleFiles(directory=static, fixed="assets"), name="studio")
     return Guard(app, token)

@@ -21,4 +21,8 @@ class ViewOptions(Options):
     port: Annotated[int, Field(ge=0, le=65535)] = Field(
         default=0, description="port to listen on; 0 takes a free one"
     )
+    at: str | None = Field(
+        default=None,
+        description="a view of the place: the address of a page that shows it, or its part after #",
+    )
     no_browser: bool = Field(default=False, description="print the address, open no browser")

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import socket
 import sys
 import threading
@@ -19,6 +20,8 @@ from veduta.studio.content import place_folder, studio_folder
 from veduta.studio.guard import is_loopback, new_token
 from veduta.studio.options import ViewOptions
 
+# What a page writes after #: fields of `name=value` (studio/src/core/view-link.ts).
+VIEW = re.compile(r"[A-Za-z0-9_.~!*'(),;:@/%+-]+=[A-Za-z0-9_.~!*'(),;:@/%+=&-]*")
 # How long answers in hand may take after Ctrl-C (s).
 _LAST_ANSWERS_S = 2
 
@@ -37,7 +40,8 @@ def serve(options: ViewOptions, announce: Callable[[Address], None]) -> None:
     static = studio_folder()
     token = None if is_loopback(options.host) else new_token()
     with _listening_socket(options.host, options.port) as listener:
-        address = _address(options.host, listener.getsockname()[1], token)
+        view = view_of(options.at)
+        address = _address(options.host, listener.getsockname()[1], token, view)
         announce(address)
         if not options.no_browser:
             _open_browser(address.url)
@@ -88,13 +92,30 @@ def _bind_error(error: OSError, host: str, port: int) -> InputError:
     )
 
 
-def _address(host: str, port: int, token: str | None) -> Address:
+def view_of(link: str | None) -> str:
+    """What a link says of the view: `#...`, empty where none is asked for.
+
+    InputError where there is no view in it.
+    """
+    if link is None:
+        return ""
+    _, _, view = link.rpartition("#")
+    if not VIEW.fullmatch(view):
+        raise InputError(
+            f"--at {link}",
+            "it holds no view of a place",
+            "Copy the whole address of a page that shows one, with what follows #.",
+        )
+    return f"#{view}"
+
+
+def _address(host: str, port: int, token: str | None, view: str = "") -> Address:
     """The address to open; a wildcard host is replaced by the machine's own name."""
     name = socket.gethostname() if host in ("0.0.0.0", "::") else host
     if ":" in name and not name.startswith("["):
         name = f"[{name}]"
     query = "place=place/" if token is None else f"place=place/&token={token}"
-    return Address(url=f"http://{name}:{port}/?{query}", token=token)
+    return Address(url=f"http://{name}:{port}/?{query}{view}", token=token)
 
 
 def _open_browser(url: str) -> None:

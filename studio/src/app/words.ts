@@ -5,6 +5,8 @@ import type { StudioState } from "../core/state.ts";
 import type { Session } from "./session.ts";
 
 export function titleOf(session: Session): string {
+  const { title } = session.place.about;
+  if (title !== "") return title;
   if (session.town !== null) return "A town of many buildings";
   const { shots, scaleKnown, walks } = session.place;
   const walk = walks[0];

@@ -71,7 +71,16 @@ export interface Shot {
   readonly worldFromCamera: readonly number[];
 }
 
+/** What its maker says of a place, in words; empty where nothing is said. */
+export interface About {
+  readonly title: string;
+  readonly description: string;
+  readonly author: string;
+  readonly licence: string;
+}
+
 export interface Place {
+  readonly about: About;
   readonly parts: readonly Part[];
   readonly clouds: readonly Cloud[];
   readonly shots: readonly Shot[];
@@ -94,6 +103,7 @@ const MOST_SHOTS = 100_000;
 const MOST_TOURS = 100;
 const MOST_ANIMALS = 1000;
 const MOST_WALKS = 100;
+const MOST_WORDS = 10_000;
 /** The part that holds the walls which `veduta photos` found in the points. */
 const WALLS = "walls";
 const IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1];
@@ -119,7 +129,12 @@ export function readPlace(text: string, file: string): Place {
   if (parts.length + clouds.length === 0) throw broken("the place has no parts");
   const start = record(manifest.start, () => broken("it does not say where to start"));
   const known = parts.map((part, index) => readPart(part, `part ${index + 1}`, broken));
+  const words = (field: keyof About): string => {
+    const said: unknown = manifest[field];
+    return typeof said === "string" ? said.slice(0, MOST_WORDS) : "";
+  };
   return {
+    about: { title: words("title"), description: words("description"), author: words("author"), licence: words("licence") },
     tileset: readTileset(manifest.tileset, broken),
     parts: known,
     clouds: clouds.map((cloud, index) => readCloud(cloud, `cloud ${index + 1}`, broken)),
@@ -191,6 +206,7 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
   };
   const transform: unknown = part.transform ?? IDENTITY;
   if (!isTransform(transform)) throw bad("transform");
+  checkPlacement(transform, which, broken);
   if (part.arrangement !== "single" && part.arrangement !== "invented") throw bad("arrangement");
   if (!isInside(part.model)) throw bad("model");
   const id = text("id");
@@ -263,6 +279,7 @@ function readCloud(value: unknown, which: string, broken: (fault: string) => Fau
   const cloud = value as Fields<PlacePoints>;
   const transform: unknown = cloud.transform ?? IDENTITY;
   if (!isTransform(transform)) throw bad("transform");
+  checkPlacement(transform, which, broken);
   if (!isInside(cloud.file)) throw bad("file");
   const bounds = (cloud.bounds ?? {}) as { min?: unknown; max?: unknown };
   const min = readVec3(bounds.min, () => bad("bounds"));
@@ -280,6 +297,7 @@ function readShot(value: unknown, which: string, broken: (fault: string) => Faul
   if (typeof name !== "string") throw bad("name");
   if (!isInside(picture)) throw bad("picture");
   if (!isTransform(transform)) throw bad("transform");
+  checkPlacement(transform, which, broken);
   const size = readPair([shot.width_px, shot.height_px], () => bad("width_px"));
   const focal_px = readPair(shot.focal_px, () => bad("focal_px"));
   if (Math.min(...size, ...focal_px) <= 0) throw bad("focal_px");
@@ -297,6 +315,19 @@ function readPair(value: unknown, bad: () => Fault): [number, number] {
 
 function isTransform(value: unknown): value is number[] {
   return Array.isArray(value) && value.length === 16 && value.every((v) => Number.isFinite(v));
+}
+
+/** No coordinate of a projected CRS is larger; the rule is that of `place/manifest.py`. */
+const FARTHEST_M = 1e7;
+
+/** A transform (column-major) must put a thing somewhere, and not out of all reach. */
+function checkPlacement(transform: readonly number[], which: string, broken: (fault: string) => Fault): void {
+  const [a = 0, b = 0, c = 0, , d = 0, e = 0, f = 0, , g = 0, h = 0, i = 0] = transform;
+  const volume = a * (e * i - f * h) - d * (b * i - c * h) + g * (b * f - c * e);
+  const isAffine = [3, 7, 11].every((at) => transform[at] === 0) && transform[15] === 1;
+  if (!isAffine || !(volume > 0)) throw broken(`${which} stands nowhere: its "transform" is no placement in space`);
+  const farthest = Math.max(...transform.map(Math.abs));
+  if (farthest > FARTHEST_M) throw broken(`${which} stands more than ${FARTHEST_M / 1000} km away, by its "transform"`);
 }
 
 /** A path that stays in the folder of the manifest; the rule is that of `place/manifest.py`. */

@@ -44,6 +44,11 @@ describe("reading a place", () => {
     expect(place.start.eye).toEqual([0, -10, 1.7]);
   });
 
+  it("gives what its maker says of it, and nothing where that is no text", () => {
+    const { about } = readPlace(manifest({ title: "A street", author: 7, licence: null }), "place.json");
+    expect(about).toEqual({ title: "A street", description: "", author: "", licence: "" });
+  });
+
   it("lets a part do without a photo and a transform", () => {
     const place = readPlace(manifest({}, { photo: null, transform: undefined }), "place.json");
     expect(place.parts[0]?.photo).toBeNull();
@@ -77,6 +82,8 @@ describe("reading a place", () => {
     ["a later version", manifest({ version: 2 }), "version is 2"],
     ["no parts", manifest({ parts: [] }), "no parts"],
     ["too many parts", manifest({ parts: new Array(10_001).fill({}) }), "more than"],
+    ["a part that stands nowhere", manifest({}, { transform: new Array(16).fill(0) }), "no placement"],
+    ["a part that is out of reach", manifest({}, { transform: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1e9, 0, 0, 1] }), "10000 km"],
     ["a transform of 15 numbers", manifest({}, { transform: new Array(15).fill(0) }), "transform"],
     ["a model elsewhere", manifest({}, { model: "../../secret.glb" }), "model"],
     ["a start without an eye", manifest({ start: { target: [0, 0, 0] } }), "start.eye"],

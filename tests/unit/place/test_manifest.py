@@ -151,3 +151,26 @@ def test_two_cameras_of_one_id_are_refused() -> None:
     camera = seen("a").cameras[0]
     with pytest.raises(ValidationError, match="two cameras"):
         Place(parts=[], cameras=[camera, camera], start=START)
+
+
+def moved(x_m: float) -> tuple[float, ...]:
+    return (*IDENTITY[:12], x_m, 0.0, 0.0, 1.0)
+
+
+@pytest.mark.parametrize(
+    ("transform", "words"),
+    [
+        ((0.0,) * 16, "no placement in space"),
+        ((*(0.0,) * 15, 1.0), "no placement in space"),
+        (moved(1e9), "more than 10,000,000 m away"),
+    ],
+)
+def test_what_stands_nowhere_is_refused(transform: tuple[float, ...], words: str) -> None:
+    with pytest.raises(ValidationError, match=words):
+        part("wall", transform=transform)
+    with pytest.raises(ValidationError, match=words):
+        PlacePoints(id="all", file="points.ply", count=1, bounds=BOUNDS, transform=transform)
+
+
+def test_a_projected_coordinate_is_not_too_far() -> None:
+    assert part("wall", transform=moved(9.9e6)).transform[12] == 9.9e6
