@@ -114,7 +114,8 @@ def _derive(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.grammar_call import DeriveCall
     from veduta.grammar.given import read_attributes
-    from veduta.grammar.options import GrammarOptions
+    from veduta.grammar.lot_names import read_names
+    from veduta.grammar.options import GrammarOptions, NameOptions
     from veduta.grammar.pipeline import run_derive
     from veduta.run.pool import require_jobs
     from veduta.run.progress import Progress
@@ -127,6 +128,7 @@ def _derive(arguments: list[str]) -> int:
         lots=call.read,
         output=call.output,
         attributes=read_attributes(call.attr),
+        names=NameOptions(values=read_names(call.map)),
     )
     progress = Progress(quiet=call.quiet)
     result = run_derive(

@@ -35,7 +35,8 @@ LotsFile = Annotated[
     tyro.conf.arg(
         metavar="LOTS",
         help_behavior_hint="",
-        help="GeoJSON, CityJSON, GeoPackage or OBJ with the lots; a synthetic street if not given",
+        help="the lots: GeoJSON, CityJSON, GeoPackage, Shapefile, FlatGeobuf, KML, OpenStreetMap"
+        " (XML, PBF) or OBJ; a synthetic street if not given",
     ),
 ]
 OneLot = Annotated[
@@ -104,6 +105,15 @@ Attr = Annotated[
     ),
 ]
 
+Names = Annotated[
+    tyro.conf.UseAppendAction[tuple[str, ...]],
+    tyro.conf.arg(
+        metavar="ATTR=PROPERTY",
+        help_behavior_hint="",
+        help="which property of the lots an attribute takes, such as height=hauteur; several with"
+        " commas. Usual names of OpenStreetMap and INSPIRE are known",
+    ),
+]
 Project = Annotated[
     Path | None,
     tyro.conf.arg(
@@ -161,6 +171,7 @@ class DeriveCall:
     lots: LotsFile = None
     attr: Attr = ()
     edits: Edits = None
+    map: Names = ()
     project: Project = None
     library: LibraryFolders = ()
     derive: DeriveOptions = field(default_factory=DeriveOptions)

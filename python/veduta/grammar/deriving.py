@@ -13,6 +13,7 @@ from veduta.grammar.assets.library import Library
 from veduta.grammar.edits import fault_told
 from veduta.grammar.levels import FULL, Levels, levels_of
 from veduta.grammar.lot import Lot
+from veduta.grammar.lot_names import measured, property_of
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.outline import Attribute
 from veduta.grammar.project import SearchPath
@@ -164,8 +165,9 @@ def attributes_of(
 ) -> dict[str, Attribute] | str:
     """The attributes that the rules have: of the call before those of the lot; or the fault."""
     found: dict[str, Attribute] = {}
-    for name, value in lot.attributes.items():
-        if name not in kinds or name in options.attributes.values:
+    for name in kinds:
+        value = property_of(name, lot.attributes, options.names.values)
+        if value is None or name in options.attributes.values:
             continue
         taken = as_kind(value, kinds[name])
         if taken is None:
@@ -180,7 +182,7 @@ def as_kind(value: Attribute, kind: str) -> Attribute | None:
         try:
             number = float(value)
         except ValueError:
-            return None
+            return measured(value)
         return number if abs(number) < 1e300 else None
     if kind == "number":
         return None if isinstance(value, bool) else value

@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyproj
 from numpy.typing import ArrayLike, NDArray
 
 from veduta.geometry.utm import MAX_LATITUDE_DEG, MIN_LATITUDE_DEG, epsg_of, utm, zone_of
@@ -67,18 +68,32 @@ def named_crs(path: Path, document: dict[str, Any]) -> int | None:
     if crs is None:
         return None
     properties = crs.get("properties") if isinstance(crs, dict) else None
-    name = properties.get("name") if isinstance(properties, dict) else None
-    text = str(name)[:200]
+    name, code = None, None
+    if isinstance(properties, dict):
+        name, code = properties.get("name"), properties.get("code")
+    # The form of drafts before GeoJSON 1.0, which exports still have: {"type": "EPSG", "code": ...}
+    text = f"EPSG:{code}"[:200] if name is None and code is not None else str(name)[:200]
     if re.search(r"CRS:?:?(1\.3:)?84$", text):
         return 4326
-    code = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:(?:[\d.]*:)?(\d{4,6})", text)
-    if code is None:
+    found = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:(?:[\d.]*:)?(\d{4,6})", text)
+    if found is None:
         raise InputError(
             path,
             f"has a crs that is not read: {text!r}",
-            'Name it as "EPSG:25832", or leave it out.',
+            'Name it as "EPSG:25832", leave it out, or give --crs.',
         )
-    return int(code[1])
+    return int(found[1])
+
+
+def given_crs(text: str) -> int:
+    """The EPSG code of `--crs`; InputError where it is none."""
+    try:
+        code = pyproj.CRS.from_user_input(text.replace(" ", "")).to_epsg()
+    except pyproj.exceptions.CRSError:
+        code = None
+    if code is None:
+        raise InputError(f"--crs {text}", "is no CRS with an EPSG code", "Write --crs EPSG:2154.")
+    return int(code)
 
 
 class Survey:

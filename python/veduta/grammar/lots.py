@@ -5,7 +5,7 @@ they lie, in which units) is found out. The lots are then placed one by one, int
 in memory remains where each stands, and which names are taken.
 
 Read: GeoJSON (`geojson_lots`), CityJSON (`city_lots`, `city_stream`), GeoPackage (`package_lots`),
-OBJ (`object_lots`).
+OBJ (`object_lots`), and by GDAL Shapefile, OpenStreetMap, KML and others (`vector_lots`).
 """
 
 from __future__ import annotations
@@ -33,7 +33,14 @@ from veduta.grammar.city_stream import (
 from veduta.grammar.edits import Edit
 from veduta.grammar.failures import Failures
 from veduta.grammar.feature_stream import FeatureStream
-from veduta.grammar.frames import Frame, Survey, find_frame, height_origin, named_crs
+from veduta.grammar.frames import (
+    Frame,
+    Survey,
+    find_frame,
+    given_crs,
+    height_origin,
+    named_crs,
+)
 from veduta.grammar.geojson_lots import feature_outlines, features_of
 from veduta.grammar.json_stream import refuse_constant
 from veduta.grammar.lot import (
@@ -52,6 +59,8 @@ from veduta.grammar.rings import RingFault, clean_rings
 from veduta.grammar.spool import Record, Spool
 from veduta.grammar.taken_names import TakenNames
 from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
+from veduta.grammar.vector_lots import SUFFIXES as VECTORS
+from veduta.grammar.vector_lots import vector_outlines
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 from veduta.run.outputs import writing_to
@@ -106,6 +115,8 @@ def read_lots(
             spool.append(_record(outline))
             if len(spool) % TELL_EACH == 0:
                 say(f"{path}: {len(spool):,} polygons read")
+        if options.crs is not None:
+            found.epsg = given_crs(options.crs)
         if not len(spool):
             named = found.failures.named
             reason = f" ({named[0].reason})" if named else ""
@@ -157,6 +168,8 @@ def _outlines_of(path: Path, options: LotOptions, found: Found, folder: Path | N
     suffix = path.suffix.lower()
     if suffix == ".gpkg":
         raise InputError(path, "is no GeoPackage, though its name says so", "Save it anew as one.")
+    if suffix in VECTORS:
+        return vector_outlines(path, options.layer, found)
     if options.layer is not None:
         raise InputError(f"--layer {options.layer}", f"but {path} has no layers", "Leave it out.")
     if suffix == ".obj":
@@ -167,19 +180,24 @@ def _outlines_of(path: Path, options: LotOptions, found: Found, folder: Path | N
         if is_city(path):
             return large_city_outlines(path, found, folder)
         stream = FeatureStream(path)
-        return _of_geojson(path, stream.features(), stream.members, found)
+        return _of_geojson(path, stream.features(), stream.members, found, options)
     document = _read_json(path)
     if document.get("type") == "CityJSON":
         return city_outlines(path, document, found)
-    return _of_geojson(path, features_of(path, document), document, found)
+    return _of_geojson(path, features_of(path, document), document, found, options)
 
 
 def _of_geojson(
-    path: Path, features: Iterator[Any], members: dict[str, Any], found: Found
+    path: Path,
+    features: Iterator[Any],
+    members: dict[str, Any],
+    found: Found,
+    options: LotOptions,
 ) -> Outlines:
     """The lots of all features; `members` has the CRS when the last feature has come."""
     yield from feature_outlines(path, features, found)
-    found.epsg = named_crs(path, members)
+    if options.crs is None:
+        found.epsg = named_crs(path, members)
 
 
 @dataclass(frozen=True)
@@ -276,7 +294,8 @@ def _read_json(path: Path) -> dict[str, Any]:
     except RecursionError as error:
         raise InputError(path, "is nested too deep", "Check that it is GeoJSON.") from error
     except ValueError as error:  # bad JSON, bad UTF-8, a number that is none
-        raise InputError(path, f"is not JSON ({error})", "Save it as GeoJSON.") from error
+        remedy = f"Save it as GeoJSON or GeoPackage; read are also {', '.join(VECTORS)}."
+        raise InputError(path, f"is not JSON ({error})", remedy) from error
     if not isinstance(document, dict):
         raise InputError(path, "is not GeoJSON: it is no object", "Save it as GeoJSON.")
     return document

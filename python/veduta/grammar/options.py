@@ -73,7 +73,12 @@ class LotOptions(Options):
     """How a file of lots is read."""
 
     layer: str | None = Field(
-        default=None, description="layer of a GeoPackage; its only layer of polygons if not given"
+        default=None,
+        description="layer of a file with several; its only layer of polygons if not given",
+    )
+    crs: str | None = Field(
+        default=None,
+        description="CRS of the file, such as EPSG:2154: instead of what it says itself",
     )
     up: Literal["y", "z"] = Field(
         default="y", description="the axis of an OBJ file that points up; with y, -z is north"
@@ -126,6 +131,12 @@ class AttributeOptions(Options):
     )
 
 
+class NameOptions(Options):
+    """What the file of lots calls the attributes of the rules, as the command line has it."""
+
+    values: dict[str, str] = Field(default={}, description="a property for each attribute")
+
+
 class GrammarOptions(Options):
     """All options of the verb that change its result."""
 
@@ -134,6 +145,7 @@ class GrammarOptions(Options):
     lots: LotOptions = LotOptions()
     output: OutputOptions = OutputOptions()
     attributes: AttributeOptions = AttributeOptions()
+    names: NameOptions = NameOptions()
 
     def with_seed(self, seed: int) -> GrammarOptions:
         """The same with another seed."""

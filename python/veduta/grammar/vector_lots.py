@@ -1,0 +1,166 @@
+"""Building lots from the other formats of geodata that GDAL reads: Shapefile, FlatGeobuf, KML,
+GeoJSON by line, GML, MapInfo, and OpenStreetMap as XML and PBF.
+
+Features are read in blocks, so that a file may be larger than memory. Of OpenStreetMap only areas
+that are buildings become lots, with all of their tags as attributes.
+"""
+
+from __future__ import annotations
+
+import difflib
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pyproj
+from numpy.typing import NDArray
+
+from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
+from veduta.grammar.rings import RingFault, closed_ring
+from veduta.grammar.wkb import polygons_of_wkb
+from veduta.run.errors import InputError
+
+SUFFIXES = (
+    ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".gml", ".tab",
+    ".mif",
+)  # fmt: skip
+BLOCK = 20_000
+OSM_LAYER = "multipolygons"
+_OSM = (".osm", ".pbf")
+_AREAS = ("Polygon", "MultiPolygon", "Unknown", "GeometryCollection", "CurvePolygon")
+_TAG = re.compile(r'"((?:[^"\\]|\\.)*)"=>"((?:[^"\\]|\\.)*)"')
+_SURE = 70
+"""Per cent by which a CRS without a code must agree with one that has it."""
+
+
+def vector_outlines(path: Path, layer: str | None, found: Found) -> Outlines:
+    """The polygons of a layer; of the only one where none is named. InputError without any."""
+    name, crs = _layer(path, layer)
+    found.epsg = None if crs is None else _epsg(path, crs)
+    is_osm = path.suffix.lower() in _OSM
+    number = 0
+    for geometries, columns in _blocks(path, name):
+        for row, geometry in enumerate(geometries):
+            number += 1
+            properties = {key: _plain(values[row]) for key, values in columns.items()}
+            if is_osm:
+                properties = _tags(properties)
+                if properties.get("building", "no") == "no":
+                    found.pass_over("area without the tag building")
+                    continue
+            yield from _outlines(f"{path}: {name} {number}", geometry, properties, number, found)
+
+
+def _outlines(
+    subject: str, geometry: bytes | None, properties: dict[str, Any], number: int, found: Found
+) -> Outlines:
+    attributes = plain_attributes(properties)
+    own = _name(attributes, number)
+    if geometry is None:
+        found.pass_over("feature without geometry")
+        return
+    try:
+        polygons, kind = polygons_of_wkb(geometry)
+        if polygons is None:
+            found.pass_over(kind)
+            return
+        for index, rings in enumerate(polygons, 1):
+            name = own if len(polygons) == 1 else f"{own}-{index}"
+            closed = [closed_ring(ring) for ring in rings]
+            yield Outline(f"{subject} ({name})", name, closed, attributes)
+    except RingFault as fault:
+        found.fail(subject, str(fault))
+
+
+def _layer(path: Path, wanted: str | None) -> tuple[str, str | None]:
+    """The layer's name and its CRS as GDAL has it."""
+    import pyogrio  # GDAL takes a while to load
+
+    try:
+        listed = [(str(name), str(kind)) for name, kind in pyogrio.list_layers(path)]
+        names = [
+            name for name, kind in listed if kind.split(" ")[-1] in _AREAS or "Polygon" in kind
+        ]
+        if wanted is None and OSM_LAYER in names and path.suffix.lower() in _OSM:
+            wanted = OSM_LAYER
+        if not names:
+            raise InputError(path, "has no layer of polygons", "Give it polygons.")
+        if wanted is not None and wanted not in names:
+            near = difflib.get_close_matches(wanted, names, n=1)
+            hint = f"Did you mean `{near[0]}`?" if near else f"It has: {', '.join(names[:12])}."
+            raise InputError(f"--layer {wanted}", f"is no layer of polygons in {path}", hint)
+        if wanted is None and len(names) > 1:
+            fault = f"has {len(names)} layers of polygons"
+            raise InputError(path, fault, f"Name one with --layer: {', '.join(names[:12])}.")
+        chosen = names[0] if wanted is None else wanted
+        crs = pyogrio.read_info(path, layer=chosen)["crs"]
+    except pyogrio.errors.DataSourceError as error:
+        raise _unreadable(path, error) from error
+    return chosen, None if crs is None else str(crs)
+
+
+def _blocks(path: Path, layer: str) -> Iterator[tuple[NDArray[Any], dict[str, NDArray[Any]]]]:
+    """Geometries (WKB) and columns, so many rows at a time."""
+    import pyogrio
+
+    start = 0
+    while True:
+        try:
+            told, _, geometries, columns = pyogrio.raw.read(
+                path, layer=layer, skip_features=start, max_features=BLOCK
+            )
+        except (pyogrio.errors.DataSourceError, pyogrio.errors.FeatureError) as error:
+            raise _unreadable(path, error) from error
+        names = [str(name) for name in told["fields"]]
+        yield geometries, dict(zip(names, columns, strict=True))
+        start += len(geometries)
+        if len(geometries) < BLOCK:
+            return
+
+
+def _unreadable(path: Path, error: Exception) -> InputError:
+    told = " ".join(str(error).split())[:200]
+    remedy = "Check that it is whole, or save it anew as GeoPackage."
+    return InputError(path, f"cannot be read ({told})", remedy)
+
+
+def _epsg(path: Path, crs: str) -> int | None:
+    """The code of a CRS; InputError where it has none and is not nearly one that has."""
+    try:
+        code = pyproj.CRS.from_user_input(crs).to_epsg(min_confidence=_SURE)
+    except pyproj.exceptions.CRSError as error:
+        raise InputError(path, f"has a CRS that is not read ({crs[:60]})", "Give --crs.") from error
+    if code is None:
+        raise InputError(path, f"has a CRS without EPSG code ({crs[:60]})", "Give --crs.")
+    return int(code)
+
+
+def _plain(value: Any) -> Any:
+    """A cell as JSON has values."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    return None if isinstance(value, float) and np.isnan(value) else value
+
+
+def _tags(properties: dict[str, Any]) -> dict[str, Any]:
+    """All tags of an OpenStreetMap feature: GDAL puts the rarer ones into one column."""
+    tags = {key: value for key, value in properties.items() if value not in (None, "")}
+    rest = str(tags.pop("other_tags", ""))
+    for key, value in _TAG.findall(rest):
+        tags.setdefault(re.sub(r"\\(.)", r"\1", key), re.sub(r"\\(.)", r"\1", value))
+    way = tags.pop("osm_way_id", None)
+    tags.setdefault("osm_id", way)
+    return tags
+
+
+def _name(attributes: dict[str, Attribute], number: int) -> str:
+    """What the feature is called: its id or name, else its number."""
+    for key in ("id", "osm_id", "gml_id", "fid", "name", "Name"):
+        value = attributes.get(key)
+        if isinstance(value, float) and value.is_integer():
+            value = str(int(value))
+        if isinstance(value, str) and value.strip():
+            return "".join(c for c in value.strip() if c.isprintable())[:200]
+    return f"lot-{number}"

@@ -1,0 +1,148 @@
+"""Lots from formats that GDAL reads, and what people call their attributes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pyogrio
+import pytest
+import shapely
+
+from veduta.grammar.deriving import as_kind
+from veduta.grammar.frames import given_crs
+from veduta.grammar.lot_names import measured, property_of, read_names
+from veduta.grammar.lots import read_lots
+from veduta.grammar.options import LotOptions
+from veduta.run.errors import InputError
+
+DRIVERS = {
+    ".shp": "ESRI Shapefile",
+    ".fgb": "FlatGeobuf",
+    ".tab": "MapInfo File",
+}
+HOLED = shapely.Polygon([(0, 0), (20, 0), (20, 10), (0, 10)], [[(4, 4), (8, 4), (8, 8), (4, 8)]])
+PLAIN = shapely.box(30, 0, 42, 9)
+
+
+def written(path: Path, crs: str | None = "EPSG:25832", east_m: float = 500_000.0) -> Path:
+    """Two lots of 200 - 16 and 108 m2, far from the CRS's origin."""
+    moved = shapely.transform(
+        np.array([HOLED, PLAIN]), lambda xy: xy + np.array([east_m, 5_500_000.0])
+    )
+    pyogrio.raw.write(
+        path,
+        geometry=shapely.to_wkb(moved),
+        field_data=[np.array([12.5, 9.0]), np.array(["a", "b"], dtype=object)],
+        fields=["hauteur", "name"],
+        geometry_type="Polygon",
+        crs=crs,
+        driver=DRIVERS[path.suffix],
+    )
+    return path
+
+
+def area_of(rings: tuple[np.ndarray, ...]) -> float:
+    return float(shapely.Polygon(rings[0], list(rings[1:])).area)
+
+
+@pytest.mark.parametrize("suffix", DRIVERS)
+def test_polygons_with_their_holes_and_attributes(tmp_path: Path, suffix: str) -> None:
+    found = read_lots(written(tmp_path / f"lots{suffix}"))
+    assert found.crs == "EPSG:25832"
+    lots = {lot.name: lot for lot in found.lots}  # FlatGeobuf has an order of its own
+    assert area_of(lots["a"].rings_m) == pytest.approx(184.0, abs=1e-3)
+    assert area_of(lots["b"].rings_m) == pytest.approx(108.0, abs=1e-3)
+    assert {name: lot.attributes["hauteur"] for name, lot in lots.items()} == {"a": 12.5, "b": 9.0}
+
+
+def test_features_by_line(tmp_path: Path) -> None:
+    path = tmp_path / "lots.geojsonl"
+    ring = "[[9.0,48.0],[9.0002,48.0],[9.0002,48.0001],[9.0,48.0001],[9.0,48.0]]"
+    shape = f'"geometry":{{"type":"Polygon","coordinates":[{ring}]}}'
+    heights = ("12.5", "null")
+    rows = [f'{{"type":"Feature","properties":{{"height":{h}}},{shape}}}' for h in heights]
+    path.write_text("\n".join(rows))
+    first, second = read_lots(path).lots
+    assert (first.attributes.get("height"), second.attributes.get("height")) == (12.5, None)
+    assert area_of(first.rings_m) == pytest.approx(14.92 * 11.12, rel=0.01)
+
+
+@pytest.mark.filterwarnings("ignore:.crs. was not provided")
+def test_a_crs_that_is_given_settles_what_a_file_leaves_open(tmp_path: Path) -> None:
+    path = written(tmp_path / "lots.shp", crs=None)
+    assert read_lots(path).crs is None
+    assert read_lots(path, LotOptions(crs="EPSG:25832")).crs == "EPSG:25832"
+    assert given_crs("EPSG: 32632") == 32632
+    with pytest.raises(InputError, match="is no CRS with an EPSG code"):
+        read_lots(path, LotOptions(crs="Lambert"))
+
+
+OSM = """<?xml version="1.0"?><osm version="0.6">
+<node id="1" lat="48.0" lon="9.0" version="1"/><node id="2" lat="48.0" lon="9.0002" version="1"/>
+<node id="3" lat="48.0001" lon="9.0002" version="1"/>
+<node id="4" lat="48.0001" lon="9.0" version="1"/>
+<way id="7" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="4"/><nd ref="1"/>
+<tag k="building" v="house"/><tag k="building:levels" v="3"/><tag k="height" v="9 m"/></way>
+<way id="8" version="1"><nd ref="1"/><nd ref="2"/><nd ref="3"/><nd ref="1"/>
+<tag k="landuse" v="grass"/></way></osm>"""
+
+
+def test_buildings_of_openstreetmap_with_all_their_tags(tmp_path: Path) -> None:
+    path = tmp_path / "map.osm"
+    path.write_text(OSM)
+    found = read_lots(path)
+    (lot,) = found.lots
+    assert lot.attributes["building:levels"] == "3"
+    assert property_of("levels", lot.attributes, {}) == "3"
+    assert as_kind(property_of("height", lot.attributes, {}) or "", "number") == 9.0
+    assert any("area without the tag building" in note for note in found.notes)
+
+
+@pytest.mark.parametrize(
+    ("name", "content"),
+    [
+        ("cut.osm", OSM[:420].encode()),
+        ("cut.fgb", b"fgb\3fgb\0 and no more"),
+        ("cut.shp", b"\0\0\x27\x0a"),
+        ("cut.kml", b"<kml><Placemark>"),
+    ],
+)
+def test_files_that_are_cut_are_refused_by_name(tmp_path: Path, name: str, content: bytes) -> None:
+    (tmp_path / name).write_bytes(content)
+    with pytest.raises(InputError, match=name):
+        read_lots(tmp_path / name)
+
+
+def test_a_file_of_points_has_no_lots(tmp_path: Path) -> None:
+    path = tmp_path / "a.fgb"
+    pyogrio.raw.write(
+        path, shapely.to_wkb(np.array([shapely.Point(1, 2)])), [np.array([1.0])], ["h"],
+        geometry_type="Point", crs="EPSG:25832", driver="FlatGeobuf",
+    )  # fmt: skip
+    with pytest.raises(InputError, match="no layer of polygons"):
+        read_lots(path)
+
+
+@pytest.mark.parametrize(
+    ("text", "metres"),
+    [
+        ("12", 12.0), ("12 m", 12.0), ("12,5m", 12.5), ("40'", 12.192), ("40 ft", 12.192),
+        ("6' 6\"", 1.9812), ("350 cm", 3.5), ("2 metres", 2.0), ("1 foot", 0.3048),
+        ("high", None), ("", None), ("3-4", None), ("10 storeys", None),
+    ],
+)  # fmt: skip
+def test_lengths_as_people_write_them(text: str, metres: float | None) -> None:
+    assert measured(text) == (None if metres is None else pytest.approx(metres))
+
+
+def test_names_of_the_call_come_before_those_of_the_file_and_the_usual_ones() -> None:
+    lot = {"height": 5.0, "hauteur": 7.0, "building:levels": "2"}
+    assert read_names(["height=hauteur,levels=n"]) == {"height": "hauteur", "levels": "n"}
+    assert property_of("height", lot, {"height": "hauteur"}) == 7.0
+    assert property_of("height", lot, {}) == 5.0
+    assert property_of("floors", lot, {}) == "2"
+    assert property_of("height", {"hauteur": 7.0}, {}) == 7.0
+    assert property_of("colour", lot, {}) is None
+    with pytest.raises(InputError, match="--map height"):
+        read_names(["height"])
