@@ -19,6 +19,7 @@ from pydantic import BaseModel
 from style_tables import attribute_rows
 
 from veduta.cli.demo_call import DemoCall
+from veduta.cli.dense_call import DenseCall
 from veduta.cli.facade_call import FacadeCall
 from veduta.cli.fauna_call import FaunaCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
@@ -174,6 +175,7 @@ def _listed(words: Sequence[str]) -> str:
 TABLES: dict[str, dict[str, Callable[[], str]]] = {
     "assets.md": {"assets": assets_table},
     "demo.md": {"options": lambda: options_table(DemoCall)},
+    "dense.md": {"options": lambda: options_table(DenseCall)},
     "facade.md": {
         "options": lambda: options_table(FacadeCall),
         "files": lambda: files_table(FILES),

@@ -22,7 +22,10 @@ from veduta.cli.streams import outlive_readers
 from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
 from veduta.run.threads import same_sums_anywhere
 
-VERBS = ("facade", "grammar", "photos", "drive", "plan", "walk", "fauna", "demo", "view", "export")
+VERBS = (
+    "facade", "grammar", "photos", "dense", "drive", "plan", "walk", "fauna",
+    "demo", "view", "export",
+)  # fmt: skip
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 

@@ -1,0 +1,1 @@
+"""From depth maps to a cloud, a mesh and a place."""

@@ -1,0 +1,125 @@
+"""A surface where the depth maps agree that there is one; where none saw, it ends."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from veduta import _core
+from veduta.dense.document import DepthMap, Views, camera_row
+from veduta.run.errors import NotFoundError
+
+BLOCK_BYTES = 4096 + 64
+
+
+@dataclass(frozen=True)
+class SurfaceParameters:
+    """voxel_px: side of a voxel where none is given, in pixels at the middle depth. truncation:
+    voxels before and behind a surface. least_weight: sum of confidences that a voxel must have.
+    coarser: by which voxels grow where memory does not suffice. least_share: parts of the mesh with
+    fewer triangles (of all) are dropped, and with fewer than least_triangles.
+    """
+
+    voxel_px: float = 1.4
+    truncation: float = 5.0
+    least_weight: float = 0.6
+    coarser: float = 1.4
+    least_share: float = 0.0005
+    least_triangles: int = 60
+
+
+@dataclass(frozen=True, eq=False)
+class RawSurface:
+    """points_m: (v, 3) float64 world. triangles: (m, 3) uint32, counter-clockwise seen from the
+    cameras. voxel_m: as it came to be. dropped: triangles of small loose parts.
+    """
+
+    points_m: NDArray[np.float64]
+    triangles: NDArray[np.uint32]
+    voxel_m: float
+    dropped: int = 0
+
+
+def natural_voxel_m(
+    views: Views, depth_map: Callable[[int], DepthMap], order: list[int], voxel_px: float
+) -> float:
+    """What a pixel covers at the middle depth (m), times voxel_px."""
+    sizes = []
+    for view in order:
+        depths = depth_map(view).depths_m
+        known = depths[np.isfinite(depths)]
+        if known.size:
+            sizes.append(float(np.median(known)) / views.cameras[view].focal_px[0])
+    if not sizes:
+        raise NotFoundError("a surface", "no depth is known", "Give photos that overlap more.")
+    return float(np.median(sizes)) * voxel_px
+
+
+def build_surface(
+    views: Views,
+    depth_map: Callable[[int], DepthMap],
+    order: list[int],
+    voxel_m: float,
+    memory_bytes: float,
+    parameters: SurfaceParameters,
+) -> RawSurface:
+    """Signed distances from all depth maps, and surface nets over them."""
+    most = max(1000, int(memory_bytes / BLOCK_BYTES))
+    while True:
+        try:
+            volume = _filled(views, depth_map, order, voxel_m, most, parameters)
+        except _core.StereoFault as fault:
+            if "blocks" not in str(fault):
+                raise
+            voxel_m *= parameters.coarser
+            continue
+        points, triangles = volume.surface(parameters.least_weight)
+        del volume
+        return _without_crumbs(RawSurface(points, triangles, voxel_m), parameters)
+
+
+def _filled(
+    views: Views,
+    depth_map: Callable[[int], DepthMap],
+    order: list[int],
+    voxel_m: float,
+    most: int,
+    parameters: SurfaceParameters,
+) -> _core.DepthVolume:
+    volume = _core.DepthVolume(voxel_m, parameters.truncation, most)
+    for view in order:
+        known = depth_map(view)
+        volume.add(known.depths_m, camera_row(views.cameras[view]), known.confidence)
+    return volume
+
+
+def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSurface:
+    """Without loose parts of a few triangles, and without vertices that nothing uses."""
+    faces = surface.triangles.astype(np.int64)
+    if not len(faces):
+        reason = "no surface is seen by enough photos at one spot"
+        raise NotFoundError("a surface", reason, "Give more photos, or --agree 1.")
+    count = len(surface.points_m)
+    edges = np.concatenate([faces[:, :2], faces[:, 1:]])
+    links = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(count, count))
+    _, part = connected_components(links, directed=False)
+    sizes = np.bincount(part[faces[:, 0]], minlength=part.max() + 1)
+    least = max(parameters.least_triangles, parameters.least_share * len(faces))
+    kept = faces[sizes[part[faces[:, 0]]] >= min(least, sizes.max())]
+    points, triangles = compact(surface.points_m, kept)
+    return RawSurface(points, triangles, surface.voxel_m, len(faces) - len(kept))
+
+
+def compact(
+    points: NDArray[np.float64], faces: NDArray[np.int64]
+) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+    """Only the vertices that are used."""
+    used = np.zeros(len(points), dtype=bool)
+    used[faces.ravel()] = True
+    new = np.cumsum(used) - 1
+    return points[used], new[faces].astype(np.uint32)

@@ -1,0 +1,255 @@
+"""`veduta dense`: the recipe from calibrated photos to a place."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import JsonValue
+
+from veduta.cameras import Camera, CameraSet, read_cameras
+from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box
+from veduta.dense.build.colouring import colour_vertices, vertex_normals
+from veduta.dense.build.composing import compose
+from veduta.dense.build.simplifying import Simplified, simplify
+from veduta.dense.build.standing import place_from_cameras
+from veduta.dense.build.surface import RawSurface, build_surface, natural_voxel_m
+from veduta.dense.depths import Matching, all_depth_maps
+from veduta.dense.document import DepthMap, Views
+from veduta.dense.options import DenseOptions
+from veduta.dense.parameters import DenseParameters
+from veduta.dense.read.neighbours import Comparison, choose_neighbours
+from veduta.dense.read.pictures import (
+    open_views,
+    require_sizes,
+    usable_cameras,
+    working_scale,
+)
+from veduta.dense.read.sparse import SparsePoints, match_points
+from veduta.dense.telling import (
+    middle_depths_m,
+    tell_depths,
+    tell_result,
+    tell_standing,
+)
+from veduta.dense.writing import write_cloud, write_depths, write_place
+from veduta.place.mesh import Mesh
+from veduta.run.digests import file_digest
+from veduta.run.errors import NotFoundError
+from veduta.run.progress import Progress
+from veduta.run.verb import VerbCall, VerbResult, run_verb
+from veduta.run.work import Work
+
+VERSION = "1"
+SURFACE = "surface"
+MEMORY_OF_VOLUME = 0.5
+"""Share of the memory that the volume may take."""
+
+
+@dataclass(frozen=True, eq=False)
+class _Given:
+    """What the work starts from."""
+
+    name: str
+    cameras: CameraSet
+    usable: list[Camera]
+    left: list[str]
+    digests: JsonValue
+
+
+def run_dense(
+    cameras: Path,
+    out: Path,
+    options: DenseOptions | None = None,
+    progress: Progress | None = None,
+    *,
+    images: Path | None = None,
+    force: bool = False,
+) -> VerbResult:
+    """Depth maps, a cloud and a mesh of a set of cameras with photos, into OUT.
+
+    images: the folder of the photos, where they do not lie beside the cameras.
+
+    InputError where the cameras or the photos cannot be used together.
+    """
+    chosen = options or DenseOptions()
+    found = read_cameras(cameras, images)
+    usable, left = usable_cameras(found)
+    name = cameras.resolve().name
+    given = _Given(name, found, usable, left, _digests(found, usable))
+    call = VerbCall("dense", VERSION, given.name, chosen, given.digests)
+    return run_verb(
+        call,
+        out,
+        lambda work: _make(work, given, chosen),
+        progress or Progress(quiet=True),
+        force=force,
+    )
+
+
+def _digests(cameras: CameraSet, usable: list[Camera]) -> JsonValue:
+    """Of the photos and of the numbers of their cameras."""
+    rows: list[JsonValue] = []
+    for one in usable:
+        numbers = [*one.focal_px, *one.centre_px, *one.cam_from_world.ravel(), *one.distortion]
+        row: list[JsonValue] = [one.name, file_digest(Path(str(one.picture)))]
+        rows.append([*row, *(float(number) for number in numbers)])
+    count = 0 if cameras.points is None else len(cameras.points)
+    masks: list[JsonValue] = [
+        [name, file_digest(path)] for name, path in sorted(cameras.masks.items())
+    ]
+    return [rows, count, cameras.scale, cameras.crs, masks]
+
+
+def _make(work: Work, given: _Given, options: DenseOptions) -> None:
+    parameters = DenseParameters()
+    for note in given.cameras.notes:
+        work.note(note)
+    views, scale = _views(work, given, options)
+    comparisons = _comparisons(work, given, views, options, parameters)
+    agree = min(options.depth.agree, 1 if len(comparisons) < 3 else options.depth.agree)
+    inputs: JsonValue = [given.digests, scale]
+    matching = Matching(views, comparisons, inputs, agree, options.random.seed, parameters)
+    readers = all_depth_maps(work, matching)
+
+    def depth_map(view: int) -> DepthMap:
+        return readers[view]()
+
+    tell_depths(work, views, comparisons, depth_map)
+    with work.step("depth files"):
+        pictures = write_depths(work, views, comparisons, depth_map)
+    cloud = _cloud(work, views, comparisons, depth_map, options, parameters)
+    mesh = None
+    if not options.surface.no_mesh:
+        mesh = _mesh(work, views, comparisons, depth_map, options, parameters)
+    with work.step("place"):
+        middle = middle_depths_m(comparisons, depth_map)
+        place = compose(given.name, given.cameras, cloud, mesh, options.random.seed)
+        stand = place_from_cameras(given.cameras, cloud.points_m)
+        tell_standing(work, stand)
+        write_place(work, place, views, pictures, middle, stand)
+    tell_result(work, place, cloud, mesh)
+
+
+def _views(work: Work, given: _Given, options: DenseOptions) -> tuple[Views, float]:
+    with work.step("photos") as step:
+        step.rejected.extend(given.left)
+        require_sizes(given.usable)
+        chosen = options.views
+        scale = working_scale(given.usable, chosen.max_side_px, chosen.max_memory)
+        views = open_views(given.usable, scale, given.cameras.masks)
+        first = views.cameras[0]
+        step.counts.update(photos=len(views), scale=round(scale, 4))
+        work.measure("photos", len(views))
+        work.measure("working_size_px", [first.width_px, first.height_px])
+        if scale < 1.0:
+            work.note(
+                f"Depths are looked for at {scale:.2f} of the photos' size "
+                f"({first.width_px} x {first.height_px}): see --max-side-px and --max-memory."
+            )
+        if given.left:
+            work.doubt(f"{len(given.left)} cameras have no photo and are left out")
+    return views, scale
+
+
+def _comparisons(
+    work: Work, given: _Given, views: Views, options: DenseOptions, parameters: DenseParameters
+) -> list[Comparison]:
+    with work.step("neighbours") as step:
+        sparse = _sparse(given, views, parameters)
+        found, left = choose_neighbours(
+            views, sparse, options.views.neighbours, parameters.neighbours
+        )
+        step.rejected.extend(left)
+        step.counts.update(points=len(sparse.points_m), compared=len(found))
+        if sparse.confirmed is not None:
+            work.measure("matches_confirmed", round(sparse.confirmed, 3))
+    if len(found) < 2:
+        evidence = f"no two of the {len(views)} photos show the same spots"
+        raise NotFoundError("depths", evidence, "Give photos that overlap by half or more.")
+    if left:
+        work.doubt(f"{len(left)} photos overlap with no other and have no depth map")
+    if len(found) == 2:
+        work.doubt("only two photos: no third one confirms a depth")
+    return found
+
+
+def _sparse(given: _Given, views: Views, parameters: DenseParameters) -> SparsePoints:
+    cameras = given.cameras
+    if cameras.points is None or cameras.visible is None or not len(cameras.points):
+        return match_points(views, cameras.source, parameters.sparse)
+    of_name = {one.name: index for one, index in zip(cameras.cameras, cameras.visible, strict=True)}
+    visible = tuple(np.asarray(of_name[one.name], dtype=np.intp) for one in given.usable)
+    return SparsePoints(np.asarray(cameras.points, dtype=np.float64), visible)
+
+
+def _cloud(
+    work: Work,
+    views: Views,
+    comparisons: list[Comparison],
+    depth_map: Callable[[int], DepthMap],
+    options: DenseOptions,
+    parameters: DenseParameters,
+) -> DenseCloud:
+    with work.step("cloud") as step:
+        links = {one.view: one.neighbours for one in comparisons}
+        cloud = fuse_cloud(views, links, depth_map, options.depth.agree + 1, parameters.cloud)
+        if options.views.box is not None:
+            cloud = within_box(cloud, options.views.box)
+        if not len(cloud.points_m):
+            raise NotFoundError(
+                "points", "no depth is shown by enough photos", "Give more photos, or --agree 1."
+            )
+        step.counts["points"] = len(cloud.points_m)
+        write_cloud(work, cloud)
+    return cloud
+
+
+def _mesh(
+    work: Work,
+    views: Views,
+    comparisons: list[Comparison],
+    depth_map: Callable[[int], DepthMap],
+    options: DenseOptions,
+    parameters: DenseParameters,
+) -> tuple[Mesh, NDArray[np.float64]]:
+    order = [one.view for one in comparisons]
+    wanted = options.surface
+    memory = options.views.max_memory * 1e9 * MEMORY_OF_VOLUME
+    with work.step("surface") as step:
+        natural = natural_voxel_m(views, depth_map, order, parameters.surface.voxel_px)
+        voxel = wanted.voxel_m or natural
+        raw = build_surface(views, depth_map, order, voxel, memory, parameters.surface)
+        step.counts.update(triangles=len(raw.triangles), dropped=raw.dropped)
+        work.measure("voxel_m", round(raw.voxel_m, 6))
+        if raw.voxel_m > voxel:
+            work.note(f"Voxels of {voxel:.4g} m would take too much memory: {raw.voxel_m:.4g} m.")
+    with work.step("simplification") as step:
+        simple = simplify(raw.points_m, raw.triangles, wanted.max_triangles)
+        step.counts["triangles"] = len(simple.triangles)
+        work.measure("simplified_within_m", round(simple.error_m, 6))
+    with work.step("colours"):
+        return _coloured(views, depth_map, order, raw, simple)
+
+
+def _coloured(
+    views: Views,
+    depth_map: Callable[[int], DepthMap],
+    order: list[int],
+    raw: RawSurface,
+    simple: Simplified,
+) -> tuple[Mesh, NDArray[np.float64]]:
+    normals = vertex_normals(simple.points_m, simple.triangles)
+    found = colour_vertices(simple.points_m, normals, views, depth_map, order, 3.0 * raw.voxel_m)
+    middle = np.round(simple.points_m.mean(axis=0), 3)
+    mesh = Mesh.simple(
+        SURFACE,
+        simple.points_m - middle,
+        simple.triangles,
+        colours=found.colours,
+        normals=normals,
+    )
+    return mesh, middle

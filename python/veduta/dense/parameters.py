@@ -1,0 +1,24 @@
+"""The thresholds of all steps, and what takes the place of an option that is not given."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+from veduta.dense.build.cloud import CloudParameters
+from veduta.dense.build.surface import SurfaceParameters
+from veduta.dense.read.agreeing import AgreeParameters
+from veduta.dense.read.matching import MatchParameters
+from veduta.dense.read.neighbours import NeighbourParameters
+from veduta.dense.read.sparse import SparseParameters
+
+
+@dataclass(frozen=True)
+class DenseParameters:
+    """One of each step."""
+
+    sparse: SparseParameters = field(default_factory=SparseParameters)
+    neighbours: NeighbourParameters = field(default_factory=NeighbourParameters)
+    match: MatchParameters = field(default_factory=MatchParameters)
+    agree: AgreeParameters = field(default_factory=AgreeParameters)
+    cloud: CloudParameters = field(default_factory=CloudParameters)
+    surface: SurfaceParameters = field(default_factory=SurfaceParameters)
