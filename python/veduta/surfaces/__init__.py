@@ -1,19 +1,24 @@
-"""Surfaces: extraction from volumes, simplification, directions, textures from photos."""
+"""Surfaces: extraction, simplification, directions, textures from photos, holes filled."""
 
 from veduta.surfaces.adjacency import neighbours
 from veduta.surfaces.extraction import surface_nets
+from veduta.surfaces.filling.options import FillParameters
+from veduta.surfaces.filling.step import Filled, fill_holes
 from veduta.surfaces.normals import face_normals, vertex_normals
 from veduta.surfaces.simplification import Simplified, simplify
 from veduta.surfaces.texturing.options import SurfaceView, TextureOptions, TextureParameters
 from veduta.surfaces.texturing.step import TexturedMesh, texture_mesh
 
 __all__ = [
+    "FillParameters",
+    "Filled",
     "Simplified",
     "SurfaceView",
     "TextureOptions",
     "TextureParameters",
     "TexturedMesh",
     "face_normals",
+    "fill_holes",
     "neighbours",
     "simplify",
     "surface_nets",

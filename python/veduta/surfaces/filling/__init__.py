@@ -1,0 +1,1 @@
+"""Holes in textures of facades, filled with what stands elsewhere on them."""

@@ -1,0 +1,36 @@
+"""Thresholds of filling."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True)
+class FillParameters:
+    """How holes are filled.
+
+    bridge_px: gaps of a row or column up to this are filled by interpolation where both ends are
+    smooth and alike (section 7.3 of the paper: without the length, a wall's smooth ends would be
+    joined over a hidden window). alike, smooth: difference of the ends, and standard deviation
+    around them (of 255). coarsest_px: the longest side of the level on which all offsets are
+    looked at. shortest: offset (share of that side) below which a surface is like itself anyway.
+    offsets: that are followed to finer levels. tried: on the coarsest. windows_px: sides of the
+    windows, largest first; a smaller one serves where the larger fits worse than `good` (root mean
+    square, of 255). known: share of a source window that must be known. different: larger
+    differences count as this (outliers). faith: weight of how well a whole facade repeats by an
+    offset, in shares of a window. rounds: on each level.
+    """
+
+    bridge_px: int = 9
+    alike: float = 12.0
+    smooth: float = 6.0
+    coarsest_px: int = 80
+    shortest: float = 0.06
+    offsets: int = 32
+    tried: int = 500
+    windows_px: tuple[int, ...] = (25, 13, 9)
+    good: float = 14.0
+    known: float = 0.9
+    different: float = 80.0
+    faith: float = 0.15
+    rounds: int = 2
