@@ -7,7 +7,10 @@ A verb's module has `SUMMARY` (one line) and `run(arguments) -> exit code`.
 from __future__ import annotations
 
 import difflib
+import errno
 import importlib
+import os
+import re
 import signal
 import sys
 import tempfile
@@ -18,7 +21,7 @@ from types import FrameType
 from typing import NoReturn
 
 import veduta
-from veduta.cli.streams import outlive_readers
+from veduta.cli.streams import drop_output, outlive_readers
 from veduta.run.errors import InputError, NotFoundError, UnfinishedError, VedutaError
 from veduta.run.threads import same_sums_anywhere
 
@@ -27,6 +30,7 @@ VERBS = (
     "demo", "view", "export",
 )  # fmt: skip
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
+NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
 
 
@@ -35,11 +39,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     outlive_readers()
     words = list(sys.argv[1:] if arguments is None else arguments)
     if not words or words[0] in {"-h", "--help", "help"}:
-        print(_help())
-        return DONE if words else BAD_USE
+        return _printed(_help(), DONE if words else BAD_USE)
     if words[0] in {"-V", "--version"}:
-        print(f"veduta {veduta.__version__}")
-        return DONE
+        return _printed(f"veduta {veduta.__version__}", DONE)
     verb = words.pop(0)
     if verb not in VERBS:
         return _unknown(verb)
@@ -54,7 +56,14 @@ def _guarded(verb: str, words: list[str]) -> int:
     """Run a verb; every error becomes a line on standard error and an exit code."""
     try:
         module = importlib.import_module(f"veduta.cli.{verb}")
-        return int(module.run(words))
+        code = int(module.run(words))
+        if sys.stdout is not None:
+            sys.stdout.flush()
+        return code
+    except UnicodeEncodeError as error:
+        return _misnamed(verb, error)
+    except OSError as error:
+        return _no_room(error) if error.errno in NO_ROOM else _bug(verb, error)
     except InputError as error:
         _say(f"error: {error}")
         return BAD_USE
@@ -68,9 +77,41 @@ def _guarded(verb: str, words: list[str]) -> int:
         _say(f"error: {error}")
         return BAD_USE
     except Exception as error:  # noqa: BLE001  the last place where a bug can be told
-        _say(f"error: a bug in veduta {verb}: {type(error).__name__}: {error}")
-        _say(f"Please report it with {save_traceback(traceback.format_exc())}")
-        return BUG
+        return _bug(verb, error)
+
+
+def _printed(text: str, code: int) -> int:
+    """Print what was asked for; the exit code."""
+    try:
+        print(text, flush=True)
+    except OSError as error:
+        return _no_room(error)
+    return code
+
+
+def _no_room(error: OSError) -> int:
+    drop_output()
+    _say(f"error: the output: cannot be written ({error.strerror}). Make room for it.")
+    return BAD_USE
+
+
+def _bug(verb: str, error: Exception) -> int:
+    """Tell an error that nobody expected; called where it is handled."""
+    _say(f"error: a bug in veduta {verb}: {type(error).__name__}: {error}")
+    _say(f"Please report it with {save_traceback(traceback.format_exc())}")
+    return BUG
+
+
+def _misnamed(verb: str, error: UnicodeEncodeError) -> int:
+    """A file's name that is no UTF-8 cannot be written into documents, reports and web pages."""
+    text, at = str(error.object), error.start
+    if not "\udc80" <= text[at] <= "\udcff":
+        return _bug(verb, error)
+    # What cannot be written may be a whole document that the name stands in.
+    name = re.split(r'["/\n]', text[:at])[-1] + re.split(r'["/\n]', text[at:])[0]
+    shown = os.fsencode(name).decode("utf-8", "backslashreplace")[:200]
+    _say(f"error: {shown}: has a name that is not UTF-8. Rename it.")
+    return BAD_USE
 
 
 def save_traceback(text: str) -> str:

@@ -139,11 +139,21 @@ def _rule_faults(rules: RuleParameters) -> list[str]:
         found.append(f"rules.facade.sizes_m: needs 1 to {MAX_FLOORS} floors")
     floors = [(f"rules.floors[{index}]", split) for index, split in enumerate(rules.floors)]
     for place, split in [("rules.facade", rules.facade), *floors]:
+        if len(split.symbols) != len(split.sizes_m):
+            found.append(
+                f"{place}: has {len(split.symbols)} symbols and {len(split.sizes_m)} sizes_m;"
+                " each symbol needs a size"
+            )
         found += [
             f"{place}.sizes_m[{index}]: must not be negative"
             for index, size in enumerate(split.sizes_m)
             if size < 0
         ]
+    if len(rules.floors) < len(rules.facade.sizes_m) - 1:
+        found.append(
+            f"rules.floors: has {len(rules.floors)} floors, and rules.facade has"
+            f" {len(rules.facade.sizes_m)} with the base"
+        )
     return found
 
 

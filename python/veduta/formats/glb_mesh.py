@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from veduta.formats.glb_bounds import require_bounded
 from veduta.formats.obj_read import LARGEST_BYTES, MOST_CORNERS, ReadMesh
 from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.material import Colour
@@ -35,11 +36,13 @@ def read_glb_mesh(path: Path, most_corners: int = MOST_CORNERS) -> ReadMesh:
     except OSError as error:
         raise InputError(path, f"cannot be read ({error.strerror})", "Check its name.") from error
     try:
+        require_bounded(data, most_corners)
         scene = trimesh.load_scene(io.BytesIO(data), file_type="glb", process=False)
         pieces = [one for one in scene.dump() if isinstance(one, trimesh.Trimesh)]
         return _joined(pieces, most_corners)
     except (
         ValueError, KeyError, IndexError, TypeError, AttributeError, struct.error, OSError,
+        RecursionError, MemoryError, OverflowError,
     ) as error:  # fmt: skip
         raise InputError(path, f"is no mesh that can be read ({error})", _REMEDY) from error
 

@@ -18,7 +18,7 @@ LARGEST_BYTES = 2**31
 REMEDY = "Let Veduta write it again."
 BROKEN = (
     ValueError, KeyError, IndexError, TypeError, AttributeError, OverflowError,
-    struct.error, OSError,
+    struct.error, OSError, RecursionError,
 )  # fmt: skip
 """What a file that is not as it should be raises."""
 _HEADER = struct.Struct("<4sII")

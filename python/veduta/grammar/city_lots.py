@@ -62,7 +62,7 @@ def building_outlines(
     found: Found,
 ) -> Outlines:
     """The lots of a city object: none where it is no building, or where its parts have them."""
-    if not isinstance(city_object, dict) or city_object.get("type") not in BUILDINGS:
+    if not isinstance(city_object, dict) or _type_of(city_object) not in BUILDINGS:
         return
     if not city_object.get("geometry"):
         return
@@ -242,9 +242,15 @@ def _is_in(point: NDArray[np.float64], loop: NDArray[np.float64]) -> bool:
     return bool((crosses & (x - y * (x1 - x) / rise > 0)).sum() % 2)
 
 
+def _type_of(city_object: dict[str, Any]) -> str:
+    """The kind of a city object; "" where it is no word."""
+    kind = city_object.get("type")
+    return kind if isinstance(kind, str) else ""
+
+
 def road_rings(city_object: Any, count: int) -> list[Loop]:
     """The rings of a road among `count` vertices; none of what is no road, or cannot be read."""
-    if not isinstance(city_object, dict) or city_object.get("type") not in ROADS:
+    if not isinstance(city_object, dict) or _type_of(city_object) not in ROADS:
         return []
     try:
         return [ring for rings, _ in _faces(city_object, count) for ring in rings]

@@ -27,6 +27,7 @@ from veduta.run.inputs import require_file
 MAX_BYTES = 8 * 2**20
 MAX_DEPTH = 1000
 MAX_PLACE = 2**32 - 1
+_DIGITS = len(str(MAX_PLACE))
 MAX_CHOICES = 1000
 CoreEdit = tuple[
     list[int], str | None, bool, list[int | None], list[tuple[str, bool | float | str]]
@@ -79,7 +80,11 @@ def parse_path(text: str) -> tuple[tuple[int, ...], str | None]:
     words = [word for word in places.removeprefix("/").split("/") if word or places != "/"]
     if not places.startswith("/") or (colon and not name) or len(words) > MAX_DEPTH:
         raise EditFault(f"`{text[:60]}` is no path such as /0/2:Floor")
-    if not all(word.isascii() and word.isdigit() and int(word) <= MAX_PLACE for word in words):
+    # Its length first: Python refuses to make a number of thousands of digits.
+    if not all(
+        len(word) <= _DIGITS and word.isascii() and word.isdigit() and int(word) <= MAX_PLACE
+        for word in words
+    ):
         raise EditFault(f"`{text[:60]}` is no path such as /0/2:Floor")
     return tuple(int(word) for word in words), name or None
 

@@ -177,6 +177,7 @@ def find_frame(
                 f"says EPSG:{epsg}, but its coordinates are no longitudes and latitudes",
                 "Name the CRS that they are in.",
             )
+        _require_heights(path, survey)
         return _utm_frame(path, survey, outlines())
     if is_tiny:
         raise InputError(
@@ -184,11 +185,18 @@ def find_frame(
             f"says EPSG:{epsg}, but its coordinates look like longitudes and latitudes",
             "Name the CRS that they are in.",
         )
+    _require_heights(path, survey)
     if max(map(abs, survey.low[:2] + survey.high[:2])) > MAX_METRES:
         raise InputError(
             path, "has coordinates that are no metres on Earth", "Check its coordinates."
         )
     return Frame(None if epsg is None else f"EPSG:{epsg}", _origin(survey.low))
+
+
+def _require_heights(path: Path, survey: Survey) -> None:
+    if max(abs(survey.low[2]), abs(survey.high[2])) > MAX_METRES:
+        fault = "has heights that are no metres on Earth"
+        raise InputError(path, fault, "Check its coordinates.")
 
 
 def _utm_frame(path: Path, survey: Survey, outlines: Iterable[NDArray[np.float64]]) -> Frame:

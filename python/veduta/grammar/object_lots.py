@@ -127,7 +127,10 @@ def _face(words: list[str], count: int) -> Loop:
     """The vertices of a face, from 0; negative numbers count from the last one back."""
     if not 3 <= len(words) <= MAX_VERTICES:
         raise RingFault("a face has fewer than three corners, or too many")
-    numbers = np.array([int(word.partition("/")[0]) for word in words], dtype=np.int64)
+    try:
+        numbers = np.array([int(word.partition("/")[0]) for word in words], dtype=np.int64)
+    except OverflowError:
+        raise RingFault("names a vertex that is not there") from None
     places = np.where(numbers < 0, numbers + count, numbers - 1)
     if (places < 0).any() or (places >= count).any():
         raise RingFault("names a vertex that is not there")

@@ -55,7 +55,7 @@ def package_outlines(path: Path, layer_name: str | None, found: Found) -> Outlin
             layer = _layer(path, base, layer_name)
             found.epsg = _epsg(path, base, layer.srs)
             yield from _outlines(path, base, layer, found)
-    except sqlite3.Error as error:
+    except (sqlite3.Error, UnicodeError) as error:
         raise InputError(
             path, f"cannot be read ({error})", "Save it anew as GeoPackage."
         ) from error

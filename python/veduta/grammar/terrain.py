@@ -22,6 +22,10 @@ from veduta.run.inputs import require_file
 MAX_BYTES = 2 * 2**30
 MAX_CELLS = 250_000_000
 MAX_LOT_CELLS = 4_000_000
+CELL_M = (1e-6, 1e6)
+"""Smallest and largest side of a cell, in the units of the CRS."""
+MAX_METRES = 1e9
+"""No CRS has places farther from its origin; NaN is none either."""
 Ground = Literal["lowest", "mean"]
 _SCALE, _TIE, _MATRIX, _KEYS, _NO_DATA = 33550, 33922, 34264, 34735, 42113
 _RASTER_TYPE, _GEOGRAPHIC, _PROJECTED = 1025, 2048, 3072
@@ -115,7 +119,10 @@ def read_terrain(path: Path, crs: str | None) -> Terrain:
         raise InputError(path, "does not exist", "Check its name.") from error
     except Image.DecompressionBombError as error:
         raise _too_large(path) from error
-    except (OSError, ValueError, SyntaxError) as error:
+    except (
+        OSError, ValueError, SyntaxError, KeyError, IndexError, TypeError, OverflowError,
+        MemoryError,
+    ) as error:  # fmt: skip
         raise InputError(path, f"is no GeoTIFF that can be read ({error})", _HINT) from error
 
 
@@ -134,7 +141,9 @@ def _read(path: Path, image: Image.Image, crs: str | None) -> Terrain:
     _require_crs(path, keys, crs)
     width, height = (float(part) for part in tags[_SCALE][:2])
     column, row, _, x, y = (float(part) for part in tags[_TIE][:5])
-    if not (width > 0 and height > 0 and np.isfinite([width, height, column, row, x, y]).all()):
+    least, most = CELL_M
+    sound = least <= width <= most and least <= height <= most
+    if not (sound and np.abs([column, row, x, y]).max() <= MAX_METRES):
         raise InputError(path, "does not say where it lies, or is turned", _HINT)
     half = 0.0 if keys.get(_RASTER_TYPE) == _POINT else 0.5
     heights = np.asarray(image, dtype=np.float32).copy()

@@ -17,6 +17,7 @@ from veduta.imaging.read import DAMAGE, MAX_FILE_BYTES, read_image
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import limited
 from veduta.run.report import counted
 
 if TYPE_CHECKING:
@@ -29,6 +30,7 @@ RENDERED_PX = 3000
 _MOST_DPI = 600.0
 """A page as small as a hand is not enlarged without end."""
 _POINTS_PER_INCH = 72.0
+_SIMPLER = "Export it again, simpler, or give a picture of the page."
 _FORMATS = "Give a picture (JPEG, PNG, TIFF or WebP), a PDF or a DXF file."
 _MAGIC = b"%PDF-"
 _MAGIC_WITHIN = 1024
@@ -92,7 +94,7 @@ def find_drawings(paths: Sequence[Path], pages: Sequence[int] | None = None) -> 
 def read_drawing(drawing: Drawing) -> Scan:
     """The pixels of a drawing; InputError where it cannot be read."""
     if drawing.page:
-        return _rendered(drawing)
+        return limited(rendered, drawing, drawing.path, _SIMPLER)
     photo = read_image(drawing.path, _FORMATS)
     return Scan(photo.pixels, photo.sha256, _resolution(drawing.path), notes=photo.notes)
 
@@ -125,7 +127,7 @@ def _of_pdf(path: Path, pages: Sequence[int] | None) -> list[Drawing]:
     return [Drawing(path, page) for page in pages or range(1, count + 1)]
 
 
-def _rendered(drawing: Drawing) -> Scan:
+def rendered(drawing: Drawing) -> Scan:
     """A page at a resolution that gives its longest side `RENDERED_PX`, or `_MOST_DPI`."""
     with _opened(drawing.path) as document:
         page = document[drawing.page - 1]

@@ -44,7 +44,7 @@ def _tiles(folder: Path, tileset: str) -> list[str]:
     """The files of the tileset; InputError where it is not whole."""
     try:
         return contents(folder, tileset)
-    except (OSError, ValueError, KeyError, TypeError) as error:
+    except (OSError, ValueError, KeyError, TypeError, IndexError, RecursionError) as error:
         raise InputError(
             folder / tileset,
             f"is no tileset that can be read ({error})",

@@ -8,6 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from veduta.plan.vector.copies import MOST_SHOWN, shown_count
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -51,6 +52,9 @@ def open_dxf(path: Path) -> DxfDocument:
     except (ValueError, KeyError, IndexError, AttributeError, TypeError) as error:
         # What no repair of ezdxf foresees: tags of other kinds than the format has.
         raise InputError(path, f"is a damaged DXF file ({error!r})", _AGAIN) from error
+    if shown_count(document) >= MOST_SHOWN:
+        fault = f"repeats its blocks to more than {MOST_SHOWN:,} lines and words"
+        raise InputError(path, fault, "Take the arrays of blocks out of it.")
     return document
 
 
