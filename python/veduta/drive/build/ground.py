@@ -17,22 +17,22 @@ class GroundParameters:
 
     cell_m: cells along the path and across it. Streets slope slowly: a cell is ground where its
     lowest points are within `step_m` plus `slope` times its distance of the road.
-    over_m: points so little above it are ground: kerbs (0.12 m), noise of the scanner.
+    over_m: points so little above it are ground: noise of the scanner and rough paving.
     lowest: quantile that stands for the lowest points; single points lie too low.
     """
 
     cell_m: tuple[float, float] = (1.0, 0.5)
     step_m: float = 0.35
     slope: float = 0.03
-    over_m: float = 0.12
+    over_m: float = 0.08
     lowest: float = 0.08
     fewest: int = 4
     smoothed_cells: int = 5
-    foot_m: float = 0.25
+    foot_m: float = 0.35
     """Cells in which an object takes the ground points at its foot with it,"""
     foot_height_m: float = 0.6
     """where points of it stand over them up to this height,"""
-    foot_points: int = 3
+    foot_points: int = 2
     """and so many at least."""
 
 

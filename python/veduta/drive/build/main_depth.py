@@ -25,7 +25,7 @@ class DepthParameters:
     least_m: height that stands upright at one depth, for a column to have a main structure.
     farther: what a metre of depth is worth, in metres of height: a wall stands behind what hides
     it. step: cost of a change of depth by a bin, at most `jump` (houses step back).
-    none: cost of a column without a main structure.
+    most_m: more height than this counts no more. nearest_m: nearer things are on the road.
     """
 
     bin_m: float = 0.15
@@ -34,17 +34,18 @@ class DepthParameters:
     highest_m: float = 8.0
     wide_m: float = 2.0
     least_m: float = 0.35
-    most_m: float = 1.2
-    farther: float = 0.03
+    most_m: float = 0.8
+    farther: float = 0.015
+    nearest_m: float = 3.0
     step: float = 0.15
-    jump: float = 4.0
+    jump: float = 8.0
     split_m: float = 1.2
     valley: float = 0.35
     slants: tuple[float, ...] = (-1.0, -0.5, -0.25, 0.0, 0.25, 0.5, 1.0)
     """Metres of depth per metre of path at which walls are looked for."""
     thick_m: float = 0.6
     """A wall is thin: what stands so far before and behind counts against it (hedges)."""
-    thick: float = 0.5
+    thick: float = 1.0
     across_m: float = 1.2
     """A wall across the path is looked for so near to where the main depth jumps."""
     across_jump_m: float = 1.5
@@ -82,7 +83,8 @@ def find_main_depth(
     beside = int(round(chosen.thick_m / chosen.bin_m))
     around = 0.5 * (_moved(histogram, 0, beside) + _moved(histogram, 0, -beside))
     gain = np.minimum(histogram - chosen.thick * around, chosen.most_m)
-    gain = np.where(histogram >= chosen.least_m, gain + chosen.farther * depth, 0.0)
+    standing = (histogram >= chosen.least_m) & (depth >= chosen.nearest_m)
+    gain = np.where(standing, gain + chosen.farther * depth, 0.0)
     line = _cheapest_line(-gain, chosen)
     supported = gain[np.arange(len(line)), line] > 0.0
     main = np.where(supported, depth[line], np.nan)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from veduta.drive.read.clouds import is_clouds, read_clouds
 from veduta.drive.read.kitti import is_kitti, read_kitti
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import InputError
@@ -19,10 +20,12 @@ def read_log(folder: Path, seed: int) -> DriveRecord:
         raise InputError(folder, "there is no such folder", "Name a folder with a drive in it.")
     if is_kitti(folder):
         return read_kitti(folder, seed)
+    if is_clouds(folder):
+        return read_clouds(folder, seed)
     raise InputError(
         folder,
         "has no drive that Veduta can read",
-        "It reads the layout of KITTI odometry (velodyne/, poses.txt, calib.txt).",
+        "It reads the layout of KITTI odometry (velodyne/, poses.txt, calib.txt), and *.pcd scans.",
     )
 
 
