@@ -20,7 +20,7 @@ from veduta.place.place import Cloud, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 
 PICTURES = "pictures"
-_PLAIN = (0.62, 0.6, 0.57)
+_PLAIN, _PLAIN_GROUND = (0.62, 0.6, 0.57), (0.36, 0.36, 0.37)
 _ROWS: tuple[tuple[bool, Source, FeatureRow], ...] = (
     (True, Source.MEASURED, (SemanticClass.WALL, Provenance.MEASURED, "wall")),
     (True, Source.FILLED, (SemanticClass.WALL, Provenance.INVENTED, "wall filled")),
@@ -60,7 +60,7 @@ def segment_mesh(textured: Textured, middle: NDArray[np.float64], *, wall: bool)
         features=feature_table(identity, [row for _, _, row in rows]),
         materials=(
             Material("images", texture=texture, unlit=True),
-            Material("not seen in any image", _PLAIN),
+            Material("not seen in any image", _PLAIN if wall else _PLAIN_GROUND),
         ),
         triangle_feature=feature,
         triangle_material=_of_triangles(textured, textured.plain)[chosen].astype(np.int32),
