@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
+from veduta.drive.build.beside import column_spacing, points_beside
 from veduta.drive.build.pictures import (
     atlas_picture,
     depth_picture,
@@ -56,10 +57,11 @@ def _make(log: Path, options: DriveOptions, work: Work) -> None:
         step.counts["sweeps"], step.counts["images"] = len(record.sweeps), len(record.shots)
         for note in record.notes:
             work.note(note)
-    road_m = float(record.sweeps[0].world_from_sensor[2, 3])
+    road_m = record.height_m
     with work.step("segments") as step:
-        spacing = options.columns.column_spacing_m
-        line = driven_line(record.path(), spacing, options.columns.reach_m)
+        spacing = column_spacing(record, options)
+        ahead_m = options.columns.reach_m if record.full else 0.0
+        line = driven_line(record.path(), spacing, ahead_m)
         if len(line) < 2:
             raise NotFoundError("a path", "the scanner did not move", "Drive along a street.")
         segments = cut_segments(line, spacing)
@@ -81,12 +83,12 @@ def _geometries(
     work: Work,
 ) -> list[Geometry]:
     found = []
-    points = np.concatenate([sweep.world_points() for sweep in record.sweeps])
     with work.step("layers") as step:
         built = [one for one in segments if one.fate == "build"]
         for number, segment in enumerate(built):
             work.progress("layers", number / len(built))
             frame = frame_of(segment, options, road_m)
+            points = points_beside(record, segment, options)
             geometry = reconstruct(segment, frame, points, options)
             if geometry.measured_walls() < 10:
                 step.rejected.append(f"{segment.id}: no facade stands along it")

@@ -63,12 +63,16 @@ class DriveRecord:
     """All of a drive. World: z up, z = 0 at the road under the first sweep; metres.
 
     given_poses: whether the path came with the record. notes: what was assumed while reading.
+    height_m: of the scanner over the road. full: whether a sweep goes all around, else it is one
+    vertical scan.
     """
 
     name: str
     sweeps: tuple[Sweep, ...]
     shots: tuple[Shot, ...]
     given_poses: bool
+    height_m: float
+    full: bool
     crs: str | None = None
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     notes: tuple[str, ...] = ()

@@ -113,6 +113,8 @@ def _quantile_by_cell(
     order = np.lexsort((values, cell))
     count = np.bincount(cell, minlength=cells)
     first = np.concatenate([[0], np.cumsum(count)[:-1]])
+    if not len(values):
+        return np.full(cells, np.nan), count
     at = np.minimum(first + (count * share).astype(np.int64), len(values) - 1)
     found = values[order][at].astype(np.float64)
     found[count == 0] = np.nan

@@ -48,7 +48,8 @@ def read_clouds(folder: Path, seed: int) -> DriveRecord:
         f" {100 * chain.share[1:].max():.0f} % of their points match",
         "there are no images: nothing is textured",
     ]
-    return DriveRecord(folder.name, sweeps, (), False, notes=tuple(notes))
+    height_m = float(sweeps[0].world_from_sensor[2, 3])
+    return DriveRecord(folder.name, sweeps, (), False, height_m, True, notes=tuple(notes))
 
 
 def _reader(path: Path) -> Callable[[], NDArray[np.float64]]:

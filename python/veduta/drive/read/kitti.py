@@ -58,7 +58,8 @@ def read_kitti(folder: Path, seed: int) -> DriveRecord:
     notes = [] if level.share else ["no road was found under the first scan: z is only lifted"]
     if not shots:
         notes.append(f"there are no images in {PICTURES}: nothing is textured")
-    return DriveRecord(folder.name, sweeps, shots, True, notes=tuple(notes))
+    height_m = float(sweeps[0].world_from_sensor[2, 3])
+    return DriveRecord(folder.name, sweeps, shots, True, height_m, True, notes=tuple(notes))
 
 
 def _reader(path: Path) -> Callable[[], NDArray[np.float64]]:

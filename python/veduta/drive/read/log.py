@@ -6,6 +6,7 @@ from pathlib import Path
 
 from veduta.drive.read.clouds import is_clouds, read_clouds
 from veduta.drive.read.kitti import is_kitti, read_kitti
+from veduta.drive.read.own import is_own, read_own
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import InputError
 
@@ -18,6 +19,8 @@ def read_log(folder: Path, seed: int) -> DriveRecord:
     """The drive in a folder. InputError where there is none that Veduta can read."""
     if not folder.is_dir():
         raise InputError(folder, "there is no such folder", "Name a folder with a drive in it.")
+    if is_own(folder):
+        return read_own(folder)
     if is_kitti(folder):
         return read_kitti(folder, seed)
     if is_clouds(folder):
@@ -25,7 +28,7 @@ def read_log(folder: Path, seed: int) -> DriveRecord:
     raise InputError(
         folder,
         "has no drive that Veduta can read",
-        "It reads the layout of KITTI odometry (velodyne/, poses.txt, calib.txt), and *.pcd scans.",
+        "It reads folders with a drive.toml, the layout of KITTI odometry, and *.pcd scans.",
     )
 
 

@@ -1,0 +1,119 @@
+"""A straight street along y: a row of houses to the left, and what stands before it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import IntEnum
+
+import numpy as np
+from numpy.typing import NDArray
+
+
+class Kind(IntEnum):
+    """What a ray meets."""
+
+    NOTHING = 0
+    GROUND = 1
+    WALL = 2
+    OBJECT = 3
+    BEHIND_GLASS = 4
+
+
+@dataclass(frozen=True)
+class StreetOptions:
+    """front_m: from the path to the facades. steps_m: houses stand back or forward by up to this.
+    hedge: whether a hedge hides the foot of all walls. cars, trees, lamps: share of places taken.
+    """
+
+    length_m: float = 400.0
+    front_m: float = 11.0
+    steps_m: float = 0.6
+    hedge: bool = False
+    cars: float = 0.6
+    trees: float = 0.5
+    lamps: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Street:
+    """Boxes (b, 2, 3): lower and upper corner; upright cylinders (k, 5): x, y, radius, foot, top;
+    balls (s, 4): x, y, z, radius. The ground is z = 0.
+
+    walls: boxes of houses. objects: boxes of cars and hedges. panes: (p, 2, 3) boxes in the plane
+    of a wall through which rays go. rooms: (r, 2, 3) what stands behind them.
+    """
+
+    walls: NDArray[np.float64]
+    objects: NDArray[np.float64]
+    cylinders: NDArray[np.float64]
+    balls: NDArray[np.float64]
+    panes: NDArray[np.float64]
+    rooms: NDArray[np.float64]
+    length_m: float
+
+
+def build_street(options: StreetOptions, seed: int) -> Street:
+    """The same street for the same seed. The path of a truck is the line x = 0."""
+    random = np.random.default_rng(seed)
+    walls, panes, rooms = [], [], []
+    place = -20.0
+    while place < options.length_m + 20.0:
+        width, height = random.uniform(8.0, 18.0), random.uniform(7.0, 16.0)
+        front = -options.front_m + random.uniform(-options.steps_m, options.steps_m)
+        walls.append(_box(front - 0.3, front, place, place + width, 0.0, height))
+        # A balcony on every third house.
+        if random.uniform() < 0.33:
+            middle = place + width / 2
+            walls.append(_box(front - 0.1, front + 0.9, middle - 1.2, middle + 1.2, 3.2, 4.2))
+        for storey in np.arange(0.9, height - 2.0, 3.1):
+            for start in np.arange(place + 1.0, place + width - 2.0, 2.6):
+                panes.append(
+                    _box(front - 0.31, front + 0.01, start, start + 1.2, storey, storey + 1.5)
+                )
+        back = front - random.uniform(2.5, 4.5)
+        rooms.append(_box(back - 0.2, back, place, place + width, 0.0, height))
+        place += width + (3.0 if random.uniform() < 0.15 else 0.0)
+    objects = _cars(options, random)
+    if options.hedge:
+        for start in np.arange(-10.0, options.length_m + 10.0, 6.0):
+            away = -options.front_m + options.steps_m + 1.5
+            objects.append(_box(away, away + 0.6, start, start + 5.6, 0.0, 1.3))
+    cylinders, balls = _trees(options, random)
+    return Street(
+        np.array(walls), np.array(objects).reshape(-1, 2, 3), cylinders, balls,
+        np.array(panes), np.array(rooms), options.length_m,
+    )  # fmt: skip
+
+
+def _box(
+    x0: float, x1: float, y0: float, y1: float, z0: float, z1: float
+) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
+    return (x0, y0, z0), (x1, y1, z1)
+
+
+def _cars(
+    options: StreetOptions, random: np.random.Generator
+) -> list[tuple[tuple[float, float, float], tuple[float, float, float]]]:
+    """A body and a lower cabin on it, in a row of parking places."""
+    found = []
+    for start in np.arange(2.0, options.length_m - 6.0, 6.0):
+        if random.uniform() < options.cars:
+            away = -5.5 + random.uniform(-0.2, 0.2)
+            found.append(_box(away, away + 1.75, start, start + 4.3, 0.15, 0.9))
+            found.append(_box(away + 0.1, away + 1.65, start + 1.0, start + 3.4, 0.9, 1.45))
+    return found
+
+
+def _trees(
+    options: StreetOptions, random: np.random.Generator
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    cylinders, balls = [], []
+    for start in np.arange(5.0, options.length_m, 9.0):
+        if random.uniform() < options.trees:
+            x, y = -7.0 + random.uniform(-0.3, 0.3), start + random.uniform(-1.0, 1.0)
+            cylinders.append((x, y, random.uniform(0.12, 0.25), 0.0, 3.0))
+            balls.append((x, y, random.uniform(4.2, 5.2), random.uniform(1.2, 2.0)))
+    for start in np.arange(12.0, options.length_m, 25.0):
+        if random.uniform() < options.lamps:
+            cylinders.append((-6.6, start, 0.08, 0.0, 6.0))
+    return np.array(cylinders).reshape(-1, 5), np.array(balls).reshape(-1, 4)
