@@ -4,8 +4,9 @@
 
 Facades with known truth are rectified; a hole with a third of a window of wall around it is cut
 over each of two windows of every facade. The seeds start at 100: what was looked at while the step
-was made is below 10. A window counts as found again where the picture about it, blurred by an eighth
-of its width (each window has its own glazing and curtains), correlates with the true one by 0.5.
+was made is below 10. A window counts as found again where the picture about it, blurred by an
+eighth of its width (each window has its own glazing and curtains), correlates with the true one by
+0.5 or more.
 """
 
 from __future__ import annotations
@@ -100,8 +101,8 @@ def agree(filled: Pixels, true: Pixels, box: Box) -> float:
     both = []
     for pixels in (filled, true):
         grey = cv2.cvtColor(pixels, cv2.COLOR_RGB2GRAY).astype(np.float32)
-        grey = cv2.GaussianBlur(grey, (0, 0), soft)
-        part = grey[max(0, top - more) : bottom + more, max(0, left - more) : right + more]
+        blurred = cv2.GaussianBlur(grey, (0, 0), soft)
+        part = blurred[max(0, top - more) : bottom + more, max(0, left - more) : right + more]
         both.append(part.ravel())
     if min(one.std() for one in both) < 1e-6:
         return 0.0
