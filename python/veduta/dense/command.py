@@ -12,11 +12,11 @@ from pydantic import JsonValue
 
 from veduta.cameras import Camera, CameraSet, read_cameras
 from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box
-from veduta.dense.build.colouring import colour_vertices, vertex_normals
+from veduta.dense.build.colouring import colour_vertices
 from veduta.dense.build.composing import compose
-from veduta.dense.build.simplifying import Simplified, simplify
 from veduta.dense.build.standing import place_from_cameras
 from veduta.dense.build.surface import RawSurface, build_surface, natural_voxel_m
+from veduta.dense.build.texturing import textured
 from veduta.dense.depths import Matching, all_depth_maps
 from veduta.dense.document import DepthMap, Views
 from veduta.dense.options import DenseOptions
@@ -42,6 +42,7 @@ from veduta.run.errors import NotFoundError
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
+from veduta.surfaces import Simplified, simplify, vertex_normals
 
 VERSION = "1"
 SURFACE = "surface"
@@ -228,11 +229,20 @@ def _mesh(
         if raw.voxel_m > voxel:
             work.note(f"Voxels of {voxel:.4g} m would take too much memory: {raw.voxel_m:.4g} m.")
     with work.step("simplification") as step:
-        simple = simplify(raw.points_m, raw.triangles, wanted.max_triangles)
+        simple = simplify(raw.points_m, raw.triangles, most=wanted.max_triangles)
         step.counts["triangles"] = len(simple.triangles)
         work.measure("simplified_within_m", round(simple.error_m, 6))
     with work.step("colours"):
-        return _coloured(views, depth_map, order, raw, simple)
+        mesh, middle = _coloured(views, depth_map, order, raw, simple)
+    if wanted.no_texture:
+        return mesh, middle
+    with work.step("texture") as step:
+        found = textured(mesh, middle, views, order, wanted.max_atlas_px, work.progress)
+        step.counts.update(charts=found.charts)
+        work.measure("seen_share", round(found.seen_share, 4))
+        work.measure("texel_m", round(found.texel_m, 6))
+        work.measure("seam_before_after", [round(found.seam_before, 2), round(found.seam_after, 2)])
+        return found.mesh, middle
 
 
 def _coloured(
@@ -242,14 +252,9 @@ def _coloured(
     raw: RawSurface,
     simple: Simplified,
 ) -> tuple[Mesh, NDArray[np.float64]]:
-    normals = vertex_normals(simple.points_m, simple.triangles)
-    found = colour_vertices(simple.points_m, normals, views, depth_map, order, 3.0 * raw.voxel_m)
-    middle = np.round(simple.points_m.mean(axis=0), 3)
-    mesh = Mesh.simple(
-        SURFACE,
-        simple.points_m - middle,
-        simple.triangles,
-        colours=found.colours,
-        normals=normals,
-    )
+    points, faces = simple.positions, simple.triangles
+    middle = np.round(points.mean(axis=0), 3)
+    normals = vertex_normals(points - middle, faces).astype(np.float32)
+    found = colour_vertices(points, normals, views, depth_map, order, 3.0 * raw.voxel_m)
+    mesh = Mesh.simple(SURFACE, points - middle, faces, colours=found.colours, normals=normals)
     return mesh, middle

@@ -48,6 +48,12 @@ class SurfaceOptions(Options):
     max_triangles: Annotated[int, Field(ge=1000, le=20_000_000)] = Field(
         default=400_000, description="triangles of the mesh at most; it is simplified to them"
     )
+    no_texture: bool = Field(
+        default=False, description="give each vertex of the mesh a colour, in place of a texture"
+    )
+    max_atlas_px: Annotated[int, Field(ge=256, le=16_384)] = Field(
+        default=4096, description="longest side of the mesh's texture (px)"
+    )
 
 
 class RandomOptions(Options):

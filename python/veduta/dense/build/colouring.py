@@ -22,23 +22,6 @@ class VertexColours:
     views: NDArray[np.int32]
 
 
-def vertex_normals(
-    points: NDArray[np.float64], triangles: NDArray[np.uint32]
-) -> NDArray[np.float32]:
-    """(v, 3) unit normals, weighted by the areas around each vertex."""
-    corners = points[triangles]
-    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    summed = np.stack(
-        [
-            np.bincount(triangles.ravel(), np.repeat(cross[:, axis], 3), len(points))
-            for axis in range(3)
-        ],
-        axis=1,
-    )
-    length = np.linalg.norm(summed, axis=1, keepdims=True)
-    return np.asarray(summed / np.maximum(length, 1e-30), dtype=np.float32)
-
-
 def colour_vertices(
     points: NDArray[np.float64],
     normals: NDArray[np.float32],
