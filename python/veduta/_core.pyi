@@ -20,6 +20,87 @@ class MissingAsset:
         """What the lot's failure is where there is no such asset."""
     def __repr__(self) -> str: ...
 
+# carve.rs
+class CarveFault(ValueError): ...
+
+class CarvedVolume:
+    """What silhouettes left of a cube: signed evidence, less than zero inside."""
+    def inside(self) -> int:
+        """Voxels whose centres are inside."""
+    def counts(self) -> list[list[int]]:
+        """Cubes of each level of the octree that are outside, inside and on a boundary."""
+    def size(self) -> int:
+        """Bytes that the evidence takes."""
+    def solid(self) -> _Array3[np.bool_]:
+        """Of each voxel (x, y, z), whether its centre is inside."""
+    def deepened(self, field: _Array3[np.float32]) -> CarvedVolume:
+        """The volume without what `field` carves: signed evidence (m, less than zero where nothing is
+        carved) over the same cube, 2^n values along each edge.
+        """
+    def surface(self) -> tuple[_Array2[np.float64], _Array2[np.uint32]]:
+        """Vertices (v, 3) in voxels, from the centre of the first one, and triangles (m, 3),
+        counter-clockwise seen from outside.
+        """
+
+def carve_hull(
+    cameras: _Array2[np.float64],
+    distances: Sequence[_Array2[np.float32]],
+    corners: _Array2[np.float64],
+    low_m: tuple[float, float, float],
+    side_m: float,
+    levels: int,
+) -> CarvedVolume:
+    """Carves a cube at `low_m`, 2^levels voxels along each edge. cameras: a row of 16 numbers for each
+    view (the projection to pixels row by row, the focal length, the centre). distances: of each view,
+    to the silhouette's outline (px), less than zero inside. corners: where in the picture they begin.
+    """
+
+def vertex_colours(
+    cameras: _Array2[np.float64],
+    photos: Sequence[_Array3[np.uint8]],
+    positions: _Array2[np.float64],
+    normals: _Array2[np.float64],
+    triangles: _Array2[np.uint32],
+    *,
+    spacing_m: float,
+    least_cosine: float,
+    power: float,
+    views: int,
+) -> tuple[_Array2[np.uint8], _Array1[np.uint16]]:
+    """Colours (v, 3) of vertices with unit normals, blended from the best views that see them, and how
+    many views do. Those that none sees take the colours around them. cameras: as in `carve_hull`.
+    """
+
+def sweep_colours(
+    cameras: _Array2[np.float64],
+    photos: Sequence[_Array3[np.uint8]],
+    distances: Sequence[_Array2[np.float32]],
+    corners: _Array2[np.float64],
+    solid: _Array3[np.bool_],
+    low_m: tuple[float, float, float],
+    side_m: float,
+    *,
+    spread: float,
+    least_views: int,
+    most_views: int,
+    least_cosine: float,
+    rim_voxels: float,
+    sweeps: int,
+) -> tuple[_Array3[np.bool_], list[int], _Array1[np.float32]]:
+    """What colours that disagree leave of the voxels of a cube: whether each is solid, how many each sweep
+    carved, and the spreads (grey levels) of the hull's own voxels. With no sweeps it only measures.
+    """
+
+def seen_triangles(
+    cameras: _Array2[np.float64],
+    sizes: Sequence[tuple[int, int]],
+    positions: _Array2[np.float64],
+    triangles: _Array2[np.uint32],
+) -> list[_Array2[np.int32]]:
+    """The triangle that each camera sees in the middle of each pixel, (h, w), -1 where there is none.
+    sizes: (width, height) of each camera.
+    """
+
 # chain.rs
 class ChainFault(ValueError): ...
 class ChainSizeError(ChainFault): ...

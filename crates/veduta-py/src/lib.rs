@@ -3,6 +3,7 @@
 use pyo3::prelude::*;
 
 mod assets;
+mod carve;
 mod chain;
 mod city;
 mod compress;
@@ -32,6 +33,7 @@ mod walk;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    carve::register(m)?;
     chain::register(m)?;
     compress::register(m)?;
     grammar::register(m)?;

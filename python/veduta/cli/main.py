@@ -29,6 +29,7 @@ VERBS = (
     "facade", "grammar", "photos", "dense", "drive", "plan", "walk", "fauna",
     "demo", "view", "export",
 )  # fmt: skip
+VERBS = ("facade", "grammar", "photos", "carve", "drive", "plan", "fauna", "demo", "view", "export")
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
 NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM

@@ -1,0 +1,1 @@
+"""From views to an object of a place."""

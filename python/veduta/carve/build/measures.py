@@ -1,0 +1,75 @@
+"""What can be said of the object in figures, and how sure it is."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.carve.views import View, camera_rows
+
+Floats = NDArray[np.float64]
+Triangles = NDArray[np.uint32]
+
+
+@dataclass(frozen=True)
+class Measures:
+    """Of the mesh, in the cameras' unit (metres where the scale is known).
+
+    volume, area: with half the difference between the object grown and shrunk by what a silhouette's
+    outline may be wrong (`outline_px`), and by half a voxel's diagonal at most.
+    """
+
+    volume: float
+    volume_error: float
+    area: float
+    size: tuple[float, float, float]
+    pieces: int
+
+
+def measure_mesh(
+    positions: Floats, triangles: Triangles, views: Sequence[View], outline_px: float = 0.5
+) -> Measures:
+    """The figures of a closed mesh."""
+    corners = positions[triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area = 0.5 * float(np.linalg.norm(cross, axis=1).sum())
+    volume = float((corners[:, 0] * cross).sum() / 6.0)
+    middle = positions.mean(axis=0)
+    pixel = float(
+        np.median(
+            [
+                float(view.camera.project(middle)[1][0]) / max(view.camera.focal_px)
+                for view in views
+            ]
+        )
+    )
+    x, y, z = np.ptp(positions, axis=0).tolist()
+    return Measures(volume, area * pixel * outline_px, area, (x, y, z), _pieces(positions, triangles))
+
+
+def _pieces(positions: Floats, triangles: Triangles) -> int:
+    from scipy.sparse import coo_matrix
+    from scipy.sparse.csgraph import connected_components
+
+    starts = np.concatenate([triangles[:, 0], triangles[:, 1]]).astype(np.int64)
+    ends = np.concatenate([triangles[:, 1], triangles[:, 2]]).astype(np.int64)
+    count = len(positions)
+    links = coo_matrix((np.ones(len(starts), dtype=np.int8), (starts, ends)), (count, count))
+    return int(connected_components(links, directed=False)[0])
+
+
+def overlaps(views: Sequence[View], positions: Floats, triangles: Triangles) -> Floats:
+    """(n,) of each view, the intersection over union of its silhouette and the mesh's."""
+    sizes = [(view.camera.width_px, view.camera.height_px) for view in views]
+    rows = camera_rows([view.camera for view in views])
+    seen = _core.seen_triangles(rows, sizes, positions, triangles)
+    found = []
+    for view, one in zip(views, seen, strict=True):
+        drawn = one >= 0
+        either = int((drawn | view.mask).sum())
+        found.append(int((drawn & view.mask).sum()) / either if either else 1.0)
+    return np.array(found)

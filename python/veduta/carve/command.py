@@ -1,0 +1,227 @@
+"""`veduta carve`: photos with silhouettes become a closed, coloured object in a place."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import cv2
+import numpy as np
+
+from veduta.cameras import CameraSet, read_cameras
+from veduta.carve.build.appearance import carved_triangles, colour_vertices
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.consistency import Consistency, carve_by_colour
+from veduta.carve.build.hull import Hull, carve_hull, root_of
+from veduta.carve.build.measures import Measures, measure_mesh, overlaps
+from veduta.carve.build.place import Shape, base_of, object_mesh, photo_name, place_of
+from veduta.carve.build.upright import turn_upright
+from veduta.carve.faults import doubtful_views, refuse_silhouettes
+from veduta.carve.options import CarveOptions
+from veduta.carve.pictures import carved_picture, outlines_picture, sides_picture
+from veduta.carve.read.views import Record, read_views
+from veduta.carve.views import View
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError, NotFoundError
+from veduta.run.page import Bars
+from veduta.run.progress import Progress
+from veduta.run.verb import VerbCall, VerbResult, run_verb
+from veduta.run.work import Work
+
+VERSION = "1"
+MODEL, POINTS = "object.glb", "object.ply"
+
+
+def run_carve(
+    record: Path, out: Path, options: CarveOptions, progress: Progress, *, force: bool = False
+) -> VerbResult:
+    """Carve the object of a folder in OUT; InputError where it cannot be one."""
+    if not record.exists():
+        raise InputError(record, "does not exist", "Name the folder of the photos and cameras.")
+    base = record if record.is_dir() else record.parent
+    call = VerbCall(
+        command="carve",
+        version=VERSION,
+        subject=base.resolve().name,
+        options=options,
+        inputs=[f"{path.relative_to(base)} {file_digest(path)}" for path in _files(base)],
+    )
+
+    def make(work: Work) -> None:
+        _make(work, record, call.subject, options)
+
+    return run_verb(call, out, make, progress, force=force)
+
+
+def _files(base: Path) -> list[Path]:
+    return sorted(path for path in base.rglob("*") if path.is_file())
+
+
+def _make(work: Work, record: Path, name: str, options: CarveOptions) -> None:
+    cameras, views = _read(work, record, options)
+    with work.step("bounds"):
+        root = root_of(find_bounds(views), options.volume.levels)
+    with work.step("hull") as step:
+        hull = carve_hull(views, root)
+        step.counts["voxels inside"] = hull.volume.inside()
+        step.counts["cubes judged"] = sum(sum(level) for level in hull.volume.counts())
+        if hull.volume.inside() == 0:
+            raise _nothing(views)
+    consistency = _carve_by_colour(work, hull, views, options)
+    shape = _mesh(work, views, hull if consistency is None else consistency.hull, consistency)
+    measures = _measure(work, views, shape, cameras)
+    kept = options.volume.up == "kept" or cameras.crs is not None
+    shift = np.zeros(3) if kept else base_of(shape.positions)
+    with work.step("writing"):
+        _write(work, name, shape, views, cameras, shift)
+    _tell(work, shape, views, measures, cameras)
+
+
+def _read(work: Work, record: Path, options: CarveOptions) -> tuple[CameraSet, tuple[View, ...]]:
+    with work.step("cameras") as step:
+        cameras = read_cameras(record)
+        for note in cameras.notes:
+            work.note(note)
+        if options.volume.up == "auto" and cameras.crs is None:
+            cameras = turn_upright(cameras)
+        step.counts["cameras"] = len(cameras)
+    with work.step("silhouettes") as step:
+        folder = record if record.is_dir() else record.parent
+        found: Record = read_views(folder, cameras, options.silhouettes, progress=work.progress)
+        step.counts["views"] = len(found.views)
+        step.rejected.extend(found.left_out)
+        views = refuse_silhouettes(folder, found.views)
+        step.rejected.extend(
+            f"{view.name}: no silhouette" for view in found.views if view not in views
+        )
+        if found.threshold is not None:
+            work.note(
+                "The background was told by its colours: what differs from them by"
+                f" {found.threshold:.1f} deviations is the object."
+            )
+    work.picture("Silhouettes", "what was taken for the object", outlines_picture(views), wide=True)
+    return cameras, views
+
+
+def _nothing(views: Sequence[View]) -> NotFoundError:
+    return NotFoundError(
+        "an object",
+        f"the silhouettes of {len(views)} views have no voxel in common",
+        "Look at the silhouettes in the report: one may be inverted, or a camera may not belong"
+        " to its photo.",
+    )
+
+
+def _carve_by_colour(
+    work: Work, hull: Hull, views: Sequence[View], options: CarveOptions
+) -> Consistency | None:
+    if not options.colour.carve:
+        return None
+    with work.step("colour consistency") as step:
+        found = carve_by_colour(hull, views, options.colour)
+        step.counts["sweeps"] = len(found.carved_by_sweep)
+        step.counts["voxels carved"] = int(found.carved.sum())
+    work.measure("colour_spread_typical", round(found.typical, 2))
+    work.measure("colour_spread_carved", round(found.spread, 2))
+    return found
+
+
+def _mesh(work: Work, views: Sequence[View], hull: Hull, consistency: Consistency | None) -> Shape:
+    with work.step("surface") as step:
+        positions, triangles = hull.surface()
+        if not len(triangles):
+            raise _nothing(views)
+        step.counts["vertices"], step.counts["triangles"] = len(positions), len(triangles)
+        carved = np.zeros(len(triangles), dtype=bool)
+        if consistency is not None and consistency.carved.any():
+            carved = carved_triangles(positions, triangles, consistency)
+            step.counts["triangles carved by colour"] = int(carved.sum())
+    with work.step("colours") as step:
+        coloured = colour_vertices(views, positions, triangles, hull.root.voxel_m)
+        unseen = int((coloured.views == 0).sum())
+        step.counts["vertices that no photo shows"] = unseen
+        work.measure("unseen_share", round(unseen / len(positions), 4))
+    return Shape(positions, triangles, coloured.colours, carved)
+
+
+def _measure(work: Work, views: Sequence[View], shape: Shape, cameras: CameraSet) -> Measures:
+    with work.step("measures"):
+        found = measure_mesh(shape.positions, shape.triangles, views)
+        fits = overlaps(views, shape.positions, shape.triangles)
+    unit = "m" if cameras.scale == "metres" else "units"
+    work.measure(f"volume_{unit}3", float(f"{found.volume:.5g}"))
+    work.measure(f"volume_error_{unit}3", float(f"{found.volume_error:.2g}"))
+    work.measure(f"area_{unit}2", float(f"{found.area:.5g}"))
+    work.measure("triangles", len(shape.triangles))
+    work.measure("pieces", found.pieces)
+    work.measure("silhouette_iou_mean", round(float(fits.mean()), 4))
+    work.measure("silhouette_iou_least", round(float(fits.min()), 4))
+    work.bars(
+        Bars(
+            "Overlap of each silhouette with the object's (intersection over union)",
+            "",
+            [(view.name, round(float(fit), 4)) for view, fit in zip(views, fits, strict=True)],
+        )
+    )
+    for doubt in doubtful_views(views, fits):
+        work.doubt(doubt)
+    return found
+
+
+def _write(
+    work: Work,
+    name: str,
+    shape: Shape,
+    views: Sequence[View],
+    cameras: CameraSet,
+    shift: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
+) -> None:
+    mesh = object_mesh(name, shape, shift)
+    place = place_of(mesh, views, cameras, shift)
+    for number, view in enumerate(views):
+        path = work.folder / photo_name(number)
+        path.parent.mkdir(exist_ok=True)
+        _, data = cv2.imencode(".jpg", cv2.cvtColor(view.pixels, cv2.COLOR_RGB2BGR))
+        path.write_bytes(data.tobytes())
+    place.save(work.folder)
+    place.write(work.folder / MODEL)
+    place.write(work.folder / POINTS)
+    work.file(MODEL, "the object, coloured, for any program that shows glTF")
+    work.file(POINTS, "the same mesh as PLY")
+    work.file("place.json", "the place for `veduta view`, with the cameras and their photos")
+
+
+def _tell(
+    work: Work,
+    shape: Shape,
+    views: Sequence[View],
+    measures: Measures,
+    cameras: CameraSet,
+) -> None:
+    unit = "m" if cameras.scale == "metres" else "units of the cameras"
+    size = " x ".join(f"{one:.4g}" for one in measures.size)
+    volume = f"{measures.volume:.4g} ± {measures.volume_error:.1g}"
+    work.fact("Size", f"{size} {unit}")
+    work.fact("Volume", f"{volume} {unit}, cubed")
+    work.fact("Area", f"{measures.area:.4g} {unit}, squared")
+    work.fact("Triangles", f"{len(shape.triangles):,}")
+    carved = float(shape.carved.mean())
+    work.summary = (
+        f"An object of {len(shape.triangles):,} triangles from {len(views)} views: {size} {unit},"
+        f" volume {volume}"
+    )
+    work.picture("The object", "from four sides, above and below", sides_picture(shape), wide=True)
+    if carved > 0.0:
+        work.picture(
+            "Hull and concavities",
+            f"grey: bounded by silhouettes; orange: carved because the photos' colours disagreed"
+            f" ({carved:.1%} of the triangles)",
+            carved_picture(shape),
+            wide=True,
+        )
+    work.note(
+        "The hull is the largest object that fits all silhouettes: what lies in a hollow that no"
+        " silhouette shows is filled, unless the colours carved it."
+    )
+    if cameras.scale == "unknown":
+        work.note("The cameras have no known scale: lengths are in their own unit.")

@@ -1,0 +1,62 @@
+"""What `veduta carve` can be told."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from veduta.run.options import Options
+
+
+class SilhouetteOptions(Options):
+    """Where the object is in the photos."""
+
+    background: Literal["auto", "dark", "bright", "masks"] = Field(
+        "auto",
+        description=(
+            "how the object is told from what is behind it: masks where there are some, else the"
+            " colours along the photos' borders (auto); dark or bright: what is behind it is black"
+            " or white; masks: they must be there"
+        ),
+    )
+
+
+class VolumeOptions(Options):
+    """The volume that is carved."""
+
+    levels: int = Field(
+        8, ge=5, le=10, description="the octree's depth: 2^levels voxels along the longest side"
+    )
+    up: Literal["auto", "kept"] = Field(
+        "auto",
+        description=(
+            "turn the object so that the cameras' ring lies level (auto), or keep the frame of the"
+            " cameras (kept)"
+        ),
+    )
+
+
+class ColourOptions(Options):
+    """What the colours of the photos decide."""
+
+    carve: bool = Field(
+        True, description="carve concavities where the photos' colours disagree on the hull"
+    )
+    spread: float | None = Field(
+        None,
+        gt=0.0,
+        le=255.0,
+        description=(
+            "disagreement of colours (grey levels) from which a voxel is carved; found from the"
+            " hull's own where it is not given"
+        ),
+    )
+
+
+class CarveOptions(Options):
+    """All that changes the result."""
+
+    silhouettes: SilhouetteOptions = SilhouetteOptions()
+    volume: VolumeOptions = VolumeOptions()
+    colour: ColourOptions = ColourOptions()

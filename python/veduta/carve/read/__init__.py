@@ -1,0 +1,1 @@
+"""From a record to views: cameras, photos, silhouettes."""

@@ -1,0 +1,44 @@
+"""The arguments of `veduta carve`: the record, the options, and how to run."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Annotated
+
+import tyro
+
+from veduta.carve.options import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions
+from veduta.cli.run_arguments import Force, Out, Quiet
+
+Record = Annotated[
+    tyro.conf.Positional[Path],
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="folder of photos with their cameras, and of masks where there are some",
+    ),
+]
+
+
+@dataclass(frozen=True)
+class CarveCall:
+    """Carve an object out of photos with its silhouettes.
+
+    The object is in OUT/object.glb and OUT/object.ply, closed and coloured, and OUT/place.json has
+    it with the cameras around it, for `veduta view`.
+
+    Exit codes: 0 done, 2 bad use or input, 3 there is no object, 1 a bug.
+    """
+
+    record: Record
+    out: Out
+    silhouettes: SilhouetteOptions = field(default_factory=SilhouetteOptions)
+    volume: VolumeOptions = field(default_factory=VolumeOptions)
+    colour: ColourOptions = field(default_factory=ColourOptions)
+    force: Force = False
+    quiet: Quiet = False
+
+    def options(self) -> CarveOptions:
+        """What changes the result."""
+        return CarveOptions(silhouettes=self.silhouettes, volume=self.volume, colour=self.colour)

@@ -1,0 +1,147 @@
+"""`veduta carve` over a small folder: a ball in closed form, and every fault that is told."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+import trimesh
+from ring_of_a_ball import RADIUS, disc, write_ring
+
+from veduta.carve import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions, run_carve
+from veduta.place.place import Place
+from veduta.run.errors import InputError
+from veduta.run.progress import Progress
+from veduta.run.verb import VerbResult
+
+QUIET = Progress(quiet=True)
+OPTIONS = CarveOptions(volume=VolumeOptions(levels=5), colour=ColourOptions(carve=False))
+
+
+def _carve(folder: Path, out: Path, options: CarveOptions = OPTIONS) -> VerbResult:
+    return run_carve(folder, out, options, QUIET)
+
+
+@pytest.mark.parametrize("masks", [True, False])
+def test_a_ball_comes_out_as_one(tmp_path: Path, masks: bool) -> None:
+    write_ring(tmp_path / "ball", masks=masks)
+    result = _carve(tmp_path / "ball", tmp_path / "out")
+    assert result.failure is None
+    assert result.measures["silhouette_iou_least"] > 0.97
+    place = Place.load(tmp_path / "out")
+    (part,) = place.parts.values()
+    positions, triangles = part.triangles()
+    mesh = trimesh.Trimesh(positions, triangles, process=False)
+    assert mesh.is_watertight
+    assert mesh.is_winding_consistent
+    # The hull of a ring from above and no other side is the ball and a little at its poles.
+    ball = 4 / 3 * np.pi * RADIUS**3
+    assert ball * 0.97 < mesh.volume < ball * 1.25
+    assert positions[:, 2].min() == pytest.approx(0.0, abs=1e-5), "it stands on the ground"
+    assert len(place.cameras) == 12
+    assert (tmp_path / "out/object.glb").is_file()
+    assert (tmp_path / "out/object.ply").is_file()
+
+
+def test_the_same_again_is_up_to_date_and_the_same_bytes(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball")
+    _carve(tmp_path / "ball", tmp_path / "one")
+    _carve(tmp_path / "ball", tmp_path / "two")
+    assert _carve(tmp_path / "ball", tmp_path / "one").up_to_date
+    for name in ("object.glb", "object.ply", "place.json"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes()
+
+
+def test_colours_that_agree_carve_nothing(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball")
+    options = CarveOptions(volume=VolumeOptions(levels=5))
+    whole = _carve(tmp_path / "ball", tmp_path / "whole")
+    carved = _carve(tmp_path / "ball", tmp_path / "carved", options)
+    assert carved.measures["triangles"] == whole.measures["triangles"]
+
+
+def _masks(folder: Path, make: dict[int, np.ndarray] | np.ndarray) -> None:
+    for number, path in enumerate(sorted((folder / "masks").iterdir())):
+        mask = make if isinstance(make, np.ndarray) else make.get(number)
+        if mask is not None:
+            cv2.imwrite(str(path), mask.astype(np.uint8) * 255)
+
+
+@pytest.mark.parametrize(("value", "said"), [(0, "are empty"), (1, "fill their photos")])
+def test_silhouettes_without_an_object(tmp_path: Path, value: int, said: str) -> None:
+    write_ring(tmp_path / "ball", masks=True)
+    _masks(tmp_path / "ball", np.full((96, 96), value))
+    result = _carve(tmp_path / "ball", tmp_path / "out")
+    assert result.exit_code == 3
+    assert result.failure is not None
+    assert said in result.failure.reason
+
+
+def test_one_inverted_silhouette_is_named(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball", masks=True)
+    _masks(tmp_path / "ball", {3: ~disc()})
+    with pytest.raises(InputError, match="inverted") as raised:
+        _carve(tmp_path / "ball", tmp_path / "out")
+    assert raised.value.subject == "ball03.png"
+    assert raised.value.remedy == "Make it white on the object."
+
+
+def test_all_inverted_silhouettes_are_told(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball", masks=True)
+    _masks(tmp_path / "ball", ~disc())
+    with pytest.raises(InputError, match="12 of 12 silhouettes are white along"):
+        _carve(tmp_path / "ball", tmp_path / "out")
+
+
+def test_cameras_that_do_not_look_at_one_place(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball", masks=True)
+    path = tmp_path / "ball/ball_par.txt"
+    lines = path.read_text().splitlines()
+    words = lines[5].split()
+    words[-3] = repr(float(words[-3]) + 2.0)
+    lines[5] = " ".join(words)
+    path.write_text("\n".join(lines))
+    with pytest.raises(InputError, match="do not look at one place") as raised:
+        _carve(tmp_path / "ball", tmp_path / "out")
+    assert "ball04.png" in raised.value.subject
+
+
+def test_cameras_without_photos(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball")
+    for path in sorted((tmp_path / "ball").glob("*.png"))[1:]:
+        path.unlink()
+    with pytest.raises(InputError) as raised:
+        _carve(tmp_path / "ball", tmp_path / "out")
+    assert raised.value.remedy
+
+
+def test_a_mask_of_another_size(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball", masks=True)
+    _masks(tmp_path / "ball", {2: np.ones((50, 96), dtype=bool)})
+    with pytest.raises(InputError, match="is 96 x 50 px, but its photo has 96 x 96 px") as raised:
+        _carve(tmp_path / "ball", tmp_path / "out")
+    assert raised.value.subject.endswith("ball02.png")
+
+
+def test_masks_that_are_asked_for_and_missing(tmp_path: Path) -> None:
+    write_ring(tmp_path / "ball")
+    options = CarveOptions(silhouettes=SilhouetteOptions(background="masks"))
+    with pytest.raises(InputError, match="has no folder masks"):
+        _carve(tmp_path / "ball", tmp_path / "out", options)
+
+
+def test_cameras_that_all_look_the_same_way(tmp_path: Path) -> None:
+    cameras = write_ring(tmp_path / "ball", masks=True)
+    path = tmp_path / "ball/ball_par.txt"
+    line = path.read_text().splitlines()[1].split()
+    same = [" ".join([camera.name, *line[1:]]) for camera in cameras]
+    path.write_text("\n".join(["12", *same]))
+    with pytest.raises(InputError, match="all cameras look the same way"):
+        _carve(tmp_path / "ball", tmp_path / "out")
+
+
+def test_no_such_folder(tmp_path: Path) -> None:
+    with pytest.raises(InputError, match="does not exist"):
+        _carve(tmp_path / "nothing", tmp_path / "out")
