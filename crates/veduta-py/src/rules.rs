@@ -33,7 +33,9 @@ fn imported<'a>(files: &'a Files, importer: &str, path: &str) -> Option<&'a (Str
     let found = files.iter().find(|(known, _)| *known == own);
     let ends = |rest: &str| {
         let end = format!("/{rest}");
-        let fitting = files.iter().filter(|(known, _)| *known == rest || known.ends_with(&end));
+        let fitting = files
+            .iter()
+            .filter(|(known, _)| *known == rest || known.ends_with(&end));
         fitting.min_by_key(|(known, _)| known.len())
     };
     let plain = beside("", path.trim_start_matches('/'));

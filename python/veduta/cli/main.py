@@ -26,10 +26,9 @@ from veduta.run.errors import InputError, NotFoundError, UnfinishedError, Veduta
 from veduta.run.threads import same_sums_anywhere
 
 VERBS = (
-    "facade", "grammar", "photos", "dense", "drive", "plan", "walk", "fauna",
+    "facade", "grammar", "photos", "carve", "dense", "drive", "plan", "walk", "fauna",
     "demo", "view", "export",
 )  # fmt: skip
-VERBS = ("facade", "grammar", "photos", "carve", "drive", "plan", "fauna", "demo", "view", "export")
 DONE, BUG, BAD_USE, SOME_FAILED = 0, 1, 2, 3
 NO_ROOM = {errno.ENOSPC, errno.EDQUOT, errno.EFBIG}
 INTERRUPTED, TERMINATED = 128 + signal.SIGINT, 128 + signal.SIGTERM
