@@ -10,6 +10,8 @@ import { changeBy, type HouseCommand } from "../core/house-keys.ts";
 import { daylightAt } from "../core/daylight.ts";
 import type { Vec3 } from "../core/vector.ts";
 import { durationOf, NOT_BEGUN, type TourState } from "../core/tour.ts";
+import { Address } from "./address.ts";
+import { fillHead } from "./head.ts";
 import type { AnimalState } from "../core/animal.ts";
 import "./animal-panel.ts";
 import "./feature-panel.ts";
@@ -113,14 +115,17 @@ export class Studio extends LitElement {
         (fault) => this.#say(fault.message),
       );
       this.session = session;
+      const address = new Address(session, this.#store);
       session.viewer.onDrawn = () => {
+        address.changed();
         if (session.houses.length > 0) this.#drawMap(session);
       };
-      document.title = `${titleOf(session)} · Veduta`;
+      fillHead(session);
       window.veduta = inspect(session, this.#store);
       await this.updateComplete;
       this.#leaveFree(session);
       session.viewer.goHome();
+      address.show(location.hash);
       document.documentElement.dataset.veduta = "ready";
     } catch (error) {
       this.#fail(error);

@@ -3,11 +3,15 @@ import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import { type Box, framePoints, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
+import type { Mode } from "../core/state.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
-import type { Pose } from "./flight.ts";
+import { type Pose, setPose } from "./flight.ts";
 import type { Stage } from "./stage.ts";
 
 export const ORBIT_FOV_DEG = 28;
+/** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
+export const NEAR_M = 0.08;
+const NEAR_SHARE = 0.2;
 const KEY_TURN_RAD_S = 1.1;
 
 export class OrbitRig {
@@ -71,6 +75,16 @@ export class OrbitRig {
     };
   }
 
+  /** At once; the middle of the picture's free part is what is looked at. */
+  lookFrom(eye: Vec3, target: Vec3, insets: Insets): void {
+    this.#controls.target.set(...drawnFromWorld(target));
+    this.#camera.position.set(...drawnFromWorld(eye));
+    this.#camera.lookAt(this.target);
+    const { position, quaternion } = this.#camera;
+    setPose(this.#camera, { position, quaternion, fov: ORBIT_FOV_DEG, shift: shiftOf(insets) });
+    this.#controls.update();
+  }
+
   aimAt(target: Vector3): void {
     this.#controls.target.copy(target);
   }
@@ -88,6 +102,14 @@ export class OrbitRig {
     const off = (at: number, low: number, high: number): number => Math.max(low - at, 0, at - high);
     const away = Math.hypot(off(x, min[0], max[0]), off(y, min[1], max[1]), off(z, min[2], max[2]));
     return Math.min(away, z - min[2]);
+  }
+
+  /** Depth is told apart best where nothing is drawn near: the ground lies close over the plane. */
+  keepDepth(mode: Mode): void {
+    const near = Math.max(NEAR_M, NEAR_SHARE * (mode === "orbit" ? this.free_m : 0));
+    if (Math.abs(near - this.#camera.near) < 0.1 * this.#camera.near) return;
+    this.#camera.near = near;
+    this.#camera.updateProjectionMatrix();
   }
 
   /** Damping; true while the camera still moves. */

@@ -1,24 +1,27 @@
 /** Draws the place and moves the camera through it, as the state says. */
 import { PerspectiveCamera, Vector3, type WebGLRenderer } from "three";
-import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
+import { worldFromDrawn } from "../core/frames.ts";
 import { type Insets, NO_INSETS, shiftOf } from "../core/framing.ts";
-import { type Hold, turnOf, wishOf } from "../core/input.ts";
+import type { Hold } from "../core/input.ts";
 import type { Place } from "../core/place.ts";
 import { type StudioState, throughPhoto } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
-import type { Vec3 } from "../core/vector.ts";
+import { add, subtract, type Vec3 } from "../core/vector.ts";
+import type { Look } from "../core/view-link.ts";
 import type { Walker } from "../core/walking.ts";
-import { FramePace } from "./frame-pace.ts";
+import { DrawLoop } from "./draw-loop.ts";
 import type { Frusta } from "./frusta.ts";
+import { Follower } from "./follower.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
 import type { MorphShow } from "./morph-show.ts";
-import { OrbitRig } from "./orbit-rig.ts";
+import { NEAR_M, OrbitRig } from "./orbit-rig.ts";
 import type { ShownPhoto } from "./photo-show.ts";
 import { Picker } from "./picker.ts";
 import { CanvasPointer } from "./pointer.ts";
 import { makeRenderer } from "./renderer.ts";
 import { Screen } from "./screen.ts";
 import { Stage, type ViewerContent } from "./stage.ts";
+import { Steering } from "./steering.ts";
 import { TourGuide } from "./tour-guide.ts";
 import type { Town } from "./town.ts";
 import { WalkRig } from "./walk-rig.ts";
@@ -26,9 +29,6 @@ import { WalkRig } from "./walk-rig.ts";
 /** Radians per CSS pixel: a drag takes the picture along, the captured mouse turns the head. */
 const DRAG_RAD_PX = 0.0032;
 const MOUSE_RAD_PX = 0.0022;
-/** What is nearer to the camera is not drawn; from outside, a share of the room before it. */
-const NEAR_M = 0.08;
-const NEAR_SHARE = 0.2;
 
 export interface ViewerStats {
   readonly frames: number;
@@ -54,16 +54,19 @@ export class Viewer {
   /** What is under a point of the canvas. */
   readonly picker: Picker;
   readonly #resizes: ResizeObserver;
-  readonly #held = new Set<Hold>();
-  #stick: readonly [number, number] = [0, 0];
+  readonly #steering: Steering;
   #flight: Flight | null = null;
   #orbitPose: { pose: Pose; target: Vector3 } | null = null;
-  /** Where the followed animal was; null where none is followed. */
-  #followed: Vector3 | null = null;
-  #request = 0;
+  readonly #follower: Follower;
+  readonly #loop = new DrawLoop(
+    (seconds) => this.#move(seconds),
+    (sharpness) => {
+      this.#screen.sharpen(sharpness);
+      this.#draw();
+    },
+  );
   #frames = 0;
   #insets: Insets = NO_INSETS;
-  readonly #pace = new FramePace();
   /** Called after each picture. */
   onDrawn: () => void = () => undefined;
 
@@ -83,6 +86,8 @@ export class Viewer {
     this.#orbit.enabled = store.value.morph === null;
     this.#walk = new WalkRig(place.start, solid, solid.bounds, this.#stage.body);
     this.#guide = place.tours.length === 0 ? null : new TourGuide(place.tours, store);
+    this.#follower = new Follower(this.#orbit, this.#stage.animals);
+    this.#steering = new Steering({ camera: this.#camera, walk: this.#walk, orbit: this.#orbit, guide: this.#guide }, store);
     this.picker = new Picker(canvas, this.#camera, solid, content, () => store.value);
     this.#pointer = new CanvasPointer(canvas, {
       onClick: (x, y) => this.#select(x, y),
@@ -156,7 +161,7 @@ export class Viewer {
   get stats(): ViewerStats {
     return {
       frames: this.#frames,
-      framesPerSecond: this.#pace.perSecond,
+      framesPerSecond: this.#loop.framesPerSecond,
       triangles: this.solid.faceCount,
       tiles: this.#town?.tileCount ?? 0,
     };
@@ -183,19 +188,37 @@ export class Viewer {
     };
   }
 
+  /** Where one stands and looks to: around which one turns, or straight ahead. */
+  get look(): Look {
+    const { eye, direction } = this.pose;
+    const isOrbit = this.#store.value.mode === "orbit";
+    return { eye, target: isOrbit ? worldFromDrawn(this.#orbit.target.toArray()) : add(eye, direction) };
+  }
+
+  /** At once. */
+  lookFrom({ eye, target }: Look): void {
+    this.#flight = null;
+    if (this.#store.value.mode === "walk") {
+      this.#walk.place(eye, subtract(target, eye));
+      setPose(this.#camera, this.#walk.pose(this.#camera));
+    } else {
+      this.#orbit.lookFrom(eye, target, this.#insets);
+    }
+    this.invalidate();
+  }
+
   hold(key: Hold, down: boolean): void {
-    if (down) this.#held.add(key);
-    else this.#held.delete(key);
+    this.#steering.hold(key, down);
     this.invalidate();
   }
 
   releaseKeys(): void {
-    this.#held.clear();
+    this.#steering.release();
   }
 
   /** x right, y forward, -1..1. */
   setStick(x: number, y: number): void {
-    this.#stick = [x, y];
+    this.#steering.setStick(x, y);
     this.invalidate();
   }
 
@@ -248,7 +271,7 @@ export class Viewer {
     this.#stage.photos?.dispose();
     this.#frusta?.dispose();
     this.#morphs?.dispose();
-    cancelAnimationFrame(this.#request);
+    this.#loop.stop();
     this.#resizes.disconnect();
     this.#pointer.dispose();
     this.#orbit.dispose();
@@ -257,29 +280,24 @@ export class Viewer {
 
   /** Asks for a frame; nothing is drawn while nothing changes. */
   invalidate(): void {
-    if (this.#request === 0) this.#request = requestAnimationFrame((now) => this.#frame(now));
+    this.#loop.ask();
   }
 
-  #frame(now_ms: number): void {
-    this.#request = 0;
-    const seconds = this.#pace.begin(now_ms);
+  #move(seconds: number): boolean {
     const moves = [
       this.#advance(seconds),
       this.#stage.advance(this.#store.value, this.walker, this.pose.eye, Math.min(seconds, 0.1)),
       this.#stage.fade(this.#store.value, this.pose, Math.min(seconds, 0.1)),
     ];
-    const goesOn = moves.includes(true);
-    this.#goWithAnimal();
-    this.#screen.sharpen(goesOn ? this.#pace.sharpness : 1);
-    this.#draw();
-    this.#pace.end(now_ms, goesOn);
-    if (goesOn) this.invalidate();
+    this.#follower.follow(this.#store.value);
+    return moves.includes(true);
   }
 
   #advance(seconds: number): boolean {
     const { morph } = this.#store.value;
     if (morph !== null && this.#morphs !== null) {
-      const next = this.#morphs.advance(morph, wishOf(this.#held, this.#stick), turnOf(this.#held), Math.min(seconds, 0.1));
+      const { wish, turn } = this.#steering;
+      const next = this.#morphs.advance(morph, wish, turn, Math.min(seconds, 0.1));
       if (next !== null) this.#store.update({ morph: next });
       return next !== null;
     }
@@ -287,37 +305,7 @@ export class Viewer {
       if (this.#flight.advance(this.#camera, Math.min(seconds, 0.35))) this.#flight = null;
       return true;
     }
-    const turn = turnOf(this.#held);
-    const wish = wishOf(this.#held, this.#stick);
-    if (this.#store.value.shot !== null) return false;
-    if (this.#store.value.mode === "walk") {
-      const steered = turn.left !== 0 || turn.up !== 0 || wish.forward !== 0 || wish.right !== 0;
-      if (this.#guide?.isPlaying === true && !steered) {
-        const { eye, direction } = this.#guide.advance(seconds);
-        this.#walk.place(eye, direction);
-        setPose(this.#camera, this.#walk.pose(this.#camera));
-        return true;
-      }
-      this.#guide?.stop();
-      const moves = this.#walk.advance(wish, turn, seconds);
-      setPose(this.#camera, this.#walk.pose(this.#camera));
-      return moves;
-    }
-    const steering = turn.left !== 0 || turn.up !== 0 || wish.forward !== 0 || wish.right !== 0;
-    if (steering) {
-      this.#orbit.steer(turn.left - wish.right, turn.up, wish.forward, Math.min(seconds, 0.1));
-    }
-    return this.#orbit.advance() || steering;
-  }
-
-  /** The camera keeps to the animal that it follows, as far from it as the person wants. */
-  #goWithAnimal(): void {
-    const { animal, mode } = this.#store.value;
-    const at = animal.following && mode === "orbit" ? this.#stage.animals.placeOf(animal.which) : null;
-    const before = this.#followed;
-    this.#followed = at === null ? null : new Vector3(...drawnFromWorld(at));
-    if (this.#followed === null) return;
-    this.#orbit.shift(this.#followed.clone().sub(before ?? this.#orbit.target));
+    return this.#steering.advance(seconds);
   }
 
   #draw(): void {
@@ -328,21 +316,12 @@ export class Viewer {
       this.onDrawn();
       return;
     }
-    this.#keepDepth();
+    this.#orbit.keepDepth(this.#store.value.mode);
     if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
     this.#renderer.render(this.#stage.scene, this.#camera);
     this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     this.#frames += 1;
     this.onDrawn();
-  }
-
-  /** Depth is told apart best where nothing is drawn near: the ground lies close over the plane. */
-  #keepDepth(): void {
-    const free_m = this.#store.value.mode === "orbit" ? this.#orbit.free_m : 0;
-    const near = Math.max(NEAR_M, NEAR_SHARE * free_m);
-    if (Math.abs(near - this.#camera.near) < 0.1 * this.#camera.near) return;
-    this.#camera.near = near;
-    this.#camera.updateProjectionMatrix();
   }
 
   #follow(now: StudioState, before: StudioState): void {
@@ -372,7 +351,7 @@ export class Viewer {
   }
 
   #changeMode(mode: StudioState["mode"]): void {
-    this.#held.clear();
+    this.#steering.release();
     this.#orbit.enabled = mode === "orbit";
     if (mode === "walk") {
       this.#orbitPose = { pose: poseOf(this.#camera), target: this.#orbit.target.clone() };

@@ -1,0 +1,26 @@
+/** The camera keeps to the animal that it follows, as far from it as the person wants. */
+import { Vector3 } from "three";
+import { drawnFromWorld } from "../core/frames.ts";
+import type { StudioState } from "../core/state.ts";
+import type { Animals } from "./animals.ts";
+import type { OrbitRig } from "./orbit-rig.ts";
+
+export class Follower {
+  readonly #orbit: OrbitRig;
+  readonly #animals: Animals;
+  /** Where the animal was; null where none is followed. */
+  #before: Vector3 | null = null;
+
+  constructor(orbit: OrbitRig, animals: Animals) {
+    this.#orbit = orbit;
+    this.#animals = animals;
+  }
+
+  follow({ animal, mode }: StudioState): void {
+    const at = animal.following && mode === "orbit" ? this.#animals.placeOf(animal.which) : null;
+    const before = this.#before;
+    this.#before = at === null ? null : new Vector3(...drawnFromWorld(at));
+    if (this.#before === null) return;
+    this.#orbit.shift(this.#before.clone().sub(before ?? this.#orbit.target));
+  }
+}
