@@ -7,6 +7,7 @@ from veduta.surfaces.filling.step import Filled, fill_holes
 from veduta.surfaces.normals import face_normals, vertex_normals
 from veduta.surfaces.simplification import Simplified, simplify
 from veduta.surfaces.texturing.options import SurfaceView, TextureOptions, TextureParameters
+from veduta.surfaces.texturing.photos import surface_views
 from veduta.surfaces.texturing.step import TexturedMesh, texture_mesh
 
 __all__ = [
@@ -22,6 +23,7 @@ __all__ = [
     "neighbours",
     "simplify",
     "surface_nets",
+    "surface_views",
     "texture_mesh",
     "vertex_normals",
 ]
