@@ -1,0 +1,159 @@
+"""One horizontal 2D scan onto another: correlative start, point-to-line ICP, covariance.
+
+Olson 2009 (Real-time correlative scan matching) for a start that no local minimum traps; Censi 2008
+(An ICP variant using a point-to-line metric) for the end. All candidates are looked up at once.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+from scipy.spatial import cKDTree
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class MatchParameters:
+    """Thresholds of scan matching.
+
+    reach_m, reach_rad: how far from the given start a scan is looked for. cell_m: of the grid on
+    which candidates are judged. step_m, step_rad: between candidates. blur_m: a point this far from
+    the reference counts e^-1/2. apart_m: points farther apart do not match in ICP, at first; at the
+    end a third of it. huber_m: residuals above weigh less (a beam's noise is 1 to 3 cm).
+    sigma_m: noise of a residual, for the covariance. line_m: neighbours on a line are this near.
+    """
+
+    reach_m: float = 0.6
+    reach_rad: float = 0.35
+    cell_m: float = 0.05
+    step_m: float = 0.1
+    step_rad: float = 0.02
+    blur_m: float = 0.12
+    apart_m: float = 0.6
+    huber_m: float = 0.05
+    sigma_m: float = 0.02
+    line_m: float = 0.5
+    rounds: int = 30
+
+
+@dataclass(frozen=True, eq=False)
+class Match:
+    """pose: (3,) x, y (m) and turn (rad), reference_from_scan. covariance: (3, 3).
+
+    share: of the scan's points that lie on the reference.
+    """
+
+    pose: Floats
+    covariance: Floats
+    share: float
+
+
+def match_scans(
+    reference: Floats, scan: Floats, start: Floats, parameters: MatchParameters | None = None
+) -> Match:
+    """reference: (n, 2), in the order of the beams; scan: (m, 2); start: (3,)."""
+    chosen = parameters or MatchParameters()
+    if len(reference) < 10 or len(scan) < 10:
+        return Match(start.copy(), np.diag([1.0, 1.0, 1.0]), 0.0)
+    found = _correlated(reference, scan, start, chosen)
+    return _icp(reference, scan, found, chosen)
+
+
+def moved(pose: Floats, points: Floats) -> Floats:
+    """(n, 2) points of a frame whose pose is given, in the frame of the pose."""
+    c, s = np.cos(pose[2]), np.sin(pose[2])
+    return np.asarray(points @ np.array([[c, s], [-s, c]]) + pose[:2], dtype=np.float64)
+
+
+def between(first: Floats, second: Floats) -> Floats:
+    """(3,) the second pose as seen from the first."""
+    c, s = np.cos(first[2]), np.sin(first[2])
+    step = np.array([[c, s], [-s, c]]) @ (second[:2] - first[:2])
+    turn = (second[2] - first[2] + np.pi) % (2 * np.pi) - np.pi
+    return np.array([step[0], step[1], turn])
+
+
+def joined(first: Floats, step: Floats) -> Floats:
+    """(3,) the pose after a step from the first."""
+    flat = moved(first, step[None, :2])[0]
+    return np.array([flat[0], flat[1], first[2] + step[2]])
+
+
+def _correlated(reference: Floats, scan: Floats, start: Floats, chosen: MatchParameters) -> Floats:
+    """The candidate around the start under which the scan's points lie nearest to the reference."""
+    low = reference.min(axis=0) - 1.0
+    size = np.ceil((reference.max(axis=0) + 1.0 - low) / chosen.cell_m).astype(int) + 1
+    size = np.minimum(size, 4000)
+    empty = np.ones(size, dtype=bool)
+    at = ((reference - low) / chosen.cell_m).astype(int)
+    inside = (at < size).all(axis=1)
+    empty[at[inside, 0], at[inside, 1]] = False
+    distance = ndimage.distance_transform_edt(empty) * chosen.cell_m
+    field = np.exp(-0.5 * (distance / chosen.blur_m) ** 2).astype(np.float32)
+    shifts = np.arange(-chosen.reach_m, chosen.reach_m + 1e-9, chosen.step_m)
+    turns = np.arange(-chosen.reach_rad, chosen.reach_rad + 1e-9, chosen.step_rad)
+    best, pose = -np.inf, start
+    cells = np.rint(shifts / chosen.cell_m).astype(int)
+    for turn in turns.tolist():
+        turned = moved(np.array([start[0], start[1], start[2] + turn]), scan)
+        at = ((turned - low) / chosen.cell_m).astype(int)
+        x = at[:, 0][None] + cells[:, None]
+        y = at[:, 1][None] + cells[:, None]
+        x_in, y_in = (x >= 0) & (x < size[0]), (y >= 0) & (y < size[1])
+        x, y = np.where(x_in, x, 0), np.where(y_in, y, 0)
+        looked = field[x[:, None], y[None]] * (x_in[:, None] & y_in[None])
+        # The start is a little better than all that is as good.
+        score = looked.sum(axis=2) - 1e-3 * (np.abs(cells[:, None]) + np.abs(cells[None]))
+        score -= 0.05 * abs(turn)
+        row, column = np.unravel_index(int(np.argmax(score)), score.shape)
+        if score[row, column] > best:
+            best = float(score[row, column])
+            pose = start + np.array([shifts[row], shifts[column], turn])
+    return pose
+
+
+def _icp(reference: Floats, scan: Floats, pose: Floats, chosen: MatchParameters) -> Match:
+    normals, straight = _normals(reference, chosen.line_m)
+    tree = cKDTree(reference)
+    pose = pose.copy()
+    information = np.eye(3)
+    for number in range(chosen.rounds):
+        apart = chosen.apart_m * (1.0 if number < chosen.rounds // 2 else 1.0 / 3.0)
+        points = moved(pose, scan)
+        distance, nearest = tree.query(points)
+        kept = (distance < apart) & straight[nearest]
+        if kept.sum() < 6:
+            break
+        normal, target = normals[nearest[kept]], reference[nearest[kept]]
+        residual = ((points[kept] - target) * normal).sum(axis=1)
+        weight = 1.0 / np.maximum(np.abs(residual) / chosen.huber_m, 1.0)
+        arm = points[kept] - pose[:2]
+        turn = arm[:, 0] * normal[:, 1] - arm[:, 1] * normal[:, 0]
+        rows = np.stack([normal[:, 0], normal[:, 1], turn], axis=1)
+        information = rows.T @ (rows * weight[:, None]) + 1e-6 * np.eye(3)
+        step = -np.linalg.solve(information, rows.T @ (weight * residual))
+        pose += step
+        if np.abs(step).max() < 1e-5 and number >= chosen.rounds // 2:
+            break
+    distance, _ = tree.query(moved(pose, scan))
+    share = float((distance < chosen.apart_m / 3.0).mean())
+    pose[2] = (pose[2] + np.pi) % (2 * np.pi) - np.pi
+    return Match(pose, chosen.sigma_m**2 * np.linalg.inv(information), share)
+
+
+def _normals(points: Floats, near_m: float) -> tuple[Floats, NDArray[np.bool_]]:
+    """(n, 2) unit normals of the line through the four nearest neighbours, and where they are on
+    one.
+    """
+    count = min(5, len(points))
+    told = cKDTree(points).query(points, k=count)
+    distance, around = np.asarray(told[0]), np.asarray(told[1])
+    centred = points[around] - points[around].mean(axis=1, keepdims=True)
+    spread = np.einsum("nki,nkj->nij", centred, centred)
+    values, vectors = np.linalg.eigh(spread)
+    straight = (values[:, 0] < 0.1 * values[:, 1]) & (distance[:, 1] < near_m)
+    return vectors[:, :, 0], straight
