@@ -9,14 +9,17 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.drive.options import ColumnOptions, DriveOptions, TextureOptions
+from veduta.drive.options import ColumnOptions, DriveOptions, MeshOptions, TextureOptions
 
 Log = Annotated[
     tyro.conf.Positional[Path],
     tyro.conf.arg(
         metavar="LOG",
         help_behavior_hint="",
-        help="folder of a drive in the layout of KITTI odometry (velodyne/, poses.txt, calib.txt)",
+        help=(
+            "folder of a drive: with a drive.toml, in the layout of KITTI odometry (velodyne/,"
+            " poses.txt, calib.txt), or of scans (*.pcd)"
+        ),
     ),
 ]
 Seed = Annotated[int, tyro.conf.arg(help="seed of what is drawn at random")]
@@ -36,6 +39,7 @@ class DriveCall:
     log: Log
     out: Out
     columns: ColumnOptions = field(default_factory=ColumnOptions)
+    mesh: MeshOptions = field(default_factory=MeshOptions)
     texture: TextureOptions = field(default_factory=TextureOptions)
     seed: Seed = 1
     force: Force = False
@@ -43,4 +47,6 @@ class DriveCall:
 
     def options(self) -> DriveOptions:
         """What changes the result."""
-        return DriveOptions(columns=self.columns, texture=self.texture, seed=self.seed)
+        return DriveOptions(
+            columns=self.columns, mesh=self.mesh, texture=self.texture, seed=self.seed
+        )

@@ -27,6 +27,15 @@ class ColumnOptions(Options):
     )
 
 
+class MeshOptions(Options):
+    """How fine the meshes are."""
+
+    error_m: Annotated[float, Field(ge=0.0, le=1.0)] = Field(
+        default=0.02,
+        description="triangles are joined while 95 % of the surface stays within this (m); 0: none",
+    )
+
+
 class TextureOptions(Options):
     """How the facades are textured."""
 
@@ -49,6 +58,7 @@ class DriveOptions(Options):
     """Everything that changes the result."""
 
     columns: ColumnOptions = Field(default_factory=ColumnOptions)
+    mesh: MeshOptions = Field(default_factory=MeshOptions)
     texture: TextureOptions = Field(default_factory=TextureOptions)
     seed: Annotated[int, Field(ge=0)] = Field(
         default=1, description="seed of what is drawn at random"

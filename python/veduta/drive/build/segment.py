@@ -12,6 +12,7 @@ from veduta.drive.build.atlas import Atlas, build_atlas
 from veduta.drive.build.fill import Background, fill_background, raise_walls
 from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_columns
 from veduta.drive.build.layers import Layers, PointClass, split_layers
+from veduta.drive.build.lighter import lighten
 from veduta.drive.build.objects import find_objects
 from veduta.drive.build.pictures_of import Seen
 from veduta.drive.build.roof_line import find_roof_line
@@ -72,7 +73,8 @@ class Geometry:
 class Textured:
     """A segment's mesh with its texture. invented, plain: (h, w) bool texels (see `fill_texture`).
 
-    shares: of the triangles, by what is known of their texture.
+    unseen_share: of the triangles that no image shows, before any were joined: fine_triangles.
+    error_m: by which joining them moved the surface.
     """
 
     geometry: Geometry
@@ -84,6 +86,8 @@ class Textured:
     plain: NDArray[np.bool_]
     roof_seen: NDArray[np.bool_]
     unseen_share: float
+    fine_triangles: int
+    error_m: float
 
 
 def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> ColumnFrame:
@@ -110,15 +114,19 @@ def texture(geometry: Geometry, seen: Sequence[Seen], options: DriveOptions) -> 
     frame, background = geometry.frame, geometry.background
     tops, known = find_roof_line(background, frame, seen, options.texture.wall_top_m)
     raised = raise_walls(background, frame, tops)
-    surface = build_surface(raised.depth, raised.source, raised.wall, frame)
+    fine = build_surface(raised.depth, raised.source, raised.wall, frame)
     atlas = build_atlas(raised.depth, frame, seen, options.texture.texel_m)
     if options.texture.fill:
         pixels, invented, plain = fill_texture(atlas, options.texture.texel_m)
     else:
         pixels, plain = atlas.pixels, atlas.surface & ~atlas.seen
         invented = np.zeros_like(plain)
-    unseen = _unseen_share(surface, atlas)
-    return Textured(geometry, raised, surface, atlas, pixels, invented, plain, known, unseen)
+    unseen = _unseen_share(fine, atlas)
+    surface, error_m = lighten(fine, options.mesh.error_m)
+    return Textured(
+        geometry, raised, surface, atlas, pixels, invented, plain, known, unseen,
+        len(fine.triangles), error_m,
+    )  # fmt: skip
 
 
 def _unseen_share(surface: Surface, atlas: Atlas) -> float:

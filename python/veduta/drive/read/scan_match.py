@@ -124,7 +124,8 @@ def _icp(reference: Floats, scan: Floats, pose: Floats, chosen: MatchParameters)
     for number in range(chosen.rounds):
         apart = chosen.apart_m * (1.0 if number < chosen.rounds // 2 else 1.0 / 3.0)
         points = moved(pose, scan)
-        distance, nearest = tree.query(points)
+        told = tree.query(points)
+        distance, nearest = np.asarray(told[0]), np.asarray(told[1])
         kept = (distance < apart) & straight[nearest]
         if kept.sum() < 6:
             break
@@ -139,10 +140,11 @@ def _icp(reference: Floats, scan: Floats, pose: Floats, chosen: MatchParameters)
         pose += step
         if np.abs(step).max() < 1e-5 and number >= chosen.rounds // 2:
             break
-    distance, _ = tree.query(moved(pose, scan))
+    distance = np.asarray(tree.query(moved(pose, scan))[0])
     share = float((distance < chosen.apart_m / 3.0).mean())
     pose[2] = (pose[2] + np.pi) % (2 * np.pi) - np.pi
-    return Match(pose, chosen.sigma_m**2 * np.linalg.inv(information), share)
+    covariance = np.asarray(chosen.sigma_m**2 * np.linalg.inv(information), dtype=np.float64)
+    return Match(pose, covariance, share)
 
 
 def _normals(points: Floats, near_m: float) -> tuple[Floats, NDArray[np.bool_]]:
