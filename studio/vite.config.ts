@@ -1,4 +1,5 @@
 import { defineConfig, type Plugin } from "vite";
+import { notices } from "./notices.ts";
 
 /**
  * The page may talk to its own origin only. Textures inside a GLB become blob: addresses
@@ -32,7 +33,7 @@ function contentSecurityPolicy(): Plugin {
 
 export default defineConfig({
   base: "./",
-  plugins: [contentSecurityPolicy()],
+  plugins: [contentSecurityPolicy(), notices()],
   build: {
     outDir: "../python/veduta/studio/static",
     emptyOutDir: true,

@@ -42,6 +42,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return _printed(_help(), DONE if words else BAD_USE)
     if words[0] in {"-V", "--version"}:
         return _printed(f"veduta {veduta.__version__}", DONE)
+    if words[0] in {"--licences", "--licenses"}:
+        from veduta.cli.licences import licences
+
+        return _printed(licences(), DONE)
     verb = words.pop(0)
     if verb not in VERBS:
         return _unknown(verb)
@@ -140,7 +144,11 @@ def _help() -> str:
     for verb in VERBS:
         summary = importlib.import_module(f"veduta.cli.{verb}").SUMMARY
         lines.append(f"  {verb:<10}{summary}")
-    lines += ["", "`veduta VERB --help` explains a verb; `veduta --version` tells the version."]
+    lines += [
+        "",
+        "`veduta VERB --help` explains a verb; `veduta --version` tells the version,",
+        "`veduta --licences` what it is made with.",
+    ]
     return "\n".join(lines)
 
 

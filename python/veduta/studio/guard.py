@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ipaddress
+import re
 import secrets
 from dataclasses import dataclass
 from urllib.parse import parse_qsl, urlencode
@@ -23,6 +24,15 @@ _HEADERS = {
     "Referrer-Policy": "no-referrer",
     "Cross-Origin-Resource-Policy": "same-origin",
 }
+
+_PLACE = "/place/"
+# What lies in a place came from anywhere: a page among it may show itself, and runs nothing.
+_PLACE_POLICY = (
+    "default-src 'none'; img-src 'self' data:; style-src 'unsafe-inline'; base-uri 'none'; "
+    "form-action 'none'; frame-ancestors 'none'; sandbox"
+)
+_HOST = re.compile(r"(localhost|[0-9.]+|\[[0-9a-f:]+\])(?::[0-9]{1,5})?", re.IGNORECASE)
+"""A name or an address, and perhaps a port; nothing else is a host."""
 
 
 def is_loopback(host: str) -> bool:
@@ -62,6 +72,8 @@ class Guard:
         async def send_guarded(message: Message) -> None:
             if message["type"] == "http.response.start":
                 headers = MutableHeaders(scope=message)
+                if str(scope["path"]).startswith(_PLACE):
+                    headers["Content-Security-Policy"] = _PLACE_POLICY
                 for name, value in _HEADERS.items():
                     headers[name] = value
                 headers.setdefault("Cache-Control", "no-cache")
@@ -72,7 +84,7 @@ class Guard:
     def _refusal(self, scope: Scope) -> Response | None:
         headers = Headers(scope=scope)
         if self.token is None:
-            if _host_name(headers.get("host", "")):
+            if _is_here(headers):
                 return None
             return PlainTextResponse("This server answers this machine only.\n", status_code=403)
         given = cookie_parser(headers.get("cookie", "")).get(COOKIE, "")
@@ -97,10 +109,8 @@ class Guard:
         return response
 
 
-def _host_name(header: str) -> bool:
-    """Whether a Host header names this machine."""
-    if header.startswith("["):
-        name = header.partition("]")[0].lstrip("[")
-    else:
-        name = header.partition(":")[0]
-    return is_loopback(name)
+def _is_here(headers: Headers) -> bool:
+    """Whether the one Host header names this machine."""
+    given = headers.getlist("host")
+    found = _HOST.fullmatch(given[0]) if len(given) == 1 else None
+    return found is not None and is_loopback(found[1].lower())

@@ -53,12 +53,27 @@ def _tiles(folder: Path, tileset: str) -> list[str]:
 
 
 def _inside(folder: Path, name: str) -> Path:
-    """The manifest's own check keeps `..` out; a link could still lead elsewhere."""
+    """The manifest's own check keeps `..` out; a link could still lead elsewhere.
+
+    What begins with a dot is Veduta's own (`.veduta`) or hidden by its owner: it is not published.
+    """
+    if any(word.startswith(".") for word in PurePosixPath(name).parts):
+        raise InputError(
+            folder / name,
+            "is hidden (its name begins with a dot), and what is hidden is not published",
+            "Give it another name, and write that into place.json.",
+        )
     path = (folder / name).resolve()
     if not path.is_relative_to(folder):
         raise InputError(
             folder / name,
             "it is a link to a file outside of the place's folder",
+            "Put the file itself there if it is meant to be published.",
+        )
+    if any(word.startswith(".") for word in path.relative_to(folder).parts):
+        raise InputError(
+            folder / name,
+            "is a link to what is hidden",
             "Put the file itself there if it is meant to be published.",
         )
     return path
