@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
 from veduta.carve.build.consistency import Consistency
-from veduta.carve.views import View, camera_rows
+from veduta.carve.views import Pixels, View, camera_rows
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.uint32]
@@ -18,8 +19,13 @@ Triangles = NDArray[np.uint32]
 
 @dataclass(frozen=True)
 class ColourRule:
-    """How photos give a vertex its colour: see `_core.vertex_colours`."""
+    """How photos give a vertex its colour: see `_core.vertex_colours`.
 
+    edge_px: so near to the outline a photo mixes the object with what is behind it; there the colour
+    is that of the nearest pixel further in.
+    """
+
+    edge_px: int = 2
     least_cosine: float = 0.15
     power: float = 4.0
     views: int = 3
@@ -44,7 +50,7 @@ def colour_vertices(
     rule = rule or ColourRule()
     colours, seen = _core.vertex_colours(
         camera_rows([view.camera for view in views]),
-        [np.ascontiguousarray(view.pixels) for view in views],
+        [colours_of_object(view, rule.edge_px) for view in views],
         positions,
         vertex_normals(positions, triangles),
         triangles,
@@ -54,6 +60,21 @@ def colour_vertices(
         views=rule.views,
     )
     return Coloured(colours, seen)
+
+
+def colours_of_object(view: View, edge_px: int) -> Pixels:
+    """(h, w, 3) the photo, and around the object the colours of its border instead of what is there."""
+    reach = np.ones((2 * edge_px + 1,) * 2, np.uint8)
+    inner = cv2.erode(view.mask.astype(np.uint8), reach)
+    inner = np.where(inner.any(), inner, view.mask).astype(np.uint8)
+    if not inner.any():
+        return np.ascontiguousarray(view.pixels)
+    _, nearest = cv2.distanceTransformWithLabels(
+        1 - inner, cv2.DIST_L2, cv2.DIST_MASK_5, labelType=cv2.DIST_LABEL_PIXEL
+    )
+    table = np.zeros((int(nearest.max()) + 1, 3), dtype=np.uint8)
+    table[nearest[inner > 0]] = view.pixels[inner > 0]
+    return np.ascontiguousarray(table[nearest])
 
 
 def vertex_normals(positions: Floats, triangles: Triangles) -> Floats:
