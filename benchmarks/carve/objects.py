@@ -140,8 +140,8 @@ def main() -> None:
         f"Photos and silhouettes of vgg-dino: {times['silhouettes']:.1f} s, besides.",
         "The thesis: Pentium 4 of 3.2 GHz with two cores, 8800 GTS; times of its voxel colouring"
         " and of its marching cubes.",
-        f"The best of {TRIES} runs of each size. Processor s: of both cores together; where the load"
-        " is far above 2, the machine had other work, and the seconds on the clock are too many.",
+        f"The best of {TRIES} runs of each size. Processor s: of both cores together; where the"
+        " load is far above 2, the machine had other work: the seconds on the clock are too many.",
     ]
     keep_or_print("carve", rows, notes, not given.no_keep)
 

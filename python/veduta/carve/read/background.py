@@ -14,6 +14,8 @@ from veduta.run.progress import StepProgress, no_progress
 Pixels = NDArray[np.uint8]
 Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
+BLACK = np.array([0.0, 128.0, 128.0])
+"""In OpenCV's 8-bit Lab."""
 
 
 @dataclass(frozen=True)
@@ -32,6 +34,8 @@ class BackgroundRule:
     view, the others take away; what is missing in one is gone: small pieces stay.
     ring_px, ring_share: a kind that is not this much of what lies around the silhouettes (a frame,
     a far wall) tells nothing within their boxes, where it would bite into shadows.
+    grey_threshold, grey_close: before a grey background the object's own shadows look like it: the
+    threshold is so much of what Otsu finds, and gaps of so much of the photo's larger side close.
     Chosen by looking at silhouettes of the Oxford dinosaur and the Middlebury rings.
     """
 
@@ -47,6 +51,8 @@ class BackgroundRule:
     small_piece: float = 0.001
     ring_px: int = 8
     ring_share: float = 0.02
+    grey_threshold: float = 0.55
+    grey_close: float = 0.008
     samples: int = 3000
 
 
@@ -68,17 +74,25 @@ def masks_of_background(
         each.append(_distances(photo, kinds, rule))
         progress("silhouettes", 0.7 * (number + 1) / len(photos))
     threshold = _parting([one.min(axis=0) for one in each], rule)
-    first = [_silhouette(one.min(axis=0), threshold, rule) for one in each]
+    grey = not any(_chroma(mean) > rule.colourful for mean, _ in kinds)
+    if grey:
+        threshold = max(rule.grey_threshold * threshold, rule.near[0])
+    first = [_silhouette(one.min(axis=0), threshold, rule, grey) for one in each]
     around = _kinds_around(each, first, rule)
     masks = []
     for number, (one, mask) in enumerate(zip(each, first, strict=True)):
-        masks.append(mask if around.all() else _again(one, mask, around, threshold, rule))
+        masks.append(mask if around.all() else _again(one, mask, around, threshold, rule, grey))
         progress("silhouettes", 0.7 + 0.3 * (number + 1) / len(photos))
     return masks, threshold
 
 
 Kind = tuple[Floats, Floats]
 """Mean (3,), and the matrix (3, 3) that makes its deviations those of a unit ball."""
+
+
+def _chroma(lab: NDArray[np.floating]) -> float:
+    """How far a colour is from grey."""
+    return float(np.linalg.norm((lab - BLACK)[1:]))
 
 
 def _lab(photo: Pixels) -> Floats:
@@ -113,9 +127,8 @@ def _along_borders(photos: Sequence[Pixels], rule: BackgroundRule) -> list[Kind]
             continue
         mean = own.mean(axis=0)
         spread = np.cov(own.T) + np.diag(np.square(rule.noise_lab))
-        grey = np.array([0.0, 128.0, 128.0])
-        if np.linalg.norm((mean - grey)[1:]) > rule.colourful:
-            spread += rule.shade**2 * np.outer(mean - grey, mean - grey)
+        if _chroma(mean) > rule.colourful:
+            spread += rule.shade**2 * np.outer(mean - BLACK, mean - BLACK)
         whiten = np.linalg.cholesky(np.linalg.inv(spread)).T
         kinds.append((mean.astype(np.float32), whiten.astype(np.float32)))
     return kinds
@@ -151,6 +164,7 @@ def _again(
     around: NDArray[np.bool_],
     threshold: float,
     rule: BackgroundRule,
+    grey: bool,
 ) -> Mask:
     """The silhouette once more: within its box only the colours around it are background."""
     nearest = distances.min(axis=0)
@@ -158,7 +172,7 @@ def _again(
     if len(rows) and around.any():
         box = np.s_[rows[0] : rows[-1] + 1, columns[0] : columns[-1] + 1]
         nearest[box] = distances[around][(slice(None), *box)].min(axis=0)
-    return _silhouette(nearest, threshold, rule)
+    return _silhouette(nearest, threshold, rule, grey)
 
 
 def _parting(distances: Sequence[NDArray[np.float16]], rule: BackgroundRule) -> float:
@@ -178,11 +192,16 @@ def _parting(distances: Sequence[NDArray[np.float16]], rule: BackgroundRule) -> 
     return float(np.clip(0.6 * (best + 1.0) / scale, *rule.near))
 
 
-def _silhouette(distance: Floats, threshold: float, rule: BackgroundRule) -> NDArray[np.bool_]:
-    found = (cv2.GaussianBlur(distance.astype(np.float32), (0, 0), 0.7) > threshold).astype(
-        np.uint8
-    )
-    mask = cv2.morphologyEx(found, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8))
+def _silhouette(
+    distance: NDArray[np.float16], threshold: float, rule: BackgroundRule, grey: bool
+) -> Mask:
+    smooth = cv2.GaussianBlur(distance.astype(np.float32), (0, 0), 0.7)
+    mask = (smooth > threshold).astype(np.uint8)
+    if grey:
+        side = 2 * round(rule.grey_close * max(mask.shape)) + 1
+        disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
+        mask = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_CLOSE, disc), dtype=np.uint8)
+    mask = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)), np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=8)
     areas = stats[1:, cv2.CC_STAT_AREA]
     if not len(areas):
