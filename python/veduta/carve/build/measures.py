@@ -19,8 +19,7 @@ Triangles = NDArray[np.uint32]
 class Measures:
     """Of the mesh, in the cameras' unit (metres where the scale is known).
 
-    volume, area: with half the difference between the object grown and shrunk by what a silhouette's
-    outline may be wrong (`outline_px`), and by half a voxel's diagonal at most.
+    volume_error: the area times what a silhouette's outline may be off (`outline_px`).
     """
 
     volume: float
@@ -31,7 +30,7 @@ class Measures:
 
 
 def measure_mesh(
-    positions: Floats, triangles: Triangles, views: Sequence[View], outline_px: float = 0.5
+    positions: Floats, triangles: Triangles, views: Sequence[View], outline_px: float = 1.0
 ) -> Measures:
     """The figures of a closed mesh."""
     corners = positions[triangles]
