@@ -2,18 +2,15 @@
 
 from __future__ import annotations
 
-import io
 import json
-import struct
-import zlib
 from pathlib import Path
 from typing import Any
 
 import cv2
 import numpy as np
-import scipy.io
 from numpy.typing import NDArray
 
+from veduta.cameras.mat_file import DamagedError, parse_mat
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -21,23 +18,8 @@ LARGEST_TEXT_BYTES = 400_000_000
 """Of a JSON file with the tracks of 20,000 photos."""
 LARGEST_LIST_BYTES = 50_000_000
 """Of a file that only lists cameras: 200,000 lines of 22 numbers."""
+LARGEST_SIDE_PX = 100_000
 COPY_AGAIN = "Copy it again, or export it again from the software that made it."
-_MAT_DAMAGE = (
-    ValueError,
-    TypeError,
-    KeyError,
-    IndexError,
-    RuntimeError,
-    OSError,
-    EOFError,
-    OverflowError,
-    AttributeError,
-    UnicodeDecodeError,
-    MemoryError,
-    struct.error,
-    zlib.error,
-    scipy.io.matlab.MatReadError,
-)
 
 
 def read_bytes(path: Path, largest: int = LARGEST_LIST_BYTES) -> bytes:
@@ -85,6 +67,18 @@ def numbers(path: Path, place: str, words: list[str], count: int) -> NDArray[np.
     return values
 
 
+def picture_size(path: Path, width: object, height: object) -> tuple[int, int]:
+    """Width and height (px) that a file says; InputError where they cannot be a picture's."""
+    try:
+        sides = int(float(str(width))), int(float(str(height)))
+    except (ValueError, OverflowError):
+        sides = 0, 0
+    if not all(0 < side <= LARGEST_SIDE_PX for side in sides):
+        fault = f"has a camera of {width} x {height} px"
+        raise InputError(path, fault, COPY_AGAIN)
+    return sides
+
+
 def read_json(path: Path) -> Any:
     """What a JSON file says; InputError where it is damaged, or nested without end."""
     text = read_text(path, LARGEST_TEXT_BYTES)
@@ -99,15 +93,12 @@ def read_json(path: Path) -> Any:
 def read_mat(path: Path) -> dict[str, Any]:
     """The variables of a MATLAB file (up to version 7.2); InputError where it is damaged."""
     data = read_bytes(path, LARGEST_TEXT_BYTES)
+    if data[:4] == b"\x89HDF" or b"MATLAB 7.3" in data[:32]:
+        raise InputError(path, "is a MATLAB 7.3 file", "Save it with `save(name, '-v7')`.")
     try:
-        found: dict[str, Any] = scipy.io.loadmat(io.BytesIO(data))  # type: ignore[arg-type]
-    except _MAT_DAMAGE as error:
-        if data[:4] == b"\x89HDF" or b"MATLAB 7.3" in data[:32]:
-            remedy = "Save it with `save(name, '-v7')`."
-            raise InputError(path, "is a MATLAB 7.3 file", remedy) from None
-        fault = f"is truncated or damaged ({str(error) or type(error).__name__})"
-        raise InputError(path, fault, COPY_AGAIN) from None
-    return {name: value for name, value in found.items() if not name.startswith("__")}
+        return parse_mat(data)
+    except DamagedError as error:
+        raise InputError(path, f"is truncated or damaged ({error})", COPY_AGAIN) from None
 
 
 def read_opencv(path: Path) -> dict[str, Any]:

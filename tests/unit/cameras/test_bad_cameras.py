@@ -175,3 +175,13 @@ def test_damaged_yaml(tmp_path: Path) -> None:
     path = tmp_path / "calibration.yml"
     path.write_text(path.read_text()[:300] + "\n  x: [")
     refused(path, "not as OpenCV writes it|no pose")
+
+
+def test_sizes_that_no_picture_has(tmp_path: Path) -> None:
+    made.write_pictures(tmp_path / "images")
+    made.write_opencv(tmp_path, made.ring(), [0.0] * 5)
+    path = tmp_path / "calibration.yml"
+    whole = path.read_text()
+    for width in (".Inf", "-3", "200000"):
+        path.write_text(whole.replace("image_width: 64", f"image_width: {width}"))
+        refused(tmp_path, "has a camera of")

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.cameras.camera import LENS_NUMBERS, Camera, CameraSet
-from veduta.cameras.files import read_opencv, read_text
+from veduta.cameras.files import picture_size, read_opencv, read_text
 from veduta.cameras.pictures import Pictures, at_picture_size, natural_order, near, require_picture
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
@@ -126,10 +126,11 @@ def _camera(
     picture = pictures.find(name)
     if width is None or height is None:
         picture, width, height = require_picture(pictures, name, path)
+    size = picture_size(path, width, height)
     camera = Camera(
         name=picture.name if picture else name,
-        width_px=int(width),
-        height_px=int(height),
+        width_px=size[0],
+        height_px=size[1],
         focal_px=(float(k[0, 0]), float(k[1, 1])),
         centre_px=(float(k[0, 2]) + 0.5, float(k[1, 2]) + 0.5),
         cam_from_world=pose,

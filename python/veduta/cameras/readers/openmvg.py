@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from veduta.cameras.camera import Camera, CameraSet
 from veduta.cameras.convention import Seen, require_convention
-from veduta.cameras.files import COPY_AGAIN, read_json
+from veduta.cameras.files import COPY_AGAIN, picture_size, read_json
 from veduta.cameras.pictures import Pictures, near, with_pictures
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
 
 Floats = NDArray[np.float64]
-DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError)
+DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError)
 _KEYS = {"sfm_data_version", "views", "intrinsics", "extrinsics"}
 _FIRST_ID = 2**31
 
@@ -66,7 +66,7 @@ def _intrinsics(path: Path, rows: list[Any]) -> dict[int, dict[str, Any]]:
         inner = data.get("value0", data)
         lens = _lens(path, kind, data)
         found[int(row["key"])] = {
-            "size": (int(inner["width"]), int(inner["height"])),
+            "size": picture_size(path, inner["width"], inner["height"]),
             "focal": float(inner["focal_length"]),
             "centre": tuple(float(value) + 0.5 for value in inner["principal_point"]),
             "lens": lens,

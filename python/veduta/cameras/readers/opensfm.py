@@ -14,12 +14,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.cameras.camera import Camera, CameraSet
-from veduta.cameras.files import COPY_AGAIN, read_json
+from veduta.cameras.files import COPY_AGAIN, picture_size, read_json
 from veduta.cameras.pictures import near, with_pictures
 from veduta.run.errors import InputError
 
 Floats = NDArray[np.float64]
-DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError, cv2.error)
+DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError, cv2.error)
 _KEYS = {"cameras", "shots"}
 _FOLLOWED = ("perspective", "brown", "simple_radial", "radial")
 
@@ -64,12 +64,12 @@ def _shot(path: Path, name: str, shot: dict[str, Any], lens: dict[str, Any]) -> 
     if kind not in _FOLLOWED:
         fault = f"has a camera of the kind {kind}"
         raise InputError(path, fault, "Undistort the photos first (`opensfm undistort`).")
-    width, height = int(lens["width"]), int(lens["height"])
+    width, height = picture_size(path, lens["width"], lens["height"])
     side = float(max(width, height))
     across = float(lens.get("focal_x", lens.get("focal", 0.0)))
     down = float(lens.get("focal_y", across))
-    if across <= 0.0 or down <= 0.0 or min(width, height) < 1:
-        raise ValueError("a camera has no positive focal length or size")
+    if not (across > 0.0 and down > 0.0):
+        raise ValueError("a camera has no positive focal length")
     turn = cv2.Rodrigues(np.array(shot["rotation"], dtype=np.float64))[0]
     shift = np.array(shot["translation"], dtype=np.float64).reshape(3)
     k1, k2, k3, p1, p2 = (float(lens.get(key, 0.0)) for key in ("k1", "k2", "k3", "p1", "p2"))

@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from veduta.cameras.camera import Camera, CameraSet
-from veduta.cameras.files import COPY_AGAIN, numbers, read_text
+from veduta.cameras.files import COPY_AGAIN, numbers, picture_size, read_text
 from veduta.cameras.pictures import natural_order, near, with_pictures
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
@@ -47,9 +47,9 @@ def _camera(path: Path) -> Camera:
     turn = nearest_turn(axes.T, SKEW)
     if turn is None:
         raise InputError(path, "its numbers 13 to 21 are no turn", COPY_AGAIN)
-    width, height = (int(value) for value in values[24:])
-    if matrix[0, 0] <= 0.0 or matrix[1, 1] <= 0.0 or min(width, height) < 1:
-        raise InputError(path, "has a focal length or a size that is not positive", COPY_AGAIN)
+    width, height = picture_size(path, *values[24:])
+    if matrix[0, 0] <= 0.0 or matrix[1, 1] <= 0.0:
+        raise InputError(path, "has a focal length that is not positive", COPY_AGAIN)
     return Camera(
         name=path.name[: -len(SUFFIX)],
         width_px=width,
