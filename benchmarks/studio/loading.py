@@ -1,6 +1,6 @@
 """What places cost in the browser: bytes, textures, draws, and the time to the first picture.
 
-`python benchmarks/studio/loading.py NAME=FOLDER ... [--mbit 1.5,10] [--result before]` serves each place with
+`python benchmarks/studio/loading.py NAME=FOLDER ... [--mbit 1.5,10] [--result loading]` serves each place with
 `veduta view`, opens it in Chromium (`visit.mjs`) and keeps `benchmarks/results/studio-RESULT.md`.
 Without folders it makes the places of its own: a street of 14 synthetic facades is not among them,
 for it takes minutes.

@@ -91,14 +91,16 @@ export function boxOfPoints(points: readonly Vec3[]): Box {
 }
 
 /**
- * Where the camera looks to at first: to where the photos do (`outlook`: unit, level), else into the
+ * Where the camera looks to at first: to where the photos or the fronts do (`outlook`: level, or from
+ * above by its z), else into the
  * facade, a little from the left; a little from above, and from higher where the place goes far back
  * for its height, as towns do, so that no row hides the next.
  */
 export function homeDirection(box: Box, outlook: Vec3 | null = null): Vec3 {
   const [x, y, height] = subtract(box.max, box.min);
   const depths = Math.min(x, y) / Math.max(height, 1e-6);
-  const down = Math.min(0.75, 0.12 + 0.06 * Math.max(0, depths - 2));
+  const asked = outlook === null ? 0 : -outlook[2];
+  const down = Math.max(asked, Math.min(0.75, 0.12 + 0.06 * Math.max(0, depths - 2)));
   const [east, north] = outlook ?? [0.5, 0.86];
   const direction: Vec3 = [east, north, -down];
   return scale(direction, 1 / length(direction));

@@ -8,6 +8,7 @@ import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
 import type { Axes } from "../core/pinhole.ts";
 import { cornersOfPlace, lowestGround, type Place } from "../core/place.ts";
 import { boundsOfShots, outlookOf } from "../core/shots.ts";
+import { outlookOfFronts } from "../core/fronts.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
 import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walking.ts";
 import { Animals } from "./animals.ts";
@@ -56,7 +57,7 @@ export class Stage {
   /** The corners of what one comes to see, and the box around them and all parts; world frame. */
   readonly corners: readonly Vec3[];
   readonly seen: Box;
-  /** Where the photos look to; null where they look all about, or where there are none. */
+  /** Where the photos look to, or where the fronts are seen; null where they look all about. */
   readonly outlook: Vec3 | null;
   readonly household: Household;
   readonly animals: Animals;
@@ -86,7 +87,7 @@ export class Stage {
     const shown = place.clouds.length * place.shots.length > 0 ? cornersOf(boundsOfShots(place.clouds, place.shots)) : told;
     this.corners = shown.length > 0 ? shown : cornersOf(this.solid.bounds);
     this.seen = boxOfPoints([...this.corners, ...told]);
-    this.outlook = outlookOf(place.shots);
+    this.outlook = outlookOf(place.shots) ?? (place.shots.length > 0 ? null : outlookOfFronts(place));
     const buildings = parts.filter(({ part }, index) => !part.isGround && !part.isBackdrop && !alive.has(index));
     const footprints = buildings.flatMap(footprintOf);
     this.#scenery = makeScenery(this.seen, footprints, { lowest_m: lowestGround(place), scaleKnown: place.scaleKnown }, content.budget);

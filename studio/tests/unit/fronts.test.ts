@@ -1,0 +1,41 @@
+import { describe, expect, it } from "vitest";
+import { outlookOfFronts } from "../../src/core/fronts.ts";
+import type { Part } from "../../src/core/place.ts";
+
+/** A facade that is turned about the vertical: by 0 its front faces south. */
+function facade(turn_deg: number, photo: string | null = "photo.jpg"): Part {
+  const [c, s] = [Math.cos((turn_deg * Math.PI) / 180), Math.sin((turn_deg * Math.PI) / 180)];
+  return {
+    id: `${turn_deg}`, name: "", model: "m.glb", photo, document: null, arrangement: "single", bounds: null,
+    isGround: false, isBackdrop: false, layer: "model",
+    worldFromPart: [c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
+  };
+}
+
+/** How well a front that is turned so is seen: positive from before, negative from behind. */
+function seen(parts: Part[], turn_deg: number): number {
+  const [east, north] = outlookOfFronts({ parts, tileset: null }) ?? [0, 0, 0];
+  const turn = (turn_deg * Math.PI) / 180;
+  return -Math.sin(turn) * east + Math.cos(turn) * north;
+}
+
+describe("the first look", () => {
+  it.each([0, 90, 180, 250])("is at the front of a facade that is turned by %d degrees, from its left", (turn) => {
+    expect(seen([facade(turn)], turn)).toBeCloseTo(Math.cos(Math.PI / 6), 9);
+  });
+
+  it("is at most fronts of a row with a corner house", () => {
+    const row = [0, 0, 0, 90];
+    for (const turn of row) expect(seen(row.map((one) => facade(one)), turn)).toBeGreaterThan(0.2);
+  });
+
+  it("goes along a street whose sides face each other", () => {
+    const street = [20, 200, 20, 200].map((one) => facade(one));
+    for (const turn of [20, 200]) expect(Math.abs(seen(street, turn))).toBeLessThan(0.2);
+  });
+
+  it("is from above where there is no front, and left to the town's size where there are tiles", () => {
+    expect(outlookOfFronts({ parts: [facade(0, null)], tileset: null })?.[2]).toBeLessThan(-0.3);
+    expect(outlookOfFronts({ parts: [facade(0)], tileset: "tileset.json" })).toBeNull();
+  });
+});
