@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from veduta.drive.build.atlas import Atlas
+from veduta.surfaces import fill_holes
 
 
 @dataclass(frozen=True)
@@ -22,6 +23,12 @@ class TextureFillParameters:
     calm: float = 12.0
     """where the surroundings of both vary less (standard deviation, of 255)."""
     around_px: int = 9
+    around_m: float = 2.0
+    """So much about a hole is looked at for what repeats,"""
+    most_hidden: float = 0.45
+    """unless more than this share of it is hidden."""
+    fewest_px: int = 150
+    most_holes: int = 30
     joined_m: tuple[float, float] = (8.0, 1.0)
     """Longest lines that are joined, along the street and upright (m)."""
 
@@ -40,8 +47,39 @@ def fill_texture(
     pixels, known = _along_lines(atlas.pixels, atlas.seen, invented, texel_m, chosen)
     rest = invented & ~known
     pixels[rest] = _diffused(pixels, known)[rest]
+    pixels = _copied(pixels, atlas.seen, rest, texel_m, chosen)
     pixels[plain] = np.median(atlas.pixels[atlas.seen], axis=0).astype(np.uint8)
     return np.asarray(pixels, dtype=np.uint8), invented, plain
+
+
+def _copied(
+    pixels: NDArray[np.uint8],
+    seen: NDArray[np.bool_],
+    holes: NDArray[np.bool_],
+    texel_m: float,
+    chosen: TextureFillParameters,
+) -> NDArray[np.uint8]:
+    """Holes with enough that is seen around them are filled by what repeats there (section 7.3).
+
+    Where most of the surroundings is hidden, too, nothing repeats: those stay diffused.
+    """
+    result = pixels.copy()
+    count, label, boxes, _ = cv2.connectedComponentsWithStats(holes.astype(np.uint8))
+    margin = int(chosen.around_m / texel_m)
+    order = np.argsort(-boxes[1:count, cv2.CC_STAT_AREA], kind="stable")[: chosen.most_holes] + 1
+    for number in order.tolist():
+        left, top, width, height, area = boxes[number].tolist()
+        if area < chosen.fewest_px:
+            break
+        rows = slice(max(top - margin, 0), top + height + margin)
+        columns = slice(max(left - margin, 0), left + width + margin)
+        hole = label[rows, columns] == number
+        unknown = ~seen[rows, columns]
+        if unknown.mean() > chosen.most_hidden:
+            continue
+        filled = fill_holes(np.ascontiguousarray(pixels[rows, columns]), unknown).pixels
+        result[rows, columns][hole] = filled[hole]
+    return result
 
 
 def _diffused(pixels: NDArray[np.uint8], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
