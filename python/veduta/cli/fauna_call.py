@@ -41,6 +41,26 @@ BackgroundPicture = Annotated[
     ),
 ]
 
+InPlace = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="FOLDER",
+        help_behavior_hint="",
+        help="a place that Veduta wrote, into which the animal is put: OUT has both",
+    ),
+]
+Way = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="FILE",
+        help_behavior_hint="",
+        help=(
+            "GeoJSON of the points through which it goes, in metres of the place; else it goes"
+            " round where it has room"
+        ),
+    ),
+]
+
 
 @dataclass(frozen=True)
 class FaunaCall:
@@ -58,6 +78,8 @@ class FaunaCall:
     reading: FootageOptions = field(default_factory=FootageOptions)
     masks: Masks = None
     background: BackgroundPicture = None
+    place: InPlace = None
+    path: Way = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

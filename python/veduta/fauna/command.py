@@ -4,17 +4,25 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 from pydantic import JsonValue
 
 from veduta.fauna.build.build import Built, build_animal, place_of
+from veduta.fauna.build.into_place import place_into, require_place
 from veduta.fauna.document.coat import COAT, load_coat, save_coat
 from veduta.fauna.document.load import DOCUMENT, load_animal, save_animal
 from veduta.fauna.document.schema import Animal
 from veduta.fauna.options import FaunaOptions
+from veduta.fauna.path.given import read_path
+from veduta.fauna.path.plan import PathLimits
+from veduta.fauna.path.terrain import terrain_of
+from veduta.fauna.path.through import FoundPath, path_through
+from veduta.fauna.path_picture import path_picture
 from veduta.fauna.pictures import gait_picture
 from veduta.fauna.recipe import Record, read_record
 from veduta.formats.mesh_glb import write_mesh_glb
 from veduta.place.material import Texture
+from veduta.place.place import Place
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.page import Table
@@ -30,13 +38,13 @@ def run_fauna(
     record: Record, out: Path, options: FaunaOptions, progress: Progress, *, force: bool = False
 ) -> VerbResult:
     """Make the animal of a record in OUT; InputError where the record is none."""
-    for path in (record.path, record.masks, record.background):
+    for path in record.files:
         if path is not None and not path.exists():
             raise InputError(path, "there is no such file or folder", "Name what there is.")
-    inputs: JsonValue = [
-        None if path is None else _digests(path)
-        for path in (record.path, record.masks, record.background)
-    ]
+    if record.way is not None and record.place is None:
+        fault = "says where to go, but not in which place"
+        raise InputError(record.way, fault, "Name the place, too (--place).")
+    inputs: JsonValue = [None if path is None else _digests(path) for path in record.files]
     call = VerbCall(
         command="fauna",
         version=VERSION,
@@ -73,14 +81,43 @@ def _make(work: Work, record: Record, options: FaunaOptions) -> None:
         step.counts["clips"] = len(built.gaits)
         step.counts["states"] = max(gait.states for gait in built.gaits)
         step.counts["refused states"] = max(gait.refused for gait in built.gaits)
+    goal = None if record.place is None else _plan(work, record.place, record.way, animal)
     with work.step("writing"):
         save_animal(animal, work.folder / DOCUMENT)
         if coat is not None:
             save_coat(coat, work.folder / COAT)
             work.file(COAT, "its coat from the footage; half transparent where it is invented")
         write_mesh_glb(built.mesh, work.folder / MODEL)
-        place_of(animal, built).save(work.folder)
+        if goal is None:
+            place_of(animal, built).save(work.folder)
+        else:
+            place, path = goal
+            into = place_into(place, animal, built, path.points_m, work.folder, closed=path.closed)
+            into.save(work.folder)
     _tell(work, animal, built)
+
+
+def _plan(work: Work, folder: Path, way: Path | None, animal: Animal) -> tuple[Place, FoundPath]:
+    """The place, and the animal's path through it."""
+    length = animal.length.metres
+    with work.step("place"):
+        place = Place.load(folder)
+        require_place(place, folder)
+        terrain = terrain_of(place, length)
+    with work.step("path") as step:
+        points = None if way is None else read_path(way)
+        found = path_through(terrain, points, PathLimits(), length)
+        step.counts["cells"] = int(terrain.blocked.size)
+        step.counts["free cells"] = int(found.ways.free.sum())
+    apart = np.linalg.norm(np.diff(found.points_m, axis=0), axis=1)
+    work.measure("path_m", float(apart.sum()))
+    work.picture(
+        "The path over the terrain",
+        "north is up; brown: in the way, pale: too near to it; the path blue, its points red",
+        path_picture(terrain, found),
+        wide=True,
+    )
+    return place, found
 
 
 def _tell(work: Work, animal: Animal, built: Built) -> None:

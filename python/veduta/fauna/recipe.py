@@ -27,11 +27,20 @@ from veduta.run.work import Work
 
 @dataclass(frozen=True)
 class Record:
-    """What the user gives: the footage, and perhaps masks and a background picture."""
+    """What the user gives: the footage, perhaps masks and a background picture, and perhaps a place
+    for the animal to go in, with the points of its way.
+    """
 
     path: Path
     masks: Path | None = None
     background: Path | None = None
+    place: Path | None = None
+    way: Path | None = None
+
+    @property
+    def files(self) -> tuple[Path | None, ...]:
+        """All that the result depends on."""
+        return (self.path, self.masks, self.background, self.place, self.way)
 
 
 @dataclass(frozen=True, eq=False)

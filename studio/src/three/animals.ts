@@ -6,7 +6,7 @@
 import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, SkinnedMesh, Vector3 } from "three";
 import type { Animal, AnimalState } from "../core/animal.ts";
 import { Course, type Ground } from "../core/course.ts";
-import { drawnFromWorld } from "../core/frames.ts";
+import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { LoadedPart } from "./load.ts";
 import type { PartSlot } from "./part-slot.ts";
@@ -17,6 +17,7 @@ const MOST_SECONDS = 0.1;
 class LivingAnimal {
   readonly animal: Animal;
   readonly course: Course;
+  readonly #ground: Ground;
   readonly #mixer: AnimationMixer;
   readonly #bones: readonly Bone[];
   readonly #root: Bone | null;
@@ -28,6 +29,7 @@ class LivingAnimal {
   constructor(animal: Animal, { group, animations }: LoadedPart, ground: Ground) {
     this.animal = animal;
     this.course = new Course(animal, ground);
+    this.#ground = ground;
     // The joints say where the body is in the place; its own place would move it twice.
     group.matrix.identity();
     group.updateMatrixWorld(true);
@@ -94,6 +96,24 @@ class LivingAnimal {
       const straight = own.clone().setPosition(0, at.y, at.z);
       bone.matrixWorld.multiplyMatrices(this.#frameAt(ahead), straight);
     }
+    if (!this.animal.swims) this.#lay();
+  }
+
+  /** A body lies on the ground beside its path, too: each joint is as high over it as over the path. */
+  #lay(): void {
+    const at = new Vector3();
+    const lifts = this.#bones.map((bone) => {
+      const [x, y, z] = worldFromDrawn(at.setFromMatrixPosition(bone.matrixWorld).toArray());
+      const own = this.#inModel.get(bone);
+      const ground = this.#ground(x, y);
+      return ground === null || own === undefined ? 0 : ground + at.setFromMatrixPosition(own).y - z;
+    });
+    for (const [i, bone] of this.#bones.entries()) {
+      // A joint lies as its neighbours do: bones are stiff, and the ground's grain is not felt.
+      const around = [lifts[i - 1] ?? lifts[i] ?? 0, lifts[i] ?? 0, lifts[i + 1] ?? lifts[i] ?? 0];
+      const lift = (around.reduce((sum, one) => sum + one, 0)) / around.length;
+      if (Math.abs(lift) < 2 * this.animal.length_m) bone.matrixWorld.elements[13] += lift;
+    }
   }
 
   /** The drawn frame of the course, so many metres ahead of the middle: x along it, y up from the ground. */
@@ -144,6 +164,10 @@ export class Animals {
 
   placeOf(which: number): Vec3 | null {
     return this.#all[which]?.place ?? null;
+  }
+
+  lengthOf(which: number): number {
+    return this.#all[which]?.animal.length_m ?? 1;
   }
 
   /** Sends one to a point of the ground. */

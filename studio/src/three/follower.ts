@@ -5,6 +5,9 @@ import type { StudioState } from "../core/state.ts";
 import type { Animals } from "./animals.ts";
 import type { OrbitRig } from "./orbit-rig.ts";
 
+/** From how many body lengths an animal is followed. */
+const FOLLOW_LENGTHS = 4;
+
 export class Follower {
   readonly #orbit: OrbitRig;
   readonly #animals: Animals;
@@ -22,5 +25,6 @@ export class Follower {
     this.#before = at === null ? null : new Vector3(...drawnFromWorld(at));
     if (this.#before === null) return;
     this.#orbit.shift(this.#before.clone().sub(before ?? this.#orbit.target));
+    if (before === null) this.#orbit.approach(FOLLOW_LENGTHS * this.#animals.lengthOf(animal.which));
   }
 }

@@ -95,6 +95,12 @@ export class OrbitRig {
     this.#controls.target.add(by);
   }
 
+  /** Comes as near to what it looks at as this (m), if it is farther away. */
+  approach(distance_m: number): void {
+    const arm = this.#camera.position.clone().sub(this.target);
+    if (arm.length() > distance_m) this.#camera.position.copy(this.target).add(arm.setLength(distance_m));
+  }
+
   /** How near to the camera nothing is to be seen (m), outside of the place and above the ground. */
   get free_m(): number {
     const { min, max } = this.#bounds;

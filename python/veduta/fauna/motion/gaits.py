@@ -69,7 +69,7 @@ def roamed_gait(
     start = int(np.random.default_rng(seed).integers(len(seen)))
     steps = 4
     while True:
-        frames = interpolated(graph.states, closed_walk(graph, start, steps), most)
+        frames = interpolated(graph.states, closed_walk(graph, start, steps), most, seed)
         if (len(frames) - 1) * frame_s >= seconds:
             break
         steps *= 2

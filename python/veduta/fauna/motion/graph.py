@@ -76,15 +76,19 @@ def closed_walk(graph: MotionGraph, start: int, steps: int) -> list[int]:
     return found
 
 
-def interpolated(states: Complexes, visited: list[int], most_step: Floats) -> Complexes:
+def interpolated(
+    states: Complexes, visited: list[int], most_step: Floats, seed: int = 0
+) -> Complexes:
     """(t, 8) the states frame by frame: coefficients on straight lines between those visited.
 
     Each stretch takes as many frames as it needs that no angle of the axis changes in a frame by
-    more than `most_step`, (n,) rad: joints never move faster than in the footage.
+    more than `most_step`, (n,) rad: joints never move faster than in the footage. Up to half as
+    many are added by the seed: the same states, met again, are no repetition.
     """
     nodes = states[visited]
     turns = np.abs(np.diff(angles_of(nodes, len(most_step)), axis=0))
-    frames = np.ceil((turns / most_step).max(axis=1)).astype(int)
+    leisure = 1.0 + 0.5 * np.random.default_rng(seed).random(len(turns))
+    frames = np.ceil(leisure * (turns / most_step).max(axis=1)).astype(int)
     pieces = [
         nodes[row] + (np.arange(count) / count)[:, None] * (nodes[row + 1] - nodes[row])
         for row, count in enumerate(np.maximum(frames, 1))

@@ -21,7 +21,7 @@ Floats32 = NDArray[np.float32]
 class BackgroundLooks:
     """What tells the animal's places from those where only the camera's noise is."""
 
-    frames: int = 60
+    frames: int = 21
     """Frames that are looked at, evenly over time."""
     noise: float = 6.0
     """A place that varies by more than so many times the noise is one that the animal was at."""
@@ -52,10 +52,11 @@ def estimated_background(frames: Pixels, looks: BackgroundLooks) -> Background:
     """The background of frames (t, h, w, 3) of a camera that stands still."""
     chosen = np.linspace(0, len(frames) - 1, min(len(frames), looks.frames)).round().astype(int)
     few = frames[chosen]
-    median = np.median(few, axis=0).astype(np.uint8)
+    middle = len(few) // 2
+    median = np.partition(few, middle, axis=0)[middle]
     noise = _noise(few, median)
     level = max(looks.noise * noise, looks.least)
-    apart = np.abs(few.astype(np.int16) - median).max(axis=3)
+    apart = np.stack([most_apart(frame, median) for frame in few])
     own = float(np.median((apart > level).sum(axis=(1, 2))))
     place = _largest_filled(apart.max(axis=0) > level)
     if own <= 0.0 or float(place.sum()) > looks.stays * own:
@@ -63,7 +64,8 @@ def estimated_background(frames: Pixels, looks: BackgroundLooks) -> Background:
     reach = max(3, round(0.1 * float(np.sqrt(place.sum()))))
     wide = cv2.dilate(place, np.ones((2 * reach + 1, 2 * reach + 1), np.uint8))
     around = cv2.inpaint(median, wide, float(reach), cv2.INPAINT_TELEA)
-    from_around = np.abs(few.astype(np.int16) - around).max(axis=3)
+    inpainted = np.asarray(around, dtype=np.uint8)
+    from_around = np.stack([most_apart(frame, inpainted) for frame in few])
     nearest = from_around.argmin(axis=0)
     seen = np.take_along_axis(few, nearest[None, ..., None], axis=0)[0]
     behind = wide.astype(np.bool_)
@@ -71,6 +73,12 @@ def estimated_background(frames: Pixels, looks: BackgroundLooks) -> Background:
     pixels = np.where(behind[..., None], seen, median)
     pixels = np.where(unseen[..., None], around, pixels)
     return Background(pixels.astype(np.uint8), noise, float(unseen.mean()), given=False)
+
+
+def most_apart(first: Pixels, second: Pixels) -> Pixels:
+    """(h, w) uint8 the difference of two pictures in the channel in which it is the largest."""
+    red, green, blue = cv2.split(cv2.absdiff(first, second))
+    return np.asarray(cv2.max(cv2.max(red, green), blue), dtype=np.uint8)
 
 
 def _noise(frames: Pixels, background: Pixels) -> float:

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.fauna.read.background import Background
+from veduta.fauna.read.background import Background, most_apart
 from veduta.run.errors import NotFoundError
 
 Masks = NDArray[np.bool_]
@@ -56,20 +56,23 @@ class Silhouettes:
 
 def differing(frames: NDArray[np.uint8], background: Background, looks: SilhouetteLooks) -> Masks:
     """(t, h, w) where each frame differs from the background and is no shadow on it."""
-    behind = background.pixels.astype(np.int16)
     found = np.empty(frames.shape[:3], dtype=np.bool_)
     light = np.maximum(background.pixels.astype(np.float32), 1.0)
     for row, frame in enumerate(frames):
-        apart = np.abs(frame.astype(np.int16) - behind).max(axis=2).astype(np.uint8)
+        apart = most_apart(frame, background.pixels)
         parted, _ = cv2.threshold(apart, 0, 255, cv2.THRESH_BINARY | cv2.THRESH_OTSU)
         level = max(looks.noise * background.noise, looks.least, looks.otsu_share * float(parted))
         differs = apart > level
         # One pixel's noise would be a colour of its own.
-        share = cv2.GaussianBlur(frame, (0, 0), looks.blur_px).astype(np.float32) / light
-        low, high = share.min(axis=2), share.max(axis=2)
-        grey = (high - low) < looks.shadow_colour + background.noise / light.mean(axis=2)
+        calm = np.asarray(cv2.GaussianBlur(frame, (0, 0), looks.blur_px))
+        there = light[differs]
+        share = calm[differs].astype(np.float32) / there
+        low = np.minimum(np.minimum(share[:, 0], share[:, 1]), share[:, 2])
+        high = np.maximum(np.maximum(share[:, 0], share[:, 1]), share[:, 2])
+        grey = (high - low) < looks.shadow_colour + background.noise / there.mean(axis=1)
         shadow = grey & (low > looks.shadow[0]) & (high < looks.shadow[1])
-        found[row] = differs & ~shadow
+        differs[differs] = ~shadow
+        found[row] = differs
     return found
 
 
