@@ -15,7 +15,11 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from veduta import grammar
+    from veduta.carve.door import carve_photos
+    from veduta.dense.door import measure_photos
+    from veduta.drive.door import read_drive
     from veduta.facade.door import read_facade
+    from veduta.fauna.door import read_animal
     from veduta.grammar.door import derive
     from veduta.photos.door import locate_photos
     from veduta.place.load import load
@@ -24,6 +28,7 @@ if TYPE_CHECKING:
     from veduta.place.place import Cloud, Place, Standing
     from veduta.place.semantics import Provenance, SemanticClass
     from veduta.plan.door import read_plan
+    from veduta.walk.door import read_walk
 
 __version__ = "0.1.0"
 
@@ -40,12 +45,17 @@ __all__ = [
     "SemanticClass",
     "Standing",
     "__version__",
+    "carve_photos",
     "derive",
     "grammar",
     "load",
     "locate_photos",
+    "measure_photos",
+    "read_animal",
+    "read_drive",
     "read_facade",
     "read_plan",
+    "read_walk",
 ]
 
 _LATE = {
@@ -56,6 +66,11 @@ _LATE = {
     "Provenance": "place.semantics",
     "SemanticClass": "place.semantics",
     "Standing": "place.place",
+    "carve_photos": "carve.door",
+    "measure_photos": "dense.door",
+    "read_animal": "fauna.door",
+    "read_drive": "drive.door",
+    "read_walk": "walk.door",
     "derive": "grammar.door",
     "grammar": "",
     "load": "place.load",

@@ -129,3 +129,15 @@ def test_what_is_wrong_is_named(tmp_path: Path) -> None:
         veduta.read_plan(tmp_path / "none.png")
     with pytest.raises(InputError, match="there is no such folder"):
         veduta.load(tmp_path / "none")
+
+
+@pytest.mark.parametrize(
+    "name", ["carve_photos", "measure_photos", "read_animal", "read_drive", "read_walk"]
+)
+def test_records_that_are_not_there_are_named(name: str, tmp_path: Path) -> None:
+    function = getattr(veduta, name)
+    with pytest.raises(InputError) as told:
+        function(tmp_path / "nowhere")
+    assert "nowhere" in told.value.subject
+    with pytest.raises(InputError, match="is no option of this verb"):
+        function(tmp_path, no_such_option=1)

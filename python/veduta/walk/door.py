@@ -1,0 +1,31 @@
+"""`veduta.read_walk`: the verb `veduta walk` for programs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from veduta.place.door import place_of_run
+from veduta.place.place import Place
+from veduta.run.flat import options_of
+from veduta.run.progress import Progress
+from veduta.walk.command import run_walk
+from veduta.walk.options import WalkOptions
+
+
+def read_walk(
+    pairs: str | Path, out: str | Path | None = None, *, force: bool = False, **options: Any
+) -> Place:
+    """A walk from stereo view to stereo view through a landscape.
+
+    pairs: the folder of the stereo pairs, in the order of the way.
+    out: a folder for all that `veduta walk -o OUT` writes; without it nothing stays. options: as
+    on the command line. InputError names what cannot be used; NotFoundError says what is not in it.
+    """
+    chosen = options_of(WalkOptions, options)
+    return place_of_run(
+        out,
+        lambda folder: run_walk(Path(pairs), folder, chosen, Progress(quiet=True), force=force),
+        "a walk",
+        "Take the pairs nearer to each other.",
+    )
