@@ -30,8 +30,8 @@ class Mixing:
     weight of what spans a break in depth. floor: the least weight of a mesh at its own far end.
     """
 
-    tolerance: float = 0.04
-    torn: float = 0.002
+    tolerance: float = 0.15
+    torn: float = 0.02
     floor: float = 0.001
 
 
