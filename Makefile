@@ -129,6 +129,7 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/styles_picture.py
 	$(PY) docs/roofs_picture.py
 	$(PY) docs/photos_picture.py
+	$(PY) docs/walk_picture.py
 
 stubs: $(PACKAGES) ## the types of the extension for Python, from its Rust sources
 	@mkdir -p build

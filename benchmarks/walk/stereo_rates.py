@@ -57,7 +57,7 @@ def kitti2015() -> tuple[Image, Image, Rig, Truth, NDArray[np.bool_]]:
 
 
 def kitti00() -> tuple[Image, Image, Rig, Truth, NDArray[np.bool_]]:
-    """The first scan of `laser/kitti00`, as the left colour camera sees it: the nearest point of a pixel."""
+    """The first scan of `laser/kitti00`, as the left colour camera sees it."""
     folder = DATA / "laser" / "kitti00"
     name = sorted((folder / "image_2").iterdir())[0].name
     left, right = (read_image(folder / side / name).pixels for side in ("image_2", "image_3"))
@@ -104,11 +104,12 @@ def row_of(name: str) -> Row:
         return 100.0 * float(wrong[of].mean())
 
     return {
-        "pair": name, "pixels": f"{left.shape[1]} x {left.shape[0]}", "with truth": int(known.sum()),
+        "pair": name, "pixels": f"{left.shape[1]} x {left.shape[0]}",
+        "with truth": int(known.sum()),
         "sure %": share(sure, known), "sure: off > 2 px %": share(off > 2.0, sure),
-        "sure: off > 3 px and 5 % %": share(wrong_3, sure),
+        "sure: off > 3 px, 5 % %": share(wrong_3, sure),
         "all: off > 2 px %": share(off > 2.0, known),
-        "all: off > 3 px and 5 % %": share(wrong_3, known),
+        "all: off > 3 px, 5 % %": share(wrong_3, known),
         "seen by both: off > 2 px %": share(off > 2.0, known & seen), "s": seconds,
     }  # fmt: skip
 
@@ -122,8 +123,8 @@ def main() -> None:
     parser.add_argument("--draft", action="store_true")
     called = parser.parse_args()
     notes = [
-        "OpenCV's semi-global matching with left-right check. sure: what passed the check; all: with"
-        " what was carried over gaps.",
+        "OpenCV's semi-global matching with left-right check. sure: what passed the check; all:"
+        " with what was carried over gaps.",
         "kitti00: the points of one laser scan that the camera sees.",
     ]
     keep_or_print("walk-stereo", [row_of(name) for name in SETS], notes, not called.draft)

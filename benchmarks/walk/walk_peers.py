@@ -61,7 +61,7 @@ def both_depths(
 def flat_morph(
     meshes: tuple[MorphMesh, MorphMesh], images: tuple[Image, Image], share: float, screen: Screen
 ) -> Image:
-    """(c) the same counterparts and colours, moved in the plane of the pictures and not in space."""
+    """(c) the same counterparts and colours, moved in the plane of the pictures."""
     layers = []
     for number, mesh in enumerate(meshes):
         m = share if number == 0 else 1.0 - share

@@ -33,6 +33,7 @@ class PathSet:
 
     @property
     def rig(self) -> Rig:
+        """The rectified one."""
         return self.rectifier.rig
 
     def model(self, number: int) -> LocalModel:
@@ -64,8 +65,8 @@ def load_set(name: str) -> PathSet:
 def between(true_end: Matrix, found_end: Matrix, true_middle: Matrix) -> tuple[Matrix, float]:
     """The pose of an omitted camera beside an end that was found and not given; and its share.
 
-    All (3, 4), from the first camera. What the found end is off in length and direction, the omitted
-    one is off in proportion: it stands where it does on the way.
+    All (3, 4), from the first camera. What the found end is off in length and direction, the
+    omitted one is off in proportion: it stands where it does on the way.
     """
     centres = [-pose[:, :3].T @ pose[:, 3] for pose in (true_end, found_end, true_middle)]
     lengths = [float(np.linalg.norm(centre)) for centre in centres]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -16,11 +17,13 @@ from veduta.run.page import Table
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
+from veduta.walk.build.film import frames_of, write_film
 from veduta.walk.build.flow import FlowSettings
 from veduta.walk.build.judge import JudgeLimits
 from veduta.walk.build.local_model import FARTHEST_M, LocalModel, build_local_model
 from veduta.walk.build.mesh import MeshSettings
 from veduta.walk.build.place import Station, walk_of, world_from_first, write_picture, write_way
+from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way, WaySettings, find_way
 from veduta.walk.build.way_file import arrays_of, way_of
 from veduta.walk.document.load import DOCUMENT, write_document
@@ -30,9 +33,10 @@ from veduta.walk.read.calibration import find_calibration
 from veduta.walk.read.check_rows import Rows, require_rows
 from veduta.walk.read.layout import find_pairs
 from veduta.walk.read.pairs import Rectifier, make_rectifier, read_pair, read_stereo
-from veduta.walk.rig import PairFiles, Rig
+from veduta.walk.rig import Image, PairFiles, Rig
 
 VERSION = "1"
+FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0
 
@@ -78,6 +82,7 @@ def _make(work: Work, record: Record, options: WalkOptions) -> None:
     pictures: list[str] = []
     stations: list[Station] = []
     ways: list[Way] = []
+    images: list[Image] = []
     clouds: list[tuple[NDArray[np.float64], NDArray[np.uint8]]] = []
     before: LocalModel | None = None
     world = world_from_first()
@@ -95,6 +100,8 @@ def _make(work: Work, record: Record, options: WalkOptions) -> None:
             stations.append(Station(files.key, model.screen, world))
             pictures.append(write_picture(work.folder, number, model.image, options.play.quality))
             clouds.append(_cloud(model, world))
+            if options.play.video:
+                images.append(model.image)
             before = model
         step.counts["key positions"] = len(stations)
         step.counts["transitions"] = len(ways)
@@ -110,7 +117,24 @@ def _make(work: Work, record: Record, options: WalkOptions) -> None:
         place.save(work.folder)
         write_document(_document(record, stations, ways), work.folder / DOCUMENT)
         step.counts["points"] = len(points)
+    if options.play.video:
+        with work.step("video") as step:
+            step.counts["frames"] = _film(work, ways, images, stations[0].screen, options)
+        work.file(FILM, "the walk as a film")
     _tell(work, record, stations, ways)
+
+
+def _film(
+    work: Work, ways: list[Way], images: list[Image], screen: Screen, options: WalkOptions
+) -> int:
+    def frames() -> Iterator[Image]:
+        for number, way in enumerate(ways):
+            work.progress("video", number / len(ways))
+            first, second = images[number], images[number + 1]
+            yield from frames_of(way, first, second, screen, options.play.speed_m_s)
+        yield images[-1]
+
+    return write_film(work.folder / FILM, frames(), screen)
 
 
 def _settings(options: WalkOptions) -> WaySettings:

@@ -37,6 +37,7 @@ class PlayOptions(Options):
     """How the walk is shown."""
 
     speed_m_s: float = Field(default=1.4, gt=0.0, le=50.0, description="of the walk (m/s)")
+    video: bool = Field(default=False, description="write the walk as a film, too (walk.mp4)")
     quality: int = Field(default=88, ge=1, le=100, description="of the pictures (WebP)")
 
 

@@ -1,0 +1,50 @@
+"""The moving picture of `docs/walk.md`: a walk through a synthetic gorge, from five stereo pairs.
+
+`python docs/walk_picture.py` writes `docs/images/walk.webp`.
+"""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+
+from veduta.synthetic.walks.record import GorgeWalk, write_walk
+from veduta.walk.build.film import frame_at
+from veduta.walk.build.local_model import build_local_model
+from veduta.walk.build.way import find_way
+from veduta.walk.command import read_record
+from veduta.walk.options import WalkOptions
+from veduta.walk.read.pairs import read_stereo
+
+PICTURE = Path(__file__).parent / "images" / "walk.webp"
+FRAMES, MS = 14, 80
+"""Of each transition, and how long each is shown."""
+
+
+def main() -> None:
+    """Shoot, walk, and write the frames."""
+    frames: list[NDArray[np.uint8]] = []
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        write_walk(folder, GorgeWalk(keys=4, step_m=3.0, width_px=480, height_px=270))
+        record = read_record(folder, WalkOptions(), None)
+        rig = record.rectifier.rig
+        models = [
+            build_local_model(read_stereo(files, record.rectifier), rig) for files in record.pairs
+        ]
+    for first, second in zip(models, models[1:], strict=False):
+        way = find_way(first, second, rig)
+        for number in range(FRAMES):
+            frames.append(frame_at(way, first.image, second.image, first.screen, number / FRAMES))
+    pictures = [Image.fromarray(frame) for frame in [*frames, *frames[::-1]]]
+    pictures[0].save(
+        PICTURE, save_all=True, append_images=pictures[1:], duration=MS, loop=0, quality=55
+    )
+
+
+if __name__ == "__main__":
+    main()

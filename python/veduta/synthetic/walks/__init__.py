@@ -1,0 +1,1 @@
+"""A rock gorge with trees, photographed in stereo along its path, with all of it known."""

@@ -1,0 +1,100 @@
+"""A walk through a gorge as a record: pairs of pictures, the rig's calibration, and the truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from numpy.typing import NDArray
+from PIL import Image
+from scipy.spatial.transform import Rotation
+
+from veduta.synthetic.walks.gorge import Gorge, ground_m, make_gorge
+from veduta.synthetic.walks.shoot import GorgeScene, WalkCamera, WalkShot
+
+Floats = NDArray[np.float64]
+_EYE_M = 1.6
+
+
+@dataclass(frozen=True)
+class GorgeWalk:
+    """step_m: between key positions. turning_rad, rolling_rad: how much the camera turns aside and
+    rolls from key position to key position, at most. drift: by which factor the exposure changes
+    with each. fov_rad: the horizontal angle of view.
+    """
+
+    keys: int = 5
+    step_m: float = 3.0
+    width_px: int = 640
+    height_px: int = 360
+    fov_rad: float = 1.2
+    baseline_m: float = 0.5
+    turning_rad: float = 0.0
+    rolling_rad: float = 0.0
+    drift: float = 1.0
+    seed: int = 0
+
+    @property
+    def focal_px(self) -> float:
+        """Of the pictures."""
+        return 0.5 * self.width_px / float(np.tan(0.5 * self.fov_rad))
+
+
+def cameras_of(walk: GorgeWalk, gorge: Gorge) -> list[WalkCamera]:
+    """The left cameras along the path."""
+    rng = np.random.default_rng(walk.seed + 100)
+    cameras = []
+    for number in range(walk.keys):
+        y = number * walk.step_m
+        pose = np.eye(4)
+        turn = walk.turning_rad * np.sin(0.9 * number)
+        roll = walk.rolling_rad * rng.uniform(-1.0, 1.0)
+        level = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
+        pose[:3, :3] = Rotation.from_euler("z", turn).as_matrix() @ level
+        pose[:3, :3] = pose[:3, :3] @ Rotation.from_euler("z", roll).as_matrix()
+        x = 1.2 * np.sin(y / 11.0)
+        pose[:3, 3] = [x, y, ground_m(gorge, x, y) + _EYE_M]
+        cameras.append(WalkCamera(walk.width_px, walk.height_px, walk.focal_px, pose))
+    return cameras
+
+
+def beside(camera: WalkCamera, baseline_m: float) -> WalkCamera:
+    """The right camera of a rig."""
+    pose = camera.world_from_camera.copy()
+    pose[:3, 3] += pose[:3, 0] * baseline_m
+    return WalkCamera(camera.width_px, camera.height_px, camera.focal_px, pose)
+
+
+def shoot_walk(walk: GorgeWalk) -> tuple[list[WalkCamera], list[tuple[WalkShot, WalkShot]]]:
+    """All pairs, and the left cameras."""
+    gorge = make_gorge(walk.keys * walk.step_m, walk.seed)
+    scene = GorgeScene(gorge)
+    cameras = cameras_of(walk, gorge)
+    pairs = [
+        (
+            scene.shoot(camera, walk.drift**number),
+            scene.shoot(beside(camera, walk.baseline_m), walk.drift**number),
+        )
+        for number, camera in enumerate(cameras)
+    ]
+    return cameras, pairs
+
+
+def write_walk(folder: Path, walk: GorgeWalk) -> list[WalkCamera]:
+    """Write left/, right/, walk.toml, and the truth: depth/ and poses.txt; the left cameras."""
+    cameras, pairs = shoot_walk(walk)
+    for name in ("left", "right", "depth"):
+        (folder / name).mkdir(parents=True, exist_ok=True)
+    for number, pair in enumerate(pairs):
+        for side, shot in zip(("left", "right"), pair, strict=True):
+            Image.fromarray(shot.image).save(folder / side / f"{number:03d}.png")
+        np.save(folder / "depth" / f"{number:03d}.npy", pair[0].depth_m.astype(np.float32))
+    toml = (
+        f"focal_px = {walk.focal_px:.6f}\ncentre_px = [{walk.width_px / 2:.1f},"
+        f" {walk.height_px / 2:.1f}]\nbaseline_m = {walk.baseline_m:.6f}\n"
+    )
+    (folder / "walk.toml").write_text(toml, encoding="utf-8")
+    rows = [camera.world_from_camera[:3].ravel() for camera in cameras]
+    np.savetxt(folder / "poses.txt", rows)
+    return cameras

@@ -1,0 +1,66 @@
+"""The walk as a film: what the player draws, frame by frame, at walking speed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.spatial.transform import Rotation, Slerp
+
+from veduta.run.errors import InputError
+from veduta.walk.build.render import Transition, draw_between
+from veduta.walk.build.screen import Screen
+from veduta.walk.build.way import Way
+from veduta.walk.rig import Image
+
+FRAMES_S = 25
+_SHORTEST_M = 0.5
+
+
+def write_film(path: Path, frames: Iterator[Image], screen: Screen) -> int:
+    """Write frames as MP4; how many there were. InputError where no encoder does it."""
+    size = (screen.width_px // 2 * 2, screen.height_px // 2 * 2)
+    code = cv2.VideoWriter.fourcc(*"mp4v")
+    writer = cv2.VideoWriter(str(path), code, FRAMES_S, size)
+    if not writer.isOpened():
+        raise InputError(path, "cannot be written as MP4 here", "Leave --video away.")
+    count = 0
+    try:
+        for frame in frames:
+            writer.write(np.ascontiguousarray(frame[: size[1], : size[0], ::-1]))
+            count += 1
+    finally:
+        writer.release()
+    return count
+
+
+def frames_of(
+    way: Way, first: Image, second: Image, screen: Screen, speed_m_s: float
+) -> Iterator[Image]:
+    """The frames of a transition, its end not among them."""
+    length_m = max(way.distance_m if way.forth is not None else 0.0, _SHORTEST_M)
+    count = max(1, round(length_m / speed_m_s * FRAMES_S))
+    for number in range(count):
+        yield frame_at(way, first, second, screen, number / count)
+
+
+def frame_at(way: Way, first: Image, second: Image, screen: Screen, m: float) -> Image:
+    """What is seen at m (0..1) of a transition of any kind."""
+    if way.kind == "cut" or way.forth is None or way.back is None:
+        return first if m < 0.5 else second
+    if way.kind == "fade":
+        mixed = (1.0 - m) * first.astype(np.float32) + m * second.astype(np.float32)
+        return np.round(mixed).astype(np.uint8)
+    transition = Transition(way.forth, way.back, way.second_from_first, first, second)
+    return draw_between(transition, m, pose_at(way.second_from_first, m), screen)[0]
+
+
+def pose_at(second_from_first: NDArray[np.float64], m: float) -> NDArray[np.float64]:
+    """(3, 4) cam_from_first on the straight way between both cameras, turning evenly."""
+    turns = Rotation.from_matrix(np.stack([np.eye(3), second_from_first[:, :3]]))
+    turn = Slerp([0.0, 1.0], turns)(m).as_matrix()
+    centre = -m * second_from_first[:, :3].T @ second_from_first[:, 3]
+    return np.column_stack([turn, -turn @ centre])
