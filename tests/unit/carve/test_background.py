@@ -51,6 +51,17 @@ def test_a_shadow_on_a_colourful_table_is_not_the_object(
     assert min(map(_iou, masks, truths)) > EDGE
 
 
+def test_a_black_frame_does_not_bite_into_dark_parts(truths: list[NDArray[np.bool_]]) -> None:
+    photos = []
+    for number, truth in enumerate(truths):
+        photo = _photo(truth, (85, 90, 180), number)
+        photo[55:65][truth[55:65]] = (12, 8, 6)
+        photo[:, :8] = 0
+        photos.append(photo)
+    masks, _ = masks_of_background(photos)
+    assert min(map(_iou, masks, truths)) > EDGE
+
+
 def test_a_given_background(truths: list[NDArray[np.bool_]]) -> None:
     photos = [_photo(truth, (252, 252, 252), n) for n, truth in enumerate(truths)]
     masks, _ = masks_of_background(photos, ((255, 255, 255),))

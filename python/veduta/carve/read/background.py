@@ -153,7 +153,12 @@ def _kinds_around(
     counts = np.zeros(len(each[0]))
     reach = np.ones((2 * rule.ring_px + 1,) * 2, np.uint8)
     for one, mask in zip(each, masks, strict=True):
-        ring = (cv2.dilate(mask.astype(np.uint8), reach) > 0) & ~mask
+        # About the convex hull: what a kind bit out of the object must not count as around it.
+        whole = np.zeros(mask.shape, np.uint8)
+        places = np.argwhere(mask)[:, ::-1].astype(np.int32)
+        if len(places):
+            cv2.fillConvexPoly(whole, cv2.convexHull(places), 1)
+        ring = (cv2.dilate(whole, reach) > 0) & (whole == 0)
         counts += np.bincount(one[:, ring].argmin(axis=0), minlength=len(counts))
     return np.asarray(counts >= rule.ring_share * max(counts.sum(), 1.0), dtype=bool)
 
