@@ -185,3 +185,10 @@ def test_sizes_that_no_picture_has(tmp_path: Path) -> None:
     for width in (".Inf", "-3", "200000"):
         path.write_text(whole.replace("image_width: 64", f"image_width: {width}"))
         refused(tmp_path, "has a camera of")
+
+
+def test_a_name_that_no_file_has(tmp_path: Path) -> None:
+    made.write_colmap(tmp_path, made.ring())
+    path = tmp_path / "images.txt"
+    path.write_text(path.read_text().replace("a2.png", "a" * 3000 + ".png"))
+    assert read_cameras(tmp_path).cameras[-1].picture is None
