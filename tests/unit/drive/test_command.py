@@ -46,6 +46,9 @@ def test_walls_and_ground_stand_in_the_place(out: Path) -> None:
     assert len(triangles) > 100
     assert abs(np.median(vertices[:, 0]) + 11.0) < 0.8  # the facades are 11 m to the left
     assert place.parts["left-001-ground"].standing.ground
+    ground = place.parts["left-001-ground"].triangles()[0][:, 2]
+    assert ground.min() == pytest.approx(0.0, abs=1e-3)
+    assert np.median(ground) + place.origin_m[2] == pytest.approx(0.0, abs=0.05)
     assert place.tours[0].id == "drive"
 
 

@@ -125,7 +125,27 @@ def drive_place(
         ahead = line[min(len(line) - 1, 100)]
         eye, target = line[0], np.array([ahead[0], ahead[1], line[0][2]])
         place.start = Start(eye=tuple(eye.tolist()), target=tuple(target.tolist()))
-    return place
+    return _above_zero(place)
+
+
+def _above_zero(place: Place) -> Place:
+    """The same place with its lowest ground at z = 0: what is shown below that is hidden there.
+
+    The origin moves the other way, so that all coordinates in the world stay.
+    """
+    grounds = [one for one in place.parts.values() if one.standing.ground]
+    lowest = min((float(one.triangles()[0][:, 2].min()) for one in grounds), default=0.0)
+    if lowest >= 0.0 or place.start is None:
+        return place
+    x, y, z = place.origin_m
+    start = place.start
+    raised = Place(place.title, crs=place.crs, origin_m=(x, y, z + lowest))
+    raised.start = Start(eye=_up(start.eye, -lowest), target=_up(start.target, -lowest))
+    return raised.merge(place)
+
+
+def _up(place: tuple[float, float, float], by_m: float) -> tuple[float, float, float]:
+    return place[0], place[1], place[2] + by_m
 
 
 def coloured(points: NDArray[np.float64], seen: Sequence[Seen]) -> NDArray[np.uint8]:
