@@ -18,9 +18,12 @@ pub struct Depths<'a> {
 pub struct Agreement {
     /// Pixels by which the way there and back may miss.
     pub most_px: f64,
-    /// Share by which the depths may differ.
+    /// Share by which the depths may differ, where half a pixel of the two views' parallax is less.
     pub most_share: f64,
 }
+
+/// The share by which depths may differ at most, however small the parallax.
+const LOOSEST: f64 = 0.05;
 
 impl Depths<'_> {
     /// Column and row of a point in the camera's frame; None outside.
@@ -56,7 +59,7 @@ impl Agreement {
         let seen = other.camera.seen(own.camera.point(px, depth));
         let (u, v) = other.cell(seen)?;
         let there = other.depth(u, v)?;
-        if (there - seen[2]).abs() > self.most_share * seen[2] {
+        if (there - seen[2]).abs() > self.share(own, other, seen[2]) * seen[2] {
             return None;
         }
         // The other depth is taken along the ray of the point itself: a slanted wall differs
@@ -70,6 +73,15 @@ impl Agreement {
         let [x, y] = own.camera.pixel(back);
         let away = (x - px[0]).hypot(y - px[1]);
         (away <= self.most_px).then_some((u, v))
+    }
+
+    /// What half a pixel of parallax is at a depth, but within bounds.
+    fn share(&self, own: &Depths<'_>, other: &Depths<'_>, depth: f64) -> f64 {
+        let (first, second) = (own.camera.eye(), other.camera.eye());
+        let apart: [f64; 3] = std::array::from_fn(|i| first[i] - second[i]);
+        let baseline = crate::camera::dot(apart, apart).sqrt();
+        let half = 0.5 * depth / (other.camera.focal[0] * baseline).max(1e-12);
+        half.clamp(self.most_share, LOOSEST.max(self.most_share))
     }
 
     /// For each pixel the number of other views that agree with its depth.

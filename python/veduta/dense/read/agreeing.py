@@ -16,12 +16,13 @@ from veduta.dense.read.neighbours import Comparison
 @dataclass(frozen=True)
 class AgreeParameters:
     """most_px: by which the way to another view's depth and back may miss. most_share: by which the
-    depths may differ. most_cost: (1 - NCC, with what neighbours say) of a depth that is kept.
+    depths may differ. most_cost: (1 - NCC, with what neighbours say) of a depth that is kept;
+    2.3 is a view that does not see it, and a pixel at the side of a street has one that does.
     """
 
     most_px: float = 1.5
     most_share: float = 0.01
-    most_cost: float = 0.9
+    most_cost: float = 1.4
 
 
 def agreed_depths(
