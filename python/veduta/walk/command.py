@@ -70,6 +70,11 @@ def read_record(folder: Path, options: WalkOptions, calibration: Path | None) ->
     chosen = [pair for pair in pairs if pair.key in set(keys)]
     if not chosen:
         raise InputError(folder, f"has no key position {take.first}", "Begin at an earlier one.")
+    if len(chosen) > len(keys):
+        raise InputError(
+            folder, "has several views at a key position, which are not joined yet",
+            "Leave one view of each key position.",
+        )  # fmt: skip
     rig = find_calibration(folder, calibration, chosen[0].left.parent.name)
     left, _ = read_pair(chosen[0], None)
     return Record(chosen, make_rectifier(rig, (left.shape[1], left.shape[0])), rig.source)
