@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-SUMMARY = "Carve an object out of photos with its silhouettes"
+SUMMARY = "Turn photos with silhouettes into a closed, coloured object"
 
 
 def run(arguments: list[str]) -> int:
