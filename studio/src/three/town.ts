@@ -40,6 +40,10 @@ const COLOURING_STRENGTH = 0.78;
 const WALKABLE_ERROR_M = 1;
 /** Obstacles of so many tiles are kept. */
 const MOST_SOLIDS = 6;
+/** After so many rounds in which nothing is on its way nothing will come. */
+const CALM_ROUNDS = 20;
+/** Plainer tiles than with an error of so much on the screen there are not. */
+const PLAINEST_PX = 1000;
 /** Of a tile that was dropped; what is chosen keeps its number. */
 const GONE: FeatureTable = { rows: [] };
 
@@ -76,6 +80,7 @@ export class Town implements Obstacles {
   readonly #solids = new Map<Object3D, Solid>();
   readonly #images = new SharedImages();
   readonly #onChange: () => void;
+  readonly #error_px: number;
   #changes = 0;
   readonly #missing = new Map<string, Fault>();
   readonly #asking = new Asking(() => this.#askAgain());
@@ -85,6 +90,7 @@ export class Town implements Obstacles {
   constructor(address: URL, error_px: number, onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
     this.#tiles = new FlatTiles(address.href);
+    this.#error_px = error_px;
     this.#tiles.errorTarget = error_px;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
     loader.register((parser) => this.#images.pluginOf(parser));
@@ -128,8 +134,14 @@ export class Town implements Obstacles {
     this.#tiles.setCamera(camera);
     this.#tiles.setResolution(camera, 1280, 800);
     camera.updateMatrixWorld();
-    while (this.tileCount === 0) {
-      if (!this.isLoading) this.#stopAtFault();
+    for (let calm = 0; this.tileCount === 0; ) {
+      calm = this.isLoading ? 0 : calm + 1;
+      if (calm > CALM_ROUNDS) {
+        // Where the tiles that are fine enough did not come, plainer ones may.
+        if (this.#tiles.errorTarget > PLAINEST_PX) this.#stopAtFault();
+        this.#tiles.errorTarget *= 4;
+        calm = 0;
+      }
       this.#advance();
       await pause();
     }
@@ -271,6 +283,7 @@ export class Town implements Obstacles {
 
   #askAgain(): void {
     this.#missing.clear();
+    this.#tiles.errorTarget = this.#error_px;
     this.#tiles.resetFailedTiles();
     this.#onChange();
   }
