@@ -37,7 +37,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "2"
+VERSION = "3"
 DOCUMENT, POINTS = "drive.json", "points.laz"
 _JPEG_QUALITY = 90
 
