@@ -81,6 +81,7 @@ export class Town implements Obstacles {
   readonly #images = new SharedImages();
   readonly #onChange: () => void;
   readonly #error_px: number;
+  readonly #failed = new Set<Tile>();
   #changes = 0;
   readonly #missing = new Map<string, Fault>();
   readonly #asking = new Asking(() => this.#askAgain());
@@ -102,7 +103,8 @@ export class Town implements Obstacles {
       this.#take(scene, tile, url);
     });
     this.#tiles.addEventListener("dispose-model", ({ scene }) => this.#drop(scene));
-    this.#tiles.addEventListener("load-error", ({ error, url }) => {
+    this.#tiles.addEventListener("load-error", ({ tile, error, url }) => {
+      if (tile !== null) this.#failed.add(tile);
       const file = String(url).split("/").slice(-3).join("/");
       this.#missing.set(String(url), new Absent(file, error.message, "Check that the server still runs (`veduta view`)."));
       this.#asking.failed();
@@ -284,6 +286,9 @@ export class Town implements Obstacles {
   #askAgain(): void {
     this.#missing.clear();
     this.#tiles.errorTarget = this.#error_px;
+    // The library keeps a place in its cache for a tile that failed, and would not fetch it again (0.4.26).
+    for (const tile of this.#failed) this.#tiles.lruCache.remove(tile);
+    this.#failed.clear();
     this.#tiles.resetFailedTiles();
     this.#onChange();
   }
