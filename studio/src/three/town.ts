@@ -81,6 +81,8 @@ export class Town implements Obstacles {
   readonly #images = new SharedImages();
   readonly #onChange: () => void;
   readonly #error_px: number;
+  /** What is asked for while finer tiles do not come. */
+  #plain_px: number;
   readonly #failed = new Set<Tile>();
   #changes = 0;
   readonly #missing = new Map<string, Fault>();
@@ -92,6 +94,7 @@ export class Town implements Obstacles {
     this.#onChange = onChange;
     this.#tiles = new FlatTiles(address.href);
     this.#error_px = error_px;
+    this.#plain_px = error_px;
     this.#tiles.errorTarget = error_px;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
     loader.register((parser) => this.#images.pluginOf(parser));
@@ -105,6 +108,7 @@ export class Town implements Obstacles {
     this.#tiles.addEventListener("dispose-model", ({ scene }) => this.#drop(scene));
     this.#tiles.addEventListener("load-error", ({ tile, error, url }) => {
       if (tile !== null) this.#failed.add(tile);
+      this.#tiles.errorTarget = this.#plain_px;
       const file = String(url).split("/").slice(-3).join("/");
       this.#missing.set(String(url), new Absent(file, error.message, "Check that the server still runs (`veduta view`)."));
       this.#asking.failed();
@@ -142,6 +146,7 @@ export class Town implements Obstacles {
         // Where the tiles that are fine enough did not come, plainer ones may.
         if (this.#tiles.errorTarget > PLAINEST_PX) this.#stopAtFault();
         this.#tiles.errorTarget *= 4;
+        this.#plain_px = this.#tiles.errorTarget;
         calm = 0;
       }
       this.#advance();
