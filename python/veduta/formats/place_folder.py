@@ -56,6 +56,7 @@ def save_place(place: Place, folder: Path) -> None:
         walks=place.walks,
         scale=place.scale,
         sun=place.sun,
+        hidden=list(place.hidden),
         start=place.start or chosen_start(place),
     )
     write_place(described, folder / MANIFEST)
@@ -72,8 +73,8 @@ def load_place(folder: Path) -> Place:
     place = Place(
         told.title, told.description, told.author, told.licence, tuple(told.languages),
         told.crs, told.origin, told.scale, cameras=told.cameras, tours=told.tours,
-        walks=told.walks, sun=told.sun, start=told.start, folder=folder, tileset=told.tileset,
-        animals=told.animals,
+        walks=told.walks, sun=told.sun, hidden=tuple(told.hidden), start=told.start,
+        folder=folder, tileset=told.tileset, animals=told.animals,
     )  # fmt: skip
     for row in told.parts:
         place.parts[row.id] = _placed(row, folder)

@@ -288,6 +288,11 @@ class Place(_Record):
         default="metres", description="unknown: the unit of length is not the metre, but any"
     )
     sun: PlaceSun | None = Field(default=None, description="null: nothing is known of it")
+    hidden: list[Literal["points", "cameras", "photos"]] = Field(
+        default=[],
+        max_length=3,
+        description="what is not shown until a visitor asks for it; photos: that they fade in",
+    )
     start: Start
 
     @model_validator(mode="after")
@@ -309,7 +314,9 @@ class Place(_Record):
         return self
 
 
-LATER = frozenset({"title", "description", "author", "licence", "languages", "animals", "walks"})
+LATER = frozenset(
+    {"title", "description", "author", "licence", "languages", "animals", "walks", "hidden"}
+)
 """What manifests have said only since some time: it is left out of the file where nothing is said,
 so that places that say nothing of it are written as they were."""
 

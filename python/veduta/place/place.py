@@ -120,6 +120,8 @@ class Place:
     animals: list[PlaceAnimal] = field(default_factory=list)
     walks: list[Walk] = field(default_factory=list)
     sun: PlaceSun | None = None
+    hidden: tuple[Literal["points", "cameras", "photos"], ...] = ()
+    """What is not shown until a visitor asks for it."""
     start: Start | None = None
     """Where a visitor begins; None: chosen where the place is saved."""
     folder: Path | None = None

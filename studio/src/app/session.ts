@@ -110,7 +110,7 @@ export async function openPlace(
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
-  store.update({ off: firstOff(place), hour: sunPath.firstHour });
+  store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPath.firstHour });
   const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, () => viewer?.invalidate(), onFault);
   if (morphs !== null) store.update({ morph: strollFrom(0) });
   viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses, budget, morphs }, store);
@@ -163,9 +163,10 @@ function mean(values: readonly number[]): number {
 }
 
 /** Walls and a model of the same buildings lie in one another: the model is seen first. */
-function firstOff({ parts, tileset }: Place): ReadonlySet<Layer> {
+function firstOff({ parts, tileset, hidden }: Place): ReadonlySet<Layer> {
   const hasModel = tileset !== null || parts.some(({ layer }) => layer === "model");
-  return new Set(hasModel ? ["walls"] : []);
+  const asked = (["points", "cameras"] as const).filter((layer) => hidden.has(layer));
+  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...asked]);
 }
 
 function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {

@@ -79,6 +79,9 @@ export interface About {
   readonly licence: string;
 }
 
+const HIDEABLE = ["points", "cameras", "photos"] as const;
+export type Hideable = (typeof HIDEABLE)[number];
+
 export interface Place {
   readonly about: About;
   readonly parts: readonly Part[];
@@ -91,6 +94,8 @@ export interface Place {
   readonly scaleKnown: boolean;
   /** 3D Tiles of the whole place, relative to `place.json`: they are shown instead of the parts. */
   readonly tileset: string | null;
+  /** What is not shown until a visitor asks for it; `photos`: that they fade in. */
+  readonly hidden: ReadonlySet<Hideable>;
   /** What is known of its sun; `day` is null where nobody knows where it is. */
   readonly sun: { readonly northKnown: boolean; readonly day: SunDay | null } | null;
   readonly start: { readonly eye: Vec3; readonly target: Vec3 };
@@ -143,12 +148,18 @@ export function readPlace(text: string, file: string): Place {
     animals: animals.map((animal, index) => readAnimal(animal, `animal ${index + 1}`, known, broken)),
     walks: walks.map((walk, index) => readMorphWalk(walk, `walk ${index + 1}`, broken, isInside)),
     scaleKnown: manifest.scale !== "unknown",
+    hidden: readHidden(manifest.hidden),
     sun: readSun(manifest.sun, broken),
     start: {
       eye: readVec3(start.eye, () => broken('"start.eye" is not a point')),
       target: readVec3(start.target, () => broken('"start.target" is not a point')),
     },
   };
+}
+
+/** Words that a later Veduta may add are passed over. */
+function readHidden(value: unknown): Place["hidden"] {
+  return new Set(HIDEABLE.filter((one) => Array.isArray(value) && value.includes(one)));
 }
 
 /** As Python's `datetime.isoformat` writes it: a date, a time, and an offset from UTC. */

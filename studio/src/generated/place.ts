@@ -103,6 +103,16 @@ export interface Place {
    * null: nothing is known of it
    */
   sun?: PlaceSun | null;
+  /**
+   * what is not shown until a visitor asks for it; photos: that they fade in
+   *
+   * @maxItems 3
+   */
+  hidden?:
+    | []
+    | ["points" | "cameras" | "photos"]
+    | ["points" | "cameras" | "photos", "points" | "cameras" | "photos"]
+    | ["points" | "cameras" | "photos", "points" | "cameras" | "photos", "points" | "cameras" | "photos"];
   start: Start;
 }
 /**

@@ -38,6 +38,13 @@ describe("what stands alone", () => {
 });
 
 describe("reading a place", () => {
+  it("hides at first what its maker says, and knows no other words", () => {
+    expect(readPlace(manifest(), "place.json").hidden).toEqual(new Set());
+    const told = { hidden: ["photos", "points", "roofs", 3] };
+    expect(readPlace(manifest(told), "place.json").hidden).toEqual(new Set(["points", "photos"]));
+    expect(readPlace(manifest({ hidden: "points" }), "place.json").hidden).toEqual(new Set());
+  });
+
   it("gives its parts and its start", () => {
     const place = readPlace(manifest(), "place.json");
     expect(place.parts[0]?.worldFromPart.slice(12)).toEqual([7, 8, 9, 1]);

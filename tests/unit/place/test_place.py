@@ -46,6 +46,15 @@ def test_a_saved_place_comes_back(tmp_path: Path) -> None:
     np.testing.assert_allclose(again.clouds[0].points_m, [[0, 0, 0], [1, 2, 3]])
 
 
+def test_what_is_hidden_at_first_is_kept_and_else_left_out_of_the_file(tmp_path: Path) -> None:
+    place = _place()
+    place.save(tmp_path)
+    assert '"hidden"' not in (tmp_path / "place.json").read_text()
+    place.hidden = ("points", "photos")
+    place.save(tmp_path)
+    assert Place.load(tmp_path).hidden == ("points", "photos")
+
+
 def test_nothing_is_read_before_it_is_asked_for(tmp_path: Path) -> None:
     _place().save(tmp_path)
     (tmp_path / "parts/box.glb").write_bytes(b"broken")

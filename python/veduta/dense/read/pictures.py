@@ -15,7 +15,8 @@ from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 
 BYTES_PER_PIXEL = 330
-"""What a view and its neighbours take while a depth map is made (measured: 4 neighbours)."""
+"""What a view and its four neighbours are taken to need while a depth map is made: an estimate by
+the sizes of their arrays, not a measurement."""
 LEAST_SIDE_PX = 64
 
 

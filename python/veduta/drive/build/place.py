@@ -111,6 +111,8 @@ def drive_place(
             if mesh is not None:
                 place.add(mesh, Standing(told, transform, ground=not wall, document="drive.json"))
     taken_out = np.concatenate([one.geometry.foreground() for one in textured])
+    # Otherwise what was taken out would stand in the street again, as points and in the photos.
+    place.hidden = ("points", "cameras", "photos")
     place.clouds.append(Cloud("taken-out", taken_out, coloured(taken_out, seen)))
     place.cameras = [
         PlaceCamera(
