@@ -133,7 +133,7 @@ def main() -> None:
     notes = [
         "The view in the middle of two key positions, made from both without the omitted pair; the"
         " omitted camera stands where the true poses say that it does on the way.",
-        "(e) has the given poses, as the issue measured it; `e, own poses` has those found here.",
+        "(e) has the given poses; `e, own poses` has those found here.",
         "gradient: mean strength of the light's gradient over the true view's.",
     ]
     if called.draft:

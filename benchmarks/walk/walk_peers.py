@@ -1,4 +1,4 @@
-"""What a view between two key positions can be made of besides: the five peers of the issue."""
+"""What a view between two key positions can be made of besides: five peers."""
 
 from __future__ import annotations
 
