@@ -51,6 +51,11 @@ def test_cut_file_says_how_far_it_goes(tmp_path: Path) -> None:
         ("POINTS 10", "POINTS 99999999999", "99999999999"),
         ("TYPE F F", "TYPE Q F", "unknown type"),
         ("DATA binary", "DOTA", "no header"),
+        ("FIELDS x y z", "FIELDS x x y", "two fields 'x'"),
+        ("COUNT 1 1 1 1", "COUNT 1 1 1 99999999999", "999 values"),
+        ("COUNT 1 1 1 1", "COUNT 1 1 1 0", "0 values"),
+        ("COUNT 1 1 1 1", "COUNT 3 1 1 1", "several values"),
+        ("SIZE 4 4", "SIZE 1 4", "unknown type"),
     ],
 )
 def test_broken_headers_are_told(tmp_path: Path, old: str, new: str, said: str) -> None:
@@ -86,3 +91,21 @@ def test_scans_of_two_places_are_not_joined(tmp_path: Path) -> None:
     _write(tmp_path / "001.pcd", random.uniform(-80, 80, (4000, 3)))
     with pytest.raises(NotFoundError, match="001"):
         read_clouds(tmp_path, 1)
+
+
+def test_histogram_beside_the_points_is_passed_over(tmp_path: Path) -> None:
+    head = _HEAD.format(
+        fields="h _ x y z", sizes="4 1 4 4 4", kinds="F U F F F", counts="2 1 1 1 1", n=1,
+        data="ascii",
+    )  # fmt: skip
+    path = tmp_path / "a.pcd"
+    path.write_text(head + "8 9 0 1 2 3\n")
+    np.testing.assert_array_equal(read_pcd(path), [[1.0, 2.0, 3.0]])
+
+
+def test_huge_file_is_refused_unread(tmp_path: Path) -> None:
+    path = tmp_path / "a.pcd"
+    with path.open("wb") as file:
+        file.truncate(2 << 30)
+    with pytest.raises(InputError, match="more than"):
+        read_pcd(path)
