@@ -83,3 +83,13 @@ def test_folder_without_scans_is_refused(folder: Path) -> None:
         path.unlink()
     with pytest.raises(InputError, match="no scans"):
         read_kitti(folder, 1)
+
+
+@pytest.mark.parametrize("matrix", [" ".join("0" * 12), "-7 0 6 0 0 7 2 0 0 0 1 0"])
+def test_colour_camera_that_is_none_is_refused(folder: Path, matrix: str) -> None:
+    (folder / "image_2").mkdir()
+    (folder / "calib.txt").write_text(f"Tr: {_TR}\nP2: {matrix}\n")
+    with pytest.raises(InputError, match="P2 is not") as error:
+        read_kitti(folder, 1)
+    assert error.value.subject.endswith("calib.txt")
+    assert error.value.remedy

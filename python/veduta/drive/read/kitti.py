@@ -133,7 +133,13 @@ def _shots(
     matrix = _needed(calibration, "P2", folder / CALIBRATION)
     beside = np.eye(4)
     # P2 = K [I | t]: the colour camera stands beside the grey one, looking the same way.
-    beside[:3, 3] = -np.linalg.solve(matrix[:, :3], matrix[:, 3])
+    try:
+        beside[:3, 3] = -np.linalg.solve(matrix[:, :3], matrix[:, 3])
+    except np.linalg.LinAlgError:
+        beside[:3, 3] = np.nan
+    if not (np.isfinite(beside).all() and matrix[0, 0] > 0.0 and matrix[1, 1] > 0.0):
+        fault = "P2 is not the matrix of a camera"
+        raise InputError(folder / CALIBRATION, fault, "Copy KITTI's own calibration file.")
     shots = []
     for row, name in enumerate(names):
         path = next(
