@@ -98,6 +98,10 @@ centre_px = [4.0, 3.0]
     pyarrow.parquet.write_table(rows, folder / "images.parquet")
     with pytest.raises(InputError, match="outside"):
         read_own(folder)
+    rows = pyarrow.table({"time_s": [0.0], "file": ["a" * 3000 + ".png"]})
+    pyarrow.parquet.write_table(rows, folder / "images.parquet")
+    with pytest.raises(InputError, match="a name that no file has"):
+        read_own(folder)
 
 
 @pytest.mark.parametrize(
@@ -131,4 +135,57 @@ def test_uneven_scans_are_told(folder: Path, scans: DriveScans) -> None:
     ranges = [row[:-1] if number == 4 else row for number, row in enumerate(scans.ranges)]
     _change(folder / "vertical.parquet", ranges_m=ranges)
     with pytest.raises(InputError, match="different lengths"):
+        read_own(folder)
+
+
+_TWELVE = [[0.0] * 12] * 2
+
+
+@pytest.mark.parametrize(
+    ("columns", "said"),
+    [
+        ({"time_s": ["0", "1"], "matrix": _TWELVE}, "string and not numbers in 'time_s'"),
+        ({"time_s": [None, 1.0], "matrix": _TWELVE}, "no number"),
+        ({"time_s": [0.0, 1.0], "matrix": [0.0, 1.0]}, "double and not lists"),
+        ({"time_s": [0.0, 1.0], "matrix": ["a", "b"]}, "string and not lists"),
+        ({"time_s": [0.0, 1.0], "matrix": [{"x": 1.0}, {"x": 2.0}]}, "struct.* and not lists"),
+        ({"time_s": [0.0, 1.0], "matrix": [["a"] * 12] * 2}, "and not lists of numbers"),
+        ({"time_s": [0.0, 1.0], "matrix": [[0.0] * 12, None]}, "rows without 'matrix'"),
+        ({"time_s": [0.0, 1.0], "matrix": [[None] * 11 + [1.0]] * 2}, "twelve"),
+        ({"time_s": [0.0, 1.0], "matrix": [[0.0] * 12, [0.0] * 11]}, "different lengths"),
+    ],
+)
+def test_tables_of_other_types_are_told(
+    folder: Path, columns: dict[str, list[object]], said: str
+) -> None:
+    pyarrow.parquet.write_table(pyarrow.table(columns), folder / "path.parquet")
+    with pytest.raises(InputError, match=said) as error:
+        read_own(folder)
+    assert error.value.subject.endswith("path.parquet")
+    assert error.value.remedy
+
+
+@pytest.mark.parametrize("kind", [pyarrow.float64(), pyarrow.null()])
+def test_empty_tables_are_told(folder: Path, kind: pyarrow.DataType) -> None:
+    own = pyarrow.list_(kind)
+    rows = {"time_s": pyarrow.array([], pyarrow.float64()), "matrix": pyarrow.array([], own)}
+    pyarrow.parquet.write_table(pyarrow.table(rows), folder / "path.parquet")
+    with pytest.raises(InputError, match=r"two poses|not lists"):
+        read_own(folder)
+
+
+def test_rows_of_a_fixed_length_are_read(folder: Path) -> None:
+    path = folder / "path.parquet"
+    expected = read_own(folder).path()
+    table = pyarrow.parquet.read_table(path)
+    fixed, place = pyarrow.list_(pyarrow.float64(), 12), table.column_names.index("matrix")
+    matrix = pyarrow.array(table["matrix"].to_pylist(), fixed)
+    pyarrow.parquet.write_table(table.set_column(place, "matrix", matrix), path)
+    np.testing.assert_allclose(read_own(folder).path(), expected)
+
+
+def test_huge_table_is_refused_unread(folder: Path) -> None:
+    with (folder / "path.parquet").open("r+b") as file:
+        file.truncate(5 << 30)
+    with pytest.raises(InputError, match="more than"):
         read_own(folder)

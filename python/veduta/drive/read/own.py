@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 import pyarrow
+import pyarrow.compute
 import pyarrow.parquet
 from numpy.typing import NDArray
 from pydantic import ValidationError
@@ -15,9 +16,13 @@ from pydantic import ValidationError
 from veduta.drive.document.log import CameraMount, DriveLog, Scanner
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
+from veduta.run.inputs import require_file
 
 LOG = "drive.toml"
 _MOST_BYTES = 1 << 20
+_LARGEST_TABLE_BYTES = 4 << 30
+"""Of a table on disk: hours of scans."""
+_LONGEST_NAME, _LONGEST_PATH = 255, 1024
 _SILENT_S = 1.0
 """A scanner that says nothing for longer leaves a gap, and that is said."""
 
@@ -62,31 +67,51 @@ def read_toml(path: Path) -> DriveLog:
 def _table(path: Path, names: tuple[str, ...]) -> pyarrow.Table:
     if not path.is_file():
         raise InputError(path, "there is no such file", f"{LOG} names it: put it there.")
+    require_file(path, _LARGEST_TABLE_BYTES)
     try:
         table = pyarrow.parquet.read_table(path)
     except (pyarrow.ArrowException, OSError) as error:
         raise InputError(path, "is no Parquet table that can be read", "Copy it again.") from error
-    missing = [name for name in names if name not in table.column_names]
-    if missing:
-        raise InputError(path, f"has no column {missing[0]!r}", "docs/drive.md lists them.")
+    for name in names:
+        count = table.column_names.count(name)
+        if count != 1:
+            fault = f"has {count or 'no'} column{'s' if count else ''} {name!r}"
+            raise InputError(path, fault, "docs/drive.md lists them.")
     return table
 
 
 def _lists(path: Path, table: pyarrow.Table, name: str) -> NDArray[np.float64]:
-    """(rows, n) a column of lists, all of one length."""
-    column = table[name].combine_chunks()
-    lengths = np.diff(column.offsets.to_numpy()) if hasattr(column, "offsets") else np.zeros(0)
+    """(rows, n) a column of lists of numbers, all of one length."""
+    kind = table.schema.field(name).type
+    if not (_is_list(kind) and _is_number(kind.value_type)):
+        fault = f"has {kind} and not lists of numbers in {name!r}"
+        raise InputError(path, fault, "Write lists of floats.")
+    column = table[name]
+    if column.null_count:
+        raise InputError(path, f"has rows without {name!r}", "Leave those rows out.")
+    lengths = pyarrow.compute.list_value_length(column).to_numpy()
     if len(lengths) and (lengths != lengths[0]).any():
         fault = f"has lists of different lengths in {name!r}"
         raise InputError(path, fault, "Each row needs one value for each beam.")
-    try:
-        values = column.flatten().to_numpy(zero_copy_only=False).astype(np.float64)
-    except (pyarrow.ArrowException, ValueError) as error:
-        raise InputError(path, f"has no numbers in {name!r}", "Write lists of floats.") from error
-    return np.asarray(values.reshape(len(table), -1), dtype=np.float64)
+    values = pyarrow.compute.list_flatten(column).to_numpy().astype(np.float64)
+    shape = (len(table), int(lengths[0]) if len(lengths) else 0)
+    return np.asarray(values.reshape(shape), dtype=np.float64)
+
+
+def _is_list(kind: pyarrow.DataType) -> bool:
+    types = pyarrow.types
+    return bool(types.is_list(kind) or types.is_large_list(kind) or types.is_fixed_size_list(kind))
+
+
+def _is_number(kind: pyarrow.DataType) -> bool:
+    return bool(pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind))
 
 
 def _times(path: Path, table: pyarrow.Table) -> NDArray[np.float64]:
+    kind = table.schema.field("time_s").type
+    if not _is_number(kind):
+        fault = f"has {kind} and not numbers in 'time_s'"
+        raise InputError(path, fault, "Write seconds as floats.")
     times = np.asarray(table["time_s"].to_numpy(), dtype=np.float64)
     if not np.isfinite(times).all():
         raise InputError(path, "has a time that is no number", "Leave that row out.")
@@ -117,6 +142,13 @@ def _at(
     found[:, :3, :3] = left @ right
     found[:, :3, 3] = mixed[:, :, 3]
     return found
+
+
+def _is_name(name: str) -> bool:
+    """Whether a file may be called so: the system refuses to look for other names."""
+    own = name.encode("utf-8", "replace")
+    longest = max(len(part) for part in own.split(b"/"))
+    return longest <= _LONGEST_NAME and len(own) <= _LONGEST_PATH and b"\0" not in own
 
 
 def _sweeps(
@@ -177,6 +209,8 @@ def _shots(
     places = _at(own, times, poses) @ mount
     shots, missing = [], 0
     for name, time_s, place in zip(table["file"].to_pylist(), own, places, strict=True):
+        if not _is_name(str(name)):
+            raise InputError(path, "has a name that no file has", "Give the images' names.")
         file = (folder / str(name)).resolve()
         if not file.is_relative_to(folder.resolve()):
             fault = f"names an image outside of the folder ({name})"
