@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
+from pydantic import ValidationError
 
 from veduta.formats.gltf import write_glb
 from veduta.formats.mesh_glb import write_mesh_glb
@@ -24,42 +25,60 @@ EYE_HEIGHT_M = 1.7
 
 
 def save_place(place: Place, folder: Path) -> None:
-    """Write all of it into a folder; pictures of cameras and documents must lie there already."""
-    rows = []
-    for number, placed in enumerate(place.parts.values()):
-        name = f"{PARTS}/{_file_name(placed.id, number)}.glb"
-        (folder / PARTS).mkdir(parents=True, exist_ok=True)
+    """Write all of it into a folder; pictures of cameras and documents must lie there already.
+
+    InputError, before anything is written, for what no manifest can say (two things of one id, a
+    part too far away) and for a part without triangles.
+    """
+    names = _FileNames()
+    models = [names.free(f"{PARTS}/", one.id, ".glb") for one in place.parts.values()]
+    clouds = [names.free("", one.id, ".ply") for one in place.clouds]
+    described = _described(place, models, clouds)
+    (folder / PARTS if models else folder).mkdir(parents=True, exist_ok=True)
+    for placed, name in zip(place.parts.values(), models, strict=True):
         content = placed.content
         if isinstance(content, Mesh):
             write_mesh_glb(content, folder / name)
         else:
             write_glb(content, folder / name)
-        rows.append(_part_row(placed, name))
-    clouds = []
-    for number, cloud in enumerate(place.clouds):
-        name = f"{_file_name(cloud.id, number)}.ply"
+    for cloud, name in zip(place.clouds, clouds, strict=True):
         write_points(cloud.points_m, cloud.colours, folder / name)
-        clouds.append(_cloud_row(cloud, name))
-    described = manifest.Place(
-        title=place.title,
-        description=place.description,
-        author=place.author,
-        licence=place.licence,
-        languages=list(place.languages),
-        crs=place.crs,
-        origin=place.origin_m,
-        parts=rows,
-        points=clouds,
-        cameras=place.cameras,
-        tours=place.tours,
-        animals=place.animals,
-        walks=place.walks,
-        scale=place.scale,
-        sun=place.sun,
-        hidden=list(place.hidden),
-        start=place.start or chosen_start(place),
-    )
     write_place(described, folder / MANIFEST)
+
+
+def _described(place: Place, models: list[str], clouds: list[str]) -> manifest.Place:
+    """What the manifest says; InputError where that is no place."""
+    for placed in place.parts.values():
+        content = placed.content
+        instances = None if isinstance(content, Mesh) else content.instances
+        if not len(content.positions_m) and instances is None:
+            fault = "is a part without a surface, which no model can hold"
+            raise InputError(placed.id, fault, "Leave it out of the place.")
+    try:
+        return manifest.Place(
+            title=place.title,
+            description=place.description,
+            author=place.author,
+            licence=place.licence,
+            languages=list(place.languages),
+            crs=place.crs,
+            origin=place.origin_m,
+            parts=[_part_row(*one) for one in zip(place.parts.values(), models, strict=True)],
+            points=[_cloud_row(*one) for one in zip(place.clouds, clouds, strict=True)],
+            cameras=place.cameras,
+            tours=place.tours,
+            animals=place.animals,
+            walks=place.walks,
+            scale=place.scale,
+            sun=place.sun,
+            hidden=list(place.hidden),
+            start=place.start or chosen_start(place),
+        )
+    except ValidationError as error:
+        first = error.errors()[0]
+        where = ".".join(str(step) for step in first["loc"])
+        fault = f"cannot be written as a place ({f'{where}: ' if where else ''}{first['msg']})"
+        raise InputError(place.title or "the place", fault, "Change that in the place.") from error
 
 
 def load_place(folder: Path) -> Place:
@@ -104,10 +123,24 @@ def _walk_start(walk: manifest.Walk) -> manifest.Start:
     return manifest.Start(eye=_vector(eye), target=_vector(eye + 5.0 * ahead))
 
 
-def _file_name(identity: str, number: int) -> str:
-    """A name that every file system takes; the number parts two that would be one."""
-    plain = re.sub(r"[^A-Za-z0-9_-]+", "-", identity).strip("-")[:64]
-    return plain if plain == identity else f"{plain or 'part'}-{number}"
+class _FileNames:
+    """Names that every file system takes; no two are one where case does not count."""
+
+    def __init__(self) -> None:
+        self._taken = {MANIFEST}
+
+    def free(self, above: str, identity: str, suffix: str) -> str:
+        """A name for what has this id, with a number where the id alone is none or is taken."""
+        plain = re.sub(r"[^A-Za-z0-9_-]+", "-", identity).strip("-")[:64]
+        name = f"{above}{plain}{suffix}"
+        number = 0
+        while plain != identity or name.casefold() in self._taken:
+            name = f"{above}{plain or 'part'}-{number}{suffix}"
+            if name.casefold() not in self._taken:
+                break
+            number += 1
+        self._taken.add(name.casefold())
+        return name
 
 
 def _part_row(placed: PlacedPart, model: str) -> manifest.PlacePart:

@@ -299,8 +299,7 @@ class Place(_Record):
     def _ids_are_unique(self) -> Self:
         for kind, items in (
             ("parts", self.parts), ("cameras", self.cameras), ("tours", self.tours),
-            ("animals", self.animals),
-            ("walks", self.walks),
+            ("animals", self.animals), ("walks", self.walks), ("clouds", self.points),
         ):  # fmt: skip
             seen: set[str] = set()
             for item in items:

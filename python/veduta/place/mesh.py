@@ -157,7 +157,9 @@ class Mesh:
 
     @property
     def bounds_m(self) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
-        """Lower and upper corner of the axis-parallel box around all vertices."""
+        """Lower and upper corner of the box around all vertices (m); zeros where there are none."""
+        if not len(self.positions_m):
+            return (0.0, 0.0, 0.0), (0.0, 0.0, 0.0)
         low = self.positions_m.min(axis=0).astype(float).tolist()
         high = self.positions_m.max(axis=0).astype(float).tolist()
         return (low[0], low[1], low[2]), (high[0], high[1], high[2])
