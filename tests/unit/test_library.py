@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import ast
 import gc
+import importlib
 import subprocess
 import sys
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -141,3 +143,55 @@ def test_records_that_are_not_there_are_named(name: str, tmp_path: Path) -> None
     assert "nowhere" in told.value.subject
     with pytest.raises(InputError, match="is no option of this verb"):
         function(tmp_path, no_such_option=1)
+
+
+class _Reached(Exception):
+    """What a run was called with."""
+
+
+@pytest.mark.parametrize(
+    ("function", "run", "given", "reached"),
+    [
+        ("read_walk", "walk.door:run_walk", {"calibration": "c"}, {"calibration": Path("c")}),
+        ("measure_photos", "dense.door:run_dense", {"images": "i"}, {"images": Path("i")}),
+        (
+            "derive",
+            "grammar.door:run_derive",
+            {"edits": "e", "project": "p", "libraries": ["a", "b"]},
+            {
+                "edits_path": Path("e"),
+                "project": Path("p"),
+                "libraries": [Path("a"), Path("b")],
+            },
+        ),
+    ],
+)
+def test_files_besides_the_record_reach_the_run(
+    function: str,
+    run: str,
+    given: dict[str, Any],
+    reached: dict[str, Any],
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    module, name = run.split(":")
+
+    def fake(*_: object, **named: object) -> None:
+        raise _Reached(named)
+
+    monkeypatch.setattr(importlib.import_module(f"veduta.{module}"), name, fake)
+    with pytest.raises(_Reached) as told:
+        getattr(veduta, function)("record", **given)
+    (named,) = told.value.args
+    assert reached.items() <= named.items()
+
+
+def test_files_besides_the_footage_reach_the_run(monkeypatch: pytest.MonkeyPatch) -> None:
+    door = importlib.import_module("veduta.fauna.door")
+
+    def fake(record: object, *_: object, **__: object) -> None:
+        raise _Reached(record)
+
+    monkeypatch.setattr(door, "run_fauna", fake)
+    with pytest.raises(_Reached) as told:
+        veduta.read_animal("f", masks="m", background="b", place="p", path="w")
+    assert told.value.args == (door.Record(*map(Path, ("f", "m", "b", "p", "w"))),)

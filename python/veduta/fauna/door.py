@@ -8,22 +8,34 @@ from typing import Any
 from veduta.fauna.command import run_fauna
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.recipe import Record
-from veduta.place.door import place_of_run
+from veduta.place.door import path_or_none, place_of_run
 from veduta.place.place import Place
 from veduta.run.flat import options_of
 from veduta.run.progress import Progress
 
 
 def read_animal(
-    footage: str | Path, out: str | Path | None = None, *, force: bool = False, **options: Any
+    footage: str | Path,
+    out: str | Path | None = None,
+    *,
+    masks: str | Path | None = None,
+    background: str | Path | None = None,
+    place: str | Path | None = None,
+    path: str | Path | None = None,
+    force: bool = False,
+    **options: Any,
 ) -> Place:
     """The animal that footage shows, with its skeleton and its motion.
 
-    footage: a film, or a folder of frames.
+    footage: a film, a folder of frames, a CSV of midlines, or an `animal.json` that was edited.
+    masks: a folder of silhouettes, one for each frame. background: a picture without the animal.
+    place: the folder of a place that the animal is put into. path: GeoJSON of its way there.
     out: a folder for all that `veduta fauna -o OUT` writes; without it nothing stays. options: as
     on the command line. InputError names what cannot be used; NotFoundError says what is not in it.
     """
-    chosen, record = options_of(FaunaOptions, options), Record(Path(footage))
+    chosen = options_of(FaunaOptions, options)
+    given = [path_or_none(one) for one in (masks, background, place, path)]
+    record = Record(Path(footage), *given)
     return place_of_run(
         out,
         lambda folder: run_fauna(record, folder, chosen, Progress(quiet=True), force=force),

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.pipeline import run_derive
+from veduta.place.door import path_or_none
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 from veduta.run.flat import options_of
@@ -21,16 +22,22 @@ def derive(
     out: str | Path | None = None,
     *,
     attributes: Mapping[str, bool | float | str] | None = None,
+    edits: str | Path | None = None,
+    project: str | Path | None = None,
+    libraries: Sequence[str | Path] = (),
     force: bool = False,
     **options: Any,
 ) -> Place:
     """The buildings that rules make on the lots of a file, each a part.
 
     rules: a rule file, or the name of a style such as "haussmann". lots: GeoJSON, CityJSON,
-    CityGML, GeoPackage or OBJ; a synthetic street where there are none. attributes: of the rules,
-    for all lots. out: a folder for all that `veduta grammar derive -o OUT` writes; without it
-    nothing stays. options: as on the command line, `seed=7`. For one lot and its tree of shapes:
-    `veduta.grammar.derive`. InputError names the file or the lot that cannot be used.
+    CityGML, GeoPackage, Shapefile, FlatGeobuf, KML, OpenStreetMap (XML, PBF) or OBJ; a synthetic
+    street where there are none. attributes: of the rules, for all lots. edits: a file of edits of
+    single shapes, one a line. project: the CityEngine project of the rule file, found by itself
+    where its folders lie as usual. libraries: folders beside it in which imports and assets are
+    looked for, too (`--library`). out: a folder for all that `veduta grammar derive -o OUT` writes;
+    without it nothing stays. options: as on the command line, `seed=7`. For one lot and its tree of
+    shapes: `veduta.grammar.derive`. InputError names the file or the lot that cannot be used.
     """
     asked: dict[str, Any] = {"separate": True} | options
     chosen = options_of(
@@ -43,6 +50,9 @@ def derive(
         folder,
         chosen,
         Progress(quiet=True),
+        edits_path=path_or_none(edits),
+        project=path_or_none(project),
+        libraries=[Path(one) for one in libraries],
         force=force,
     )
     if not done.built.count:

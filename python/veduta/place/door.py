@@ -11,6 +11,11 @@ from veduta.run.scratch import goes_with, scratch_folder
 from veduta.run.verb import VerbResult
 
 
+def path_or_none(given: str | Path | None) -> Path | None:
+    """What a caller may leave out, as a path."""
+    return None if given is None else Path(given)
+
+
 def place_of_run(
     out: str | Path | None, run: Callable[[Path], VerbResult], wanted: str, remedy: str
 ) -> Place:

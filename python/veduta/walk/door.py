@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from veduta.place.door import place_of_run
+from veduta.place.door import path_or_none, place_of_run
 from veduta.place.place import Place
 from veduta.run.flat import options_of
 from veduta.run.progress import Progress
@@ -14,18 +14,31 @@ from veduta.walk.options import WalkOptions
 
 
 def read_walk(
-    pairs: str | Path, out: str | Path | None = None, *, force: bool = False, **options: Any
+    pairs: str | Path,
+    out: str | Path | None = None,
+    *,
+    calibration: str | Path | None = None,
+    force: bool = False,
+    **options: Any,
 ) -> Place:
     """A walk from stereo view to stereo view through a landscape.
 
-    pairs: the folder of the stereo pairs, in the order of the way.
+    pairs: the folder of the stereo pairs, in the order of the way. calibration: of the
+    two cameras, where it does not lie in that folder.
     out: a folder for all that `veduta walk -o OUT` writes; without it nothing stays. options: as
     on the command line. InputError names what cannot be used; NotFoundError says what is not in it.
     """
     chosen = options_of(WalkOptions, options)
     return place_of_run(
         out,
-        lambda folder: run_walk(Path(pairs), folder, chosen, Progress(quiet=True), force=force),
+        lambda folder: run_walk(
+            Path(pairs),
+            folder,
+            chosen,
+            Progress(quiet=True),
+            calibration=path_or_none(calibration),
+            force=force,
+        ),
         "a walk",
         "Take the pairs nearer to each other.",
     )
