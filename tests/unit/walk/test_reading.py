@@ -56,6 +56,13 @@ T: !!opencv-matrix
    dt: d
    data: [ -0.5, 0., 0. ]
 """
+HUGE = "rows: 300000\n   cols: 300000"
+
+
+def _lens(count: int, values: str) -> str:
+    """OPENCV with another left lens."""
+    lens = "cols: 5\n   dt: d\n   data: [ -0.2, 0.05, 0., 0., 0. ]"
+    return OPENCV.replace(lens, f"cols: {count}\n   dt: d\n   data: [ {values} ]", 1)
 
 
 def _pictures(folder: Path, names: list[str], size: tuple[int, int] = (40, 30)) -> None:
@@ -140,6 +147,13 @@ def test_lenses_of_opencv_are_taken_out(tmp_path: Path) -> None:
     assert rectifier.rig.shift_px == pytest.approx(0.0)
 
 
+def test_a_lens_with_no_prism_and_no_tilt_is_the_rational_one(tmp_path: Path) -> None:
+    (tmp_path / "rig.yml").write_text(_lens(14, "-0.2, " + "0.01, " * 7 + "0., " * 5 + "0."))
+    calibration = find_calibration(tmp_path, None, "left")
+    assert calibration.distortion_left == (-0.2, *[0.01] * 7)
+    assert make_rectifier(calibration, (1200, 360)).maps is not None
+
+
 @pytest.mark.parametrize(
     ("name", "text", "words"),
     [
@@ -153,6 +167,30 @@ def test_lenses_of_opencv_are_taken_out(tmp_path: Path) -> None:
         ("walk.toml", TOML.replace("0.5", "-0.5"), "baseline_m"),
         ("rig.yml", "%YAML:1.0\n---\nM1: 3\n", "camera matrix of the left"),
         ("rig.yml", OPENCV.replace("[ -0.5, 0., 0. ]", "[ 0., 0., 0. ]"), "translation T"),
+        ("rig.yml", _lens(3, "-0.2, 0.05, 0."), "lens has 3 numbers"),
+        ("rig.yml", _lens(5, "-0.2, .Nan, 0., 0., 0."), "lens has a value that is no number"),
+        ("rig.yml", _lens(12, "0.1, " * 11 + "0.1"), "lens has 12 numbers"),
+        ("rig.yml", OPENCV.replace("   dt: d\n", "", 1), "camera matrix of the left"),
+        ("rig.yml", OPENCV.replace("rows: 3\n   cols: 3", HUGE, 1), "camera matrix of the left"),
+        ("rig.yml", OPENCV.replace("rows: 3", "rows: 4", 1), "a matrix that OpenCV does not"),
+        (
+            "rig.yml",
+            OPENCV.replace("0., 700., 179.5", "0., 0., 179.5"),
+            "focal lengths are not above 0",
+        ),
+        ("rig.yml", OPENCV.replace("[ 1., 0., 0., 0., 1.", "[ .Nan, 0., 0., 0., 1."), "R is no"),
+        ("rig.yml", OPENCV.replace("[ 1., 0., 0., 0., 1.", "[ -1., 0., 0., 0., 1."), "R is no"),
+        ("rig.yml", "%YAML:1.0\n---\n- 1\n- 2\n", "matri"),
+        ("walk.toml", TOML.replace("700", "inf"), "no number"),
+        ("walk.toml", TOML.replace("600.0", "nan"), "no number"),
+        (
+            "calib.txt",
+            MIDDLEBURY.replace("0 700 179.5", "0 0 179.5"),
+            "focal lengths are not above 0",
+        ),
+        ("calib.txt", MIDDLEBURY.replace("0 0 1]", "0 1 1]", 1), "does not end 0 0 1"),
+        ("calib.txt", MIDDLEBURY.replace("baseline=500", "baseline=inf"), "baseline of inf"),
+        ("calib.txt", BARE.replace("0 700 180", "0 -700 180"), "focal lengths are not above 0"),
     ],
 )
 def test_broken_calibrations_are_named(tmp_path: Path, name: str, text: str, words: str) -> None:

@@ -24,7 +24,7 @@ def read_middlebury(path: Path, text: str) -> RigCalibration:
         size = (int(said["width"]), int(said["height"])) if "width" in said else None
     except (KeyError, ValueError) as error:
         raise InputError(path, "says no baseline in millimetres", _REMEDY) from error
-    if not baseline_m > 0.0:
+    if not 0.0 < baseline_m <= 100.0:
         raise InputError(path, f"has a baseline of {baseline_m} m", _REMEDY)
     between = np.column_stack([np.eye(3), [-baseline_m, 0.0, 0.0]])
     return RigCalibration(path, left, right, between, size_px=size)

@@ -12,6 +12,8 @@ from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.walk.rig import Image, PairFiles, Rig, RigCalibration, StereoPair
 
+_AGAIN = "Calibrate the two cameras again: lens or rotation are far from any camera's."
+
 
 @dataclass(frozen=True)
 class Rectifier:
@@ -69,10 +71,15 @@ def _made(calibration: RigCalibration, size_px: tuple[int, int]) -> Rectifier:
     turn, move = (
         np.ascontiguousarray(part) for part in np.split(calibration.right_from_left, [3], axis=1)
     )
-    found = cv2.stereoRectify(
-        cameras[0], lenses[0], cameras[1], lenses[1], size_px, turn, move,
-        flags=cv2.CALIB_ZERO_DISPARITY, alpha=0.0,
-    )  # fmt: skip
+    try:
+        found = cv2.stereoRectify(
+            cameras[0], lenses[0], cameras[1], lenses[1], size_px, turn, move,
+            flags=cv2.CALIB_ZERO_DISPARITY, alpha=0.0,
+        )  # fmt: skip
+    except cv2.error as error:
+        raise InputError(calibration.source, "cannot be rectified", _AGAIN) from error
+    if not all(np.isfinite(one).all() for one in found[:4]):
+        raise InputError(calibration.source, "cannot be rectified", _AGAIN)
     turns, projections = found[0:2], found[2:4]
     maps = tuple(
         cv2.initUndistortRectifyMap(camera, lens, own, projection, size_px, cv2.CV_32FC1)
