@@ -46,6 +46,18 @@ def read_text(path: Path, largest: int = LARGEST_LIST_BYTES) -> str:
     return text
 
 
+def read_head(path: Path, most_bytes: int) -> str:
+    """The start of a file's text, to see what it is; nothing of a folder or a link to nothing."""
+    if not path.is_file():
+        return ""
+    try:
+        with path.open("rb") as file:
+            return file.read(most_bytes).decode("utf-8", "replace")
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(path, fault, "Check its permissions.") from error
+
+
 def lines_of(text: str) -> list[tuple[int, list[str]]]:
     """The number and the words of each line that says something; `#` starts a remark."""
     lines = (

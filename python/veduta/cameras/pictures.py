@@ -14,6 +14,8 @@ from veduta.run.errors import InputError
 MOST_PICTURES = 200_000
 LONGEST_NAME = 255
 """Bytes of a file's name: systems refuse to look for longer ones."""
+LONGEST_PATH = 1024
+"""Bytes of a name with its folders."""
 NEAR = ("images", "image", "pictures", "photos", "visualize", "rgb")
 """Folders beside a file of cameras where its pictures may be."""
 _GIVE = "Name the folder of the photos, and give them the names that the cameras have."
@@ -45,6 +47,8 @@ class Pictures:
         """The picture of a name: as a path in a folder, by its last part, then by its stem."""
         inner = Path(name.replace("\\", "/"))
         if max((len(part.encode()) for part in inner.parts), default=0) > LONGEST_NAME:
+            return None
+        if len(name.encode()) > LONGEST_PATH:
             return None
         if not inner.is_absolute() and ".." not in inner.parts:
             for folder in self.folders:

@@ -192,3 +192,45 @@ def test_a_name_that_no_file_has(tmp_path: Path) -> None:
     path = tmp_path / "images.txt"
     path.write_text(path.read_text().replace("a2.png", "a" * 3000 + ".png"))
     assert read_cameras(tmp_path).cameras[-1].picture is None
+
+
+def test_photos_outside_of_the_folder_are_not_looked_at(tmp_path: Path) -> None:
+    model = tmp_path / "model" / "sparse"
+    model.mkdir(parents=True)
+    elsewhere = tmp_path / "elsewhere"
+    made.write_pictures(elsewhere)
+    made.write_openmvg(model, made.ring())
+    path = model / "sfm_data.json"
+    record = json.loads(path.read_text())
+    (model / "linked").symlink_to(elsewhere)
+    for root in (str(elsewhere), "../../elsewhere", "linked", "a" * 3000, "a/" * 3000, "a\0b", 7):
+        path.write_text(json.dumps(record | {"root_path": root}))
+        assert [one.picture for one in read_cameras(path).cameras] == [None] * 4
+    made.write_pictures(model / "taken" / "first")
+    path.write_text(json.dumps(record | {"root_path": "taken/first"}))
+    assert read_cameras(path).cameras[0].picture == model / "taken" / "first" / "a0.png"
+    path.write_text(json.dumps(record))
+    assert read_cameras(path, elsewhere).cameras[0].picture == elsewhere / "a0.png"
+
+
+@pytest.mark.parametrize("focal", ["0.0", "-70.0", "NaN", "Infinity"])
+def test_openmvg_without_a_focal_length(focal: str, tmp_path: Path) -> None:
+    made.write_openmvg(tmp_path, made.ring())
+    path = tmp_path / "sfm_data.json"
+    record = json.loads(path.read_text())
+    inner = record["intrinsics"][0]["value"]["ptr_wrapper"]["data"]
+    inner["focal_length"] = float(focal.replace("Infinity", "inf"))
+    path.write_text(json.dumps(record))
+    assert refused(path, "a focal length of").subject == str(path)
+
+
+def test_texts_that_are_no_files(tmp_path: Path) -> None:
+    (tmp_path / "gone.txt").symlink_to(tmp_path / "nowhere")
+    (tmp_path / "folder.txt").mkdir()
+    (tmp_path / "deep.P").mkdir()
+    refused(tmp_path, "holds no cameras")
+    projections = [made.corner_projection(camera) for camera in made.ring()]
+    rows = "\n".join(" ".join(map(str, one.ravel().tolist())) for one in projections)
+    (tmp_path / "all.txt").write_text(rows)
+    made.write_pictures(tmp_path / "images")
+    assert len(read_cameras(tmp_path).cameras) == 4

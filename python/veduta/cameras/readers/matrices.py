@@ -15,7 +15,15 @@ from numpy.typing import NDArray
 
 from veduta.cameras.camera import Camera, CameraSet
 from veduta.cameras.convention import Seen, require_convention
-from veduta.cameras.files import COPY_AGAIN, lines_of, numbers, read_mat, read_text
+from veduta.cameras.files import (
+    COPY_AGAIN,
+    LARGEST_LIST_BYTES,
+    lines_of,
+    numbers,
+    read_head,
+    read_mat,
+    read_text,
+)
 from veduta.cameras.pictures import Pictures, natural_order, near
 from veduta.cameras.projection import part_projection
 from veduta.imaging.read import image_size
@@ -157,11 +165,12 @@ def _texts(folder: Path) -> list[Path]:
 
 
 def _is_text(path: Path) -> bool:
-    if path.suffix.lower() not in (".txt", ".p") or path.stat().st_size > 50_000_000:
+    """Whether it is a file with rows of matrices; a folder or a link to nothing is none."""
+    if path.suffix.lower() not in (".txt", ".p") or not path.is_file():
         return False
-    with path.open("rb") as file:
-        head = file.read(MOST_HEAD).decode("utf-8", "replace")
-    lines = [words for _, words in lines_of(head)]
+    if path.stat().st_size > LARGEST_LIST_BYTES:
+        return False
+    lines = [words for _, words in lines_of(read_head(path, MOST_HEAD))]
     if lines and lines[0] == [_HEADED]:
         lines = lines[1:]
     try:

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from veduta.cameras.camera import Camera, CameraSet
-from veduta.cameras.files import COPY_AGAIN, lines_of, numbers, read_text
+from veduta.cameras.files import COPY_AGAIN, lines_of, numbers, read_head, read_text
 from veduta.cameras.pictures import near, require_picture
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
@@ -29,10 +29,8 @@ def find(folder: Path) -> Path | None:
 
 def is_one(path: Path) -> bool:
     """Whether a file starts with a count and a line of a name and numbers."""
-    with path.open("rb") as file:
-        head = file.read(4096).decode("utf-8", "replace")
-    lines = lines_of(head)
-    if len(lines) < 2 or len(lines[0][1]) != 1 or not lines[0][1][0].isdigit():
+    lines = lines_of(read_head(path, 4096))
+    if len(lines) < 2 or len(lines[0][1]) != 1 or not lines[0][1][0].isdecimal():
         return False
     return len(lines[1][1]) == NUMBERS + 1 and not _is_number(lines[1][1][0])
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from veduta.cameras.camera import Camera, CameraSet
 from veduta.cameras.convention import Seen, require_convention
 from veduta.cameras.files import COPY_AGAIN, picture_size, read_json
-from veduta.cameras.pictures import Pictures, near, with_pictures
+from veduta.cameras.pictures import LONGEST_NAME, Pictures, near, with_pictures
 from veduta.cameras.projection import nearest_turn
 from veduta.run.errors import InputError
 
@@ -19,6 +19,8 @@ Floats = NDArray[np.float64]
 DAMAGE = (KeyError, TypeError, ValueError, IndexError, AttributeError, OverflowError)
 _KEYS = {"sfm_data_version", "views", "intrinsics", "extrinsics"}
 _FIRST_ID = 2**31
+_DEEPEST = 8
+"""Folders below one another, of the photos."""
 
 
 def is_one(record: Any) -> bool:
@@ -42,7 +44,7 @@ def read(found: Path, images: Path | None) -> CameraSet:
     require_convention(found, cameras, seen)
     pictures = near(found, images)
     if images is None:
-        pictures = Pictures([*pictures.folders, Path(str(record.get("root_path") or "."))])
+        pictures = Pictures([*pictures.folders, *_root(found, record.get("root_path"))])
     return CameraSet(
         cameras=with_pictures(cameras, pictures, found),
         points=points,
@@ -50,6 +52,21 @@ def read(found: Path, images: Path | None) -> CameraSet:
         visible=visible,
         source=str(found),
     )
+
+
+def _root(found: Path, said: object) -> list[Path]:
+    """The folder of photos that a file names, where that is below the file's own folder.
+
+    An absolute one is of the machine that made the file; what lies there is not looked at.
+    """
+    if not isinstance(said, str) or not said or "\0" in said:
+        return []
+    parts = said.encode("utf-8", "replace").split(b"/")
+    if max(map(len, parts)) > LONGEST_NAME or len(parts) > _DEEPEST or Path(said).is_absolute():
+        return []
+    folder = found.parent.resolve()
+    root = (folder / said).resolve()
+    return [root] if root.is_relative_to(folder) else []
 
 
 def _intrinsics(path: Path, rows: list[Any]) -> dict[int, dict[str, Any]]:
@@ -67,11 +84,18 @@ def _intrinsics(path: Path, rows: list[Any]) -> dict[int, dict[str, Any]]:
         lens = _lens(path, kind, data)
         found[int(row["key"])] = {
             "size": picture_size(path, inner["width"], inner["height"]),
-            "focal": float(inner["focal_length"]),
+            "focal": _focal(path, float(inner["focal_length"])),
             "centre": tuple(float(value) + 0.5 for value in inner["principal_point"]),
             "lens": lens,
         }
     return found
+
+
+def _focal(path: Path, focal_px: float) -> float:
+    if not (np.isfinite(focal_px) and focal_px > 0.0):
+        fault = f"has a camera with a focal length of {focal_px} px"
+        raise InputError(path, fault, COPY_AGAIN)
+    return focal_px
 
 
 def _lens(path: Path, kind: str, data: dict[str, Any]) -> tuple[float, ...]:
