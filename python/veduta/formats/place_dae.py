@@ -33,7 +33,7 @@ def write_dae(place: Place, path: Path) -> None:
         etree.SubElement(root, f"library_{name}")
         for name in ("images", "effects", "materials", "geometries", "visual_scenes")
     )
-    scene = _child(scenes, "visual_scene", id="scene", name=place.title or "Place")
+    scene = _child(scenes, "visual_scene", id="scene", name=clean(place.title or "Place"))
     pictures = Pictures(path)
     known: dict[str, str] = {}
     for number, shape in enumerate(shapes(place)):
@@ -71,7 +71,7 @@ def _asset(root: Any, place: Place) -> None:
     _child(asset, "modified", _MADE)
     x, y, z = place.origin_m
     if place.crs:
-        _child(asset, "subject", f"zero is at ({x}, {y}, {z}) in {place.crs}")
+        _child(asset, "subject", clean(f"zero is at ({x}, {y}, {z}) in {place.crs}"))
     if place.title:
         _child(asset, "title", clean(place.title))
     _child(asset, "unit", name="metre", meter="1")
@@ -107,7 +107,7 @@ def _material(
     if own.opacity < 1.0:
         _colour(_child(shading, "transparent", opaque="A_ONE"), (1.0, 1.0, 1.0))
         _child(_child(shading, "transparency"), "float", f"{own.opacity:.4f}")
-    material = _child(materials, "material", id=name, name=look.name)
+    material = _child(materials, "material", id=name, name=clean(look.name))
     _child(material, "instance_effect", url=f"#{name}-effect")
 
 

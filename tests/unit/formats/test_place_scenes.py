@@ -9,7 +9,9 @@ import pytest
 from lxml import etree
 from place_sample import area_of, corners_of, sample_place
 
-from veduta.place.place import Place
+from veduta.place.material import Material
+from veduta.place.mesh import Mesh
+from veduta.place.place import Place, Standing
 from veduta.run.errors import InputError
 
 pxr = pytest.importorskip("pxr")
@@ -87,6 +89,18 @@ def test_usd_without_its_package(
     monkeypatch.setitem(sys.modules, "pxr", None)
     with pytest.raises(InputError, match=r"x\.usd: .*not installed.* pip install 'veduta\[usd\]'"):
         place.write(tmp_path / "x.usd")
+
+
+def test_collada_of_names_with_control_characters(tmp_path: Path) -> None:
+    place = Place(title="a\x00b\x1bc", crs="x\x01")
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1]])
+    material = Material("st\x02one", (0.5, 0.5, 0.5))
+    mesh = Mesh.simple("sail", corners, np.array([[0, 1, 2]]), material=material)
+    place.add(mesh, Standing(name="one\x03two"))
+    place.write(tmp_path / "place.dae")
+    root = etree.parse(str(tmp_path / "place.dae")).getroot()
+    assert root.findtext("c:asset/c:title", namespaces=COLLADA) == "a?b?c"
+    assert root.find(".//c:visual_scene", COLLADA).get("name") == "a?b?c"
 
 
 def test_collada_has_the_same_triangles(place: Place, tmp_path: Path) -> None:
