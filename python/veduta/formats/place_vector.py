@@ -60,6 +60,7 @@ def write_gpkg(place: Place, path: Path) -> None:
         raise InputError(path, "the place has no part with an outline", "Choose another place.")
     names = list(dict.fromkeys(name for one in found for name in one.attributes))
     columns = [_column([one.attributes.get(name) for one in found]) for name in names]
+    fields = np.array(_fields(names), dtype=object)
     shapes = np.array([shapely.to_wkb(one.polygon) for one in found], dtype=object)
     with atomic_write(path) as temporary:
         temporary.unlink()
@@ -74,13 +75,16 @@ def write_gpkg(place: Place, path: Path) -> None:
                     str(fresh),
                     geometry=shapes,
                     field_data=columns,
-                    fields=np.array([_free(name) for name in names], dtype=object),
+                    fields=fields,
                     layer=LAYER,
                     driver="GPKG",
                     geometry_type="MultiPolygon",
                     crs=place.crs,
                 )
             fresh.replace(temporary)
+        except (pyogrio.errors.DataSourceError, pyogrio.errors.FieldError) as error:
+            told = " ".join(str(error).split())[:200]
+            raise InputError(path, f"cannot be written ({told})", "Write a GeoJSON.") from error
         finally:
             fresh.unlink(missing_ok=True)
 
@@ -89,6 +93,7 @@ def _placed(place: Place, path: Path) -> list[Outline]:
     """The outlines in the place's CRS; of one in none, from its origin."""
     if place.scale == "unknown":
         raise InputError(path, "the place has no known scale", "Give it its scale first.")
+    _require_crs(place, path)
     east, north, up = place.origin_m
     made = []
     for one in outlines(place):
@@ -120,14 +125,49 @@ def _rounded(value: Any, digits: int) -> Any:
     return value
 
 
-def _free(name: str) -> str:
-    """A column's name; `fid` and `geom` are the format's own."""
-    return f"{name}_" if name.lower() in ("fid", "geom") else name
+def _require_crs(place: Place, path: Path) -> None:
+    """InputError where the place's CRS is none that is known."""
+    from pyproj import CRS
+    from pyproj.exceptions import CRSError
+
+    if place.crs is None:
+        return
+    try:
+        CRS.from_user_input(place.crs)
+    except CRSError as error:
+        fault = f"the place is in {place.crs[:100]!r}, which is no coordinate reference system"
+        raise InputError(path, fault, "Give it as EPSG:code.") from error
+
+
+def _fields(names: list[str]) -> list[str]:
+    """The columns' names, no two alike but for their case: a database knows no case.
+
+    `fid` and `geom` are the format's own. A later name like an earlier one gets `_` at its end.
+    """
+    taken = {"fid", "geom"}
+    found = []
+    for name in names:
+        free = _clean(name)
+        while free.casefold() in taken:
+            free += "_"
+        taken.add(free.casefold())
+        found.append(free)
+    return found
+
+
+def _clean(name: str) -> str:
+    """A column's name without control characters, which would end or break it."""
+    return "".join(one if one.isprintable() else "?" for one in name) or "_"
 
 
 def _column(values: list[Any]) -> Any:
-    """Numbers as numbers, all else as text; what is not known is null."""
+    """Numbers as numbers, all else as text; what is not known is null.
+
+    Integers that a column of 64 bits cannot hold are written as text, with all their digits.
+    """
     known = [value for value in values if value is not None]
+    if any(isinstance(value, int) and not -(2**63) <= value < 2**63 for value in known):
+        return np.array([None if value is None else str(value) for value in values], dtype=object)
     if known and all(isinstance(value, int) for value in known) and len(known) == len(values):
         return np.array(values, dtype=np.int64)
     if known and all(isinstance(value, (int, float)) for value in known):

@@ -6,6 +6,7 @@ import json
 import shutil
 import subprocess
 from collections import Counter
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -157,6 +158,39 @@ def test_outlines_of_an_unknown_scale_are_refused(tmp_path: Path) -> None:
     place = Place(scale="unknown")
     with pytest.raises(InputError, match="no known scale"):
         place.write(tmp_path / "x.gpkg")
+
+
+def _sheet(attributes: dict[str, object], crs: str | None = None) -> Place:
+    place = Place(crs=crs)
+    corners = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    mesh = Mesh.simple("sheet", corners, np.array([[0, 1, 2]]))
+    place.add(replace(mesh, attributes=attributes), Standing())
+    return place
+
+
+def test_columns_alike_but_for_their_case_have_their_own_names(tmp_path: Path) -> None:
+    told = {"Name": "one", "NAME_": "two", "FID": 3, "geom": "four", "a\0b": 5, "": 6}
+    _sheet(told).write(tmp_path / "x.gpkg")
+    meta, _, _, columns = pyogrio.raw.read(tmp_path / "x.gpkg")
+    rows = {name: column[0] for name, column in zip(meta["fields"], columns, strict=True)}
+    assert (rows["name"], rows["Name_"], rows["NAME__"]) == ("sheet", "one", "two")
+    assert (rows["FID_"], rows["geom_"], rows["a?b"], rows["_"]) == (3, "four", 5, 6)
+
+
+def test_integers_over_64_bits_keep_their_digits(tmp_path: Path) -> None:
+    _sheet({"large": 2**70, "small": -(2**63)}).write(tmp_path / "x.gpkg")
+    meta, _, _, columns = pyogrio.raw.read(tmp_path / "x.gpkg")
+    rows = {name: column[0] for name, column in zip(meta["fields"], columns, strict=True)}
+    assert (rows["large"], rows["small"]) == (str(2**70), -(2**63))
+
+
+@pytest.mark.parametrize("suffix", [".gpkg", ".geojson"])
+def test_outlines_in_no_known_crs_are_refused(suffix: str, tmp_path: Path) -> None:
+    path = tmp_path / f"x{suffix}"
+    with pytest.raises(InputError, match="'EPSG:nothing', which is no coordinate") as raised:
+        _sheet({}, "EPSG:nothing").write(path)
+    assert raised.value.remedy
+    assert not path.exists()
 
 
 def test_a_backdrop_is_no_building(tmp_path: Path) -> None:
