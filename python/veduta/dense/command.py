@@ -11,11 +11,11 @@ from numpy.typing import NDArray
 from pydantic import JsonValue
 
 from veduta.cameras import Camera, CameraSet, read_cameras
-from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box
+from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box, without_strays
 from veduta.dense.build.colouring import colour_vertices
 from veduta.dense.build.composing import compose
 from veduta.dense.build.standing import place_from_cameras
-from veduta.dense.build.surface import RawSurface, build_surface, natural_voxel_m
+from veduta.dense.build.surface import RawSurface, build_surface, cut_surface, natural_voxel_m
 from veduta.dense.build.texturing import textured
 from veduta.dense.depths import Matching, all_depth_maps
 from veduta.dense.document import DepthMap, Views
@@ -198,6 +198,9 @@ def _cloud(
     with work.step("cloud") as step:
         links = {one.view: one.neighbours for one in comparisons}
         cloud = fuse_cloud(views, links, depth_map, options.depth.agree + 1, parameters.cloud)
+        fused = len(cloud.points_m)
+        cloud = without_strays(cloud, parameters.cloud)
+        step.counts["strays"] = fused - len(cloud.points_m)
         if options.views.box is not None:
             cloud = within_box(cloud, options.views.box)
         if not len(cloud.points_m):
@@ -224,6 +227,8 @@ def _mesh(
         natural = natural_voxel_m(views, depth_map, order, parameters.surface.voxel_px)
         voxel = wanted.voxel_m or natural
         raw = build_surface(views, depth_map, order, voxel, memory, parameters.surface)
+        if options.views.box is not None:
+            raw = cut_surface(raw, options.views.box)
         step.counts.update(triangles=len(raw.triangles), dropped=raw.dropped)
         work.measure("voxel_m", round(raw.voxel_m, 6))
         if raw.voxel_m > voxel:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.spatial import cKDTree
 
 from veduta import _core
 from veduta.dense.document import DepthMap, Views, camera_row
@@ -14,10 +15,15 @@ from veduta.dense.document import DepthMap, Views, camera_row
 
 @dataclass(frozen=True)
 class CloudParameters:
-    """When the pixels of two views are the same spot: `veduta_stereo::consistent` (Rust)."""
+    """most_px, most_share: when the pixels of two views are the same spot
+    (`veduta_stereo::consistent`, Rust). stray_beside: points around one that are asked.
+    stray_factor: a point whose points around are so many times farther away than theirs is stray.
+    """
 
     most_px: float = 2.0
     most_share: float = 0.01
+    stray_beside: int = 6
+    stray_factor: float = 4.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -71,7 +77,26 @@ def fuse_cloud(
 def within_box(cloud: DenseCloud, box: tuple[float, ...]) -> DenseCloud:
     """The points in a box: xmin ymin zmin xmax ymax zmax (m)."""
     low, high = np.array(box[:3]), np.array(box[3:])
-    keep = ((cloud.points_m >= low) & (cloud.points_m <= high)).all(axis=1)
+    inside = (cloud.points_m >= low) & (cloud.points_m <= high)
+    return _chosen(cloud, np.asarray(inside.all(axis=1)))
+
+
+def without_strays(cloud: DenseCloud, parameters: CloudParameters) -> DenseCloud:
+    """Without points that stand alone: far from those around by the spacing that these have.
+
+    The spacing is measured anew at each spot, as a street's points grow sparse with the distance.
+    """
+    beside = parameters.stray_beside
+    if len(cloud.points_m) <= beside:
+        return cloud
+    found = cKDTree(cloud.points_m).query(cloud.points_m, k=beside + 1, workers=-1)
+    away, index = (np.asarray(one) for one in found)
+    reach = away[:, -1]
+    usual = np.median(reach[index[:, 1:]], axis=1)
+    return _chosen(cloud, np.asarray(reach <= parameters.stray_factor * usual))
+
+
+def _chosen(cloud: DenseCloud, keep: NDArray[np.bool_]) -> DenseCloud:
     return DenseCloud(
         cloud.points_m[keep], cloud.normals[keep], cloud.colours[keep], cloud.views[keep]
     )

@@ -115,6 +115,18 @@ def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSu
     return RawSurface(points, triangles, surface.voxel_m, len(faces) - len(kept))
 
 
+def cut_surface(surface: RawSurface, box: tuple[float, ...]) -> RawSurface:
+    """The triangles wholly in a box: xmin ymin zmin xmax ymax zmax (m). NotFoundError if none is."""
+    low, high = np.array(box[:3]), np.array(box[3:])
+    between = (surface.points_m >= low) & (surface.points_m <= high)
+    inside = np.asarray(between.all(axis=1))
+    kept = surface.triangles[inside[surface.triangles].all(axis=1)].astype(np.int64)
+    if not len(kept):
+        raise NotFoundError("a surface", "none lies in the box", "Give a larger --box.")
+    points, triangles = compact(surface.points_m, kept)
+    return RawSurface(points, triangles, surface.voxel_m, surface.dropped)
+
+
 def compact(
     points: NDArray[np.float64], faces: NDArray[np.int64]
 ) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
