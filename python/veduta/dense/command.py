@@ -44,7 +44,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "1"
+VERSION = "2"
 SURFACE = "surface"
 MEMORY_OF_VOLUME = 0.5
 """Share of the memory that the volume may take."""
