@@ -8,6 +8,7 @@ in the place's own CRS. Heights are attributes.
 from __future__ import annotations
 
 import json
+import math
 import warnings
 from pathlib import Path
 from typing import Any
@@ -33,7 +34,7 @@ def write_geojson(place: Place, path: Path) -> None:
     for one in _placed(place, path):
         polygon = one.polygon
         if place.crs is not None:
-            polygon = _in_degrees(polygon, place)
+            polygon = _in_degrees(polygon, place, path)
         features.append(
             {
                 "type": "Feature",
@@ -48,7 +49,8 @@ def write_geojson(place: Place, path: Path) -> None:
     if place.crs is None:
         document["crs"] = None
     document["features"] = features
-    write_bytes(path, json.dumps(document, ensure_ascii=False, allow_nan=False).encode())
+    text = json.dumps(document, ensure_ascii=False, allow_nan=False)
+    write_bytes(path, text.encode("utf-8", "replace"))
 
 
 def write_gpkg(place: Place, path: Path) -> None:
@@ -100,11 +102,21 @@ def _placed(place: Place, path: Path) -> list[Outline]:
         moved = shapely.affinity.translate(one.polygon, east, north)
         ground = one.attributes["ground_m"]
         above = round(ground + up, 2) if isinstance(ground, (int, float)) else None
-        made.append(Outline(one.id, moved, one.attributes | {"ground_m": above}))
+        told = {name: _plain(value) for name, value in one.attributes.items()}
+        made.append(Outline(one.id, moved, told | {"ground_m": above}))
     return made
 
 
-def _in_degrees(polygon: MultiPolygon, place: Place) -> MultiPolygon:
+def _plain(value: Any) -> Any:
+    """A value as a table or JSON can hold it: what is no number is not known."""
+    if isinstance(value, np.generic):
+        value = value.item()
+    if isinstance(value, float) and not math.isfinite(value):
+        return None
+    return value.encode("utf-8", "replace").decode() if isinstance(value, str) else value
+
+
+def _in_degrees(polygon: MultiPolygon, place: Place, path: Path) -> MultiPolygon:
     from pyproj import Transformer
 
     turn = Transformer.from_crs(place.crs, _DEGREES, always_xy=True)
@@ -112,7 +124,11 @@ def _in_degrees(polygon: MultiPolygon, place: Place) -> MultiPolygon:
     def degrees(points: Any) -> Any:
         return np.column_stack(turn.transform(points[:, 0], points[:, 1]))
 
-    return shapely.transform(polygon, degrees)
+    turned = shapely.transform(polygon, degrees)
+    if not np.isfinite(shapely.get_coordinates(turned)).all():
+        fault = f"the place lies outside of its coordinate system {place.crs}"
+        raise InputError(path, fault, "Give its origin in that system, or the right one.")
+    return turned
 
 
 def _rounded(value: Any, digits: int) -> Any:

@@ -193,6 +193,25 @@ def test_outlines_in_no_known_crs_are_refused(suffix: str, tmp_path: Path) -> No
     assert not path.exists()
 
 
+def test_values_that_json_cannot_hold(tmp_path: Path) -> None:
+    told = {"nan": float("nan"), "inf": float("inf"), "half": "a\ud800", "count": np.int64(3)}
+    place = _sheet(told)
+    place.title = "b\ud800"
+    for suffix in (".geojson", ".gpkg"):
+        place.write(tmp_path / f"x{suffix}")
+    document = json.loads((tmp_path / "x.geojson").read_bytes())
+    found = document["features"][0]["properties"]
+    assert [found[name] for name in told] == [None, None, "a?", 3]
+    assert document["title"] == "b?"
+
+
+def test_a_place_outside_of_its_crs_has_no_degrees(tmp_path: Path) -> None:
+    place = _sheet({}, CRS)
+    place.origin_m = (1e12, 1e12, 0.0)
+    with pytest.raises(InputError, match="outside of its coordinate system"):
+        place.write(tmp_path / "x.geojson")
+
+
 def test_a_backdrop_is_no_building(tmp_path: Path) -> None:
     place = Place()
     corners = np.array([[0, 0, 0], [1, 0, 0], [0, 0, 1]])
