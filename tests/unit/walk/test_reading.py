@@ -201,6 +201,13 @@ def test_broken_calibrations_are_named(tmp_path: Path, name: str, text: str, wor
     assert raised.value.remedy
 
 
+def test_a_lens_beyond_all_lenses_is_refused(tmp_path: Path) -> None:
+    (tmp_path / "rig.yml").write_text(_lens(5, "1e300, 1e300, 0., 0., 0."))
+    with pytest.raises(InputError, match="cannot be rectified") as raised:
+        make_rectifier(find_calibration(tmp_path, None, "left"), (1200, 360))
+    assert raised.value.subject == str(tmp_path / "rig.yml")
+
+
 def test_calibrations_of_other_pictures_are_refused(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="holds no calibration"):
         find_calibration(tmp_path, None, "left")
