@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import re
+import shutil
+from collections.abc import Iterable
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,7 @@ from veduta.formats.mesh_glb_read import read_model
 from veduta.formats.place_json import read_place, write_place
 from veduta.formats.ply import read_points, write_points
 from veduta.place import manifest
+from veduta.place.files import Source, copies, drawn_files, files_beside
 from veduta.place.mesh import Mesh
 from veduta.place.place import Cloud, Place, PlacedPart, Standing
 from veduta.run.errors import InputError
@@ -25,16 +28,22 @@ EYE_HEIGHT_M = 1.7
 
 
 def save_place(place: Place, folder: Path) -> None:
-    """Write all of it into a folder; pictures of cameras and documents must lie there already.
+    """Write all of it into a folder, with the files that it names from where it was loaded.
+
+    Files that a place made in memory names must lie in the folder already.
 
     InputError, before anything is written, for what no manifest can say (two things of one id, a
-    part too far away) and for a part without triangles.
+    part too far away), for a part without a surface, and for files that are not there.
     """
-    names = _FileNames()
+    names = _FileNames(place.names())
     models = [names.free(f"{PARTS}/", one.id, ".glb") for one in place.parts.values()]
     clouds = [names.free("", one.id, ".ply") for one in place.clouds]
     described = _described(place, models, clouds)
+    brought = copies(place.sources(), folder)
     (folder / PARTS if models else folder).mkdir(parents=True, exist_ok=True)
+    for source, target in brought:
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copyfile(source, target)
     for placed, name in zip(place.parts.values(), models, strict=True):
         content = placed.content
         if isinstance(content, Mesh):
@@ -95,6 +104,8 @@ def load_place(folder: Path) -> Place:
         walks=told.walks, sun=told.sun, hidden=tuple(told.hidden), start=told.start,
         folder=folder, tileset=told.tileset, animals=told.animals,
     )  # fmt: skip
+    beside = files_beside(told.parts, told.cameras, told.walks)
+    place.files = {name: Source(folder, name) for name in [*drawn_files(told.walks), *beside]}
     for row in told.parts:
         place.parts[row.id] = _placed(row, folder)
     for cloud in told.points:
@@ -126,8 +137,8 @@ def _walk_start(walk: manifest.Walk) -> manifest.Start:
 class _FileNames:
     """Names that every file system takes; no two are one where case does not count."""
 
-    def __init__(self) -> None:
-        self._taken = {MANIFEST}
+    def __init__(self, taken: Iterable[str]) -> None:
+        self._taken = {MANIFEST, *(name.casefold() for name in taken)}
 
     def free(self, above: str, identity: str, suffix: str) -> str:
         """A name for what has this id, with a number where the id alone is none or is taken."""

@@ -6,8 +6,9 @@ from pathlib import PurePosixPath
 from typing import Annotated, Literal, Self, TypeVar
 
 import numpy as np
-from pydantic import AfterValidator, BaseModel, ConfigDict, Field, model_validator
+from pydantic import AfterValidator, BaseModel, ConfigDict, Field, ValidationError, model_validator
 
+from veduta.place.same import same
 from veduta.run.errors import InputError
 
 VERSION = 1
@@ -346,28 +347,37 @@ def merge(first: Place, second: Place, second_folder: str = "") -> Place:
         )
     shift = (np.array(second.origin) - np.array(first.origin)).tolist()
     update: dict[str, object] = {
-        "parts": _joined("part", first.parts, second.parts, shift, second_folder),
-        "points": _joined("cloud", first.points, second.points, shift, second_folder),
-        "cameras": _joined("camera", first.cameras, second.cameras, shift, second_folder),
-        "tours": _joined("tour", first.tours, second.tours, shift, second_folder),
-        "animals": _joined("animal", first.animals, second.animals, shift, second_folder),
-        "walks": _joined("walk", first.walks, second.walks, shift, second_folder),
+        "parts": joined("part", first.parts, second.parts, shift, second_folder),
+        "points": joined("cloud", first.points, second.points, shift, second_folder),
+        "cameras": joined("camera", first.cameras, second.cameras, shift, second_folder),
+        "tours": joined("tour", first.tours, second.tours, shift, second_folder),
+        "animals": joined("animal", first.animals, second.animals, shift, second_folder),
+        "walks": joined("walk", first.walks, second.walks, shift, second_folder),
         "tileset": None,  # the tiles of one do not show the other
     }
     return first.model_copy(update=update)
 
 
-def _joined(
-    kind: str, first: list[Item], second: list[Item], shift_m: list[float], folder: str
+def joined(
+    kind: str, first: list[Item], second: list[Item], shift_m: list[float], folder: str = ""
 ) -> list[Item]:
-    items = {item.id: item for item in first}
-    for item in second:
-        moved = _moved(item, shift_m, folder)
-        known = items.setdefault(moved.id, moved)
-        if known != moved:
+    """The items of both, those of the second moved (m) and their files below `folder`.
+
+    What is there twice under one id is kept once; InputError where the two differ, or where one
+    comes to lie too far away.
+    """
+    moved: list[Item] = []
+    try:
+        moved += [_moved(item, shift_m, folder) for item in second]
+    except ValidationError as error:
+        fault = f"has a {kind} that cannot be moved there ({error.errors()[0]['msg']})"
+        raise InputError("place.json", fault, "Look at the origins of both places.") from error
+    items: dict[str, Item] = {}
+    for item in first + moved:
+        if not same(items.setdefault(item.id, item), item):
             raise InputError(
                 "place.json",
-                f"both places have a {kind} {moved.id!r}, and the two differ",
+                f"both places have a {kind} {item.id!r}, and the two differ",
                 "Rename one of them, or remove the one that is out of date.",
             )
     return list(items.values())

@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
-from typing import Literal, TypeVar
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.place.files import Source, drawn_files, files_beside, names_apart, renamed
 from veduta.place.manifest import (
     PlaceAnimal,
     PlaceCamera,
@@ -22,15 +24,15 @@ from veduta.place.manifest import (
     Start,
     Tour,
     Walk,
-    WalkKey,
+    joined,
 )
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.registry import folders, format_of
+from veduta.place.same import same
 from veduta.run.errors import InputError
 
 Vector = tuple[float, float, float]
-Camera = TypeVar("Camera", PlaceCamera, WalkKey)
 
 
 def _identity() -> NDArray[np.float64]:
@@ -128,6 +130,10 @@ class Place:
     """Where it was loaded from: the files that its cameras and parts name lie there."""
     tileset: str | None = None
     """Its tiles in that folder, where it has too many parts to be shown one by one."""
+    files: dict[str, Source] = field(default_factory=dict)
+    """Where the files that it names are. One that is not here lies where the place is saved."""
+    held: list[object] = field(default_factory=list)
+    """What is to live as long as the place, such as a folder that it is read from."""
 
     def add(self, part: Part | Mesh, standing: Standing | None = None) -> PlacedPart:
         """Put a part into the place; InputError where another has its id."""
@@ -167,7 +173,9 @@ class Place:
     def merge(self, other: Place) -> Place:
         """Both as one, in the frame of this one; `place.manifest.merge` has the rules.
 
-        InputError where they are in different CRS, have no scale, or share an id.
+        What both have under one id is kept once. Files of the other whose names this one has for
+        other files get new names. InputError where they are in different CRS, have no scale, or
+        have two things of one id that differ.
         """
         if self.crs != other.crs:
             fault = f"is in another coordinate system ({other.crs}, not {self.crs})"
@@ -175,20 +183,64 @@ class Place:
         if "unknown" in (self.scale, other.scale):
             fault = "has no known scale"
             raise InputError("one of the places", fault, "Give it its scale first.")
-        shift = np.eye(4)
-        shift[:3, 3] = np.array(other.origin_m) - np.array(self.origin_m)
-        both = replace(
-            self, parts=dict(self.parts), folder=None, tileset=None,
-            clouds=[*self.clouds, *(_moved_cloud(one, shift) for one in other.clouds)],
-            cameras=[*self.cameras, *(_moved_camera(one, shift) for one in other.cameras)],
-            tours=[*self.tours, *(_moved_tour(one, shift) for one in other.tours)],
-            animals=[*self.animals, *(_moved_animal(one, shift) for one in other.animals)],
-            walks=[*self.walks, *(_moved_walk(one, shift) for one in other.walks)],
+        other = self._with_names_apart(other)
+        shift = np.array(other.origin_m) - np.array(self.origin_m)
+        move = shift.tolist()
+        return replace(
+            self, folder=None, tileset=None,
+            parts=_joined_parts(self, other, shift),
+            clouds=_joined_clouds(self.clouds, other.clouds, shift),
+            cameras=joined("camera", self.cameras, other.cameras, move),
+            tours=joined("tour", self.tours, other.tours, move),
+            animals=joined("animal", self.animals, other.animals, move),
+            walks=joined("walk", self.walks, other.walks, move),
+            files={**other.sources(), **self.sources()},
+            held=[*self.held, *other.held],
         )  # fmt: skip
+
+    def names(self) -> set[str]:
+        """The files that it names: pictures, documents, models of walks; not those of its parts."""
+        standings = [placed.standing for placed in self.parts.values()]
+        return {*drawn_files(self.walks), *files_beside(standings, self.cameras, self.walks)}
+
+    def sources(self) -> dict[str, Source]:
+        """Where the files that it names are; what is not among them lies where it is saved."""
+        return {name: self.files[name] for name in sorted(self.names()) if name in self.files}
+
+    def _with_names_apart(self, other: Place) -> Place:
+        """The other with new names for its files whose names this one has for other files."""
+        new = names_apart(
+            {name: self.files.get(name) for name in sorted(self.names())},
+            {name: other.files.get(name) for name in sorted(other.names())},
+        )
+        if not new:
+            return other
+
+        def name(old: str) -> str:
+            return new.get(old, old)
+
+        parts = {}
         for placed in other.parts.values():
-            standing = replace(placed.standing, transform=shift @ placed.standing.transform)
-            both._add(PlacedPart(placed.id, standing, placed.read))
-        return both
+            own = placed.standing
+            standing = replace(
+                own,
+                document=own.document and name(own.document),
+                photo=own.photo and name(own.photo),
+                city_model=own.city_model and name(own.city_model),
+            )
+            parts[placed.id] = replace(placed, standing=standing)
+        return replace(
+            other, parts=parts,
+            cameras=[renamed(one, name) for one in other.cameras],
+            walks=[renamed(one, name) for one in other.walks],
+            files={name(old): source for old, source in other.files.items()},
+        )  # fmt: skip
+
+    def hold(self, what: object) -> None:
+        """Keep something alive as long as this place, or a part of it that is still to be read."""
+        self.held.append(what)
+        for placed in self.parts.values():
+            placed.read = partial(_read_holding, placed.read, what)
 
     def bounds_m(self) -> tuple[NDArray[np.float64], NDArray[np.float64]] | None:
         """Lower and upper corner (m, world) around parts and clouds; None of an empty place."""
@@ -213,22 +265,41 @@ def _box(placed: PlacedPart) -> NDArray[np.float64]:
     return np.asarray(grid @ turn.T + move, dtype=np.float64)
 
 
-def _moved_cloud(cloud: Cloud, shift: NDArray[np.float64]) -> Cloud:
-    return replace(cloud, points_m=cloud.points_m + shift[:3, 3])
+def _read_holding(read: Callable[[], Part | Mesh], held: object) -> Part | Mesh:
+    """Read; what is held is alive at least until then."""
+    return read()
 
 
-def _moved_walk(walk: Walk, shift: NDArray[np.float64]) -> Walk:
-    return walk.model_copy(update={"keys": [_moved_camera(key, shift) for key in walk.keys]})
+def _joined_parts(first: Place, second: Place, shift: NDArray[np.float64]) -> dict[str, PlacedPart]:
+    """The parts of both; InputError for two of one id that differ."""
+    move = np.eye(4)
+    move[:3, 3] = shift
+    parts = dict(first.parts)
+    for placed in second.parts.values():
+        standing = replace(placed.standing, transform=move @ placed.standing.transform)
+        moved = PlacedPart(placed.id, standing, placed.passing)
+        known = parts.setdefault(placed.id, moved)
+        if known is moved:
+            continue
+        alike = known is placed or known.read is placed.read
+        if not same(known.standing, standing) or not (
+            alike or same(known.passing(), placed.passing())
+        ):
+            raise _differ("part", placed.id)
+    return parts
 
 
-def _moved_camera(camera: Camera, shift: NDArray[np.float64]) -> Camera:
-    matrix = shift @ np.array(camera.transform).reshape(4, 4).T
-    return camera.model_copy(update={"transform": tuple(matrix.T.ravel().tolist())})
+def _joined_clouds(
+    first: list[Cloud], second: list[Cloud], shift: NDArray[np.float64]
+) -> list[Cloud]:
+    """The clouds of both; InputError for two of one id that differ."""
+    kept: dict[str, Cloud] = {}
+    for cloud in [*first, *(replace(one, points_m=one.points_m + shift) for one in second)]:
+        if not same(kept.setdefault(cloud.id, cloud), cloud):
+            raise _differ("cloud", cloud.id)
+    return list(kept.values())
 
 
-def _moved_tour(tour: Tour, shift: NDArray[np.float64]) -> Tour:
-    return tour.model_copy(update={"eyes": (np.array(tour.eyes) + shift[:3, 3]).tolist()})
-
-
-def _moved_animal(animal: PlaceAnimal, shift: NDArray[np.float64]) -> PlaceAnimal:
-    return animal.model_copy(update={"path": (np.array(animal.path) + shift[:3, 3]).tolist()})
+def _differ(kind: str, identity: str) -> InputError:
+    fault = f"is the id of two {kind}s of a place, and the two differ"
+    return InputError(identity, fault, "Rename one of them, or remove the one out of date.")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import tempfile
 import weakref
 from pathlib import Path
-from typing import Any
+from typing import Protocol
 
 
 def scratch_folder() -> tuple[Path, tempfile.TemporaryDirectory[str]]:
@@ -14,6 +14,19 @@ def scratch_folder() -> tuple[Path, tempfile.TemporaryDirectory[str]]:
     return Path(above.name) / "out", above
 
 
-def goes_with(owner: Any, folder: tempfile.TemporaryDirectory[str]) -> None:
-    """Have a folder deleted when its owner is no longer used."""
-    weakref.finalize(owner, folder.cleanup)
+class Holder(Protocol):
+    """What hands on to all that still read from a folder that the folder is needed."""
+
+    def hold(self, what: object) -> None:
+        """Keep it alive as long as anything is still read."""
+
+
+class _Use:
+    """Somebody may still read from the folder."""
+
+
+def goes_with(owner: Holder, folder: tempfile.TemporaryDirectory[str]) -> None:
+    """Have a folder deleted when nobody can read from it any more."""
+    use = _Use()
+    weakref.finalize(use, folder.cleanup)
+    owner.hold(use)

@@ -6,6 +6,7 @@ from pathlib import Path, PurePosixPath
 
 from veduta.formats.place_json import read_place
 from veduta.formats.tiles import contents
+from veduta.place.files import drawn_files, files_beside
 from veduta.run.errors import InputError
 from veduta.studio.content import MANIFEST
 
@@ -21,13 +22,8 @@ def part_files(folder: Path) -> dict[str, Path]:
     if place.tileset is not None:
         files = {name: _inside(folder, name) for name in _tiles(folder, place.tileset)}
     needed = [part.model for part in place.parts] + [cloud.file for cloud in place.points]
-    for walk in place.walks:
-        needed += [key.picture for key in walk.keys]
-        needed += [name for way in walk.transitions for name in (way.forth, way.back) if name]
-    beside = [camera.picture for camera in place.cameras]
-    for part in place.parts:
-        beside += [name for name in (part.photo, part.city_model, part.document) if name]
-    beside += [walk.document for walk in place.walks if walk.document]
+    needed += drawn_files(place.walks)
+    beside = files_beside(place.parts, place.cameras, place.walks)
     must = set(needed)
     for name in needed + beside:
         path = _inside(folder, name)

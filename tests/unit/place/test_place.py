@@ -30,7 +30,7 @@ def _place(name: str = "box") -> Place:
     place.add(_box(name), Standing(transform=_moved(10.0, 0.0, 1.5)))
     points = np.array([[0.0, 0.0, 0.0], [1.0, 2.0, 3.0]])
     colours = np.array([[1, 2, 3], [4, 5, 6]], np.uint8)
-    place.clouds.append(Cloud("points", points, colours))
+    place.clouds.append(Cloud(f"points of {name}", points, colours))
     return place
 
 
@@ -107,7 +107,8 @@ def test_places_that_do_not_fit_are_refused(fault: str) -> None:
     elif fault == "scale":
         second.scale = "unknown"
     else:
-        second = _place("a")
+        second.parts.clear()
+        second.add(_box("a"), Standing(transform=_moved(10.0, 0.1, 1.5)))
     words = {"crs": "coordinate system", "scale": "no known scale", "id": "id of two parts"}
     with pytest.raises(InputError, match=words[fault]):
         first.merge(second)
