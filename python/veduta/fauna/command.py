@@ -92,7 +92,7 @@ def _make(work: Work, record: Record, options: FaunaOptions) -> None:
             place_of(animal, built).save(work.folder)
         else:
             place, path = goal
-            into = place_into(place, animal, built, path.points_m, work.folder, closed=path.closed)
+            into = place_into(place, animal, built, path.points_m, closed=path.closed)
             into.save(work.folder)
     _tell(work, animal, built)
 

@@ -10,11 +10,13 @@ from scipy.spatial.transform import Rotation
 
 from veduta.fauna.build.body import slices_along
 from veduta.fauna.build.build import build_animal, place_of
+from veduta.fauna.build.into_place import place_into
 from veduta.fauna.document.load import load_animal, save_animal
 from veduta.fauna.document.schema import Animal, Body, Length, Motion, Source
 from veduta.fauna.motion.angles import axis_of, coefficients
 from veduta.fauna.options import MotionOptions
 from veduta.fauna.read.usual import usual_slices
+from veduta.place.manifest import IDENTITY, Walk, WalkKey
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place
 from veduta.place.skin import Clip
@@ -143,3 +145,23 @@ def test_a_place_keeps_its_animals(tmp_path: Path) -> None:
     assert isinstance(content, Mesh)
     assert content.skin is not None
     assert [clip.name for clip in content.clips] == ["swim", "roam", "footage"]
+
+
+def test_an_animal_in_a_place_leaves_the_place_its_files(tmp_path: Path) -> None:
+    animal = sample_animal()
+    built = build_animal(animal, MotionOptions(seconds=1.0, states=20))
+    key = WalkKey(
+        id="k", picture="walk/k.jpg", width_px=4, height_px=3, focal_px=(2.0, 2.0),
+        centre_px=(2.0, 1.5), transform=IDENTITY,
+    )  # fmt: skip
+    walk = Walk(id="w", name="w", document="walk.json", keys=[key], transitions=[])
+    place, folder = Place(walks=[walk]), tmp_path / "place"
+    (folder / "walk").mkdir(parents=True)
+    for name in place.names():
+        (folder / name).write_text(name)
+    place.save(folder)
+    path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
+    into = place_into(Place.load(folder), animal, built, path, closed=False)
+    into.save(tmp_path / "out")
+    assert (tmp_path / "out/walk/k.jpg").read_text() == "walk/k.jpg"
+    assert (tmp_path / "out/walk.json").read_text() == "walk.json"

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import shutil
 from pathlib import Path
 
 import numpy as np
@@ -24,15 +23,15 @@ def require_place(place: Place, folder: Path) -> None:
 
 
 def place_into(
-    place: Place, animal: Animal, built: Built, path: Floats, target: Path, *, closed: bool
+    place: Place, animal: Animal, built: Built, path: Floats, *, closed: bool
 ) -> Place:
-    """The place with the animal in it; the files that its parts and cameras name go to `target`.
+    """The place with the animal in it; its document lies where the place will be saved.
 
     One animal of the same id is replaced: the same record twice is one animal.
     """
     place.parts.pop(built.mesh.id, None)
     place.animals = [one for one in place.animals if one.id != animal.name]
-    _bring_files(place, target)
+    place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
     standing = Standing(name=animal.name, document=DOCUMENT, arrangement="invented")
     place.add(built.mesh, standing)
     place.animals.append(going(animal, built, path, closed=closed))
@@ -46,20 +45,3 @@ def place_into(
     )
     return place
 
-
-def _bring_files(place: Place, target: Path) -> None:
-    if place.folder is None:
-        return
-    names = {camera.picture for camera in place.cameras}
-    for placed in place.parts.values():
-        standing = placed.standing
-        names |= {
-            name
-            for name in (standing.document, standing.photo, standing.city_model)
-            if name is not None
-        }
-    for name in sorted(names - {DOCUMENT}):
-        source = place.folder / name
-        if source.is_file():
-            (target / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(source, target / name)
