@@ -48,7 +48,13 @@ def classes_text() -> str:
 def formats_rows() -> list[tuple[str, str, str, str, str]]:
     """Ending, name, what it is, what it leaves out, whether it is read too."""
     return [
-        (f"`{suffix}`", f"`{one.name}`", one.title, one.left_out, "yes" if one.read else "")
+        (
+            f"`{suffix}`",
+            f"`{one.name}`",
+            one.title,
+            ", ".join(one.left_out),
+            "yes" if one.read else "",
+        )
         for suffix, one in formats().items()
     ]
 

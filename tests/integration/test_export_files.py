@@ -17,7 +17,8 @@ def test_every_format_of_a_house(one_house: Path, tmp_path: Path) -> None:
     names = ",".join(one.name for one in formats().values())
     done = refused("export", one_house, "--to", names, "-o", tmp_path / "all")
     assert done.returncode == 0, done.stderr
-    assert done.stdout.count("not in it") >= 8
+    # Of a house without doors that open, lamps or tours: CityGML, PLY, STL and maps.
+    assert done.stdout.count("not in it") == 6
     made = {file.name for file in (tmp_path / "all").iterdir()}
     assert {f"out{suffix}" for suffix in formats()} <= made
     issues = validate_gltf(tmp_path / "all" / "out.glb")

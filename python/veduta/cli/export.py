@@ -58,31 +58,72 @@ def _files(call: ExportCall) -> int:
             raise InputError(target, "is a folder", "Name a file.")
         if target.exists() and not call.force:
             raise InputError(target, "is there already", "Use --force, or choose another name.")
-    if folder is not None:
-        folder.mkdir(parents=True, exist_ok=True)
-    for one, target in targets:
-        _write(call.out, one, target)
+    _write(call, targets)
     return 0
 
 
-def _write(out: Path, one: PlaceFormat, target: Path) -> None:
-    from veduta.place.flatten import TooManyTrianglesError
+def _write(call: ExportCall, targets: list[tuple[PlaceFormat, Path]]) -> None:
+    """Make all files in a folder beside the targets, and move them when none is in the way."""
+    import tempfile
+
+    from veduta.place.holding import left_out_of, require_held
     from veduta.place.place import Place
     from veduta.run.errors import InputError, UnwritableError
 
-    if not target.parent.is_dir():
-        raise InputError(target.parent, "there is no such folder", "Make it first.")
-    place = Place.load(out)
+    place = Place.load(call.out)
+    for one, target in targets:
+        require_held(place, one, target)
+    folder = targets[0][1].parent
+    if call.folder is None and not folder.is_dir():
+        raise InputError(folder, "there is no such folder", "Make it first.")
     try:
-        place.write(target)
+        folder.mkdir(parents=True, exist_ok=True)
+        with tempfile.TemporaryDirectory(prefix=".export.", suffix=".tmp", dir=folder) as name:
+            for _, target in targets:
+                _make(call.out, Path(name) / target.name, target)
+            _move(Path(name), targets, force=call.force)
     except OSError as error:
         fault = f"cannot be written ({error.strerror})"
-        raise UnwritableError(target, fault, "Choose another place.") from error
+        subject = targets[0][1] if len(targets) == 1 else folder
+        raise UnwritableError(subject, fault, "Choose another place.") from error
+    for one, target in targets:
+        print(f"{target}: {one.title}, {target.stat().st_size / 1e6:.1f} MB")
+        lacking = left_out_of(place, one)
+        if lacking:
+            print(f"  not in it, as the format has no word for them: {', '.join(lacking)}")
+
+
+def _make(out: Path, made: Path, target: Path) -> None:
+    """Write the place to `made`; errors name the target."""
+    from veduta.place.flatten import TooManyTrianglesError
+    from veduta.place.place import Place
+    from veduta.run.errors import InputError
+
+    try:
+        Place.load(out).write(made)
     except TooManyTrianglesError as error:
         raise InputError(out, str(error), "Write .glb, which has them once each.") from error
-    print(f"{target}: {one.title}, {target.stat().st_size / 1e6:.1f} MB")
-    if one.left_out:
-        print(f"  not in it, as the format has no word for them: {one.left_out}")
+    except InputError as error:
+        if str(error.subject) != str(made):
+            raise
+        raise InputError(target, error.fault, error.remedy) from error
+
+
+def _move(work: Path, targets: list[tuple[PlaceFormat, Path]], *, force: bool) -> None:
+    """What was made to where it belongs: what a target needs beside it first."""
+    from veduta.run.errors import InputError
+
+    named = [target.name for _, target in targets]
+    folder = targets[0][1].parent
+    made = sorted(work.iterdir(), key=lambda file: (file.name in named, file.name))
+    for file in made:
+        there = folder / file.name
+        if there.is_dir():
+            raise InputError(there, "is a folder", "Move it away, or choose another name.")
+        if there.exists() and not force:
+            raise InputError(there, "is there already", "Use --force, or choose another name.")
+    for file in made:
+        file.replace(folder / file.name)
 
 
 def _web(call: ExportCall, web: Path) -> int:

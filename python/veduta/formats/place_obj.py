@@ -37,7 +37,7 @@ def write_obj(place: Place, path: Path) -> None:
             for look in shape.looks:
                 known.setdefault(look.name, _material(look, pictures.name(look)))
             starts = _write_shape(shape, file, starts)
-    write_bytes(library, "\n".join(known.values()).encode())
+        write_bytes(library, "\n".join(known.values()).encode())
 
 
 def header(place: Place) -> list[str]:

@@ -13,6 +13,20 @@ from typing import TYPE_CHECKING
 
 from veduta.formats.mesh_glb_read import read_model
 from veduta.formats.place_folder import load_place, save_place
+from veduta.place.holding import (
+    ANIMALS,
+    CAMERAS,
+    CLASSES,
+    COLOURS,
+    LAMPS,
+    LEAVES,
+    MOTION,
+    POINTS,
+    SURFACES,
+    TEXTURES,
+    TOURS,
+    WALKS,
+)
 from veduta.place.registry import PlaceFolders, PlaceFormat, register_folders, register_format
 
 if TYPE_CHECKING:
@@ -20,20 +34,21 @@ if TYPE_CHECKING:
 
 Write = Callable[["Place", Path], None]
 
-_SURFACES = "colours and textures"
-_MOTION = "what moves, shines or is walked through (tours)"
-_MAP = "all but the outline of each part and its attributes"
-_CITY = f"{_SURFACES}, {_MOTION}"
-ROWS: tuple[tuple[str, str, str, str, str], ...] = (
+_AROUND = (POINTS, CAMERAS, WALKS, ANIMALS)
+_SCENE = (LEAVES, LAMPS, MOTION, TOURS, *_AROUND)
+_PLAIN = (TEXTURES, *_SCENE)
+_CITY = (COLOURS, *_PLAIN)
+_MAP = (SURFACES, TOURS, *_AROUND)
+ROWS: tuple[tuple[str, str, str, str, tuple[str, ...]], ...] = (
     # suffix, name for --to, what it is, who writes it, what it has no word for
-    (".glb", "glb", "glTF 2.0, one file", "place_glb:write_place_glb", ""),
-    (".obj", "obj", "Wavefront OBJ with MTL and textures", "place_obj:write_obj", _MOTION),
-    (".stl", "stl", "STL", "place_stl:write_stl", f"classes, {_SURFACES}, {_MOTION}"),
-    (".usda", "usda", "USD as text, textures beside", "place_usd:write_usd", _MOTION),
-    (".usdc", "usdc", "USD, binary, textures beside", "place_usd:write_usd", _MOTION),
-    (".usd", "usd", "USD, textures beside", "place_usd:write_usd", _MOTION),
-    (".usdz", "usdz", "USD with its textures in one file", "place_usd:write_usd", _MOTION),
-    (".dae", "dae", "COLLADA 1.4, textures beside", "place_dae:write_dae", _MOTION),
+    (".glb", "glb", "glTF 2.0, one file", "place_glb:write_place_glb", _AROUND),
+    (".obj", "obj", "Wavefront OBJ with MTL and textures", "place_obj:write_obj", _SCENE),
+    (".stl", "stl", "STL", "place_stl:write_stl", (CLASSES, *_CITY)),
+    (".usda", "usda", "USD as text, textures beside", "place_usd:write_usd", _SCENE),
+    (".usdc", "usdc", "USD, binary, textures beside", "place_usd:write_usd", _SCENE),
+    (".usd", "usd", "USD, textures beside", "place_usd:write_usd", _SCENE),
+    (".usdz", "usdz", "USD with its textures in one file", "place_usd:write_usd", _SCENE),
+    (".dae", "dae", "COLLADA 1.4, textures beside", "place_dae:write_dae", _SCENE),
     (".geojson", "geojson", "GeoJSON of the outlines", "place_vector:write_geojson", _MAP),
     (".gpkg", "gpkg", "GeoPackage of the outlines", "place_vector:write_gpkg", _MAP),
     (".gml", "citygml", "CityGML 2.0", "place_citygml:write_citygml2", _CITY),
@@ -43,9 +58,9 @@ ROWS: tuple[tuple[str, str, str, str, str], ...] = (
         "cityjson",
         "CityJSON 2.0, textures beside",
         "place_cityjson:write_place_cityjson",
-        _MOTION,
+        _SCENE,
     ),
-    (".ply", "ply", "PLY mesh with colours", "place_ply:write_ply", f"textures, {_MOTION}"),
+    (".ply", "ply", "PLY mesh with colours", "place_ply:write_ply", _PLAIN),
 )
 
 
@@ -84,4 +99,8 @@ def _late_read(name: str | None) -> Callable[[Path], Place] | None:
 register_folders(PlaceFolders(save=save_place, load=load_place, read_model=read_model))
 for _suffix, _name, _title, _target, _left_out in ROWS:
     _read = _late_read(READERS.get(_suffix))
-    register_format(PlaceFormat(_suffix, _name, _late(_target), _title, _left_out, _read))
+    register_format(
+        PlaceFormat(
+            _suffix, _name, _late(_target), _title, _left_out, _read, points_alone=_suffix == ".ply"
+        )
+    )

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.place.files import Source, drawn_files, files_beside, names_apart, renamed
+from veduta.place.holding import require_held
 from veduta.place.manifest import (
     PlaceAnimal,
     PlaceCamera,
@@ -166,9 +167,14 @@ class Place:
         folders().save(self, Path(folder))
 
     def write(self, path: str | Path) -> None:
-        """Write it as one file, in the format that its name asks for."""
+        """Write it as one file, in the format that its name asks for.
+
+        InputError where the format could hold nothing of it.
+        """
         target = Path(path)
-        format_of(target).write(self, target)
+        asked = format_of(target)
+        require_held(self, asked, target)
+        asked.write(self, target)
 
     def merge(self, other: Place) -> Place:
         """Both as one, in the frame of this one; `place.manifest.merge` has the rules.

@@ -27,15 +27,18 @@ class PlaceFormat:
     """A format for whole places.
 
     suffix: with its dot, in lower case. name: what `veduta export --to` calls it. title: what it
-    is. left_out: what of a place it has no word for. read: None where files are only written.
+    is. left_out: what of a place it has no word for, in the words of `place.holding`. points_alone:
+    whether the points of a place without parts are written all the same. read: None where files are
+    only written.
     """
 
     suffix: str
     name: str
     write: Callable[[Place, Path], None]
     title: str = ""
-    left_out: str = ""
+    left_out: tuple[str, ...] = ()
     read: Callable[[Path], Place] | None = None
+    points_alone: bool = False
 
 
 @dataclass(frozen=True)
