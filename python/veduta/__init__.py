@@ -35,6 +35,12 @@ __version__ = "0.1.0"
 # onnxruntime tells its makers of each first use, and keeps an id of the machine: not from here. It
 # reads this when it is imported, and every process of Veduta's begins with this file.
 os.environ["ORT_DISABLE_TELEMETRY"] = "1"
+# GDAL tells formats by their content: these read what else a file names, here or over the network.
+os.environ["GDAL_SKIP"] = (
+    "OGR_VRT GDALG ADBC AmigoCloud CSW Carto EEDA Elasticsearch GPSBabel HTTP NGW OAPIF OGCAPI"
+    " PLSCENES WFS"
+)
+os.environ["CPL_VSIL_CURL_ALLOWED_EXTENSIONS"] = ".none"
 
 __all__ = [
     "Cloud",

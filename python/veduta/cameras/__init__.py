@@ -1,6 +1,7 @@
 """Cameras of any source, and how a picture looks without what its lens did."""
 
 from veduta.cameras.camera import Camera, CameraSet
+from veduta.cameras.digest import cameras_digest
 from veduta.cameras.lens import shown, straight_camera, undistorted
 from veduta.cameras.projection import Parted, part_projection
 from veduta.cameras.reading import read_cameras
@@ -9,6 +10,7 @@ __all__ = [
     "Camera",
     "CameraSet",
     "Parted",
+    "cameras_digest",
     "part_projection",
     "read_cameras",
     "shown",

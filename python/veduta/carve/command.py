@@ -7,8 +7,9 @@ from pathlib import Path
 
 import cv2
 import numpy as np
+from pydantic import JsonValue
 
-from veduta.cameras import CameraSet, read_cameras
+from veduta.cameras import CameraSet, cameras_digest, read_cameras
 from veduta.carve.build.appearance import carved_triangles, colour_vertices
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.consistency import Consistency, carve_by_colour
@@ -19,6 +20,7 @@ from veduta.carve.build.upright import turn_upright
 from veduta.carve.faults import doubtful_views, refuse_silhouettes
 from veduta.carve.options import CarveOptions
 from veduta.carve.pictures import carved_picture, outlines_picture, sides_picture
+from veduta.carve.read.masks import find_masks
 from veduta.carve.read.views import Record, read_views
 from veduta.carve.views import View
 from veduta.run.digests import file_digest
@@ -39,26 +41,26 @@ def run_carve(
     if not record.exists():
         raise InputError(record, "does not exist", "Name the folder of the photos and cameras.")
     base = record if record.is_dir() else record.parent
+    cameras = read_cameras(record)
+    masks: list[JsonValue] = [
+        [name, file_digest(path)] for name, path in sorted(find_masks(base, cameras).items())
+    ]
     call = VerbCall(
         command="carve",
         version=VERSION,
         subject=base.resolve().name,
         options=options,
-        inputs=[f"{path.relative_to(base)} {file_digest(path)}" for path in _files(base)],
+        inputs=[cameras_digest(cameras), masks],
     )
 
     def make(work: Work) -> None:
-        _make(work, record, call.subject, options)
+        _make(work, cameras, base, call.subject, options)
 
     return run_verb(call, out, make, progress, force=force)
 
 
-def _files(base: Path) -> list[Path]:
-    return sorted(path for path in base.rglob("*") if path.is_file())
-
-
-def _make(work: Work, record: Path, name: str, options: CarveOptions) -> None:
-    cameras, views = _read(work, record, options)
+def _make(work: Work, cameras: CameraSet, folder: Path, name: str, options: CarveOptions) -> None:
+    cameras, views = _read(work, cameras, folder, options)
     with work.step("bounds"):
         root = root_of(find_bounds(views), options.volume.levels)
     with work.step("hull") as step:
@@ -77,16 +79,16 @@ def _make(work: Work, record: Path, name: str, options: CarveOptions) -> None:
     _tell(work, shape, views, measures, cameras)
 
 
-def _read(work: Work, record: Path, options: CarveOptions) -> tuple[CameraSet, tuple[View, ...]]:
+def _read(
+    work: Work, cameras: CameraSet, folder: Path, options: CarveOptions
+) -> tuple[CameraSet, tuple[View, ...]]:
     with work.step("cameras") as step:
-        cameras = read_cameras(record)
         for note in cameras.notes:
             work.note(note)
         if options.volume.up == "auto" and cameras.crs is None:
             cameras = turn_upright(cameras)
         step.counts["cameras"] = len(cameras)
     with work.step("silhouettes") as step:
-        folder = record if record.is_dir() else record.parent
         found: Record = read_views(folder, cameras, options.silhouettes, progress=work.progress)
         step.counts["views"] = len(found.views)
         step.rejected.extend(found.left_out)

@@ -41,7 +41,9 @@ class ColourOptions(Options):
     """What the colours of the photos decide."""
 
     carve: bool = Field(
-        True, description="carve concavities where the photos' colours disagree on the hull"
+        True,
+        description="carve concavities where the photos' colours disagree on the hull; --no-carve"
+        " leaves the hull alone",
     )
     spread: float | None = Field(
         None,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import JsonValue
 
-from veduta.cameras import Camera, CameraSet, read_cameras
+from veduta.cameras import Camera, CameraSet, cameras_digest, read_cameras
 from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box, without_strays
 from veduta.dense.build.colouring import colour_vertices
 from veduta.dense.build.composing import compose
@@ -37,7 +37,6 @@ from veduta.dense.telling import (
 )
 from veduta.dense.writing import write_cloud, write_depths, write_place
 from veduta.place.mesh import Mesh
-from veduta.run.digests import file_digest
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
@@ -80,7 +79,7 @@ def run_dense(
     found = read_cameras(cameras, images)
     usable, left = usable_cameras(found)
     name = cameras.resolve().name
-    given = _Given(name, found, usable, left, _digests(found, usable))
+    given = _Given(name, found, usable, left, cameras_digest(found, usable))
     call = VerbCall("dense", VERSION, given.name, chosen, given.digests)
     return run_verb(
         call,
@@ -89,20 +88,6 @@ def run_dense(
         progress or Progress(quiet=True),
         force=force,
     )
-
-
-def _digests(cameras: CameraSet, usable: list[Camera]) -> JsonValue:
-    """Of the photos and of the numbers of their cameras."""
-    rows: list[JsonValue] = []
-    for one in usable:
-        numbers = [*one.focal_px, *one.centre_px, *one.cam_from_world.ravel(), *one.distortion]
-        row: list[JsonValue] = [one.name, file_digest(Path(str(one.picture)))]
-        rows.append([*row, *(float(number) for number in numbers)])
-    count = 0 if cameras.points is None else len(cameras.points)
-    masks: list[JsonValue] = [
-        [name, file_digest(path)] for name, path in sorted(cameras.masks.items())
-    ]
-    return [rows, count, cameras.scale, cameras.crs, masks]
 
 
 def _make(work: Work, given: _Given, options: DenseOptions) -> None:

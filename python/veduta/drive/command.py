@@ -1,4 +1,4 @@
-"""`veduta drive`: from a log, or an edited `drive.json`, to a place in OUT."""
+"""`veduta drive`: from a log to a place in OUT."""
 
 from __future__ import annotations
 
@@ -146,7 +146,7 @@ def _write(
         with Image.open(shot.path) as image:
             image.convert("RGB").save(folder / PICTURES / f"{shot.name}.jpg", quality=_JPEG_QUALITY)
     document = DriveDocument(
-        record=str(log),
+        record=log.name,
         crs=record.crs,
         origin=record.origin_m,
         path_from="poses of the log" if record.given_poses else "registration of the scans",
@@ -171,7 +171,7 @@ def _write(
         ("place.json", "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
         (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass"),
-        (DOCUMENT, "path and segments: what one may edit"),
+        (DOCUMENT, "the path and its segments"),
         (f"{PICTURES}/", "the images"),
     ):
         work.file(name, meaning)

@@ -50,7 +50,9 @@ class TextureOptions(Options):
         ),
     )
     fill: bool = Field(
-        default=True, description="invent the texture of what no image shows, and mark it"
+        default=True,
+        description="invent the texture of what no image shows, and mark it; --no-fill leaves it"
+        " grey",
     )
 
 

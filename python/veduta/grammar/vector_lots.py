@@ -1,5 +1,5 @@
 """Building lots from the other formats of geodata that GDAL reads: Shapefile, FlatGeobuf, KML,
-GeoJSON by line, GML, MapInfo, and OpenStreetMap as XML and PBF.
+GeoJSON by line, MapInfo, and OpenStreetMap as XML and PBF.
 
 Features are read in blocks, so that a file may be larger than memory. Of OpenStreetMap only areas
 that are buildings become lots, with all of their tags as attributes.
@@ -23,9 +23,9 @@ from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
 
 SUFFIXES = (
-    ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".gml", ".tab",
-    ".mif",
+    ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".tab", ".mif",
 )  # fmt: skip
+"""GML is not among them: GDAL leaves a file beside the one that it reads."""
 BLOCK = 20_000
 OSM_LAYER = "multipolygons"
 _OSM = (".osm", ".pbf")

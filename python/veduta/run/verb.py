@@ -46,8 +46,9 @@ class VerbCall:
 
     @property
     def key(self) -> str:
-        """Changes with anything that the result depends on."""
-        return result_key(self.command, self.version, self.options, self.inputs)
+        """Changes with anything that the result depends on; the subject is written into it."""
+        inputs: list[JsonValue] = [self.subject, self.inputs]
+        return result_key(self.command, self.version, self.options, inputs)
 
 
 @dataclass

@@ -10,7 +10,7 @@ from veduta.run.errors import InputError
 STATIC = Path(__file__).parent / "static"
 MANIFEST = "place.json"
 SHOWN = 5
-_ANY = "Give a folder that veduta wrote, by -o of facade, photos, plan or grammar."
+_ANY = "Give a folder that veduta wrote: what was given with -o to facade, plan, drive or another verb."
 """How many other folders a message names."""
 
 

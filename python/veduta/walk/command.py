@@ -277,7 +277,13 @@ def _tell(work: Work, record: Record, stations: list[Station], ways: list[Way]) 
         "by ICM",
         "bound",
     ]
-    work.table(Table("Transitions", columns, rows))
+    note = (
+        "Psi: share of the picture in which the two views were found to show the same. Predicted"
+        " and unmoved: how near the next view is to its prediction, and to the view before it as it"
+        " is (PSNR). Energy: of the labels that say what goes where, beside what a simpler search"
+        " (ICM) finds, and the least that there can be."
+    )
+    work.table(Table("Transitions", columns, rows, note=note))
     best = max(
         (way for way in ways if way.predicted is not None),
         key=lambda way: way.verdict.score_db if way.verdict else 0.0,
@@ -285,7 +291,10 @@ def _tell(work: Work, record: Record, stations: list[Station], ways: list[Way]) 
     )
     if best is not None and best.predicted is not None:
         work.picture(
-            "The next view, predicted", "from the colours of the one before it", best.predicted
+            "The next view, predicted",
+            "from the colours of the one before it alone: dark is what that one did not see, which"
+            " the walk takes from the other view",
+            best.predicted,
         )
     work.file("walk.json", "the key positions and transitions, each with its score")
     work.file("place.json", "the place that `veduta view` shows")

@@ -114,6 +114,19 @@ def test_files_that_are_cut_are_refused_by_name(tmp_path: Path, name: str, conte
         read_lots(tmp_path / name)
 
 
+@pytest.mark.parametrize("suffix", [".kml", ".osm", ".geojsonl"])
+def test_nothing_is_read_that_a_file_names(tmp_path: Path, suffix: str) -> None:
+    """GDAL tells formats by their content, and a VRT reads whatever other file it names."""
+    secret = written(tmp_path / "secret.fgb")
+    path = tmp_path / f"lots{suffix}"
+    path.write_text(
+        f'<OGRVRTDataSource><OGRVRTLayer name="secret"><SrcDataSource>{secret}</SrcDataSource>'
+        "</OGRVRTLayer></OGRVRTDataSource>"
+    )
+    with pytest.raises(InputError, match=f"lots{suffix}"):
+        read_lots(path)
+
+
 def test_a_file_of_points_has_no_lots(tmp_path: Path) -> None:
     path = tmp_path / "a.fgb"
     pyogrio.raw.write(

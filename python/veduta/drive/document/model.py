@@ -1,4 +1,4 @@
-"""`drive.json`: the path and its segments, which one may edit and rebuild from."""
+"""`drive.json`: the path that was driven, its segments, and what was corrected."""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from veduta.drive.read.kitti import is_kitti, read_kitti
 from veduta.drive.read.own import is_own, read_own
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import InputError
+from veduta.run.record import PRIVATE
 
 _MOST_FILES = 200_000
 TRUTH = "labels"
@@ -39,8 +40,16 @@ def log_files(folder: Path) -> list[Path]:
     found = sorted(
         path
         for path in folder.rglob("*")
-        if path.is_file() and TRUTH not in path.relative_to(folder).parts
+        if path.is_file()
+        and TRUTH not in path.relative_to(folder).parts
+        and not any((parent / PRIVATE).is_dir() for parent in _between(path, folder))
     )
     if len(found) > _MOST_FILES:
         raise InputError(folder, f"has more than {_MOST_FILES} files", "Name one drive's folder.")
     return found
+
+
+def _between(path: Path, folder: Path) -> list[Path]:
+    """The folders from a file up to `folder`: what Veduta has made among them is no log."""
+    above = list(path.parents)
+    return above[: above.index(folder) + 1]
