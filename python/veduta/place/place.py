@@ -189,7 +189,7 @@ class Place:
         if "unknown" in (self.scale, other.scale):
             fault = "has no known scale"
             raise InputError("one of the places", fault, "Give it its scale first.")
-        other = self._with_names_apart(other)
+        other = self.with_names_apart(other)
         shift = np.array(other.origin_m) - np.array(self.origin_m)
         move = shift.tolist()
         return replace(
@@ -213,7 +213,7 @@ class Place:
         """Where the files that it names are; what is not among them lies where it is saved."""
         return {name: self.files[name] for name in sorted(self.names()) if name in self.files}
 
-    def _with_names_apart(self, other: Place) -> Place:
+    def with_names_apart(self, other: Place) -> Place:
         """The other with new names for its files whose names this one has for other files."""
         new = names_apart(
             {name: self.files.get(name) for name in sorted(self.names())},

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -18,7 +19,7 @@ from veduta.fauna.options import MotionOptions
 from veduta.fauna.read.usual import usual_slices
 from veduta.place.manifest import IDENTITY, Walk, WalkKey
 from veduta.place.mesh import Mesh
-from veduta.place.place import Place
+from veduta.place.place import Place, Standing
 from veduta.place.skin import Clip
 from veduta.run.errors import InputError
 
@@ -165,3 +166,23 @@ def test_an_animal_in_a_place_leaves_the_place_its_files(tmp_path: Path) -> None
     into.save(tmp_path / "out")
     assert (tmp_path / "out/walk/k.jpg").read_text() == "walk/k.jpg"
     assert (tmp_path / "out/walk.json").read_text() == "walk.json"
+
+
+@pytest.mark.parametrize("twice", [False, True])
+def test_another_animal_keeps_its_document(tmp_path: Path, twice: bool) -> None:
+    animal = sample_animal()
+    built = build_animal(animal, MotionOptions(seconds=1.0, states=20))
+    first = built.mesh if twice else replace(built.mesh, id="other")
+    place, folder, out = Place(), tmp_path / "place", tmp_path / "out"
+    place.add(first, Standing(document="animal.json"))
+    for where in (folder, out):
+        where.mkdir()
+        (where / "animal.json").write_text(where.name)
+    place.save(folder)
+    path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
+    place_into(Place.load(folder), animal, built, path, closed=False).save(out)
+    told = {
+        name: (out / str(part.standing.document)).read_text()
+        for name, part in Place.load(out).parts.items()
+    }
+    assert told == ({"eel": "out"} if twice else {"other": "place", "eel": "out"})

@@ -31,8 +31,11 @@ def place_into(
     """
     place.parts.pop(built.mesh.id, None)
     place.animals = [one for one in place.animals if one.id != animal.name]
-    place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
     standing = Standing(name=animal.name, document=DOCUMENT, arrangement="invented")
+    alone = Place()
+    alone.add(built.mesh, standing)
+    place = alone.with_names_apart(place)  # another animal's document has the same name
+    place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
     place.add(built.mesh, standing)
     place.animals.append(going(animal, built, path, closed=closed))
     low, high = path.min(axis=0), path.max(axis=0)
