@@ -54,6 +54,13 @@ def test_source_files_are_one_thing_each(repository: Path, tracked: list[Path]) 
     assert {name: lines for name, lines in lengths.items() if lines > MAX_LINES} == {}
 
 
+def test_no_two_test_files_have_one_name(tracked: list[Path]) -> None:
+    """pytest imports them by their plain names: of two, it would collect the first alone."""
+    names = [name.name for name in tracked if name.parts[0] == "tests" and name.suffix == ".py"]
+    twice = {name for name in names if names.count(name) > 1}
+    assert twice - {"conftest.py", "__init__.py"} == set()
+
+
 def test_no_file_is_a_dumping_ground(tracked: list[Path]) -> None:
     names = re.compile(r"(?:^|_)(?:utils?|helpers?|common|misc)(?:_|$)")
     grounds = [

@@ -38,7 +38,7 @@ def _missing_assets(rules: RuleFiles, compiled: _core.GrammarRules) -> list[str]
         try:
             _ = library[name]
         except InputError as error:
-            fault = f"asset {error.subject} {error.fault}: a box stands for it"
+            fault = f"asset {error.subject} {error.fault}: a box stands for it. {error.remedy}"
             told.append(f"{_place_of(rules, name)}: {fault}")
     return told
 

@@ -7,9 +7,11 @@ from pathlib import Path
 
 from veduta.grammar.assets.asset import Asset, Slot
 from veduta.grammar.assets.from_file import read_asset
+from veduta.grammar.project import SearchPath
 from veduta.plan.furnish.catalogue.entry import Entry, Finish, Size
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.models.build import build, fitted
+from veduta.run.errors import InputError
 
 _PLAIN = Finish("plain", (0.8, 0.8, 0.8), 0.8, 0.0, 1.0, None)
 
@@ -50,4 +52,11 @@ def _built(
 
 @lru_cache(maxsize=64)
 def _from_file(name: str, folder: Path) -> Asset:
-    return read_asset(name, folder)
+    path = SearchPath.of(folder).find(name)
+    if path is None:
+        raise InputError(
+            folder / name,
+            "does not exist, or lies outside of the catalogue's folder",
+            "Check the name in the catalogue.",
+        )
+    return read_asset(name, path)
