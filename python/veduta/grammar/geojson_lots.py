@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from veduta.grammar.json_stream import Broken
-from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
+from veduta.grammar.outline import Attribute, Found, Outlines, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, numbers_of
 from veduta.run.errors import InputError
 
@@ -45,10 +45,8 @@ def feature_outlines(path: Path, features: Iterable[Any], found: Found) -> Outli
                 continue
             attributes = plain_attributes(feature.get("properties"))
             name = _name(feature, attributes, number)
-            for index, polygon in enumerate(polygons, 1):
-                rings = [numbers_of(ring) for ring in polygon]
-                own = name if len(polygons) == 1 else f"{name}-{index}"
-                yield Outline(f"{subject} ({own})", own, rings, attributes)
+            rings = ([numbers_of(ring) for ring in polygon] for polygon in polygons)
+            yield from outlines_of(rings, len(polygons), name, subject, attributes)
         except RingFault as fault:
             found.fail(subject, str(fault))
 

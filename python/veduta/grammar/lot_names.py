@@ -29,7 +29,10 @@ USUAL: dict[str, tuple[str, ...]] = {
 """By a name that rule files often have: keys of OpenStreetMap, INSPIRE and national data."""
 _SAME = (("levels", "floors", "nFloors", "storeys", "stories", "numFloors"), ("height", "Height"))
 """Names of rule files that mean the same."""
-_UNITS_M = {"": 1.0, "m": 1.0, "cm": 0.01, "km": 1000.0, "ft": 0.3048, "'": 0.3048, '"': 0.0254}
+_UNITS_M = {
+    "": 1.0, "m": 1.0, "metre": 1.0, "meter": 1.0, "cm": 0.01, "km": 1000.0, "ft": 0.3048,
+    "feet": 0.3048, "foot": 0.3048, "'": 0.3048, '"': 0.0254,
+}  # fmt: skip
 _MEASURE = re.compile(r"([-+]?\d+(?:[.,]\d+)?)\s*(metres?|meters?|feet|foot|cm|km|ft|m|'|\")?\s*$")
 _FEET_INCHES = re.compile(r"(\d+)\s*'\s*(\d+(?:\.\d+)?)\s*\"\s*$")
 
@@ -69,11 +72,9 @@ def measured(text: str) -> float | None:
     """A length in metres, with or without a unit (`12 m`, `40'`, `12,5`); None of other texts."""
     inches = _FEET_INCHES.match(text.strip())
     if inches is not None:
-        return float(inches[1]) * 0.3048 + float(inches[2]) * 0.0254
+        return float(inches[1]) * _UNITS_M["'"] + float(inches[2]) * _UNITS_M['"']
     found = _MEASURE.match(text.strip())
     if found is None:
         return None
     unit = (found[2] or "").rstrip("s")
-    factor = {"metre": 1.0, "meter": 1.0, "feet": 0.3048, "foot": 0.3048}.get(unit)
-    factor = _UNITS_M[unit] if factor is None else factor
-    return float(found[1].replace(",", ".")) * factor
+    return float(found[1].replace(",", ".")) * _UNITS_M[unit]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -15,6 +15,8 @@ from veduta.run.report import Failure
 
 MOST_KINDS = 50
 """Kinds of other things that are told apart."""
+MOST_OF_NAME = 200
+"""Characters of a lot's name."""
 Attribute = bool | float | str
 
 
@@ -71,3 +73,30 @@ def plain_attributes(properties: Any) -> dict[str, Attribute]:
         elif isinstance(value, int | float) and abs(value) < 1e300:
             found[name] = float(value)
     return found
+
+
+def name_of(attributes: dict[str, Attribute], keys: Sequence[str], number: int) -> str:
+    """What a row is called: the first of these properties that says it, else its number."""
+    for key in keys:
+        value = attributes.get(key)
+        if isinstance(value, float) and value.is_integer():
+            value = str(int(value))
+        if isinstance(value, str) and value.strip():
+            return "".join(c for c in value.strip() if c.isprintable())[:MOST_OF_NAME]
+    return f"lot-{number}"
+
+
+def outlines_of(
+    polygons: Iterable[list[NDArray[np.float64]]],
+    count: int,
+    name: str,
+    subject: str,
+    attributes: dict[str, Attribute],
+) -> Outlines:
+    """An outline of each polygon of a row, numbered where there are several.
+
+    count: how many there are; a fault of one leaves those before it.
+    """
+    for index, rings in enumerate(polygons, 1):
+        own = name if count == 1 else f"{name}-{index}"
+        yield Outline(f"{subject} ({own})", own, rings, attributes)

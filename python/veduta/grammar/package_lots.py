@@ -15,13 +15,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
+from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
 
 MAGIC = b"SQLite format 3\0"
 BLOCK_ROWS = 1000
+_NAMES = ("id", "name", "fid")
 MAX_CELL_BYTES = 16 * 2**20
 MAX_SECONDS = 300.0
 _STEPS = 100_000
@@ -137,15 +138,13 @@ def _outlines(path: Path, base: sqlite3.Connection, layer: _Layer, found: Found)
         geometry = values.pop(layer.column)
         properties = {k: bool(v) if k in truths and v in (0, 1) else v for k, v in values.items()}
         attributes = plain_attributes(properties)
-        name = _name(attributes, number)
+        name = name_of(attributes, _NAMES, number)
         try:
             polygons, kind = _polygons(geometry)
             if polygons is None:
                 found.pass_over(kind)
                 continue
-            for index, rings in enumerate(polygons, 1):
-                own = name if len(polygons) == 1 else f"{name}-{index}"
-                yield Outline(f"{subject} ({own})", own, rings, attributes)
+            yield from outlines_of(polygons, len(polygons), name, subject, attributes)
         except RingFault as fault:
             found.fail(subject, str(fault))
 
@@ -200,17 +199,6 @@ def _polygons(geometry: object) -> tuple[list[Any] | None, str]:
     if polygons is None:
         return None, kind
     return [[closed_ring(ring) for ring in rings] for rings in polygons], kind
-
-
-def _name(attributes: dict[str, Attribute], number: int) -> str:
-    """What the row is called: its id or name, else its number."""
-    for key in ("id", "name", "fid"):
-        value = attributes.get(key)
-        if isinstance(value, float) and value.is_integer():
-            value = str(int(value))
-        if isinstance(value, str) and value.strip():
-            return "".join(c for c in value.strip() if c.isprintable())[:200]
-    return f"lot-{number}"
 
 
 def _quoted(name: str) -> str:

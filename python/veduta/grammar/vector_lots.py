@@ -17,7 +17,7 @@ import numpy as np
 import pyproj
 from numpy.typing import NDArray
 
-from veduta.grammar.outline import Attribute, Found, Outline, Outlines, plain_attributes
+from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
@@ -28,6 +28,7 @@ SUFFIXES = (
 """GML is not among them: GDAL leaves a file beside the one that it reads."""
 BLOCK = 20_000
 OSM_LAYER = "multipolygons"
+_NAMES = ("id", "osm_id", "gml_id", "fid", "name", "Name")
 _OSM = (".osm", ".pbf")
 _AREAS = ("Polygon", "MultiPolygon", "Unknown", "GeometryCollection", "CurvePolygon")
 _TAG = re.compile(r'"((?:[^"\\]|\\.)*)"=>"((?:[^"\\]|\\.)*)"')
@@ -57,7 +58,7 @@ def _outlines(
     subject: str, geometry: bytes | None, properties: dict[str, Any], number: int, found: Found
 ) -> Outlines:
     attributes = plain_attributes(properties)
-    own = _name(attributes, number)
+    own = name_of(attributes, _NAMES, number)
     if geometry is None:
         found.pass_over("feature without geometry")
         return
@@ -66,10 +67,8 @@ def _outlines(
         if polygons is None:
             found.pass_over(kind)
             return
-        for index, rings in enumerate(polygons, 1):
-            name = own if len(polygons) == 1 else f"{own}-{index}"
-            closed = [closed_ring(ring) for ring in rings]
-            yield Outline(f"{subject} ({name})", name, closed, attributes)
+        closed = ([closed_ring(ring) for ring in rings] for rings in polygons)
+        yield from outlines_of(closed, len(polygons), own, subject, attributes)
     except RingFault as fault:
         found.fail(subject, str(fault))
 
@@ -153,14 +152,3 @@ def _tags(properties: dict[str, Any]) -> dict[str, Any]:
     way = tags.pop("osm_way_id", None)
     tags.setdefault("osm_id", way)
     return tags
-
-
-def _name(attributes: dict[str, Attribute], number: int) -> str:
-    """What the feature is called: its id or name, else its number."""
-    for key in ("id", "osm_id", "gml_id", "fid", "name", "Name"):
-        value = attributes.get(key)
-        if isinstance(value, float) and value.is_integer():
-            value = str(int(value))
-        if isinstance(value, str) and value.strip():
-            return "".join(c for c in value.strip() if c.isprintable())[:200]
-    return f"lot-{number}"
