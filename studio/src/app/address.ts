@@ -19,7 +19,7 @@ export class Address {
     this.#store = store;
     store.subscribe((now, before) => {
       // One goes back from another mode, another photo; not from a step of the walk.
-      if (now.mode !== before.mode || now.shot !== before.shot) this.#isStep = true;
+      if (now.mode !== before.mode || now.shot !== before.shot || (now.morph === null) !== (before.morph === null)) this.#isStep = true;
       this.changed();
     });
     addEventListener("popstate", () => this.show(location.hash));
@@ -30,7 +30,12 @@ export class Address {
   show(hash: string): boolean {
     const { place, viewer } = this.#session;
     if (hash.replace(/^#/, "") === this.#written) return true;
-    const view = readView(hash, { photos: place.shots.length, tours: place.tours.length });
+    const view = readView(hash, {
+      photos: place.shots.length,
+      tours: place.tours.length,
+      walks: place.walks.map(({ transitions }) => transitions.length),
+      animals: place.animals.map(({ clips }) => clips.length),
+    });
     if (view === null) return false;
     this.#store.update({ ...view.state, selected: this.#rowOf(view) });
     if (view.look !== null && view.state.shot === null) viewer.lookFrom(view.look);
@@ -46,7 +51,8 @@ export class Address {
 
   #write(): void {
     const { viewer } = this.#session;
-    if (viewer.isFlying || this.#store.value.tour?.playing === true) {
+    const { tour, morph } = this.#store.value;
+    if (viewer.isFlying || tour?.playing === true || morph?.playing === true) {
       this.changed();
       return;
     }

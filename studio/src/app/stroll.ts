@@ -3,6 +3,7 @@ import { html, nothing, type TemplateResult } from "lit";
 import { type MorphState, NEXT_LOOK, walkedOn } from "../core/morph-walk.ts";
 import type { StudioState } from "../core/state.ts";
 import type { Store } from "../core/store.ts";
+import type { Commands } from "./commands.ts";
 import "./morph-panel.ts";
 import { type Session, strollFrom } from "./session.ts";
 
@@ -44,13 +45,11 @@ export function wheelOn(event: WheelEvent, session: Session | null, store: Shown
   changeStroll(store, { at: walkedOn(walk, morph.at, -event.deltaY / WHEEL_PX_M), playing: false });
 }
 
-export function strollPanel(session: Session, store: Shown): TemplateResult | typeof nothing {
-  const { walks } = session.place;
+export function strollPanel({ place: { walks } }: Session, morph: MorphState | null, commands: Commands | null): TemplateResult | typeof nothing {
   if (walks.length === 0) return nothing;
-  const { morph } = store.value;
   return html`<veduta-morph-panel class="sheet" role="group" aria-label="The walk" .walk=${walks[morph?.which ?? 0] ?? null} .at=${morph}
-    @play-walk=${() => playStroll(session, store)}
-    @seek-walk=${(event: CustomEvent<number>) => changeStroll(store, { at: event.detail, playing: false })}
-    @look-walk=${() => nextLook(store)}
-    @instant-walk=${() => changeStroll(store, { instant: !(store.value.morph?.instant ?? false) })}></veduta-morph-panel>`;
+    @play-walk=${() => commands?.do("play-walk")}
+    @seek-walk=${(event: CustomEvent<number>) => commands?.do("seek-walk", { at: event.detail, playing: false })}
+    @look-walk=${() => commands?.do("morph-look")}
+    @instant-walk=${() => commands?.do("seek-walk", { instant: !(morph?.instant ?? false) })}></veduta-morph-panel>`;
 }

@@ -2,7 +2,9 @@
  * A view of a place as text, for the address after `#`: `mode=walk&eye=1.2,3,1.7&to=...`. It may come
  * from anywhere: what is not understood is left out, and the rest is shown.
  */
+import { STANDING } from "./animal.ts";
 import { isSemanticClass } from "./classes.ts";
+import type { MorphState } from "./morph-walk.ts";
 import type { StudioState } from "./state.ts";
 import { NOT_BEGUN } from "./tour.ts";
 import type { Vec3 } from "./vector.ts";
@@ -15,7 +17,7 @@ export interface Look {
 
 /** What of the state is part of a view. */
 export type ViewState = Partial<
-  Pick<StudioState, "mode" | "colouring" | "hidden" | "off" | "shot" | "projected" | "cover" | "hour" | "tour" | "doors" | "lights">
+  Pick<StudioState, "mode" | "colouring" | "hidden" | "off" | "shot" | "projected" | "cover" | "hour" | "tour" | "doors" | "lights" | "morph" | "animal">
 >;
 
 export interface View {
@@ -26,6 +28,7 @@ export interface View {
 }
 
 const LAYERS = ["points", "cameras", "walls", "model", "backdrop"] as const;
+const LOOKS = ["picture", "geometry", "psi"] as const;
 const COLOURINGS = ["photo", "class", "provenance"] as const;
 /** Nobody writes a longer one. */
 const MOST_LETTERS = 4000;
@@ -48,12 +51,28 @@ export function writeView(state: StudioState, look: Look | null, picked: string 
   if (state.shot !== null) fields.set("photo", String(state.shot));
   if (state.projected !== null) fields.set("thrown", `${state.projected},${round(state.cover, 2)}`);
   if (state.tour !== null) fields.set("tour", `${state.tour.which},${round(state.tour.time_s, 1)}`);
+  if (state.morph !== null) {
+    const { which, at, look: shown, instant } = state.morph;
+    fields.set("walk", [which, round(at, 3), shown, ...(instant ? ["instant"] : [])].join(","));
+  }
+  const { which, clip, following } = state.animal;
+  if (which !== 0 || clip !== 0 || following) fields.set("animal", [which, clip, ...(following ? ["follow"] : [])].join(","));
   if (picked !== null) fields.set("pick", picked);
   return fields.toString().replaceAll("%2C", ",").replaceAll("%2F", "/");
 }
 
-/** Null where the text says nothing of a view. `photos` and `tours` are how many the place has. */
-export function readView(text: string, { photos, tours }: { readonly photos: number; readonly tours: number }): View | null {
+/** How many of each the place has. */
+export interface Counts {
+  readonly photos: number;
+  readonly tours: number;
+  /** The transitions of each walk. */
+  readonly walks: readonly number[];
+  /** The clips of each animal. */
+  readonly animals: readonly number[];
+}
+
+/** Null where the text says nothing of a view. */
+export function readView(text: string, { photos, tours, walks, animals }: Counts): View | null {
   if (text.length > MOST_LETTERS) return null;
   const fields = new URLSearchParams(text.replace(/^#/, ""));
   const mode = oneOf(fields.get("mode"), ["orbit", "walk"] as const);
@@ -76,6 +95,8 @@ export function readView(text: string, { photos, tours }: { readonly photos: num
       shot,
       ...thrown(fields.get("thrown"), photos),
       ...momentOf(fields.get("tour"), tours),
+      morph: strollOf(fields.get("walk"), walks),
+      ...animalOf(fields.get("animal"), animals),
     },
   };
 }
@@ -90,6 +111,26 @@ function momentOf(text: string | null, tours: number): Pick<ViewState, "tour"> {
   const [which = "", time = ""] = (text ?? "").split(",");
   const at = index(which, tours);
   return at === null ? {} : { tour: { ...NOT_BEGUN, which: at, time_s: number(time, 0, 1e6) ?? 0 } };
+}
+
+function strollOf(text: string | null, walks: readonly number[]): MorphState | null {
+  const [which = "", at = "", look = "", instant = ""] = (text ?? "").split(",");
+  const walk = index(which, walks.length);
+  if (walk === null) return null;
+  return {
+    which: walk,
+    at: number(at, 0, walks[walk] ?? 0) ?? 0,
+    playing: false,
+    look: oneOf(look, LOOKS) ?? "picture",
+    instant: instant === "instant",
+  };
+}
+
+function animalOf(text: string | null, animals: readonly number[]): Pick<ViewState, "animal"> {
+  const [which = "", clip = "", follow = ""] = (text ?? "").split(",");
+  const animal = index(which, animals.length);
+  if (animal === null) return {};
+  return { animal: { ...STANDING, which: animal, clip: index(clip, animals[animal] ?? 0) ?? 0, following: follow === "follow" } };
 }
 
 function oneOf<T extends string>(text: string | null, known: readonly T[]): T | null {

@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import { INITIAL_STATE, type StudioState } from "../../src/core/state.ts";
 import { readView, writeView } from "../../src/core/view-link.ts";
 
-const PLACE = { photos: 3, tours: 1 };
+const PLACE = { photos: 3, tours: 1, walks: [4, 2], animals: [1, 3] };
 const LOOK = { eye: [1.25, -20, 1.7], target: [1.25, 0, 3.5] } as const;
 
 describe("a view in the address", () => {
@@ -25,8 +25,27 @@ describe("a view in the address", () => {
     const { mode, colouring, hidden, off, projected, cover, hour, lights, doors } = state;
     expect(view?.state).toEqual({
       mode, colouring, hidden, off, projected, cover, hour, lights, doors, shot: null,
-      tour: { which: 0, time_s: 12.5, playing: false },
+      tour: { which: 0, time_s: 12.5, playing: false }, morph: null,
     });
+  });
+
+  it("keeps the place on a walk and the animal that one follows, standing", () => {
+    const morph = { which: 1, at: 1.25, playing: true, look: "psi", instant: true } as const;
+    const animal = { which: 1, clip: 2, playing: true, following: true, leading: true };
+    const text = writeView({ ...INITIAL_STATE, morph, animal }, LOOK, null);
+    expect(text).toContain("walk=1,1.25,psi,instant");
+    const state = readView(text, PLACE)?.state;
+    expect(state?.morph).toEqual({ ...morph, playing: false });
+    expect(state?.animal).toEqual({ ...animal, leading: false });
+  });
+
+  it.each([["2,1"], ["-1,0"], ["x"]])("is on no walk that the place does not have: %s", (walk) => {
+    expect(readView(`mode=walk&walk=${walk}`, PLACE)?.state.morph).toBeNull();
+  });
+
+  it("is at the beginning of a walk where the moment is none of it", () => {
+    expect(readView("mode=walk&walk=1,2.5,fog", PLACE)?.state.morph).toMatchObject({ which: 1, at: 0, look: "picture", instant: false });
+    expect(readView("mode=walk&animal=0,9", PLACE)?.state.animal).toMatchObject({ which: 0, clip: 0 });
   });
 
   it("names what a person can read", () => {
@@ -49,7 +68,7 @@ describe("a view in the address", () => {
     expect(view?.look).toBeNull();
     expect(view?.state).toEqual({
       mode: "walk", colouring: "photo", hidden: new Set(["window"]), off: new Set(["walls"]),
-      doors: "approach", lights: "auto", shot: null, projected: null,
+      doors: "approach", lights: "auto", shot: null, projected: null, morph: null,
     });
   });
 
