@@ -32,7 +32,7 @@ export class FeaturePanel extends LitElement {
         padding: 18px 20px 20px;
         scrollbar-width: thin;
       }
-      header {
+      .head {
         display: flex;
         gap: 10px;
         align-items: start;
@@ -151,7 +151,7 @@ export class FeaturePanel extends LitElement {
     const { feature } = shown;
     const look = CLASS_LOOKS[feature.class];
     return html`
-      <header>
+      <div class="head">
         <div>
           <div class="kind">
             <span class="swatch" .style=${`background:${look.colour}`}></span>
@@ -161,7 +161,7 @@ export class FeaturePanel extends LitElement {
         </div>
         <button class="icon-button" aria-label="Close this panel (Esc)" title="Close (Esc)"
           @click=${() => this.#emit("close-panel", null)}>${icons.close}</button>
-      </header>
+      </div>
       ${shown.scaleKnown ? sizes(feature) : html`<p class="note" data-field="scale">How large it is, nothing tells: the scale of the place is unknown.</p>`}
       ${provenance(feature)} ${this.#relations(shown)}
       ${shown.photoAddress === null && feature.photo_px === null

@@ -29,7 +29,7 @@ export class HelpDialog extends LitElement {
         background: rgb(25 38 50 / 0.42);
         backdrop-filter: blur(3px);
       }
-      header {
+      .head {
         display: flex;
         justify-content: space-between;
         align-items: center;
@@ -83,10 +83,10 @@ export class HelpDialog extends LitElement {
 
   override render(): TemplateResult {
     return html`<dialog aria-labelledby="title" @click=${(event: Event) => this.#onClick(event)}>
-      <header>
+      <div class="head">
         <h2 id="title">Looking and walking</h2>
         <button class="icon-button" aria-label="Close the help" @click=${() => this.toggle()}>${icons.close}</button>
-      </header>
+      </div>
       <div class="columns">
         <div>
           ${list("Mouse and touch", GESTURES.map(({ shown, text }) => ({ keys: [shown], text })))}

@@ -19,7 +19,7 @@ export class MessageCard extends LitElement {
         background: linear-gradient(#dfe7ed, #f1efe9);
         overflow: auto;
       }
-      article {
+      .card {
         width: min(560px, 100%);
         padding: 36px 40px 32px;
         background: #fff;
@@ -71,7 +71,7 @@ export class MessageCard extends LitElement {
         background: #2b4f68;
       }
       @media (max-width: 520px) {
-        article {
+        .card {
           padding: 28px 24px 24px;
         }
         dl {
@@ -93,7 +93,7 @@ export class MessageCard extends LitElement {
   override render(): TemplateResult | typeof nothing {
     const { fault } = this;
     if (fault === null) return nothing;
-    return html`<article class="sheet" role="alert" aria-labelledby="title">
+    return html`<div class="card sheet" role="alert" aria-labelledby="title">
       <svg viewBox="0 0 44 44" fill="none" stroke="currentColor" stroke-width="2.4" aria-hidden="true"
         stroke-linecap="round" stroke-linejoin="round">
         <path d="M6 36V18L22 7l16 11v18" /><path d="M3 36h38" />
@@ -109,7 +109,7 @@ export class MessageCard extends LitElement {
         <dd>${withCode(fault.remedy)}</dd>
       </dl>
       <button class="retry" @click=${() => location.reload()}>Try again</button>
-    </article>`;
+    </div>`;
   }
 }
 

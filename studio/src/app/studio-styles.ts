@@ -8,6 +8,9 @@ export const studioStyles = css`
     overflow: hidden;
     --edge: 16px;
   }
+  main {
+    display: contents;
+  }
   canvas {
     position: absolute;
     inset: 0;

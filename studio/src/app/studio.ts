@@ -162,7 +162,7 @@ export class Studio extends LitElement {
   }
 
   override render(): TemplateResult {
-    return html`
+    return html`<main>
       <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}
         @wheel=${(event: WheelEvent) => wheelOn(event, this.session, this.#store)}></canvas>
       ${this.session !== null && this.fault === null ? this.#panels(this.session) : nothing}
@@ -170,7 +170,14 @@ export class Studio extends LitElement {
         ? html`<veduta-loading .share=${this.progress.share} .file=${this.progress.file}></veduta-loading>`
         : nothing}
       ${this.fault === null ? nothing : html`<veduta-message .fault=${this.fault}></veduta-message>`}
-    `;
+    </main>${this.session === null || this.fault !== null ? nothing : this.#brand(this.session)}`;
+  }
+
+  #brand(session: Session): TemplateResult {
+    return html`<header class="brand sheet">
+      <img src="./icon.svg" alt="" width="26" height="26" />
+      <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
+    </header>`;
   }
 
   #panels(session: Session): TemplateResult {
@@ -179,10 +186,6 @@ export class Studio extends LitElement {
     const coarse = matchMedia("(pointer: coarse)").matches;
     const overTour = session.place.tours.length + session.place.animals.length + session.place.walks.length > 0 ? "over-tour" : "";
     return html`
-      <header class="brand sheet">
-        <img src="./icon.svg" alt="" width="26" height="26" />
-        <div><strong>Veduta</strong><span title=${titleOf(session)}>${titleOf(session)}</span></div>
-      </header>
       <veduta-toolbar class="sheet" role="toolbar" aria-label="Tools" .mode=${state.morph === null ? state.mode : "walk"}
         .isDay=${session.houses.length === 0 ? null : daylightAt(state.hour, session.sunPath).day > 0.5}
         .layersOpen=${this.layersOpen} .mouseLook=${state.mouseLook} .coarse=${coarse}
