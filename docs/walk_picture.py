@@ -34,12 +34,13 @@ def main() -> None:
         record = read_record(folder, WalkOptions(), None)
         rig = record.rectifier.rig
         models = [
-            build_local_model(read_stereo(files, record.rectifier), rig) for files in record.pairs
+            build_local_model(read_stereo(views[0], record.rectifier), rig) for views in record.keys
         ]
     for first, second in zip(models, models[1:], strict=False):
         way = find_way(first, second, rig)
         for number in range(FRAMES):
-            frames.append(frame_at(way, first.image, second.image, first.screen, number / FRAMES))
+            ends = [(one.image, one.screen) for one in (first, second)]
+            frames.append(frame_at(way, ends[0], ends[1], first.screen, number / FRAMES))
     pictures = [Image.fromarray(frame) for frame in [*frames, *frames[::-1]]]
     pictures[0].save(
         PICTURE, save_all=True, append_images=pictures[1:], duration=MS, loop=0, quality=55

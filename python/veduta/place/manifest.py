@@ -199,6 +199,11 @@ class WalkKey(_Record):
     focal_px: tuple[Positive, Positive] = Field(description="along x and y, of the picture")
     centre_px: tuple[Finite, Finite] = Field(description="principal point, of the picture")
     transform: Matrix = Field(description="world_from_camera, 4x4, column-major")
+    projection: Literal["plane", "cylinder"] = Field(
+        default="plane",
+        description="of the picture; a cylinder's axis is the camera's y, its x angles times the"
+        " focal length, its y heights over the distance from the axis times the focal length",
+    )
 
 
 class WalkTransition(_Record):

@@ -12,6 +12,8 @@ export interface Station {
   readonly focal_px: readonly [number, number];
   readonly centre_px: readonly [number, number];
   readonly worldFromCamera: Matrix4;
+  /** What the picture lies on: a plane, or a cylinder about the camera's y. */
+  readonly projection: "plane" | "cylinder";
 }
 
 /** How the view of one station becomes that of another, by their numbers. */
@@ -51,6 +53,8 @@ export const NEXT_LOOK: Readonly<Record<MorphLook, MorphLook>> = { picture: "geo
 
 const MOST_STATIONS = 20_000;
 const MOST_TRANSITIONS = 100_000;
+/** Half of what a flat screen shows of a cylinder at most (rad). */
+const WIDEST = 0.9;
 /** Shorter than this nobody walks: a cut, or a turn on the spot (m). */
 const SHORTEST_M = 0.5;
 
@@ -86,12 +90,13 @@ function lengthOf(stations: readonly Station[], { start, end }: Transition): num
 
 function readStation(value: unknown, isInside: (path: unknown) => path is string, bad: () => Fault): Station {
   if (typeof value !== "object" || value === null) throw bad();
-  const { id, picture, width_px, height_px, focal_px, centre_px, transform } = value as Fields<WalkKey>;
+  const { id, picture, width_px, height_px, focal_px, centre_px, transform, projection = "plane" } = value as Fields<WalkKey>;
   if (typeof id !== "string" || !isInside(picture)) throw bad();
   if (!isLength(width_px) || !isLength(height_px) || !isPair(focal_px) || !isPair(centre_px)) throw bad();
   if (Math.min(...focal_px) <= 0) throw bad();
   if (!Array.isArray(transform) || transform.length !== 16 || !transform.every((v) => Number.isFinite(v))) throw bad();
-  return { id, picture, width_px, height_px, focal_px, centre_px, worldFromCamera: transform as number[] };
+  if (projection !== "plane" && projection !== "cylinder") throw bad();
+  return { id, picture, width_px, height_px, focal_px, centre_px, worldFromCamera: transform as number[], projection };
 }
 
 function readTransition(
@@ -125,6 +130,20 @@ function isPair(value: unknown): value is [number, number] {
 function listOf(value: unknown, most: number, bad: () => Fault): unknown[] {
   if (!Array.isArray(value) || value.length > most) throw bad();
   return value as unknown[];
+}
+
+/** How far one may look aside (rad) without seeing only what is beside the picture. */
+export function reachOf({ width_px, focal_px, projection }: Station): number {
+  const half = width_px / 2 / focal_px[0];
+  return projection === "cylinder" ? half : Math.atan(half);
+}
+
+/** How high and wide a picture is seen that covers a canvas (rad): the height, of a shape `aspect`. */
+export function heightToCover({ width_px, height_px, focal_px, projection }: Station, aspect: number): number {
+  const high = 2 * Math.atan(height_px / 2 / focal_px[1]);
+  const half = width_px / 2 / focal_px[0];
+  const wide = projection === "cylinder" ? Math.tan(Math.min(half, WIDEST)) : half;
+  return Math.min(high, 2 * Math.atan(wide / aspect));
 }
 
 /** The transition in which one is, and how far: 0 at its start, 1 at its end. */

@@ -478,6 +478,10 @@ export interface WalkKey {
     number,
     number
   ];
+  /**
+   * of the picture; a cylinder's axis is the camera's y, its x angles times the focal length, its y heights over the distance from the axis times the focal length
+   */
+  projection?: "plane" | "cylinder";
 }
 /**
  * The way between two key positions, and how one view becomes the other.

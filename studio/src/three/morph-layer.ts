@@ -19,6 +19,8 @@ import type { EndModel } from "./morph-load.ts";
 
 /** Where a picture without a model stands (m): about as far as the sky. */
 const FAR_M = 1800;
+/** Of a cylinder's picture. */
+const STRIPS = 96;
 
 export class MorphLayer {
   readonly target: WebGLRenderTarget;
@@ -60,6 +62,7 @@ export class MorphLayer {
     this.#uniforms.m.value = model === null ? 0 : m;
     this.#uniforms.own.value = own;
     this.#uniforms.other.value = other ?? own;
+    this.#uniforms.round.value = station.projection === "cylinder";
     setLook(this.#uniforms, look);
   }
 
@@ -78,19 +81,27 @@ export class MorphLayer {
   }
 }
 
-/** The station's picture on a plane far away, in the frame of its camera (y up, looking along -z). */
-function sheet({ width_px, height_px, focal_px, centre_px }: Station): BufferGeometry {
-  const x = (px: number): number => ((px - centre_px[0]) / focal_px[0]) * FAR_M;
-  const y = (px: number): number => (-(px - centre_px[1]) / focal_px[1]) * FAR_M;
-  const [left, right, top, bottom] = [x(0), x(width_px), y(0), y(height_px)];
-  const positions = [left, top, -FAR_M, right, top, -FAR_M, left, bottom, -FAR_M, right, bottom, -FAR_M];
+/** The station's picture far away, on its plane or cylinder, in the frame of its camera (y up, looking along -z). */
+function sheet({ width_px, height_px, focal_px, centre_px, projection }: Station): BufferGeometry {
+  const strips = projection === "cylinder" ? STRIPS : 1;
+  const [positions, uv, indices]: [number[], number[], number[]] = [[], [], []];
+  for (let n = 0; n <= strips; n++) {
+    const across = ((n / strips) * width_px - centre_px[0]) / focal_px[0];
+    const [x, z] = projection === "cylinder" ? [Math.sin(across), -Math.cos(across)] : [across, -1];
+    for (const v of [0, 1]) {
+      const y = -(v * height_px - centre_px[1]) / focal_px[1];
+      positions.push(x * FAR_M, y * FAR_M, z * FAR_M);
+      uv.push(n / strips, v);
+    }
+    if (n < strips) indices.push(2 * n, 2 * n + 1, 2 * n + 2, 2 * n + 2, 2 * n + 1, 2 * n + 3);
+  }
   const geometry = new BufferGeometry();
-  const uv = new Float32Array([0, 0, 1, 0, 0, 1, 1, 1]);
+  const texture = new BufferAttribute(new Float32Array(uv), 2);
   geometry.setAttribute("position", new BufferAttribute(new Float32Array(positions), 3));
-  geometry.setAttribute("uv", new BufferAttribute(uv, 2));
-  geometry.setAttribute("uvThere", new BufferAttribute(uv, 2));
-  geometry.setAttribute("psi", new BufferAttribute(new Float32Array(4), 1));
-  geometry.setAttribute("moved", new BufferAttribute(new Float32Array(12), 3));
-  geometry.setIndex([0, 2, 1, 1, 2, 3]);
+  geometry.setAttribute("uv", texture);
+  geometry.setAttribute("uvThere", texture);
+  geometry.setAttribute("psi", new BufferAttribute(new Float32Array(uv.length / 2), 1));
+  geometry.setAttribute("moved", new BufferAttribute(new Float32Array(positions.length), 3));
+  geometry.setIndex(indices);
   return geometry;
 }

@@ -11,6 +11,8 @@ import type { MorphLook } from "../core/morph-walk.ts";
 const TOLERANCE = 0.15;
 /** Of what spans a break in depth: it shows where nothing else does. */
 const TORN_WEIGHT = 0.02;
+/** Share of the way over which what hides a model, and its own breaks, come to count: before, its picture is seen. */
+const ALONE = 0.12;
 const LOOKS: Readonly<Record<MorphLook, number>> = { picture: 0, geometry: 1, psi: 2 };
 
 export interface LayerUniforms {
@@ -18,11 +20,12 @@ export interface LayerUniforms {
   readonly own: IUniform<Texture | null>;
   readonly other: IUniform<Texture | null>;
   readonly look: IUniform<number>;
+  readonly round: IUniform<boolean>;
   [name: string]: IUniform;
 }
 
 export function layerUniforms(): LayerUniforms {
-  return { m: { value: 0 }, own: { value: null }, other: { value: null }, look: { value: 0 } };
+  return { m: { value: 0 }, own: { value: null }, other: { value: null }, look: { value: 0 }, round: { value: false } };
 }
 
 export function setLook(uniforms: LayerUniforms, look: MorphLook): void {
@@ -39,15 +42,18 @@ export function layerMaterial(uniforms: LayerUniforms, torn: boolean): ShaderMat
     toneMapped: false,
     vertexShader: `
       uniform float m;
+      uniform bool round;
       attribute vec3 moved;
       attribute vec2 uvThere;
       attribute float psi;
-      varying vec2 vOwn;
+      varying vec3 vOwn;
       varying vec2 vThere;
       varying float vPsi;
       varying vec3 vSeen;
       void main() {
-        vOwn = uv;
+        // A picture lies on its surface as its camera threw it there: in proportion to the depth.
+        float depth = max(round ? length(position.xz) : -position.z, 1e-3);
+        vOwn = vec3(uv * depth, depth);
         vThere = uvThere;
         vPsi = psi;
         vec4 seen = modelViewMatrix * vec4(position + m * moved, 1.0);
@@ -59,12 +65,12 @@ export function layerMaterial(uniforms: LayerUniforms, torn: boolean): ShaderMat
       uniform float look;
       uniform sampler2D own;
       uniform sampler2D other;
-      varying vec2 vOwn;
+      varying vec3 vOwn;
       varying vec2 vThere;
       varying float vPsi;
       varying vec3 vSeen;
       void main() {
-        vec3 colour = mix(texture2D(own, vOwn).rgb, texture2D(other, vThere).rgb, m * vPsi);
+        vec3 colour = mix(texture2D(own, vOwn.xy / vOwn.z).rgb, texture2D(other, vThere).rgb, m * vPsi);
         if (look > 1.5) {
           colour = mix(colour * 0.45, mix(vec3(0.95, 0.55, 0.25), vec3(0.2, 0.75, 0.65), vPsi), 0.45);
         } else if (look > 0.5) {
@@ -73,7 +79,7 @@ export function layerMaterial(uniforms: LayerUniforms, torn: boolean): ShaderMat
           float near = clamp(8.0 / -vSeen.z, 0.0, 1.0);
           colour = light * mix(vec3(0.45, 0.55, 0.7), vec3(0.95, 0.85, 0.7), near);
         }
-        gl_FragColor = vec4(colour, WEIGHT);
+        gl_FragColor = vec4(colour, mix(1.0, WEIGHT, smoothstep(0.0, ${ALONE.toFixed(2)}, m)));
       }`,
   });
 }
@@ -136,7 +142,8 @@ export function mixMaterial(uniforms: MixUniforms): ShaderMaterial {
         otherZ = other.a > 0.0 ? otherZ : 1e6;
         float first = min(ownZ, otherZ);
         vec2 behind = vec2(ownZ - first, otherZ - first) / (first * ${TOLERANCE.toFixed(3)});
-        vec2 weight = vec2(own.a, other.a) * max(vec2(1.0 - m, m), vec2(0.001)) * exp(-min(behind * behind, 60.0));
+        vec2 weight = vec2(own.a, other.a) * max(vec2(1.0 - m, m), vec2(1e-4))
+          * exp(-min(behind * behind * smoothstep(vec2(0.0), vec2(${ALONE.toFixed(2)}), vec2(m, 1.0 - m)), 60.0));
         return vec4(own.rgb * weight.x + other.rgb * weight.y, weight.x + weight.y);
       }
 

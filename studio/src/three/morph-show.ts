@@ -13,7 +13,7 @@ import {
   type WebGLRenderer,
 } from "three";
 import type { Fault } from "../core/fault.ts";
-import { type MorphState, type MorphWalk, nearestStation, placeOn, type Station, walkedOn } from "../core/morph-walk.ts";
+import { heightToCover, type MorphState, type MorphWalk, nearestStation, placeOn, reachOf, type Station, walkedOn } from "../core/morph-walk.ts";
 import { axesOf, drawnFromCamera } from "../core/pinhole.ts";
 import { MorphFiles } from "./morph-load.ts";
 import { MorphLayer } from "./morph-layer.ts";
@@ -21,8 +21,8 @@ import { mixMaterial, mixUniforms } from "./morph-material.ts";
 
 const NEAR_M = 0.3;
 const FAR_M = 4000;
-/** Looking aside: no further than there are pictures, by and large. */
-const MOST_YAW = 1.4;
+/** Looking aside: no further than there are pictures, by and large (the least, rad). */
+const LEAST_YAW = 1.4;
 const MOST_PITCH = 0.9;
 const TURN_RAD_S = 0.8;
 const RUN = 3;
@@ -63,7 +63,8 @@ export class MorphShow {
   }
 
   look(left: number, up: number): void {
-    this.#yaw = clamp(this.#yaw + left, MOST_YAW);
+    const widest = Math.max(0, ...this.#walks.flatMap(({ stations }) => stations.slice(0, 1).map(reachOf)));
+    this.#yaw = clamp(this.#yaw + left, Math.max(LEAST_YAW, widest));
     this.#pitch = clamp(this.#pitch + up, MOST_PITCH);
   }
 
@@ -133,9 +134,7 @@ export class MorphShow {
     this.#camera.position.lerpVectors(from.eye, to.eye, m);
     const aside = new Quaternion().setFromEuler(new Euler(this.#pitch, this.#yaw, 0, "YXZ"));
     this.#camera.quaternion.slerpQuaternions(from.turn, to.turn, m).multiply(aside);
-    const high = 2 * Math.atan(start.height_px / 2 / start.focal_px[1]);
-    const wide = 2 * Math.atan(start.width_px / 2 / start.focal_px[0] / aspect);
-    this.#camera.fov = (Math.min(high, wide) * 180) / Math.PI;
+    this.#camera.fov = (heightToCover(start, aspect) * 180) / Math.PI;
     this.#camera.aspect = aspect;
     this.#camera.updateProjectionMatrix();
     this.#camera.updateMatrixWorld();

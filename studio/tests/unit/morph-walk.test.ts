@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
-import { metresTo, type MorphWalk, nearTransitions, placeOn, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
+import { heightToCover, metresTo, type MorphWalk, nearTransitions, placeOn, reachOf, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
 import { isInside } from "../../src/core/place.ts";
 
 const station = (id: string, y: number): object => ({
@@ -35,6 +35,7 @@ describe("a walk from view to view", () => {
     [{ keys: [{ ...station("a", 0), picture: "../x.webp" }] }, "keys"],
     [{ keys: [{ ...station("a", 0), transform: [1] }] }, "keys"],
     [{ keys: [{ ...station("a", 0), focal_px: [0, 1] }] }, "keys"],
+    [{ keys: [{ ...station("a", 0), projection: "cone" }] }, "keys"],
     [{ transitions: [{ ...morph, end: 9 }] }, "transitions"],
     [{ transitions: [{ ...morph, kind: "jump" }] }, "transitions"],
     [{ transitions: [{ ...morph, back: null }] }, "transitions"],
@@ -52,6 +53,18 @@ describe("a walk from view to view", () => {
     expect(placeOn(walk, 1.25)).toEqual({ transition: 1, m: 0.25 });
     expect(placeOn(walk, 7)).toEqual({ transition: 1, m: 1 });
     expect(placeOn(read({ keys: [station("a", 0)], transitions: [] }), 0.4)).toEqual({ transition: 0, m: 0 });
+  });
+
+  it("covers a canvas with a picture on a plane or a cylinder", () => {
+    const [flat, round] = [read(), read({ keys: [{ ...station("a", 0), width_px: 900, projection: "cylinder" }], transitions: [] })];
+    const [plane, cylinder] = [flat.stations[0], round.stations[0]];
+    if (plane === undefined || cylinder === undefined) throw new Error("no stations");
+    expect(reachOf(plane)).toBeCloseTo(Math.atan(2 / 3));
+    expect(reachOf(cylinder)).toBeCloseTo(1.5);
+    const high = 2 * Math.atan(1 / 3);
+    expect(heightToCover(plane, 1)).toBeCloseTo(high);
+    expect(heightToCover(plane, 4)).toBeCloseTo(2 * Math.atan(1 / 6));
+    expect(heightToCover(cylinder, 3)).toBeCloseTo(high);
   });
 
   it("walks metres across transitions of different lengths, and stops at both ends", () => {

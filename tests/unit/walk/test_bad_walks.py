@@ -153,13 +153,3 @@ def test_a_killed_run_goes_on_where_it_was(
     result = _walk(gorge, tmp_path / "out")
     assert result.exit_code == 0
     assert len(calls) == 3
-
-
-def test_several_views_of_a_key_position_are_refused(gorge: Path, tmp_path: Path) -> None:
-    folder = tmp_path / "record" / "views" / "0"
-    folder.mkdir(parents=True)
-    for side in ("left", "right"):
-        for view in ("a", "b"):
-            shutil.copy(gorge / side / "000.png", folder / f"{view}_{side}.png")
-    with pytest.raises(InputError, match="has several views at a key position"):
-        _walk(tmp_path / "record", tmp_path / "out")

@@ -21,7 +21,8 @@ _EYE_M = 1.6
 class GorgeWalk:
     """step_m: between key positions. turning_rad, rolling_rad: how much the camera turns aside and
     rolls from key position to key position, at most. drift: by which factor the exposure changes
-    with each. fov_rad: the horizontal angle of view.
+    with each. fov_rad: the horizontal angle of view. views: at each key position, turned by
+    view_turn_rad from one to the next about the left camera, the middle one ahead.
     """
 
     keys: int = 5
@@ -34,6 +35,8 @@ class GorgeWalk:
     rolling_rad: float = 0.0
     drift: float = 1.0
     seed: int = 0
+    views: int = 1
+    view_turn_rad: float = 0.7
 
     @property
     def focal_px(self) -> float:
@@ -59,6 +62,18 @@ def cameras_of(walk: GorgeWalk, gorge: Gorge) -> list[WalkCamera]:
     return cameras
 
 
+def views_of(walk: GorgeWalk, camera: WalkCamera) -> list[WalkCamera]:
+    """The left cameras of one key position, from the leftmost view to the rightmost."""
+    middle = 0.5 * (walk.views - 1)
+    views = []
+    for number in range(walk.views):
+        pose = camera.world_from_camera.copy()
+        turn = Rotation.from_euler("y", (number - middle) * walk.view_turn_rad)
+        pose[:3, :3] = pose[:3, :3] @ turn.as_matrix()
+        views.append(WalkCamera(camera.width_px, camera.height_px, camera.focal_px, pose))
+    return views
+
+
 def beside(camera: WalkCamera, baseline_m: float) -> WalkCamera:
     """The right camera of a rig."""
     pose = camera.world_from_camera.copy()
@@ -67,10 +82,10 @@ def beside(camera: WalkCamera, baseline_m: float) -> WalkCamera:
 
 
 def shoot_walk(walk: GorgeWalk) -> tuple[list[WalkCamera], list[tuple[WalkShot, WalkShot]]]:
-    """All pairs, and the left cameras."""
+    """All pairs, and the left cameras; the exposure drifts from view to view."""
     gorge = make_gorge(walk.keys * walk.step_m, walk.seed)
     scene = GorgeScene(gorge)
-    cameras = cameras_of(walk, gorge)
+    cameras = [view for camera in cameras_of(walk, gorge) for view in views_of(walk, camera)]
     pairs = [
         (
             scene.shoot(camera, walk.drift**number),
@@ -82,13 +97,19 @@ def shoot_walk(walk: GorgeWalk) -> tuple[list[WalkCamera], list[tuple[WalkShot, 
 
 
 def write_walk(folder: Path, walk: GorgeWalk) -> list[WalkCamera]:
-    """Write left/, right/, walk.toml, and the truth: depth/ and poses.txt; the left cameras."""
+    """Write left/ and right/ (or views/), walk.toml, and the truth: depth/ and poses.txt, of each
+    view; the left cameras.
+    """
     cameras, pairs = shoot_walk(walk)
-    for name in ("left", "right", "depth"):
-        (folder / name).mkdir(parents=True, exist_ok=True)
+    (folder / "depth").mkdir(parents=True, exist_ok=True)
     for number, pair in enumerate(pairs):
         for side, shot in zip(("left", "right"), pair, strict=True):
-            Image.fromarray(shot.image).save(folder / side / f"{number:03d}.png")
+            file = folder / side / f"{number:03d}.png"
+            if walk.views > 1:
+                key, view = divmod(number, walk.views)
+                file = folder / "views" / f"{key:03d}" / f"{view}_{side}.png"
+            file.parent.mkdir(parents=True, exist_ok=True)
+            Image.fromarray(shot.image).save(file)
         np.save(folder / "depth" / f"{number:03d}.npy", pair[0].depth_m.astype(np.float32))
     toml = (
         f"focal_px = {walk.focal_px:.6f}\ncentre_px = [{walk.width_px / 2:.1f},"

@@ -12,11 +12,13 @@ from scipy.spatial.transform import Rotation, Slerp
 
 from veduta.run.errors import InputError
 from veduta.walk.build.render import Transition, draw_between
+from veduta.walk.build.sampling import sampled
 from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way
 from veduta.walk.rig import Image
 
 FRAMES_S = 25
+Shown = tuple[Image, Screen]
 _SHORTEST_M = 0.5
 
 
@@ -38,24 +40,36 @@ def write_film(path: Path, frames: Iterator[Image], screen: Screen) -> int:
 
 
 def frames_of(
-    way: Way, first: Image, second: Image, screen: Screen, speed_m_s: float
+    way: Way, first: Shown, second: Shown, screen: Screen, speed_m_s: float
 ) -> Iterator[Image]:
-    """The frames of a transition, its end not among them."""
+    """The frames of a transition, its end not among them. first, second: pictures of the two ends
+    and what they are on; screen: that of the film, a plane.
+    """
     length_m = max(way.distance_m if way.forth is not None else 0.0, _SHORTEST_M)
     count = max(1, round(length_m / speed_m_s * FRAMES_S))
     for number in range(count):
         yield frame_at(way, first, second, screen, number / count)
 
 
-def frame_at(way: Way, first: Image, second: Image, screen: Screen, m: float) -> Image:
+def flat_picture(image: Image, own: Screen, screen: Screen) -> Image:
+    """A picture as another screen in the same camera's frame shows it."""
+    if own == screen:
+        return image
+    rays = screen.points(screen.pixels, np.ones(screen.pixels.shape[:2]))
+    pixels = np.nan_to_num(own.project(rays)[0], nan=-1e4)
+    return np.clip(np.round(sampled(image, pixels)), 0, 255).astype(np.uint8)
+
+
+def frame_at(way: Way, start: Shown, end: Shown, screen: Screen, m: float) -> Image:
     """What is seen at m (0..1) of a transition of any kind."""
-    if way.kind == "cut" or way.forth is None or way.back is None:
+    if way.kind == "morph" and way.forth is not None and way.back is not None:
+        transition = Transition(way.forth, way.back, way.second_from_first, start[0], end[0])
+        return draw_between(transition, m, pose_at(way.second_from_first, m), screen)[0]
+    first, second = (flat_picture(*shown, screen) for shown in (start, end))
+    if way.kind == "cut":
         return first if m < 0.5 else second
-    if way.kind == "fade":
-        mixed = (1.0 - m) * first.astype(np.float32) + m * second.astype(np.float32)
-        return np.round(mixed).astype(np.uint8)
-    transition = Transition(way.forth, way.back, way.second_from_first, first, second)
-    return draw_between(transition, m, pose_at(way.second_from_first, m), screen)[0]
+    mixed = (1.0 - m) * first.astype(np.float32) + m * second.astype(np.float32)
+    return np.round(mixed).astype(np.uint8)
 
 
 def pose_at(second_from_first: NDArray[np.float64], m: float) -> NDArray[np.float64]:

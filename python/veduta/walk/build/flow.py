@@ -129,7 +129,7 @@ def _labels(
     costs = walk_label_costs(
         Shrunk(first.grey, settings.scales).levels, Shrunk(second.grey, settings.scales).levels,
         list(settings.scales), own, there[valid], _scale_index(looming[at][valid], settings.scales),
-        _epipolar(own, there[valid], first, second, pose), offsets, steps,
+        _epipolar(own, there[valid], first, second, pose, first.depth_m[at][valid]), offsets, steps,
         radius=settings.radius, band_px=settings.band_px, noise=settings.noise,
     )  # fmt: skip
     right, down = _weights(first.depth_m[at], settings)
@@ -170,15 +170,19 @@ def _scale_index(looming: Matrix, scales: tuple[float, ...]) -> NDArray[np.int32
 
 
 def _epipolar(
-    own: NDArray[np.float32], there: NDArray[np.float32], first: LocalModel, second: LocalModel, pose: Matrix
+    own: NDArray[np.float32], there: NDArray[np.float32], first: LocalModel, second: LocalModel,
+    pose: Matrix, depth: NDArray[np.float32],
 ) -> NDArray[np.float32]:
     """(n, 3) lines through the prediction and the epipole; 0 where the two are one."""
-    far = first.screen.points(own, np.full(len(own), 1e6)) @ pose[:, :3].T
-    infinite, _ = second.screen.project(far)
+    rays = first.screen.points(own, depth) @ pose[:, :3].T
+    infinite, _ = second.screen.project(1e6 * rays)
     along = there - infinite
-    length = np.linalg.norm(along, axis=1)
-    certain = np.isfinite(length) & (length > 3.0)
+    certain = np.isfinite(along).all(axis=1) & (np.linalg.norm(along, axis=1) > 3.0)
+    if second.screen.round:  # the line is a curve there: its tangent
+        along = second.screen.project(1.02 * rays + pose[:, 3])[0] - there
     with np.errstate(invalid="ignore", divide="ignore"):
+        length = np.linalg.norm(along, axis=1)
+        certain &= np.isfinite(length) & (length > 1e-6)
         normal = np.stack([-along[:, 1], along[:, 0]], axis=1) / length[:, None]
     lines = np.concatenate([normal, -(normal * there).sum(axis=1, keepdims=True)], axis=1)
     return np.where(certain[:, None], lines, 0.0).astype(np.float32)

@@ -24,7 +24,8 @@ class LocalModel:
     """L = (X, Y, Z, I, dom): the maps follow from the depth and the screen.
 
     image: (h, w, 3). depth_m: (h, w) float32 without gaps. measured: (h, w), the valid domain: where
-    stereo is sure; elsewhere depth was carried over from around. sky: (h, w).
+    stereo is sure; elsewhere depth was carried over from around. sky: (h, w). front: of a mosaic,
+    the view in whose camera's frame it is.
     """
 
     key: str
@@ -33,6 +34,12 @@ class LocalModel:
     depth_m: NDArray[np.float32]
     measured: NDArray[np.bool_]
     sky: NDArray[np.bool_]
+    front: LocalModel | None = None
+
+    @property
+    def plane(self) -> LocalModel:
+        """The model on a plane in whose frame this one is: itself, or a mosaic's front view."""
+        return self if self.front is None else self.front
 
     @cached_property
     def points(self) -> Points:

@@ -28,7 +28,7 @@ class MorphMesh:
     points: (v, 3) float32 in the first camera's frame. destinations: (v, 3) float32 in the second
     camera's. uv, uv_second: (v, 2) of the two pictures, origin upper left. psi: (v,). triangles:
     (t, 3) uint32, clockwise on the screen. torn: (t,) whether a triangle spans a break in depth:
-    what it shows was never seen.
+    what it shows was never seen. round: whether the first picture is on a cylinder.
     """
 
     points: NDArray[np.float32]
@@ -38,6 +38,14 @@ class MorphMesh:
     psi: NDArray[np.float32]
     triangles: NDArray[np.uint32]
     torn: NDArray[np.bool_]
+    round: bool = False
+
+    @property
+    def depth_m(self) -> NDArray[np.float32]:
+        """(v,) of the points before the first camera, or from the axis of its cylinder."""
+        if self.round:
+            return np.hypot(self.points[:, 0], self.points[:, 2])
+        return self.points[:, 2]
 
 
 def mesh_of(morph: Morph, settings: MeshSettings = MeshSettings()) -> MorphMesh:
@@ -62,7 +70,7 @@ def mesh_of(morph: Morph, settings: MeshSettings = MeshSettings()) -> MorphMesh:
         (pixels / size).reshape(-1, 2).astype(np.float32),
         (np.clip(target, -4096, 8192) / size_second).reshape(-1, 2).astype(np.float32),
         morph.psi[at].reshape(-1).astype(np.float32),
-        triangles, torn,
+        triangles, torn, model.screen.round,
     )  # fmt: skip
 
 

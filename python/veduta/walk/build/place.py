@@ -39,14 +39,17 @@ class Station:
     world_from_camera: Matrix
 
 
-def write_picture(folder: Path, number: int, image: Image, quality: int) -> str:
-    """Write a key position's picture as WebP; its path in the place."""
-    name = f"{FOLDER}/key-{number:04d}.webp"
+def picture_name(number: int) -> str:
+    """The path of a key position's picture in the place."""
+    return f"{FOLDER}/key-{number:04d}.webp"
+
+
+def write_picture(path: Path, image: Image, quality: int) -> None:
+    """Write a key position's picture as WebP."""
     file = BytesIO()
     PillowImage.fromarray(image).save(file, "WEBP", quality=quality, method=4)
-    (folder / FOLDER).mkdir(parents=True, exist_ok=True)
-    write_bytes(folder / name, file.getvalue())
-    return name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    write_bytes(path, file.getvalue())
 
 
 def write_way(folder: Path, number: int, way: Way, pictures: tuple[str, str]) -> tuple[str, str]:
@@ -102,6 +105,7 @@ def walk_of(
             id=one.id, picture=picture, width_px=one.screen.width_px, height_px=one.screen.height_px,
             focal_px=one.screen.focal_px, centre_px=one.screen.centre_px,
             transform=tuple(one.world_from_camera.T.ravel().tolist()),
+            projection="cylinder" if one.screen.round else "plane",
         )
         for one, picture in zip(stations, pictures, strict=True)
     ]  # fmt: skip

@@ -28,11 +28,13 @@ NEAR_M = 0.3
 class Mixing:
     """tolerance: by how much (a share) a surface may lie behind another to be the same. torn: the
     weight of what spans a break in depth. floor: the least weight of a mesh at its own far end.
+    alone: share of the way over which what hides a model, and its own breaks, come to count.
     """
 
     tolerance: float = 0.15
     torn: float = 0.02
-    floor: float = 0.001
+    floor: float = 1e-4
+    alone: float = 0.12
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,21 +88,33 @@ def draw_mesh(
     points = (1.0 - m) * mesh.points + m * arrived
     seen, depth = screen.project(points @ cam_from_own[:, :3].T + cam_from_own[:, 3])
     placed = np.column_stack([np.nan_to_num(seen, nan=-1e6), depth]).astype(np.float32)
-    carried = np.column_stack([mesh.uv, mesh.uv_second, mesh.psi]).astype(np.float32)
+    # A picture lies on its surface as its camera threw it there: in proportion to the depth.
+    own_depth = mesh.depth_m[:, None]
+    carried = np.column_stack([mesh.uv * own_depth, own_depth, mesh.uv_second, mesh.psi])
+    carried = carried.astype(np.float32)
     drawn, flat, which = walk_rasterise(
         placed, carried, mesh.triangles, screen.width_px, screen.height_px, near=NEAR_M
     )
-    values = flat.reshape(screen.height_px, screen.width_px, 5)
-    own = _sampled(own_image, values[..., 0:2])
-    other = _sampled(other_image, values[..., 2:4])
-    share = (m * values[..., 4])[..., None]
+    values = flat.reshape(screen.height_px, screen.width_px, 6)
+    own = _sampled(own_image, values[..., 0:2] / np.maximum(values[..., 2:3], 1e-6))
+    other = _sampled(other_image, values[..., 3:5])
+    share = (m * values[..., 5])[..., None]
     seen_there = which >= 0
     torn = np.where(seen_there, mesh.torn[np.maximum(which, 0)], False)
-    weight = np.where(torn, mixing.torn, 1.0) * seen_there
+    away = left_behind(m, mixing)
+    weight = np.where(torn, 1.0 - away * (1.0 - mixing.torn), 1.0) * seen_there
     return Layer((1.0 - share) * own + share * other, weight.astype(np.float32), drawn)
 
 
-def _sampled(image: Image, uv: NDArray[np.float32]) -> NDArray[np.float32]:
+def left_behind(m: float, mixing: Mixing = Mixing()) -> float:
+    """0 at a model's own key position, where its picture is what is seen, and 1 from `alone` on."""
+    if mixing.alone <= 0.0:
+        return 1.0
+    share = min(1.0, max(0.0, m / mixing.alone))
+    return share * share * (3.0 - 2.0 * share)
+
+
+def _sampled(image: Image, uv: NDArray[np.floating]) -> NDArray[np.float32]:
     height, width = image.shape[:2]
     return sampled(image, uv * np.array([width, height], dtype=np.float32))
 
@@ -113,7 +127,8 @@ def mixed(own: Layer, other: Layer, m: float, mixing: Mixing = Mixing()) -> tupl
     for layer, share in ((own, 1.0 - m), (other, m)):
         with np.errstate(invalid="ignore"):
             behind = np.nan_to_num((layer.depth - nearest) / nearest, nan=0.0, posinf=1e3)
-        weight = layer.weight * max(share, mixing.floor) * np.exp(-((behind / mixing.tolerance) ** 2))
+        hidden = left_behind(1.0 - share, mixing) * (behind / mixing.tolerance) ** 2
+        weight = layer.weight * max(share, mixing.floor) * np.exp(-np.minimum(hidden, 60.0))
         colour += weight[..., None] * layer.colour
         total += weight
     seen = total > 1e-7

@@ -1,4 +1,4 @@
-"""The image plane of a local model: which ray each of its pixels is, and where a point lies on it."""
+"""The image surface of a local model: which ray each of its pixels is, and where a point lies on it."""
 
 from __future__ import annotations
 
@@ -11,19 +11,24 @@ from numpy.typing import NDArray
 from veduta.walk.rig import Rig
 
 Points = NDArray[np.float64]
+BESIDE_RAD = 0.6
+"""How far beyond the edge of a cylinder's picture a point still has a place on it."""
 
 
 @dataclass(frozen=True)
 class Screen:
-    """A plane before the camera. Camera frame: x right, y down, z forward; pixel centres at .5.
+    """A plane before the camera, or a cylinder around it (its axis is the camera's y).
 
-    focal_px: along x and y. centre_px: principal point.
+    Camera frame: x right, y down, z forward; pixel centres at .5. focal_px: along x and y.
+    centre_px: principal point; on a cylinder the x of the direction z. Depth is along z on a plane,
+    and the distance from the axis on a cylinder.
     """
 
     width_px: int
     height_px: int
     focal_px: tuple[float, float]
     centre_px: tuple[float, float]
+    round: bool = False
 
     @staticmethod
     def of(rig: Rig) -> Screen:
@@ -32,7 +37,7 @@ class Screen:
 
     @property
     def matrix(self) -> NDArray[np.float64]:
-        """(3, 3) camera matrix."""
+        """(3, 3) camera matrix of a plane."""
         (fx, fy), (cx, cy) = self.focal_px, self.centre_px
         return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
 
@@ -43,16 +48,32 @@ class Screen:
         return np.stack([x, y], axis=-1).astype(np.float32)
 
     def points(self, pixels: NDArray[np.floating], depth_m: NDArray[np.floating]) -> Points:
-        """(..., 3) in the camera's frame, of (..., 2) pixels at a depth along z."""
+        """(..., 3) in the camera's frame, of (..., 2) pixels at a depth."""
         x = (pixels[..., 0] - self.centre_px[0]) / self.focal_px[0]
         y = (pixels[..., 1] - self.centre_px[1]) / self.focal_px[1]
         depth = np.asarray(depth_m, dtype=np.float64)
+        if self.round:
+            return np.stack([np.sin(x) * depth, y * depth, np.cos(x) * depth], axis=-1)
         return np.stack([x * depth, y * depth, depth], axis=-1)
 
     def project(self, points: Points) -> tuple[Points, NDArray[np.float64]]:
         """(..., 2) pixels and (...) depth of points in the camera's frame; NaN behind it."""
-        depth = points[..., 2]
+        if self.round:
+            across, depth = self._around(points)
+        else:
+            depth = points[..., 2]
+            across = points[..., 0] / np.where(depth > 1e-6, depth, np.nan)
         ahead = np.where(depth > 1e-6, depth, np.nan)
-        x = points[..., 0] / ahead * self.focal_px[0] + self.centre_px[0]
+        x = across * self.focal_px[0] + self.centre_px[0]
         y = points[..., 1] / ahead * self.focal_px[1] + self.centre_px[1]
         return np.stack([x, y], axis=-1), depth
+
+    def _around(self, points: Points) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Angle about the axis and distance from it; negative far beside the picture, so that no
+        triangle reaches around behind the camera."""
+        angle = np.arctan2(points[..., 0], points[..., 2])
+        depth = np.hypot(points[..., 0], points[..., 2])
+        left = -self.centre_px[0] / self.focal_px[0]
+        right = (self.width_px - self.centre_px[0]) / self.focal_px[0]
+        beside = (angle < left - BESIDE_RAD) | (angle > right + BESIDE_RAD)
+        return angle, np.where(beside, -1.0, depth)

@@ -20,7 +20,8 @@ class StereoSettings:
     nearest: depth of the nearest surface that is looked for, in baselines. block_px: of the cost.
     most: disparities at most. check_px: how far left and right may disagree. speckle_px: smaller
     pieces are noise. median_px, sigma_px: of the two filters of section 3.2. smoothness, edge: of
-    the weighted least squares (Min et al. 2014) that carry disparities into what has none.
+    the weighted least squares (Min et al. 2014) that carry disparities into what has none. nearer:
+    share of the sure pixels near the end of the search from which it is done again, twice as far.
     """
 
     nearest: float = 10.0
@@ -32,6 +33,7 @@ class StereoSettings:
     sigma_px: float = 1.0
     smoothness: float = 4000.0
     edge: float = 1.2
+    nearer: float = 0.004
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +49,17 @@ def match_stereo(
 ) -> Disparities:
     """Section 3.2: the disparity (px, left x minus right x) of each pixel of the left picture."""
     count = _disparities(rig, settings)
+    found = _checked(left, right, rig, settings, count)
+    if _is_short(found, rig, settings, count):
+        found = _checked(left, right, rig, settings, _longer(count, rig, settings))
+    sure = _smoothed(found, settings)
+    return Disparities(sure, _filled(sure, left, settings))
+
+
+def _checked(
+    left: Image, right: Image, rig: Rig, settings: StereoSettings, count: int
+) -> NDArray[np.float32]:
+    """(h, w) disparities among `count`, NaN where left and right disagree."""
     lowest = int(np.floor(rig.shift_px))
     matcher = cv2.StereoSGBM.create(
         minDisparity=lowest, numDisparities=count, blockSize=settings.block_px,
@@ -61,9 +74,23 @@ def match_stereo(
     nothing = (lowest - 1) * _SIXTEENTHS
     disparity = np.where(forth > nothing, forth / _SIXTEENTHS, np.nan).astype(np.float32)
     other = np.where(back > nothing, back / _SIXTEENTHS, np.nan).astype(np.float32)
-    checked = _agreed(disparity, other, settings.check_px)
-    sure = _smoothed(checked, settings)
-    return Disparities(sure, _filled(sure, left, settings))
+    return _agreed(disparity, other, settings.check_px)
+
+
+def _is_short(
+    found: NDArray[np.float32], rig: Rig, settings: StereoSettings, count: int
+) -> bool:
+    """Whether surfaces go on beyond the nearest depth that was looked for."""
+    if _longer(count, rig, settings) <= count or not np.isfinite(found).any():
+        return False
+    with np.errstate(invalid="ignore"):
+        near = found - np.float32(rig.shift_px) > 0.9 * count
+    return bool(near.sum() > settings.nearer * np.isfinite(found).sum())
+
+
+def _longer(count: int, rig: Rig, settings: StereoSettings) -> int:
+    most = int(min(settings.most, rig.width_px / 3.0)) // 16 * 16
+    return max(count, min(2 * count, most))
 
 
 def _disparities(rig: Rig, settings: StereoSettings) -> int:

@@ -11,11 +11,13 @@ from numpy.typing import NDArray
 from veduta.run.errors import NotFoundError
 from veduta.walk.build.flow import FlowSettings
 from veduta.walk.build.judge import JudgeLimits, Verdict, judge
+from veduta.walk.build.level import compare_colours, levelled
 from veduta.walk.build.local_model import LocalModel
 from veduta.walk.build.matches import match_features
 from veduta.walk.build.mesh import MeshSettings, MorphMesh, mesh_of
 from veduta.walk.build.morph import find_morphs, inverse
 from veduta.walk.build.pose import relative_pose
+from veduta.walk.build.sampling import sampled
 from veduta.walk.rig import Image, Rig
 
 Matrix = NDArray[np.float64]
@@ -34,7 +36,8 @@ class WaySettings:
 class Way:
     """A transition. forth, back: None where the two key positions have nothing in common.
 
-    predicted: the end's view from the start's colours. figures: what the document tells.
+    predicted: the end's view from the start's colours, levelled. ratio: by how much brighter the
+    second picture is in each channel; None where too little is in common to say.
     """
 
     second_from_first: Matrix
@@ -46,6 +49,7 @@ class Way:
     residual_px: float | None = None
     energies: tuple[float, float, float] | None = None
     why: str = ""
+    ratio: tuple[float, float, float] | None = None
 
     @property
     def distance_m(self) -> float:
@@ -64,24 +68,27 @@ def find_way(
     first: LocalModel, second: LocalModel, rig: Rig, settings: WaySettings = WaySettings()
 ) -> Way:
     """From one key position to the next; a cut where nothing is in common."""
-    matches = match_features(first, second)
+    matches = match_features(first.plane, second.plane)
     try:
-        pose = relative_pose(first, second, rig, matches)
+        pose = relative_pose(first.plane, second.plane, rig, matches)
     except NotFoundError as error:
         return Way(np.eye(4)[:3], why=error.evidence)
     forth, back = find_morphs(first, second, pose.second_from_first, settings.flow)
     meshes = mesh_of(forth, settings.mesh), mesh_of(back, settings.mesh)
     psi = float(forth.region.mean()), float(back.region.mean())
+    shared = forth.region & ~first.sky
+    ratio = compare_colours(first.image[shared], sampled(second.image, forth.target)[shared])
+    gain = np.array(ratio or (1.0, 1.0, 1.0))
     there, picture = judge(
-        meshes[0], pose.second_from_first, second.screen, first.image, second.image, psi[0],
-        settings.judge,
+        meshes[0], pose.second_from_first, second.screen, levelled(first.image, gain), second.image,
+        psi[0], settings.judge,
     )  # fmt: skip
     here, _ = judge(
-        meshes[1], inverse(pose.second_from_first), first.screen, second.image, first.image, psi[1],
-        settings.judge,
+        meshes[1], inverse(pose.second_from_first), first.screen, levelled(second.image, 1.0 / gain),
+        first.image, psi[1], settings.judge,
     )  # fmt: skip
     labelling = forth.flow.labelling
     return Way(
         pose.second_from_first, *meshes, there, picture, int(pose.inliers.sum()), pose.residual_px,
-        (labelling.energy, labelling.energy_icm, labelling.bound), there.why or here.why,
+        (labelling.energy, labelling.energy_icm, labelling.bound), there.why or here.why, ratio,
     )  # fmt: skip

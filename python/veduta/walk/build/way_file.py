@@ -20,7 +20,9 @@ def arrays_of(way: Way) -> dict[str, NDArray[Any]]:
     """All of it, by name."""
     told = {
         "matches": way.matches, "residual_px": way.residual_px, "energies": way.energies,
-        "why": way.why, "verdict": None if way.verdict is None else asdict(way.verdict),
+        "why": way.why, "ratio": way.ratio,
+        "round": [mesh is not None and mesh.round for mesh in (way.forth, way.back)],
+        "verdict": None if way.verdict is None else asdict(way.verdict),
     }  # fmt: skip
     arrays: dict[str, NDArray[Any]] = {
         "pose": way.second_from_first,
@@ -38,14 +40,15 @@ def way_of(arrays: dict[str, NDArray[Any]]) -> Way:
     """The transition again."""
     told = json.loads(arrays["told"].tobytes())
     forth, back = (
-        MorphMesh(*(arrays[f"{name}_{column}"] for column in _COLUMNS))
+        MorphMesh(**{column: arrays[f"{name}_{column}"] for column in _COLUMNS}, round=is_round)
         if f"{name}_points" in arrays
         else None
-        for name in ("forth", "back")
+        for name, is_round in zip(("forth", "back"), told["round"], strict=True)
     )
     return Way(
         arrays["pose"], forth, back,
         None if told["verdict"] is None else Verdict(**told["verdict"]),
         arrays.get("predicted"), told["matches"], told["residual_px"],
         None if told["energies"] is None else tuple(told["energies"]), told["why"],
+        None if told["ratio"] is None else tuple(told["ratio"]),
     )  # fmt: skip

@@ -27,6 +27,17 @@ class RigRecord(_Record):
     baseline_m: Finite = Field(gt=0.0)
 
 
+class ViewRecord(_Record):
+    """One of several views of a key position."""
+
+    id: str
+    left: str
+    right: str
+    turn: Annotated[tuple[Finite, ...], Field(min_length=9, max_length=9)] | None = Field(
+        description="front view from this one, 3x3 by rows; null: it was left out"
+    )
+
+
 class KeyRecord(_Record):
     """A key position: its pictures, and where the left camera was (world frame, z up)."""
 
@@ -34,6 +45,10 @@ class KeyRecord(_Record):
     left: str
     right: str
     transform: Matrix = Field(description="world_from_camera, 4x4, column-major, metres")
+    gain: tuple[Finite, Finite, Finite] = Field(
+        default=(1.0, 1.0, 1.0), description="by which the picture's channels were levelled"
+    )
+    views: tuple[ViewRecord, ...] = ()
 
 
 class TransitionRecord(_Record):
