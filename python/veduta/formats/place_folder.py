@@ -19,12 +19,16 @@ from veduta.formats.ply import read_points, write_points
 from veduta.place import manifest
 from veduta.place.files import Source, copies, drawn_files, files_beside
 from veduta.place.mesh import Mesh
+from veduta.place.part import Part
 from veduta.place.place import Cloud, Place, PlacedPart, Standing
 from veduta.run.errors import InputError
 
 MANIFEST = "place.json"
 PARTS = "parts"
 EYE_HEIGHT_M = 1.7
+# Nearly all of a measured surface, and how much smaller its box is where strays widen the whole.
+CORE_QUANTILES = (0.02, 0.98)
+CORE_SHARE = 0.7
 
 
 def save_place(place: Place, folder: Path) -> None:
@@ -167,16 +171,31 @@ def _part_row(placed: PlacedPart, model: str) -> manifest.PlacePart:
         transform=tuple(standing.transform.T.ravel().tolist()),
         arrangement=standing.arrangement,
         bounds=manifest.Bounds(min=low, max=high),
+        core=_core_of(placed.content),
         ground=standing.ground,
         backdrop=standing.backdrop,
     )
+
+
+def _core_of(content: Part | Mesh) -> manifest.Bounds | None:
+    """The box around nearly all of a surface; None where it is little smaller than the whole.
+
+    Surfaces from photos and scans trail away into strays: with those in view, the thing is small.
+    """
+    if not isinstance(content, Mesh) or len(content.positions_m) == 0:
+        return None
+    low, high = np.quantile(content.positions_m, CORE_QUANTILES, axis=0)
+    whole = np.linalg.norm(np.ptp(content.positions_m, axis=0))
+    if float(np.linalg.norm(high - low)) > CORE_SHARE * float(whole):
+        return None
+    return manifest.Bounds(min=_vector(low), max=_vector(high))
 
 
 def _cloud_row(cloud: Cloud, name: str) -> manifest.PlacePoints:
     """The bounds are around nearly all points: few strays would make the place look empty."""
     seen = np.zeros((2, 3))
     if len(cloud.points_m):
-        seen = np.quantile(cloud.points_m, [0.005, 0.995], axis=0)
+        seen = np.quantile(cloud.points_m, CORE_QUANTILES, axis=0)
     bounds = manifest.Bounds(min=_vector(seen[0]), max=_vector(seen[1]))
     return manifest.PlacePoints(id=cloud.id, file=name, count=len(cloud.points_m), bounds=bounds)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 from pydantic import ValidationError
 
@@ -17,7 +18,8 @@ LARGEST_BYTES = 256 * 2**20
 
 def write_place(place: Place, path: Path) -> None:
     """Write the manifest as indented JSON."""
-    unsaid = {name for name in LATER if not getattr(place, name)}
+    unsaid: dict[str, Any] = {name: True for name in LATER if not getattr(place, name)}
+    unsaid["parts"] = {n: {"core"} for n, part in enumerate(place.parts) if part.core is None}
     text = place.model_dump_json(by_alias=True, indent=2, exclude=unsaid)
     write_bytes(path, (text + "\n").encode())
 

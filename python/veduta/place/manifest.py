@@ -71,6 +71,10 @@ class PlacePart(_Record):
         description="invented: where it stands relative to the other parts is not known"
     )
     bounds: Bounds
+    core: Bounds | None = Field(
+        default=None,
+        description="around nearly all of it, where a little of it lies far off: what one looks at",
+    )
     ground: bool = Field(
         default=False, description="whether it is the ground between the others, on which one walks"
     )

@@ -21,6 +21,8 @@ export interface Part {
   readonly arrangement: PlacePart["arrangement"];
   /** The part's own frame; null where the manifest does not say it. */
   readonly bounds: Box | null;
+  /** Around nearly all of it, where a little of it lies far off: what one looks at. */
+  readonly core: Box | null;
   /** The ground between the others: one walks on it, and it is not what one comes to see. */
   readonly isGround: boolean;
   /** With what it is shown and hidden; null for the ground, which is with its class alone. */
@@ -232,6 +234,7 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
     worldFromPart: transform,
     arrangement: part.arrangement,
     bounds: readBounds(part.bounds),
+    core: readBounds(part.core),
     isGround,
     isBackdrop,
     layer: isBackdrop ? "backdrop" : isGround ? null : id === WALLS ? "walls" : "model",
@@ -244,13 +247,13 @@ function readBounds(value: unknown): Box | null {
   return isPoint(min) && isPoint(max) ? { min, max } : null;
 }
 
-/** The corners of the boxes of all parts but the ground and what is around it, world frame: what one comes to see. */
+/** The corners of the boxes (around nearly all of each) of all parts but the ground and what is around it, world frame: what one comes to see. */
 export function cornersOfPlace(place: Place): Vec3[] {
   const alive = new Set(place.animals.map(({ part }) => part));
-  const still = place.parts.flatMap(({ bounds, isGround, isBackdrop, worldFromPart }, index) =>
+  const still = place.parts.flatMap(({ bounds, core, isGround, isBackdrop, worldFromPart }, index) =>
     bounds === null || isGround || isBackdrop || alive.has(index)
       ? []
-      : cornersOf(bounds).map((corner) => worldPoint(worldFromPart, corner)),
+      : cornersOf(core ?? bounds).map((corner) => worldPoint(worldFromPart, corner)),
   );
   // Of an animal one sees what is around its path.
   return [...still, ...place.animals.flatMap(aroundPath)];

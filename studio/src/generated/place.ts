@@ -170,6 +170,10 @@ export interface PlacePart {
   arrangement: "single" | "invented";
   bounds: Bounds;
   /**
+   * around nearly all of it, where a little of it lies far off: what one looks at
+   */
+  core?: Bounds | null;
+  /**
    * whether it is the ground between the others, on which one walks
    */
   ground?: boolean;

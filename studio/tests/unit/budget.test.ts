@@ -12,6 +12,7 @@ function parts(count: number, side_m: number): Part[] {
     worldFromPart: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
     arrangement: "single",
     bounds: { min: [0, 0, 0], max: [side_m, side_m, 10] },
+    core: null,
     isGround: false,
     isBackdrop: false,
     layer: "model",

@@ -82,6 +82,13 @@ describe("reading a place", () => {
     expect(cornersOfPlace(readPlace(manifest({}, { bounds: { min: [0, 0], max: "far" } }), "place.json"))).toEqual([]);
   });
 
+  it("is looked at where nearly all of it is, not where its strays are", () => {
+    const strewn = { bounds: { min: [-90, -90, -90], max: [90, 90, 90] }, core: { min: [0, 0, 0], max: [2, 2, 2] } };
+    const corners = cornersOfPlace(readPlace(manifest({}, strewn), "place.json"));
+    expect(corners).toContainEqual([9, 10, 11]);
+    expect(Math.max(...corners.flat())).toBe(11);
+  });
+
   it.each([
     ["no JSON", "{", "not JSON"],
     ["a list", "[]", "place"],

@@ -165,6 +165,24 @@ def test_a_feature_that_no_triangle_has(tmp_path: Path) -> None:
     assert (tmp_path / "none.stl").stat().st_size == 84
 
 
+def test_strays_do_not_widen_what_one_looks_at(tmp_path: Path) -> None:
+    points = np.random.default_rng(3).uniform(-1.0, 1.0, (3000, 3))
+    points[:3] = 80.0
+    triangles = np.arange(3000, dtype=np.uint32).reshape(-1, 3)
+    for name, places in (("strewn", points), ("compact", np.clip(points, -1.0, 1.0))):
+        place = Place()
+        wall, measured = SemanticClass.WALL, Provenance.MEASURED
+        mesh = Mesh.simple("m", places.astype(np.float32), triangles, wall, measured)
+        place.add(mesh, Standing())
+        place.save(tmp_path / name)
+        (part,) = json.loads((tmp_path / name / "place.json").read_text())["parts"]
+        if name == "compact":
+            assert "core" not in part
+        else:
+            assert part["bounds"]["max"] == [80.0, 80.0, 80.0]
+            assert max(map(abs, part["core"]["min"] + part["core"]["max"])) <= 1.0
+
+
 def test_endings_and_names(tmp_path: Path) -> None:
     assert format_of(tmp_path / "X.OBJ").name == "obj"
     assert format_named("stl").suffix == ".stl"
