@@ -7,34 +7,54 @@ import tempfile
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 from registration_streets import SimulatedStreet
-from simulated_street import simulated_street
+from simulated_street import simulated_street, structure_of_simulated
 
 from veduta.photos.cameras.orient import oriented
 from veduta.photos.city.model import CityModel
 from veduta.photos.city.reading import read_city_model
 from veduta.photos.options import ModelOptions, WallOptions
+from veduta.photos.structure import Structure
 from veduta.photos.walls.find_walls import find_walls
 from veduta.photos.world.absolute_orientation import absolute_orientation
 from veduta.photos.world.georeference import Similarity
 from veduta.synthetic.streets.gps import gps_places
 from veduta.synthetic.streets.house import House, Street
 from veduta.synthetic.streets.model_files import city_json
+from veduta.synthetic.streets.plan import plan_street
+from veduta.synthetic.streets.simulated import simulate
+from veduta.synthetic.streets.walk import walk_part
+
+Places = NDArray[np.float64]
 
 
 def found_street(seed: int) -> SimulatedStreet:
     """The structure upright as the verb makes it; the truth by the true places of the photos."""
     street, simulated, structure = simulated_street(seed)
+    true = np.array([camera.position_m for camera in simulated.cameras])
+    return _laid(street, structure, true, gps_places(true, seed))
+
+
+def part_street(seed: int, photos: int = 24) -> SimulatedStreet:
+    """The same of a car's photos that show parts of the rows; GPS hangs together to decimetres."""
+    street = plan_street(seed)
+    simulated = simulate(street, walk_part(street, photos, (0.3, 0.6)), seed)
+    true = np.array([camera.position_m for camera in simulated.cameras])
+    rng = np.random.default_rng(seed)
+    gps = true + rng.normal(0.0, 0.8, 3) + rng.normal(0.0, 0.3, true.shape)
+    return _laid(street, structure_of_simulated(simulated), true, gps)
+
+
+def _laid(street: Street, structure: Structure, true: Places, gps: Places) -> SimulatedStreet:
     upright = oriented(structure).structure
     walls = find_walls(upright, WallOptions(), 0)
     model = _model(street, (*street.houses, *street.others))
     removed = _model(street, street.others)
-    true = np.array([camera.position_m for camera in simulated.cameras])
     # Models are told from their own lower corner.
     apart = np.array(street.origin_m) - np.array(model.origin_m)
     moved = np.array(model.origin_m) - np.array(removed.origin_m)
     world = absolute_orientation(upright.centres(), true + apart)
-    gps = gps_places(true, seed) + apart
     removed = CityModel(
         tuple(
             type(one)(one.id, one.part, _plus(one.offset_m, -moved)) for one in removed.buildings
@@ -43,7 +63,12 @@ def found_street(seed: int) -> SimulatedStreet:
         model.origin_m,
     )
     return SimulatedStreet(
-        upright, walls, model, removed, Similarity(world.scale, world.rotation, world.shift), gps
+        upright,
+        walls,
+        model,
+        removed,
+        Similarity(world.scale, world.rotation, world.shift),
+        gps + apart,
     )
 
 

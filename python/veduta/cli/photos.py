@@ -65,6 +65,8 @@ def _tell(result: PhotosResult) -> None:
         for mark in result.measures.get("gcp_unknown", ())[:MOST_NAMED]:
             print(f"control points, {mark}")
         print(summary_line(result.measures))
+        for alarm in result.measures.get("alarms", ()):
+            print(f"note: {alarm}")
         for refused in result.measures.get("georef_refused", ()):
             print(f"not laid into the world by {refused}")
         print(f"Look at it: {invoked('view', str(out))}")

@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from PIL import Image, UnidentifiedImageError
 
 from veduta.imaging.colour import READABLE_MODES, srgb_on_white
+from veduta.imaging.deep import stretched
 from veduta.imaging.exif import CameraTags, FocalSource, focal_px_from_mm35, read_camera_tags
+from veduta.imaging.heic import NOT_READ, heic_formats
 from veduta.imaging.shot import Shot, read_shot
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -28,6 +30,8 @@ MAX_FILE_BYTES = 1_000_000_000
 FORMATS = ("JPEG", "PNG", "TIFF", "WEBP")
 OTHER_FORMAT = "Give a JPEG, PNG, TIFF or WebP file."
 SUFFIXES = (".jpg", ".jpeg", ".png", ".tif", ".tiff", ".webp")
+
+_HEIC_BRANDS = (b"heic", b"heix", b"mif1", b"msf1", b"hevc")
 
 # What Pillow raises on damaged files, found by cutting and flipping bytes of each format.
 DAMAGE = (
@@ -94,7 +98,8 @@ def read_image(path: Path, other_format: str = OTHER_FORMAT) -> Photo:
                 f"its pixels are not 8 or 16 bit colours (stored as {image.mode!r})",
                 "Save it as an 8-bit or 16-bit RGB image.",
             )
-        upright = _upright(image, tags.orientation)
+        shown, deep_notes = stretched(image, data)
+        upright = _upright(shown, tags.orientation)
         pixels, colour_notes = srgb_on_white(upright)
     height_px, width_px = pixels.shape[:2]
     focal_px = None
@@ -106,7 +111,7 @@ def read_image(path: Path, other_format: str = OTHER_FORMAT) -> Photo:
         focal_mm35=tags.focal_mm35,
         focal_px=focal_px,
         path=path,
-        notes=notes + tags.notes + shot.notes + colour_notes,
+        notes=notes + tags.notes + shot.notes + deep_notes + colour_notes,
         shot=shot,
         focal_source=tags.focal_source,
         orientation=tags.orientation,
@@ -117,7 +122,8 @@ def image_size(path: Path) -> tuple[int, int]:
     """Width and height (px) of an image, upright, by its header; InputError as `read_image`."""
     try:
         require_file(path, MAX_FILE_BYTES)
-        with _damage_is_input_error(path), Image.open(path, formats=FORMATS) as image:
+        formats = (*FORMATS, *heic_formats())
+        with _damage_is_input_error(path), Image.open(path, formats=formats) as image:
             width_px, height_px = image.size
             turned = _camera_tags(image).orientation >= 5
     except InputError:
@@ -178,7 +184,7 @@ def _damage_is_input_error(path: Path) -> Iterator[None]:
 def _open_bounded(path: Path, data: bytes, other_format: str = OTHER_FORMAT) -> Image.Image:
     """Read the header; refuse other formats and images over the size bounds."""
     try:
-        image = Image.open(io.BytesIO(data), formats=FORMATS)
+        image = Image.open(io.BytesIO(data), formats=(*FORMATS, *heic_formats()))
     except UnidentifiedImageError:
         raise InputError(path, _why_unidentified(data), other_format) from None
     width_px, height_px = image.size
@@ -202,6 +208,8 @@ def _why_unidentified(data: bytes) -> str:
             )
     if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
         return "starts like a WEBP file, but is truncated or damaged"
+    if data[4:8] == b"ftyp" and data[8:12] in _HEIC_BRANDS and not heic_formats():
+        return NOT_READ
     if data[4:8] == b"ftyp":
         return "is a HEIC, AVIF or video file"
     return "is not an image that can be read"

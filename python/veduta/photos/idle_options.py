@@ -69,9 +69,6 @@ def _idle_of_world(options: PhotosOptions) -> Iterator[_Idle]:
     if world.georef == "off":
         fault = f"has no effect with {method}, which lays the photos into nothing"
         yield _Idle("world", fault, f"Leave it out, or {method}.", ("model",))
-    if world.georef == "gps":
-        fault = f"has no effect with {method}: GPS alone does not say which photo shows which wall"
-        yield _Idle("texture", fault, "Leave it out, or say --georef model.")
     if options.texture.no_texture:
         fault = "is about textures, and --no-texture makes none"
         yield _Idle("texture", fault, "Leave one of the two out.", ("texel_m", "max_atlas_px"))

@@ -105,10 +105,11 @@ class ModelOptions(Options):
         default=None,
         description="ground control points: a line with the CRS, then x y z px py photo [name]",
     )
-    georef: Literal["auto", "gps", "gcp", "model", "off"] = Field(
+    georef: Literal["auto", "gps", "gcp", "model", "rough", "off"] = Field(
         default="auto",
         description=(
-            "what says where the place lies; auto: control points, else the model, else GPS"
+            "what says where the place lies; auto: control points, else the model, else GPS; "
+            "rough: as auto, and a poor place with its deviation where none is believed"
         ),
     )
     model_up: Literal["auto", "y", "z"] = Field(

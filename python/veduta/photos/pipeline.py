@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from contextlib import nullcontext
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -14,12 +14,14 @@ from veduta.photos.idle_options import require_effect
 from veduta.photos.intake.call import Call, plan_call
 from veduta.photos.intake.frames import publish_frames, with_frames
 from veduta.photos.intake.given import NOTHING_ELSE, Given
+from veduta.photos.intake.read import sizes_of
 from veduta.photos.laying import lay_components
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import COMMAND, VERSION, Stages
 from veduta.photos.world.control_adjust import adjust_components
-from veduta.photos.world.control_marks import unknown_marks
+from veduta.photos.world.control_axes import settled_axes
+from veduta.photos.world.control_marks import marks_within, unknown_marks
 from veduta.photos.world.georeferencing import digests_of, read_references, require_walls
 from veduta.photos.writing import write_failure, write_results
 from veduta.run.digests import result_key
@@ -105,17 +107,24 @@ def _make(
     stages = Stages(opened.path, call, options)
     told.notes += call.notes
     told.left += [(name, f"has the content of {first}") for name, first in call.copies]
-    told.left += call.unreadable
+    told.left += [*call.unreadable, *call.unread]
     told.notes += references.notes
     if references.control is not None:
         names = [source.name for source in call.sources] + [name for name, _ in call.copies]
         told.marks = unknown_marks(references.control, names)
+        control, outside = marks_within(references.control, sizes_of(call.sources))
+        references = replace(references, control=control)
+        told.marks += outside
     try:
         components = find_components(call, options, stages, told, progress, jobs)
     except NotFoundError as error:
         publish_frames(call, opened, key)
         write_failure(opened, key, told, error)
     else:
+        if references.control is not None:
+            control, exchanged = settled_axes(components[0].structure, references.control)
+            references = replace(references, control=control)
+            told.alarms += [exchanged] if exchanged else []
         if references.control is not None and not told.is_given:
             with timed_step(steps, "control points") as step:
                 components, notes = adjust_components(components, references.control, step)

@@ -29,6 +29,7 @@ from veduta.photos.texture.step import Textured
 from veduta.photos.walls.report import walls_pictures, walls_table
 from veduta.photos.walls.step import FoundWalls
 from veduta.photos.world.report import (
+    georef_alarms,
     georef_line,
     georef_measures,
     georef_notes,
@@ -79,6 +80,8 @@ class Told:
     """What else a person has to know of the run."""
     marks: list[str] = field(default_factory=list)
     """Lines of the control points that name photos which are not there."""
+    alarms: list[str] = field(default_factory=list)
+    """What a person must be told at the terminal, too."""
     is_given: bool = False
     """Whether other software has made the model."""
     components: list[Component] = field(default_factory=list)
@@ -119,6 +122,7 @@ def measures_of(told: Told) -> dict[str, Any]:
         "principal_point": kind.principal_point,
         "seconds": round(sum(step.seconds for step in told.steps), 1),
         **({"gcp_unknown": told.marks} if told.marks else {}),
+        "alarms": [*told.alarms, *georef_alarms([one.georef for one in told.laid])],
         **georef_measures([one.georef for one in told.laid]),
         **({} if told.textured is None else told.textured.measures),
     }
@@ -221,6 +225,7 @@ def _notes(told: Told) -> list[str]:
     notes = [] if in_world else [SCALE_NOTE]
     notes += [_up_note(told.components[0]), *georef_notes(georef), *told.notes]
     notes += [f"control points, {mark}" for mark in told.marks]
+    notes += told.alarms
     notes += [] if told.textured is None else [told.textured.line]
     notes += [f"{photo.name}: {note}" for photo in told.photos for note in photo.notes]
     unknown = sum(photo.focal_px is None for photo in told.photos)

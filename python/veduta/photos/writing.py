@@ -30,6 +30,10 @@ from veduta.run.record import CALL
 from veduta.run.report import Failure, Report, timed_step
 
 SPARSE = "sparse"
+BY_GPS = (
+    "the model is textured from where GPS alone says, as --georef gps asks: what photos show lies"
+    " metres off its facades"
+)
 
 
 def write_results(
@@ -89,8 +93,11 @@ def _texture(
 ) -> None:
     """The city model's faces from the photos of the first component, where they lie in it."""
     city = references.model
-    if city is None or not can_texture(world, city, told.options.texture):
+    by_gps = told.options.world.georef == "gps"
+    if city is None or not can_texture(world, city, told.options.texture, by_gps=by_gps):
         return
+    if world is not None and world.method == "gps":
+        told.alarms.append(BY_GPS)
     with timed_step(told.steps, "texture") as step:
         try:
             told.textured = texture_step(

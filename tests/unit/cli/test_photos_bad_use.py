@@ -11,9 +11,9 @@ from PIL import Image
 from veduta.cli.main import main
 
 GCP = """EPSG:25832
-1 2 3 10 10 vew0.png a
-1 2 3 10 10 view1.png a
-5 6 7 1 1 VIEW0.png b
+500001 5500002 3 10 10 vew0.png a
+500001 5500002 3 10 10 view1.png a
+500005 5500006 7 1 1 VIEW0.png b
 """
 
 

@@ -51,7 +51,6 @@ def check(words: str) -> None:
         ("", "--no-texture", "--model"),
         ("", "--texel-m 0.01", "--model"),
         ("", "--max-atlas-px 512", "--model"),
-        ("--georef gps " + MODEL, "--texel-m 0.01", "--georef gps"),
         ("--no-texture " + MODEL, "--texel-m 0.01", "--no-texture"),
         ("--no-texture " + MODEL, "--max-atlas-px 512", "--no-texture"),
     ],
@@ -73,7 +72,7 @@ def test_what_has_no_effect_is_refused(beside: str, idle: str, named: str) -> No
         "--video walk.mp4 --video-frames 20 --video-interval-s 2",
         f"{MODEL} --crs EPSG:25832 --layer lots --height-attribute top --no-walls --gcp p.txt",
         f"--georef gcp --gcp p.txt {MODEL} --max-atlas-px 512",
-        f"--georef gps {MODEL}",  # the place then lies in the model's system
+        f"--georef gps {MODEL} --texel-m 0.01",  # the place then lies in the model's system
     ],
 )
 def test_what_has_an_effect_passes(words: str) -> None:

@@ -23,8 +23,9 @@ from veduta.photos.world.gauss_newton import Pose
 from veduta.photos.world.georeference import Georeference, Similarity
 from veduta.photos.world.georeferencing import Georeferenced
 from veduta.photos.world.refine import PLANE, Refined
-from veduta.photos.world.register import register, residuals_of
+from veduta.photos.world.register import register
 from veduta.photos.world.report import georef_notes
+from veduta.photos.world.weighing import residuals_of
 
 
 @pytest.fixture(scope="module", params=[2, 1], ids=["both sides", "one side"])

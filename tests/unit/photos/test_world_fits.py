@@ -128,7 +128,11 @@ def test_control_points_that_cannot_do_are_refused() -> None:
     wrong = control.points[0]
     moved = ControlPoint(wrong.name, wrong.place_m + true.scale, wrong.seen)
     bad = ControlPoints(control.path, control.crs, (moved, *control.points[1:]))
-    refused = control_georeference(structure, bad)
+    named = control_georeference(structure, bad)
+    assert named.accepted
+    assert "p0 is left out" in named.why
+    assert "p0 is left out" in named.notes[0]
+    refused = control_georeference(structure, replace(bad, points=bad.points[:3]))
     assert not refused.accepted
     assert "contradict each other" in refused.why
 
@@ -192,9 +196,15 @@ def test_control_points_in_degrees_become_metres(tmp_path: Path) -> None:
 def test_marks_in_photos_that_are_not_there(tmp_path: Path) -> None:
     path = tmp_path / "gcp.txt"
     lines = [
-        f"{n} {n * n} 0 10 20 {name} p{n}" for n in range(3) for name in ("IMG_1.JPG", "IMG_2.JPG")
+        f"{5000 + n} {n * n} 0 10 20 {name} p{n}"
+        for n in range(3)
+        for name in ("IMG_1.JPG", "IMG_2.JPG")
     ]
-    lines += ["0 0 0 10 20 img_3.jpg p0", "1 1 0 10 20 img_3.jpg p1", "2 4 0 1 2 garden.png p2"]
+    lines += [
+        "5000 0 0 9 9 img_3.jpg p0",
+        "5001 1 0 9 9 img_3.jpg p1",
+        "5002 4 0 1 2 garden.png p2",
+    ]
     path.write_text("\n".join(["EPSG:25832", *lines]))
     control = read_control(path)
     photos = ["IMG_1.JPG", "IMG_2.JPG", "IMG_3.JPG"]

@@ -18,6 +18,8 @@ GAP_M = 0.1
 SHORTEST_M = 0.5
 UPRIGHT = 0.2
 """z of a wall's unit normal, beyond which it is no facade."""
+ROOF = 0.3
+"""z of the unit normal of a roof, at least."""
 STEP_M = 1.0
 """Between samples of the facades along the ground."""
 _HIDDEN_M, _HIDDEN_SHARE = 0.4, 0.9
@@ -30,7 +32,7 @@ class Facades:
 
     names: the building and its surface. building: (f,) row in the model. start, end: (f, 2), seen
     from outside `start` is at the left. bottom, top: (f,). hidden: (f,) another building stands
-    against it.
+    against it. roofs: (t, 3, 3) triangles of what looks up, of all buildings; None: not known.
     """
 
     names: tuple[str, ...]
@@ -40,6 +42,7 @@ class Facades:
     bottom: NDArray[np.float64]
     top: NDArray[np.float64]
     hidden: NDArray[np.bool_]
+    roofs: NDArray[np.float64] | None = None
 
     def __len__(self) -> int:
         return len(self.names)
@@ -103,7 +106,18 @@ def facades_of(model: CityModel) -> Facades:
         facades.bottom,
         facades.top,
         hidden,
+        np.concatenate([_roofs(building) for building in model.buildings]),
     )
+
+
+def _roofs(building: CityBuilding) -> NDArray[np.float64]:
+    """(t, 3, 3) the triangles that look up."""
+    part = building.part
+    triangles = part.triangles
+    up = triangles.polygon_normal[triangles.polygon][:, 2] > ROOF
+    corners = part.positions_m.astype(np.float64)[triangles.indices[up]]
+    found: NDArray[np.float64] = corners + building.offset_m
+    return found
 
 
 _Piece = tuple[str, NDArray[np.float64], NDArray[np.float64], float, float]

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.formats.building_faces import BuildingFaces, CityFile, Rings
-from veduta.grammar.lots import read_lots
+from veduta.grammar.lots import Lots, read_lots
 from veduta.grammar.options import LotOptions
 from veduta.grammar.outline import Attribute
 from veduta.photos.options import ModelOptions
@@ -32,7 +32,7 @@ _NUMBER = re.compile(r"\s*([0-9]+(?:[.,][0-9]+)?)\s*(m|metres|meters)?\s*")
 
 def read_outlines(path: Path, options: ModelOptions) -> CityFile:
     """The buildings of a file of outlines; those without a height are left out and named."""
-    lots = read_lots(path, LotOptions(layer=options.layer))
+    lots = _lots(path, options)
     origin = np.array(lots.origin_m)
     buildings: list[BuildingFaces] = []
     left: list[tuple[str, str]] = []
@@ -66,6 +66,16 @@ def read_outlines(path: Path, options: ModelOptions) -> CityFile:
         notes.append(f"where only storeys are told, each was taken for {LEVEL_M:g} m")
     epsg = None if lots.crs is None else int(lots.crs.partition(":")[2])
     return CityFile(tuple(buildings), epsg, tuple(notes), tuple(left))
+
+
+def _lots(path: Path, options: ModelOptions) -> Lots:
+    """The outlines; a CRS that the file names and nobody knows is settled by `--crs`."""
+    try:
+        return read_lots(path, LotOptions(layer=options.layer))
+    except InputError as error:
+        if options.crs is None or "crs that is not read" not in error.fault:
+            raise
+    return read_lots(path, LotOptions(layer=options.layer, crs=options.crs))
 
 
 def prism(

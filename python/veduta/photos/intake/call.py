@@ -9,18 +9,17 @@ from pathlib import Path
 from pydantic import JsonValue
 
 from veduta.formats.colmap_folder import ModelFiles, models_in
-from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
+from veduta.imaging.read import MAX_FILE_BYTES
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.intake.masks import Mask, masks_in, read_mask, with_masks
 from veduta.photos.intake.source import Source
+from veduta.photos.intake.unread import photo_suffixes, unread_files, why_unread
 from veduta.photos.intake.video import Video, video_of
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
 MOST_PHOTOS = 20_000
-_FOREIGN = (".heic", ".heif", ".avif", ".cr2", ".cr3", ".nef", ".arw", ".dng", ".orf", ".rw2")
-"""Photos of telephones and cameras that are not read."""
 _ADD = "Put at least two photos of the same place into it (JPEG, PNG, TIFF, WebP)."
 
 
@@ -31,6 +30,7 @@ class Call:
     folder: what the results are named after; the film where there is no folder.
     copies: files with the content of an earlier one, as (name, name of the earlier one).
     unreadable: files that the system does not let us read, as (name, reason).
+    unread: pictures of formats that are not read, as (name, reason).
     models: the components of a COLMAP model to start from. notes: what else is to be told.
     """
 
@@ -39,6 +39,7 @@ class Call:
     copies: tuple[tuple[str, str], ...] = ()
     unreadable: tuple[tuple[str, str], ...] = ()
     masks: tuple[Mask, ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
     video: Video | None = None
     models: tuple[ModelFiles, ...] = ()
     notes: tuple[str, ...] = ()
@@ -46,7 +47,8 @@ class Call:
     def inputs(self) -> JsonValue:
         """What the result depends on: names and digests."""
         photos: list[JsonValue] = [[source.name, source.sha256] for source in self.sources]
-        aside: list[JsonValue] = [list(pair) for pair in (*self.copies, *self.unreadable)]
+        set_aside = (*self.copies, *self.unreadable, *self.unread)
+        aside: list[JsonValue] = [list(pair) for pair in set_aside]
         masks: list[JsonValue] = [[mask.path.name, mask.sha256] for mask in self.masks]
         video: JsonValue = None if self.video is None else [self.video.name, self.video.sha256]
         models: list[JsonValue] = [list(model.sha256) for model in self.models]
@@ -67,7 +69,19 @@ def plan_call(folder: Path | None, given: Given = NOTHING_ELSE) -> Call:
     if len(sources) < 2 and video is None:
         raise InputError(folder, _too_few(files, len(sources)), _what_to_do(folder, files))
     taken, notes = (sources, ()) if video else with_masks(sources, masks)
-    return Call(folder, taken, copies, unreadable, masks, video, models, notes)
+    unread, other = unread_files(folder, given)
+    notes = (*notes, *other)
+    return Call(
+        folder,
+        taken,
+        copies,
+        unreadable,
+        masks,
+        unread=unread,
+        video=video,
+        models=models,
+        notes=notes,
+    )
 
 
 def _require_sense(folder: Path | None, given: Given) -> None:
@@ -128,7 +142,7 @@ def _paths(folder: Path) -> list[Path]:
         found = sorted(
             path
             for path in folder.iterdir()
-            if path.suffix.lower() in SUFFIXES and not path.name.startswith(".")
+            if path.suffix.lower() in photo_suffixes() and not path.name.startswith(".")
         )
     except OSError as error:
         fault = f"cannot be read ({error.strerror})"
@@ -151,14 +165,14 @@ def _what_to_do(folder: Path, files: int) -> str:
     if inner:
         others = f" ({len(inner)} folders in it hold photos)" if len(inner) > 1 else ""
         return f"Name {inner[0]}, which holds some{others}: folders in folders are not looked into."
-    foreign = [path for path in there if path.suffix.lower() in _FOREIGN]
+    foreign = [path.name for path in there if why_unread(path)]
     if foreign:
-        return f"Save {foreign[0].name} and the others as JPEG, PNG, TIFF or WebP."
+        return f"Save {foreign[0]} and the others as JPEG, PNG, TIFF or WebP."
     return _ADD
 
 
 def _holds_photos(folder: Path) -> bool:
-    return any(path.suffix.lower() in SUFFIXES for path in folder.iterdir())
+    return any(path.suffix.lower() in photo_suffixes() for path in folder.iterdir())
 
 
 def _too_few(files: int, usable: int) -> str:

@@ -6,13 +6,14 @@ A file that cannot be read is set aside with the reason, and the others are used
 
 from __future__ import annotations
 
+import contextlib
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from pathlib import Path
 
 from veduta.imaging.exif import FocalSource
-from veduta.imaging.read import Photo, read_image
+from veduta.imaging.read import Photo, image_size, read_image
 from veduta.imaging.shot import Position
 from veduta.photos.intake.duplicates import Pictures
 from veduta.photos.intake.masks import read_mask
@@ -98,6 +99,15 @@ def read_photos(sources: Sequence[Source], progress: StepProgress = no_progress)
             set_aside.append((source.name, f"shows the same picture as {first}"))
     in_order = [record for _, record in sorted(found, key=lambda entry: entry[0])]
     return ReadPhotos(_numbered(in_order), tuple(set_aside))
+
+
+def sizes_of(sources: Sequence[Source]) -> dict[str, tuple[int, int]]:
+    """Width and height (px) of the upright photos by name; without those that cannot be read."""
+    sizes: dict[str, tuple[int, int]] = {}
+    for source in sources:
+        with contextlib.suppress(InputError):
+            sizes[source.name] = image_size(source.path)
+    return sizes
 
 
 def _unusable(source: Source, photo: Photo) -> str | None:

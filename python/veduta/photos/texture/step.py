@@ -31,15 +31,19 @@ class Textured:
 
 
 def can_texture(
-    world: Georeference | None, city: CityModel | None, options: TextureOptions
+    world: Georeference | None,
+    city: CityModel | None,
+    options: TextureOptions,
+    *,
+    by_gps: bool = False,
 ) -> bool:
     """Whether there is a model that photos lie in, in its own CRS and about its own origin.
 
-    GPS alone does not say to which facade a photo belongs.
+    GPS alone does not say to which facade a photo belongs: it has to be asked for (`--georef gps`).
     """
     if options.no_texture or city is None or world is None or not world.accepted:
         return False
-    if world.method == "gps":
+    if world.method == "gps" and not by_gps:
         return False
     return world.crs == city.crs and world.origin_m == city.origin_m
 

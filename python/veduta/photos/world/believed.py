@@ -47,6 +47,40 @@ class Standing:
     covariance: NDArray[np.float64]
 
 
+@dataclass(frozen=True)
+class PoseStanding(Standing):
+    """Of a placement that began with a pose. facades: whose points speak for it.
+
+    chance: logarithm of the number of placements that refinement about the pose led to. explained:
+    of the walls' widths, or of the squares of facades with points, the lesser.
+    """
+
+    facades: int
+
+
+POSE_MARGIN = 5.0
+"""Nats between the best two about a pose: what one wall says."""
+FEWEST_FACADES = 5
+"""On which points lie, in at least two directions, as the covariance shows."""
+
+
+def pose_believed(standing: PoseStanding) -> tuple[bool, str]:
+    """As `believed`, with less that chance had to choose from, and a smaller margin."""
+    few = ""
+    if standing.facades < FEWEST_FACADES:
+        few = f"only {standing.facades} facades have points in their planes, of {FEWEST_FACADES}"
+    ambiguous = _ambiguous(standing, POSE_MARGIN)
+    for reason in (few, _weak(standing), ambiguous, _contradicted(standing), _loose(standing)):
+        if reason:
+            return False, f"where GPS says, {reason}"
+    return True, (
+        f"from where GPS says, refined: {standing.walls} walls fit and {standing.facades} facades"
+        f" have points in their planes, {100 * standing.explained:.0f} % of what is seen of walls;"
+        f" {standing.evidence:.0f} nats of evidence against {standing.chance:.0f} that chance could"
+        f" find about the pose"
+    )
+
+
 def believed(standing: Standing) -> tuple[bool, str]:
     """Yes or no, and why in one sentence."""
     for reason in (
@@ -80,12 +114,12 @@ def _weak(standing: Standing) -> str:
     return ""
 
 
-def _ambiguous(standing: Standing) -> str:
-    if standing.second is None or standing.evidence - standing.second >= MARGIN:
+def _ambiguous(standing: Standing, margin: float = MARGIN) -> str:
+    if standing.second is None or standing.evidence - standing.second >= margin:
         return ""
     return (
         f"two placements fit nearly as well: {standing.evidence:.0f} and {standing.second:.0f}"
-        f" nats of evidence, which {MARGIN:.0f} should part"
+        f" nats of evidence, which {margin:.0f} should part"
     )
 
 

@@ -18,12 +18,19 @@ Complex = NDArray[np.complex128]
 
 @dataclass(frozen=True)
 class WallColumns:
-    """w walls in their own frame. start, end: (w,) complex. bottom, top: (w,)."""
+    """w walls in their own frame. start, end: (w,) complex. bottom, top: (w,).
+
+    cut_edges: (w, 2), cut_tops: (w,) where only the view of the photos ends; None: nowhere.
+    ground: height of the ground that the photos were taken above; None: it is not asked.
+    """
 
     start: Complex
     end: Complex
     bottom: NDArray[np.float64]
     top: NDArray[np.float64]
+    cut_edges: NDArray[np.bool_] | None = None
+    cut_tops: NDArray[np.bool_] | None = None
+    ground: float | None = None
 
     def __len__(self) -> int:
         return len(self.start)
@@ -66,13 +73,19 @@ class Placements:
         return self.turn[:, None] * places + self.shift[:, None]
 
 
-def wall_columns(walls: Sequence[Wall]) -> WallColumns:
+def wall_columns(
+    walls: Sequence[Wall],
+    cut_edges: NDArray[np.bool_] | None = None,
+    cut_tops: NDArray[np.bool_] | None = None,
+) -> WallColumns:
     """The columns of walls."""
     return WallColumns(
         np.array([complex(*wall.start) for wall in walls]),
         np.array([complex(*wall.end) for wall in walls]),
         np.array([wall.bottom for wall in walls]),
         np.array([wall.top for wall in walls]),
+        cut_edges,
+        cut_tops,
     )
 
 

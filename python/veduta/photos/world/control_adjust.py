@@ -82,7 +82,30 @@ def adjusted_to_control(
     whether they do when it is adjusted. If so, or if the photos then contradict themselves, the
     structure stays as it was.
     """
-    found = control_georeference(structure, control)
+    found = _adjusted_to_all(structure, control, free_principal_point)
+    if found is None or found.is_adjusted:
+        return found
+    # One point is wrong, and the adjustment cannot make it right: without it, then.
+    trusted = control_georeference(structure, control)
+    if trusted.best is None:
+        return found
+    names = {residual.name for residual in trusted.best.residuals}
+    if not trusted.dropped:
+        names -= {trusted.suspect}
+    fewer = replace(control, points=tuple(one for one in control.points if one.name in names))
+    again = _adjusted_to_all(structure, fewer, free_principal_point)
+    if again is None or not again.is_adjusted:
+        return found
+    left = ", ".join(point.name for point in control.points if point.name not in names)
+    note = f"{again.note}; without {left}: with it the points contradict each other ({found.note})"
+    return replace(again, note=note)
+
+
+def _adjusted_to_all(
+    structure: Structure, control: ControlPoints, free_principal_point: bool
+) -> AdjustedToControl | None:
+    """By all points that can be placed; not adjusted where they contradict each other then."""
+    found = control_georeference(structure, control, trust=False)
     if found.best is None:
         return None
     world, before = found.best.world_from_model, found.best.rms_m
@@ -104,7 +127,7 @@ def adjusted_to_control(
         why = f"the features' error would grow from {error_px:.2f} to {after_px:.2f} px"
         return _not_adjusted(structure, why)
     own = _back(bent, world)
-    again = control_georeference(own, control)
+    again = control_georeference(own, control, trust=False)
     if again.best is None or not again.accepted:
         return _not_adjusted(structure, again.why)
     after = again.best.rms_m

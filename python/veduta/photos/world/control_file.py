@@ -1,15 +1,15 @@
 """Ground control points from a text file, as OpenDroneMap has it.
 
-The first line names the CRS: `EPSG:32632`, `WGS84 UTM 32N`, `WGS84`, or a PROJ string. Each other
-line is an observation: x y z px py photo [name]. Lines that begin with # are remarks. Pixels are of
-the upright photo, x right and y down.
+The first line names the CRS: `EPSG:32632`, `WGS84 UTM 32N`, `WGS84`, or a PROJ string; what follows
+a # there is a remark. Each other line is an observation: x y z px py photo [name]. Lines that begin
+with # are remarks. Pixels are of the upright photo, x right and y down.
 """
 
 from __future__ import annotations
 
 import re
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from veduta.geometry.utm import epsg_of
 from veduta.photos.city.crs import metres_of
+from veduta.photos.world.control_plausible import require_plausible
+from veduta.photos.world.control_words import control_words
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -37,13 +39,17 @@ class ControlPoint:
 
 @dataclass(frozen=True)
 class ControlPoints:
-    """The points of a file. crs: of their metres. lines: those that name each photo."""
+    """The points of a file. crs: of their metres. lines: those that name each photo.
+
+    exchanged: the same with the two level coordinates the other way round, where that is a place.
+    """
 
     path: Path
     crs: str
     points: tuple[ControlPoint, ...]
     notes: tuple[str, ...] = ()
     lines: Mapping[str, tuple[int, ...]] = field(default_factory=dict)
+    exchanged: ControlPoints | None = None
 
 
 def read_control(path: Path) -> ControlPoints:
@@ -60,43 +66,49 @@ def read_control(path: Path) -> ControlPoints:
     seen: dict[str, list[tuple[str, tuple[float, float]]]] = {}
     naming: dict[str, tuple[int, ...]] = {}
     for number, line in lines[1:]:
-        words = line.split()
         try:
-            if len(words) < 6:
-                raise ValueError(f"has {len(words)} words")
-            x, y, z, across, down = (float(word) for word in words[:5])
+            numbers, photo, named = control_words(line)
+            x, y, z, across, down = (float(word) for word in numbers)
         except ValueError as error:
             raise InputError(path, f"line {number} is no control point ({error})", _LINE) from error
         place = np.array([x, y, z])
         if not np.isfinite([x, y, z, across, down]).all():
             raise InputError(path, f"line {number} has a number that is not finite", _LINE)
-        name = " ".join(words[6:])[:100] or f"{x:.12g} {y:.12g} {z:.12g}"
+        name = named[:100] or f"{x:.12g} {y:.12g} {z:.12g}"
         known = places.setdefault(name, place)
         if not np.array_equal(known, place):
             fault = f"line {number} has the point {name!r} at another place than before"
             raise InputError(path, fault, "Give each point one place, or names of their own.")
-        seen.setdefault(name, []).append((words[5], (across, down)))
-        naming[words[5]] = (*naming.get(words[5], ()), number)
+        seen.setdefault(name, []).append((photo, (across, down)))
+        naming[photo] = (*naming.get(photo, ()), number)
     if not places:
         raise InputError(path, "has no control points", _LINE)
-    _require_degrees(path, crs, places)
+    require_plausible(path, crs, places)
     metres = metres_of(path, crs, np.array(list(places.values())))
     points = tuple(
         ControlPoint(name, metres.of(place[None])[0], tuple(seen[name]))
         for name, place in places.items()
     )
-    return ControlPoints(path, metres.crs, points, metres.notes, naming)
+    found = ControlPoints(path, metres.crs, points, metres.notes, naming)
+    return replace(found, exchanged=_exchanged(found, crs, places))
 
 
-def _require_degrees(path: Path, crs: str, places: Mapping[str, NDArray[np.float64]]) -> None:
-    """InputError where longitudes and latitudes cannot be any: metres, or the wrong way round."""
-    if not pyproj.CRS.from_user_input(crs).is_geographic:
-        return
-    for name, (x, y, _) in places.items():
-        if abs(x) > 180.0 or abs(y) > 90.0:
-            fault = f"has the point {name} at {x:g} {y:g}, and {crs} is in degrees"
-            remedy = "Write longitude, latitude and height, or the CRS of the metres."
-            raise InputError(path, fault, remedy)
+def _exchanged(
+    found: ControlPoints, crs: str, places: Mapping[str, NDArray[np.float64]]
+) -> ControlPoints | None:
+    """The points with north before east, or latitude before longitude; None where none can be."""
+    other = {name: place[[1, 0, 2]] for name, place in places.items()}
+    try:
+        require_plausible(found.path, crs, other)
+        metres = metres_of(found.path, crs, np.array(list(other.values())))
+    except InputError:
+        return None
+    points = tuple(
+        replace(point, place_m=metres.of(other[point.name][None])[0]) for point in found.points
+    )
+    if not all(np.isfinite(point.place_m).all() for point in points):
+        return None
+    return replace(found, crs=metres.crs, points=points, notes=metres.notes)
 
 
 def _text(path: Path) -> str:
@@ -111,8 +123,10 @@ def _text(path: Path) -> str:
 
 
 def _crs(path: Path, line: str) -> str:
-    if re.fullmatch(r"(?i)EPSG:\d{4,6}", line):
-        return line.upper()
+    line = line.partition("#")[0].strip()
+    code = re.fullmatch(r"(?i)EPSG\s*:?\s*(\d{4,6})", line)
+    if code is not None:
+        return f"EPSG:{code[1]}"
     utm = re.fullmatch(r"(?i)WGS\s?84 UTM (\d{1,2})\s?([NS])", line)
     if utm is not None and 1 <= int(utm[1]) <= 60:
         return f"EPSG:{epsg_of(int(utm[1]), south=utm[2].upper() == 'S')}"
@@ -120,9 +134,9 @@ def _crs(path: Path, line: str) -> str:
         return "EPSG:4326"
     if "+proj" in line:
         try:
-            code = pyproj.CRS.from_user_input(line[:500]).to_epsg(min_confidence=70)
+            named = pyproj.CRS.from_user_input(line[:500]).to_epsg(min_confidence=70)
         except pyproj.exceptions.ProjError as error:
             raise InputError(path, f"line 1 names no CRS: {line[:80]!r}", _HEAD) from error
-        if code is not None:
-            return f"EPSG:{code}"
+        if named is not None:
+            return f"EPSG:{named}"
     raise InputError(path, f"line 1 names no CRS that is known: {line[:80]!r}", _HEAD)

@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.photos.structure import Structure
-from veduta.photos.world.absolute_orientation import absolute_orientation, similarity_jacobian
+from veduta.photos.world.absolute_orientation import similarity_jacobian
 from veduta.photos.world.control_file import ControlPoint, ControlPoints
+from veduta.photos.world.control_trust import MOST_LEFT_OUT, Trusted, agrees, trusted, worst_of
 from veduta.photos.world.georeference import Fit, Georeference, Residual, Similarity
 
 FEWEST = 3
+FEWEST_MARKS = 4
+"""Of a point, from which on the others tell which of them is wrong."""
 MARK_SD_PX = 1.5
 """How well people mark points."""
 SURVEY_SD_M = 0.03
@@ -21,27 +24,35 @@ NARROWEST_RAD = np.deg2rad(1.0)
 """Lines of sight that cross under less leave the depth open."""
 FLATTEST = 0.02
 """Least second singular value of the points' spread, as a part of the first: less is a line."""
-MOST_DEVIATIONS = 5.0
 ITERATIONS = 10
+MOST_OFF_PX = 20.0
+"""A mark further from where the others put its point is another thing."""
 
 
 @dataclass(frozen=True)
 class _Placed:
-    """A control point in the structure. place: (3,). sd: of its place, in the structure's unit."""
+    """A control point in the structure. place: (3,). sd: of its place, in the structure's unit.
+
+    notes: which marks were left out.
+    """
 
     point: ControlPoint
     place: NDArray[np.float64]
     sd: float
+    notes: tuple[str, ...] = ()
 
 
 def control_georeference(
     structure: Structure,
     control: ControlPoints,
     origin_m: tuple[float, float, float] | None = None,
+    *,
+    trust: bool = True,
 ) -> Georeference:
     """The absolute orientation by all points that two photos and more show.
 
     origin_m: that of a model in the same CRS; else the points' lower corner, in whole metres.
+    trust: whether a point that contradicts the others is left out, and named.
     """
     lowest = np.floor(np.min([point.place_m for point in control.points], axis=0))
     x, y, z = lowest.tolist() if origin_m is None else origin_m
@@ -60,27 +71,93 @@ def control_georeference(
         return Georeference("gcp", False, why, control.crs, (x, y, z), None)
     own = np.array([one.place for one in placed])
     world = np.array([one.point.place_m for one in placed]) - origin
-    spread = np.linalg.svd(world - world.mean(axis=0), compute_uv=False)
-    if spread[1] < FLATTEST * spread[0]:
+    if _is_line(world):
         why = "the control points lie on a line: they leave the roll about it open"
         return Georeference("gcp", False, why, control.crs, (x, y, z), None)
-    similarity = absolute_orientation(own, world)
-    apart = np.linalg.norm(similarity.moved(own) - world, axis=1)
-    expected = np.hypot(SURVEY_SD_M, similarity.scale * np.array([one.sd for one in placed]))
-    fit = _fit(structure, similarity, own, placed, apart, expected)
-    worst = int(np.argmax(apart / expected))
-    if apart[worst] > MOST_DEVIATIONS * expected[worst]:
-        why = (
-            f"the control points contradict each other: {placed[worst].point.name} lies"
-            f" {apart[worst]:.2f} m off, where {expected[worst]:.2f} m are expected"
+    most = MOST_LEFT_OUT if trust else 0.0
+    settled = trusted(own, world, np.array([one.sd for one in placed]), SURVEY_SD_M, most)
+    kept = [one for one, is_kept in zip(placed, settled.kept, strict=True) if is_kept]
+    apart, expected = settled.apart_m[settled.kept], settled.expected_m[settled.kept]
+    fit = _fit(structure, settled.similarity, own[settled.kept], kept, apart, expected)
+    if not agrees(settled) or _is_line(world[settled.kept]):
+        why = f"the control points contradict each other: {_contradiction(placed, settled)}"
+        suspect = worst_of(settled) if settled.suspect is None else settled.suspect
+        name = placed[suspect].point.name
+        return replace(
+            Georeference("gcp", False, why, control.crs, (x, y, z), fit, suspect=name),
+            dropped=tuple(placed[row].point.name for row in np.flatnonzero(~settled.kept).tolist()),
         )
-        return Georeference("gcp", False, why, control.crs, (x, y, z), fit)
-    why = f"{len(placed)} control points, {fit.rms_m:.3f} m off{notes}"
-    return Georeference("gcp", True, why, control.crs, (x, y, z), fit)
+    dropped = tuple(
+        f"{placed[row].point.name} is left out: it lies {settled.apart_m[row]:.2f} m from where the"
+        f" other points say, and without it they agree to {float(apart.max()):.3f} m"
+        for row in np.flatnonzero(~settled.kept).tolist()
+    )
+    why = f"{len(kept)} control points, {fit.rms_m:.3f} m off{notes}"
+    why += "".join(f"; {one}" for one in dropped)
+    told = (*dropped, *(note for one in placed for note in one.notes))
+    return Georeference("gcp", True, why, control.crs, (x, y, z), fit, notes=told)
+
+
+def _is_line(world: NDArray[np.float64]) -> bool:
+    spread = np.linalg.svd(world - world.mean(axis=0), compute_uv=False)
+    return bool(spread[1] < FLATTEST * spread[0])
+
+
+def _contradiction(placed: list[_Placed], found: Trusted) -> str:
+    """Which point, or which points, for a person."""
+    if len(found.doubtful) > 1:
+        names = [placed[row].point.name for row in found.doubtful]
+        return (
+            f"one of {', '.join(names)} is wrong, and nothing says which; survey or mark one point"
+            " more"
+        )
+    worst = worst_of(found) if found.suspect is None else found.suspect
+    return (
+        f"{placed[worst].point.name} lies {found.apart_m[worst]:.2f} m off, where"
+        f" {found.expected_m[worst]:.2f} m are expected, and without it the others"
+        " do not agree much better"
+    )
 
 
 def _placed(structure: Structure, point: ControlPoint) -> _Placed | str:
-    """Where its lines of sight cross; a text where that cannot be said."""
+    """Where its lines of sight cross, but for a mark that the others contradict; a text where that
+    cannot be said.
+    """
+    found = _crossing(structure, point)
+    if isinstance(found, str) or _off_px(structure, found).max() <= MOST_OFF_PX:
+        return found
+    there = set(structure.names)
+    marks = [mark for mark in point.seen if mark[0] in there]
+    best: tuple[float, _Placed, str] | None = None
+    for number, mark in enumerate(marks):
+        fewer = replace(point, seen=tuple(marks[:number] + marks[number + 1 :]))
+        tried = _crossing(structure, fewer)
+        if isinstance(tried, str):
+            continue
+        off = float(_off_px(structure, tried).max())
+        if len(marks) >= FEWEST_MARKS and (best is None or off < best[0]):
+            best = off, tried, mark[0]
+    if best is None or best[0] > MOST_OFF_PX:
+        return found
+    note = f"{point.name} is marked elsewhere in {best[2]}: that mark is left out"
+    return replace(best[1], notes=(note,))
+
+
+def _off_px(structure: Structure, placed: _Placed) -> NDArray[np.float64]:
+    """(m,) how far each mark lies from where its photo shows the place."""
+    row_of = {name: row for row, name in enumerate(structure.names)}
+    off = []
+    for name, pixel in placed.point.seen:
+        if name in row_of:
+            pose = structure.cam_from_world[row_of[name]]
+            ahead = pose[:, :3] @ placed.place + pose[:, 3]
+            shown = np.asarray(structure.camera(row_of[name]).img_from_cam(ahead[None]))[0]
+            off.append(float(np.linalg.norm(shown - pixel)))
+    return np.array(off)
+
+
+def _crossing(structure: Structure, point: ControlPoint) -> _Placed | str:
+    """By all marks; a text where that cannot be said."""
     row_of = {name: row for row, name in enumerate(structure.names)}
     seen = [(row_of[name], pixel) for name, pixel in point.seen if name in row_of]
     if len({row for row, _ in seen}) < 2:

@@ -36,6 +36,8 @@ TURN_M = 4.0
 """What a facade's direction counts in the tree, beside its place."""
 PLACES = np.array([0.12, 0.5, 0.88])
 """Places along a wall at which facades are looked for: neighbours may be one wall."""
+GROUND_M = 1.0
+"""How far the feet of a model may lie off the ground of the street: LoD1 ends at the lowest."""
 CANDIDATES = 3
 AT_ONCE = 4000
 
@@ -148,7 +150,10 @@ def _matched(walls: WallColumns, index: FacadeIndex, placements: Placements) -> 
     tops = np.where(known, index.facades.top[facade], -np.inf).max(axis=-1)
     tops = np.where(known.any(axis=-1), tops - scale * walls.top, np.nan)
     lift = _mode(tops)
-    evidence = _evidence(off + _behind(off)[:, None, None], edges, tops - lift[:, None])
+    if walls.ground is not None:
+        feet = np.where(known, index.facades.bottom[facade], np.inf).min(axis=-1)
+        lift = _on_the_ground(tops, feet - scale * walls.ground, lift)
+    evidence = _evidence(off + _behind(off)[:, None, None], edges, tops - lift[:, None], walls)
     return Matches(facade, off, edges, lift, evidence)
 
 
@@ -187,6 +192,24 @@ def _mode(values: NDArray[np.float64]) -> NDArray[np.float64]:
     return found
 
 
+def _on_the_ground(
+    tops: NDArray[np.float64], feet: NDArray[np.float64], lift: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(h,) lifts from (h, w) tops and feet: tops have a say only where the ground lets them.
+
+    feet: infinite where a wall has no facade.
+    """
+    told = np.isfinite(feet)
+    count = told.sum(axis=1)
+    order = np.sort(np.where(told, feet, np.inf), axis=1)
+    at = np.maximum(count - 1, 0) // 2
+    ground = np.where(count > 0, order[np.arange(len(feet)), at], lift)
+    near = np.where(np.abs(tops - ground[:, None]) < GROUND_M, tops, np.nan)
+    by_tops = np.where(np.isfinite(near).any(axis=1), _mode(near), ground)
+    found: NDArray[np.float64] = by_tops
+    return found
+
+
 def _behind(off: NDArray[np.float64]) -> NDArray[np.float64]:
     """(h,) how far walls lie behind their facades, by the median of (h, w, 3) and what is usual.
 
@@ -205,19 +228,38 @@ def _behind(off: NDArray[np.float64]) -> NDArray[np.float64]:
 
 
 def _evidence(
-    off: NDArray[np.float64], edges: NDArray[np.float64], tops: NDArray[np.float64]
+    off: NDArray[np.float64],
+    edges: NDArray[np.float64],
+    tops: NDArray[np.float64],
+    walls: WallColumns | None = None,
 ) -> NDArray[np.float64]:
-    """(h, w) nats: the plane at three places, the edges, the top."""
-    planes = _mixed(off, EXACT_PLANE_SD_M, PLANE_SD_M)
-    plane = np.log(IN_MODEL * planes / PLANES_PER_M + 1.0 - IN_MODEL)
-    found: NDArray[np.float64] = plane.mean(axis=-1)
+    """(h, w) nats: the plane at three places, the edges, the top.
+
+    Where only the view ends (`walls`), that the facade goes on is no evidence against it.
+    """
+    found = _planes(off)
     on = np.abs(off) < 3.0 * PLANE_SD_M
     near = _mixed(edges, EXACT_EDGE_SD_M, EDGE_SD_M)
     edge = np.log(EDGE_SEEN * near / EDGES_PER_M + 1.0 - EDGE_SEEN)
+    if walls is not None and walls.cut_edges is not None:
+        edge = np.where(walls.cut_edges, np.maximum(edge, 0.0), edge)
     found += np.where(on[..., [0, 2]], edge, 0.0).sum(axis=-1)
     high = _mixed(tops, EXACT_TOP_SD_M, TOP_SD_M)
     top = np.log(TOP_SEEN * high / TOPS_PER_M + 1.0 - TOP_SEEN)
+    if walls is not None and walls.cut_tops is not None:
+        top = np.where(walls.cut_tops, np.maximum(top, 0.0), top)
     found += np.where(on.any(axis=-1), top, 0.0)
+    return found
+
+
+def plane_nats(matches: Matches) -> NDArray[np.float64]:
+    """(h, w) what of the evidence the planes of the walls say."""
+    return _planes(matches.off_m + _behind(matches.off_m)[:, None, None])
+
+
+def _planes(off: NDArray[np.float64]) -> NDArray[np.float64]:
+    planes = _mixed(off, EXACT_PLANE_SD_M, PLANE_SD_M)
+    found: NDArray[np.float64] = np.log(IN_MODEL * planes / PLANES_PER_M + 1.0 - IN_MODEL).mean(-1)
     return found
 
 

@@ -102,9 +102,37 @@ def _blocked(
 
 
 def _inside(centres: NDArray[np.float64], facades: Facades) -> NDArray[np.bool_]:
-    """(c,) by the even-odd rule in each building, under its top."""
+    """(c,) under a roof; where the model has none, within the walls of a building."""
     if len(facades) == 0:
         return np.zeros(len(centres), dtype=bool)
+    if facades.roofs is None or len(facades.roofs) == 0:
+        return _within_walls(centres, facades)
+    flat = facades.roofs[:, :, :2]
+    low, high = centres[:, :2].min(axis=0), centres[:, :2].max(axis=0)
+    near = ((flat.max(axis=1) >= low) & (flat.min(axis=1) <= high)).all(axis=1)
+    roofs = facades.roofs[near]
+    inside = np.zeros(len(centres), dtype=bool)
+    step = max(1, _AT_ONCE // max(1, len(roofs)))
+    for first in range(0, len(centres), step):
+        own = slice(first, first + step)
+        inside[own] = _under(centres[own], roofs)
+    return inside
+
+
+def _under(centres: NDArray[np.float64], roofs: NDArray[np.float64]) -> NDArray[np.bool_]:
+    """(c,) below one of (t, 3, 3) triangles that look up."""
+    corner, edge = roofs[:, :, :2], np.roll(roofs, -1, axis=1)[:, :, :2] - roofs[:, :, :2]
+    away = centres[:, None, None, :2] - corner
+    left = edge[..., 0] * away[..., 1] - edge[..., 1] * away[..., 0]
+    below = centres[:, 2, None] < roofs[:, :, 2].max(axis=1)
+    found: NDArray[np.bool_] = ((left >= 0.0).all(axis=2) & below).any(axis=1)
+    return found
+
+
+def _within_walls(centres: NDArray[np.float64], facades: Facades) -> NDArray[np.bool_]:
+    """(c,) by the even-odd rule in each building, under its top: short walls are no facades, and
+    leave gaps through which the rule fails.
+    """
     x, y = facades.start.T
     to_x, to_y = facades.end.T
     across = (y <= centres[:, 1, None]) != (to_y <= centres[:, 1, None])

@@ -59,6 +59,8 @@ class Georeference:
 
     crs: EPSG code, None where the reference names none. origin_m: where the world's axes meet, in
     that CRS. why: one sentence, for a person. notes: what else must be known of how it was found.
+    suspect: the control point that is most likely wrong where they contradict each other.
+    dropped: those that are clearly wrong, and were left out.
     """
 
     method: Method
@@ -69,3 +71,5 @@ class Georeference:
     best: Fit | None
     second: Fit | None = None
     notes: tuple[str, ...] = ()
+    suspect: str | None = None
+    dropped: tuple[str, ...] = ()

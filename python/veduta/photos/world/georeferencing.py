@@ -14,6 +14,7 @@ import numpy as np
 
 from veduta.photos.cameras.orient import transformed
 from veduta.photos.city.crs import between
+from veduta.photos.city.facades import facades_of
 from veduta.photos.city.model import CityModel
 from veduta.photos.city.reading import read_city_model
 from veduta.photos.intake.read import PhotoRecord
@@ -22,11 +23,14 @@ from veduta.photos.structure import Structure
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.control_file import ControlPoints, read_control
 from veduta.photos.world.control_fit import control_georeference
+from veduta.photos.world.eye_height import Feet
 from veduta.photos.world.gauss_newton import UP_SD_RAD
 from veduta.photos.world.georeference import Georeference, Method
 from veduta.photos.world.gps_fit import gps_georeference
 from veduta.photos.world.gps_positions import gps_positions
+from veduta.photos.world.ground import on_the_feet
 from veduta.photos.world.register import register
+from veduta.photos.world.rough import roughly
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -120,16 +124,22 @@ def georeference(
     if positions is not None:
         gps, prior = gps_georeference(structure, positions, seed)
     tried: list[Georeference] = []
-    if control is not None and method in ("auto", "gcp"):
+    is_auto = method in ("auto", "rough")
+    if control is not None and (is_auto or method == "gcp"):
         tried.append(control_georeference(structure, control, origin))
-    if model is not None and method in ("auto", "model") and not _is_settled(tried):
+    if model is not None and (is_auto or method == "model") and not _is_settled(tried):
         tried.append(register(structure, walls, model, prior, seed, up_sd_rad))
-    if method in ("auto", "gps") and not _is_settled(tried):
+    if (is_auto or method == "gps") and not _is_settled(tried):
+        if gps is not None and gps.best is not None and model is not None:
+            feet = Feet(facades_of(model))
+            gps = replace(gps, best=on_the_feet(gps.best, structure, feet))
         if gps is not None:
             tried.append(gps)
         elif method == "gps":
             why = "no photo that was placed has GPS"
             tried.append(Georeference("gps", False, why, crs, origin or (0.0, 0.0, 0.0), None))
+    if method == "rough" and not _is_settled(tried):
+        tried = roughly(tried)
     return Georeferenced(tuple(tried))
 
 
@@ -151,7 +161,10 @@ def _is_settled(tried: Sequence[Georeference]) -> bool:
 
 
 def _in_crs_of(control: ControlPoints, model: CityModel) -> ControlPoints:
-    """The control points in the CRS of the model."""
+    """The control points in the CRS of the model, either way round."""
+    if control.exchanged is not None:
+        other = replace(control.exchanged, exchanged=None)
+        control = replace(control, exchanged=_in_crs_of(other, model))
     if model.crs is None or control.crs == model.crs:
         return control
     way = between(control.crs, model.crs)

@@ -73,3 +73,32 @@ def log_cells(facades: Facades, prior: PlacementPrior | None) -> float:
         scales = min(FREE_SCALES, 2.0 * prior.scale_reach)
     cells = area / CELL_M**2 * (turns / CELL_TURN_RAD) * (scales / CELL_SCALE)
     return float(np.log(max(cells, 1.0)))
+
+
+POSE_DEVIATIONS = 2.0
+POSE_SHIFT_M, POSE_TURN_RAD, POSE_SCALE = 1.0, np.deg2rad(2.0), 0.04
+"""Steps between the placements that a pose stands for: refinement bridges half of each."""
+MOST_STEPS = 8
+"""On each side of the middle, of turns and of scales."""
+
+
+def pose_placements(prior: PlacementPrior, middle: complex) -> Placements:
+    """The placements about the pose itself, within two deviations, on a grid."""
+    radius = POSE_DEVIATIONS * prior.there_sd_m / np.sqrt(2.0)
+    count = int(radius / POSE_SHIFT_M)
+    steps = np.arange(-count, count + 1)
+    east, north = np.meshgrid(POSE_SHIFT_M * steps, POSE_SHIFT_M * steps)
+    shift = (east + 1j * north).ravel()
+    shift = shift[np.abs(shift) <= radius]
+    turns = _about_zero(POSE_DEVIATIONS * prior.turn_sd_rad, float(POSE_TURN_RAD))
+    scales = _about_zero(POSE_DEVIATIONS * prior.scale_sd, POSE_SCALE)
+    factor = prior.turn * np.exp(scales[:, None] + 1j * turns[None]).ravel()
+    turn = np.repeat(factor, len(shift))
+    there = np.tile(prior.there + shift, len(factor))
+    return Placements(turn, there - turn * middle)
+
+
+def _about_zero(reach: float, step: float) -> NDArray[np.float64]:
+    count = min(MOST_STEPS, int(np.ceil(reach / step - 0.5)))
+    found: NDArray[np.float64] = step * np.arange(-count, count + 1, dtype=np.float64)
+    return found

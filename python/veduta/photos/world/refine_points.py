@@ -138,11 +138,13 @@ def _on_facades(places: NDArray[np.float64], facades: Facades, behind_m: float) 
     """The points on the facades, each on the nearest; (p, 3) metres of the world."""
     nearest = np.full(len(places), NEAR_M)
     facade = np.full(len(places), -1, dtype=np.int64)
-    tree = KDTree(places[:, :2])
     radius = facades.width / 2.0 + NEAR_M + abs(behind_m)
-    around = tree.query_ball_point(facades.middle, radius)
-    for row in np.flatnonzero(~facades.hidden):
-        here = np.array(around[row], dtype=np.int64)
+    low, high = places[:, :2].min(axis=0), places[:, :2].max(axis=0)
+    beside = (facades.middle > low - radius[:, None]) & (facades.middle < high + radius[:, None])
+    rows = np.flatnonzero(~facades.hidden & beside.all(axis=1))
+    around = KDTree(places[:, :2]).query_ball_point(facades.middle[rows], radius[rows])
+    for row, found in zip(rows.tolist(), around, strict=True):
+        here = np.array(found, dtype=np.int64)
         apart = places[here, :2] - facades.start[row]
         along = apart @ facades.along[row]
         off = np.abs(apart @ facades.outward[row] + behind_m)

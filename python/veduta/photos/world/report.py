@@ -52,6 +52,12 @@ def georef_refused(found: Sequence[Georeferenced]) -> list[str]:
     return [f"{method_name(one.method)}: {one.why}" for one in tried if not one.accepted]
 
 
+def georef_alarms(found: Sequence[Georeferenced]) -> list[str]:
+    """What of the accepted reference a person must be told at the terminal."""
+    accepted = found[0].accepted if found else None
+    return [] if accepted is None else list(accepted.notes)
+
+
 def georef_notes(found: Sequence[Georeferenced]) -> list[str]:
     """What was tried, believed or not, and why."""
     notes = []

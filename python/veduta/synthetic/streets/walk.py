@@ -13,6 +13,8 @@ from veduta.synthetic.seeds import stream
 from veduta.synthetic.streets.house import Street
 
 EYE_M = 1.65
+CAR_M = 2.6
+"""Of a camera on the roof of a car."""
 LANE_M = 0.27
 """Distance of a lane from the middle, as a share of the street's width."""
 ACROSS_DEG, AHEAD_DEG = 55.0, 30.0
@@ -49,6 +51,30 @@ def walk(
         step = focal_steps[number % len(focal_steps)]
         lens = distortions[number % len(distortions)]
         cameras.append(_camera(eye, ahead, pitch, roll, size_px, focal_px * step, lens))
+    return tuple(cameras)
+
+
+def walk_part(
+    street: Street,
+    photos: int = 14,
+    share: tuple[float, float] = (0.35, 0.5),
+    size_px: tuple[int, int] = (900, 900),
+    focal_mm35: float = 33.0,
+) -> tuple[Camera, ...]:
+    """Cameras of a car on a part of a street, which show only parts of what stands along it.
+
+    In turn ahead, to the left and back, level: rows of houses go on beyond what is seen, and their
+    eaves are above it. share: of the street's length, from where to where.
+    """
+    rng = stream(street.seed * 977, "walk along a part")
+    focal_px = focal_mm35 * float(np.hypot(*size_px)) / FILM_DIAGONAL_MM
+    alongs = np.repeat(np.linspace(*share, -(-photos // 3)) * street.length_m, 3)[:photos]
+    cameras = []
+    for number, along in enumerate(alongs.tolist()):
+        heading = (0.0, 0.5 * np.pi, np.pi)[number % 3] + float(rng.normal(0.0, 0.02))
+        eye, ahead = _stand(street, along, float(rng.normal(0.0, 0.004)), heading)
+        high = (eye[0], eye[1], CAR_M)
+        cameras.append(_camera(high, ahead, 0.05, 0.0, size_px, focal_px))
     return tuple(cameras)
 
 

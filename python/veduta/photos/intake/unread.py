@@ -1,0 +1,68 @@
+"""What lies in the folder and is no photo that is read: each file is named, with the reason."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from veduta.imaging.heic import HEIC_SUFFIXES, NOT_READ, heic_suffixes
+from veduta.imaging.read import SUFFIXES
+from veduta.photos.intake.given import Given
+from veduta.run.errors import InputError
+
+MOST_NAMED = 8
+_RAW = (
+    *(".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw", ".srf", ".sr2", ".dng", ".orf", ".rw2"),
+    *(".raf", ".pef", ".srw", ".x3f", ".3fr", ".iiq", ".mrw", ".raw", ".erf", ".kdc"),
+)
+_OTHER = (".bmp", ".gif", ".avif", ".jxl", ".jp2", ".j2k", ".psd", ".exr", ".hdr", ".tga", ".ppm")
+_FILMS = (".mp4", ".mov", ".avi", ".mkv", ".webm", ".mpg", ".mpeg", ".m4v")
+
+
+def photo_suffixes() -> tuple[str, ...]:
+    """Of files that are read as photos."""
+    return (*SUFFIXES, *heic_suffixes())
+
+
+def why_unread(path: Path) -> str:
+    """Why a picture is not read; empty where it is read, or none."""
+    suffix = path.suffix.lower()
+    if suffix in photo_suffixes():
+        return ""
+    if suffix in HEIC_SUFFIXES:
+        return NOT_READ
+    if suffix in _RAW:
+        return "is a raw photo, which is not read: develop it, and save it as JPEG or TIFF"
+    if suffix in _OTHER:
+        kind = suffix.removeprefix(".").upper()
+        return f"is a {kind} picture, which is not read: save it as JPEG, PNG or TIFF"
+    return ""
+
+
+def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...], tuple[str, ...]]:
+    """Pictures of the folder that are not read, as (name, reason), and a note on all other files.
+
+    What the call names itself, and hidden files, are not told.
+    """
+    try:
+        paths = sorted(path for path in folder.iterdir() if path.is_file())
+    except OSError as error:
+        fault = f"cannot be read ({error.strerror})"
+        raise InputError(folder, fault, "Check its permissions.") from error
+    named = {path.resolve() for path in (given.video, given.from_colmap) if path is not None}
+    seen = [path for path in paths if not path.name.startswith(".")]
+    unread = tuple((path.name, why) for path in seen if (why := why_unread(path)))
+    known = {name for name, _ in unread}
+    others = [
+        path
+        for path in seen
+        if path.name not in known
+        and path.suffix.lower() not in photo_suffixes()
+        and path.resolve() not in named
+    ]
+    films = [path.name for path in others if path.suffix.lower() in _FILMS]
+    notes = [f"{name}: is a film; give it with --video to use its frames" for name in films]
+    rest = [path.name for path in others if path.name not in films]
+    if rest:
+        more = f" and {len(rest) - MOST_NAMED} more" if len(rest) > MOST_NAMED else ""
+        notes.append(f"no photos, not used: {', '.join(rest[:MOST_NAMED])}{more}")
+    return unread, tuple(notes)
