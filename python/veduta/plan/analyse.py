@@ -6,6 +6,7 @@ import math
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -14,16 +15,18 @@ from shapely.geometry import Polygon
 
 from veduta.plan.compose import Named, compose_storey
 from veduta.plan.document import PlanDocument, Scale, Sheet, Storey
+from veduta.plan.doubts import position_notes
 from veduta.plan.drawn import Drawn, DrawnRoom
 from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
 from veduta.plan.names.storeys import StoreyName, named_apart, out_of_order, storey_name
 from veduta.plan.names.strays import stray_names
+from veduta.plan.no_house import check_house
 from veduta.plan.openings.way_in import with_ways_in
 from veduta.plan.options import PlanOptions
 from veduta.plan.pages import Drawing, Scan, read_drawing
-from veduta.plan.reading import read_storey
+from veduta.plan.reading import cleaned_sheet, read_cleaned
 from veduta.plan.registering import registered
 from veduta.plan.remarks import false_flights, remarks
 from veduta.plan.scale.estimate import (
@@ -32,10 +35,11 @@ from veduta.plan.scale.estimate import (
     judged_by,
     scale_notes,
 )
+from veduta.plan.several_plans import StoreyDrawing, order_note, storeys_drawn
 from veduta.plan.sheets import Pixels
 from veduta.plan.stairs.find import true_flights
 from veduta.plan.text.engine import prepare
-from veduta.plan.text.sheet_text import SheetText, read_sheet, sheet_of_file
+from veduta.plan.text.sheet_text import read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import StepProgress
@@ -55,7 +59,7 @@ class ReadPlan:
 
 @dataclass(frozen=True)
 class _Read:
-    """What a drawing shows, before its scale is known.
+    """A storey that a drawing shows, before its scale is known. `doubts` are said at the terminal.
 
     sheet_px: height and width of a sheet whose edges may cut the plan off; None of vectors.
     scale: finds the scale of a pixel of `drawn`, with what is to be said of it. of_file: leads the
@@ -68,6 +72,7 @@ class _Read:
     sheet_px: tuple[int, int] | None
     scale: Callable[[], tuple[Scale, list[str]]]
     of_file: Callable[[Sheet], Sheet]
+    doubts: Sequence[str] = ()
 
 
 def read_drawings(
@@ -76,20 +81,44 @@ def read_drawings(
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> ReadPlan:
-    """A storey of each drawing, the lowest first; NotFoundError where one shows no plan."""
+    """The storeys of each drawing, the lowest first; NotFoundError where one shows no plan."""
     storeys: list[Storey] = []
     titles: list[StoreyName | None] = []
     sheets: list[Pixels] = []
-    for index, drawing in enumerate(drawings):
-        read = _read_vectors if is_dxf(drawing.path) else _read_picture
+    for drawing in drawings:
+        read = _read_vectors if is_dxf(drawing.path) else _read_pictures
         shown = read(drawing, options, steps, progress)
         progress("scale and names", 0.0)
         with timed_step(steps, "scale and names") as step:
-            storeys.append(_storey(index, drawing, shown, options))
-            step.counts["evidence"] = len(storeys[-1].scale.evidence)
-        titles.append(storey_name(shown.drawn.texts))
-        sheets.append(shown.drawn.cleaned.pixels)
+            found = _storeys_of(drawing, shown, len(storeys), options)
+            step.counts["evidence"] = sum(len(one.scale.evidence) for one, _ in found)
+        storeys += [storey for storey, _ in found]
+        titles += [storey_name(one.drawn.texts) for _, one in found]
+        sheets += [one.drawn.cleaned.pixels for _, one in found]
     return ReadPlan(PlanDocument(storeys=registered(_named(storeys, titles))), sheets)
+
+
+def _storeys_of(
+    drawing: Drawing, shown: Sequence[_Read], below: int, options: PlanOptions
+) -> list[tuple[Storey, _Read]]:
+    """The storeys of a drawing, above so many others, with what each was read from.
+
+    What stands beside plans and is none (an elevation, a section) is left out, and that is a doubt.
+    """
+    found: list[tuple[Storey, _Read]] = []
+    faults: list[NotFoundError] = []
+    for read in shown:
+        try:
+            found.append((_storey(below + len(found), drawing, read, options), read))
+        except NotFoundError as fault:
+            faults.append(fault)
+    if not found:
+        raise faults[0]
+    if faults:
+        left = f"{len(faults)} of {len(shown)} drawings on {drawing.label} left out: {faults[0]}"
+        last, read = found[-1]
+        found[-1] = (last.model_copy(update={"doubts": [*last.doubts, left]}), read)
+    return found
 
 
 def _named(storeys: Sequence[Storey], titles: Sequence[StoreyName | None]) -> list[Storey]:
@@ -126,15 +155,19 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
             *_strays(drawn),
         ],
     )
+    check_house(storey, drawing.label)
     if size_of(storey) > LARGEST_M:
         fault = f"is {size_of(storey):.0f} m from end to end; {LARGEST_M:.0f} m are the most"
         raise InputError(drawing.label, fault, "Give another scale with --scale.")
-    return storey.model_copy(update={"sheet": read.of_file(storey.sheet)})
+    sheet = read.of_file(storey.sheet)
+    notes = [*position_notes(sheet), *storey.notes]
+    return storey.model_copy(update={"sheet": sheet, "notes": notes, "doubts": [*read.doubts]})
 
 
-def _read_picture(
+def _read_pictures(
     drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
-) -> _Read:
+) -> list[_Read]:
+    """The storeys that a picture shows; their pixels are as large as each other."""
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
         prepare()
@@ -146,25 +179,52 @@ def _read_picture(
         step.counts["texts"] = len(sheet.texts)
     progress("walls, openings, rooms", 0.0)
     with timed_step(steps, "walls, openings, rooms") as step:
-        drawn = read_storey(sheet.pixels, sheet.texts, subject=drawing.label)
-        if not drawn.walls:
-            raise NotFoundError("a floor plan", f"{drawing.label} shows no walls", _remedy(drawing))
-        step.counts |= _counts(drawn)
+        plans = storeys_drawn(*cleaned_sheet(sheet.pixels, sheet.texts, drawing.label))
+        drawn = _drawn_plans(plans, drawing)
+        step.counts |= _counts(*drawn)
     height, width = sheet.pixels.shape[:2]
-    return _Read(
-        drawn,
-        scan.sha256,
-        [*scan.notes, *_position_notes(sheet)],
-        (height, width),
-        lambda: _picture_scale(drawn, options, scan),
-        lambda own: sheet_of_file(own, sheet),
-    )
+    sizes = [_drawn_sizes(one, scan) for one in drawn]
+
+    def scale(index: int) -> tuple[Scale, list[str]]:
+        others = [*sizes[:index], *sizes[index + 1 :]]
+        return _picture_scale(drawn[index], sizes[index], others, options)
+
+    said = order_note(plans) if len(drawn) > 1 else []
+    return [
+        _Read(
+            one,
+            scan.sha256,
+            scan.notes,
+            (height, width),
+            partial(scale, index),
+            lambda own: sheet_of_file(own, sheet),
+            said if index == 0 else (),
+        )
+        for index, one in enumerate(drawn)
+    ]
+
+
+def _drawn_plans(plans: Sequence[StoreyDrawing], drawing: Drawing) -> list[Drawn]:
+    """What was found in each plan on a sheet; NotFoundError where there is no wall in any."""
+    found: list[Drawn] = []
+    fault = NotFoundError("a floor plan", f"{drawing.label} shows no walls", _remedy(drawing))
+    for plan in plans:
+        try:
+            drawn = read_cleaned(plan.cleaned, plan.texts)
+        except NotFoundError as none:
+            fault = none
+            continue
+        if drawn.walls:
+            found.append(drawn)
+    if not found:
+        raise fault
+    return found
 
 
 def _read_vectors(
     drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
-) -> _Read:
-    """As `_read_picture`, of a DXF file: its sheet is in the frame of drawing units already."""
+) -> list[_Read]:
+    """As `_read_pictures`, of a DXF file: its sheet is in the frame of drawing units already."""
     from veduta.plan.vector.read import read_vectors  # not at the top: pictures need none of it
 
     given = options.scale.scale
@@ -172,16 +232,18 @@ def _read_vectors(
     with timed_step(steps, f"read {drawing.label}") as step:
         plan = read_vectors(drawing.path, None if given is None else given / 1000.0)
         step.counts |= plan.counts | _counts(plan.drawn)
-    return _Read(
-        plan.drawn, plan.sha256, plan.notes, None, lambda: _vector_scale(plan), lambda own: own
-    )
+    return [
+        _Read(
+            plan.drawn, plan.sha256, plan.notes, None, lambda: _vector_scale(plan), lambda own: own
+        )
+    ]
 
 
-def _counts(drawn: Drawn) -> dict[str, Count]:
+def _counts(*drawn: Drawn) -> dict[str, Count]:
     return {
-        "walls": len(drawn.walls),
-        "openings": len(drawn.openings),
-        "rooms": len(drawn.rooms),
+        "walls": sum(len(one.walls) for one in drawn),
+        "openings": sum(len(one.openings) for one in drawn),
+        "rooms": sum(len(one.rooms) for one in drawn),
     }
 
 
@@ -215,22 +277,34 @@ def _remedy(drawing: Drawing) -> str:
     return "Give the picture of a drawn plan."
 
 
-def _picture_scale(drawn: Drawn, options: PlanOptions, scan: Scan) -> tuple[Scale, list[str]]:
+def _picture_scale(
+    drawn: Drawn, sizes: DrawnSizes, others: Sequence[DrawnSizes], options: PlanOptions
+) -> tuple[Scale, list[str]]:
     """Of a pixel of the cleaned drawing, with notes; the option is of a pixel of the file."""
-    cleaned = drawn.cleaned
-    finer = math.sqrt(abs(float(np.linalg.det(cleaned.clean_from_scan[:2, :2]))))
     given = options.scale.scale
-    sizes = DrawnSizes(
+    scale = estimate_scale(
+        sizes, None if given is None else given / 1000.0 / _finer(drawn), beside=others
+    )
+    return scale, scale_notes(scale)
+
+
+def _finer(drawn: Drawn) -> float:
+    """How many pixels of the cleaned drawing one of the file is long."""
+    return math.sqrt(abs(float(np.linalg.det(drawn.cleaned.clean_from_scan[:2, :2]))))
+
+
+def _drawn_sizes(drawn: Drawn, scan: Scan) -> DrawnSizes:
+    """What a drawing shows of its scale."""
+    finer = _finer(drawn)
+    return DrawnSizes(
         rooms=[room.outline_px for room in drawn.rooms],
         doors=[one.width_px for one in drawn.openings if one.kind == "door"],
         walls=[wall.thickness_px for wall in drawn.walls],
-        ink=cleaned.ink,
+        ink=drawn.cleaned.ink,
         dpi=None if scan.dpi is None else scan.dpi * finer,
         on_paper=scan.on_paper,
         texts=drawn.texts,
     )
-    scale = estimate_scale(sizes, None if given is None else given / 1000.0 / finer)
-    return scale, scale_notes(scale)
 
 
 def _names(drawn: Drawn, metres_per_px: float) -> dict[str, Named]:
@@ -296,12 +370,3 @@ def _elongation(shape: Polygon) -> float:
     corners: NDArray[np.float64] = np.array(around.exterior.coords)
     first, second = np.linalg.norm(np.diff(corners[:3], axis=0), axis=1)
     return float(max(first, second) / max(min(first, second), 1e-9))
-
-
-def _position_notes(sheet: SheetText) -> list[str]:
-    notes = []
-    if sheet.position.mirrored:
-        notes.append("the scan is a mirror image, by its text: mirrored back")
-    if sheet.position.quarter_turns:
-        notes.append(f"turned by {90 * sheet.position.quarter_turns} degrees, by its text")
-    return notes

@@ -293,6 +293,9 @@ class Storey(_Record):
     )
     texts: list[Text] = []
     notes: list[str] = Field(default=[], description="what was assumed, mended or left out")
+    doubts: list[str] = Field(
+        default=[], description="what of it must be known before the house is trusted"
+    )
 
 
 def _checked_time(text: str) -> str:

@@ -2,23 +2,93 @@
 
 from __future__ import annotations
 
-from veduta.plan.document import PlanDocument, Storey
-from veduta.plan.remarks import closed_in
+import math
+from collections.abc import Sequence
+
+import numpy as np
+from shapely.geometry import Polygon
+
+from veduta.plan.document import PlanDocument, Sheet, Storey
+from veduta.plan.house.lines import footprint, wall_lines
+from veduta.plan.house.space import filled
+from veduta.plan.names.strays import stray_names
+from veduta.plan.remarks import closed_in, plans_apart
 from veduta.plan.scale.estimate import scale_notes
 from veduta.plan.tour.find import Tour
 from veduta.run.report import counted
 
 _SHOWN = 5
+UNLIKE_STOREYS = 0.7
+"""Storeys of which one covers less than this part of the other are told of."""
 
 
 def doubts(document: PlanDocument, tour: Tour | None) -> list[str]:
-    """One sentence each: of the scale, of rooms without doors, of what the tour cannot reach."""
+    """One sentence each: how the sheet lay, scale, rooms, storeys, and what the tour leaves out."""
     several = len(document.storeys) > 1
     said = []
     for storey in document.storeys:
         of = f"{storey.name}: " if several else ""
-        said += [of + note for note in (*scale_notes(storey.scale), *_closed_in(storey))]
-    return [*said, *(() if tour is None else tour.notes)]
+        notes = (
+            *position_notes(storey.sheet),
+            *scale_notes(storey.scale),
+            *_apart(storey),
+            *_strays(storey),
+            *_closed_in(storey),
+            *storey.doubts,
+        )
+        said += [of + note for note in notes]
+    return [*said, *unlike_storeys(document.storeys), *(() if tour is None else tour.notes)]
+
+
+def position_notes(sheet: Sheet) -> list[str]:
+    """That a scan was mirrored back or turned by quarters: a mistake there spoils all else."""
+    turns = round(sheet.rotation_rad / (math.pi / 2.0)) % 4
+    turned = f", and turned by {90 * turns} degrees" if turns else ""
+    if sheet.mirrored:
+        return [f"By its text the scan is a mirror image: it was mirrored back{turned}."]
+    return (
+        [f"By its text the scan lies on its side: turned by {90 * turns} degrees."] if turns else []
+    )
+
+
+def unlike_storeys(storeys: Sequence[Storey]) -> list[str]:
+    """Neighbouring storeys whose outlines differ much: one of them may have another scale."""
+    areas = [_covered(storey) for storey in storeys]
+    notes = []
+    for (lower, below), (upper, above) in zip(
+        zip(storeys, areas, strict=True), list(zip(storeys, areas, strict=True))[1:], strict=False
+    ):
+        if min(below, above) < UNLIKE_STOREYS * max(below, above):
+            notes.append(
+                f"{lower.name} covers {below:.1f} m², {upper.name} {above:.1f} m²: storeys of one"
+                " house seldom differ so much. See their scales in the report; --scale sets one."
+            )
+    return notes
+
+
+def _covered(storey: Storey) -> float:
+    return float(filled(footprint(wall_lines(storey).values())).area)
+
+
+def _apart(storey: Storey) -> list[str]:
+    bodies = [footprint([line]) for line in wall_lines(storey).values()]
+    rooms = [Polygon(room.outline_m, room.holes_m).buffer(0.0) for room in storey.rooms]
+    return plans_apart(rooms, bodies, 1.0)
+
+
+def _strays(storey: Storey) -> list[str]:
+    """Names in no room, or two of which each asks for a room of its own, by the document."""
+    x, y = storey.sheet.origin_px
+    size = storey.sheet.metres_per_px
+    texts = [
+        text.model_copy(
+            update={"box_px": [((u - x) * size, (y - v) * size) for u, v in text.box_px]}
+        )
+        for text in storey.texts
+    ]
+    outlines = [np.array(room.outline_m, dtype=np.float64) for room in storey.rooms]
+    points = [one.at_m for one in storey.junctions]
+    return [f"{note}." for note in stray_names(outlines, points, texts)]
 
 
 def _closed_in(storey: Storey) -> list[str]:

@@ -67,6 +67,14 @@ class KnownWalls:
     settle: Callable[[Sequence[Axis]], Sequence[Axis]]
 
 
+def cleaned_sheet(
+    pixels: NDArray[np.uint8], texts: Sequence[Text], subject: str = "the drawing"
+) -> tuple[Cleaned, list[Text]]:
+    """A sheet (h, w, 3) laid straight, its ink, and its texts in pixels of that."""
+    cleaned = clean_sheet(pixels, subject)
+    return cleaned, moved_texts(texts, cleaned.clean_from_scan)
+
+
 def read_storey(
     pixels: NDArray[np.uint8],
     texts: Sequence[Text] = (),
@@ -77,8 +85,7 @@ def read_storey(
     `texts` are in pixels of the given picture. Sizes count in wall thicknesses.
     Raises NotFoundError where the picture, which it calls `subject`, shows no plan.
     """
-    cleaned = clean_sheet(pixels, subject)
-    return read_cleaned(cleaned, moved_texts(texts, cleaned.clean_from_scan))
+    return read_cleaned(*cleaned_sheet(pixels, texts, subject))
 
 
 def read_cleaned(

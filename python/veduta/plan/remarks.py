@@ -12,6 +12,7 @@ from typing import TypeVar
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import LineString, Polygon
+from shapely.geometry.base import BaseGeometry
 from shapely.ops import unary_union
 
 from veduta.plan.document import Opening, Room
@@ -106,8 +107,15 @@ def _apart(drawn: Drawn, metres_per_px: float) -> list[str]:
     lines = [
         LineString(drawn.wall_ends(wall)).buffer(wall.thickness_px / 2) for wall in drawn.walls
     ]
-    reach = APART_M / 2 / metres_per_px
-    whole = unary_union([shape.buffer(reach) for shape in [*rooms, *lines]])
+    return plans_apart(rooms, lines, metres_per_px)
+
+
+def plans_apart(
+    rooms: Sequence[BaseGeometry], walls: Sequence[BaseGeometry], metres_per_unit: float
+) -> list[str]:
+    """What is to be said where rooms and bodies of walls fall into several buildings."""
+    reach = APART_M / 2 / metres_per_unit
+    whole = unary_union([shape.buffer(reach) for shape in [*rooms, *walls]])
     floors = [
         (sum(room.area for room in rooms if part.intersects(room)), part)
         for part in getattr(whole, "geoms", [whole])
@@ -118,7 +126,7 @@ def _apart(drawn: Drawn, metres_per_px: float) -> list[str]:
         return []
     sizes = []
     for left, upper, right, lower in sorted(part.bounds for part in found)[:_SHOWN]:
-        sides = (np.array([right - left, lower - upper]) - 2 * reach) * metres_per_px
+        sides = (np.array([right - left, lower - upper]) - 2 * reach) * metres_per_unit
         sizes.append(f"{sides[0]:.1f} x {sides[1]:.1f} m")
     return [
         f"{len(found)} plans lie apart on this sheet ({', '.join(sizes)}): they are read as one"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
@@ -17,8 +17,9 @@ from veduta.plan.scale.dimension_lines import line_voters
 from veduta.plan.scale.evidence import Voter
 from veduta.plan.scale.free_runs import wall_masks
 from veduta.plan.scale.marks import without_marks
+from veduta.plan.scale.plausible import limits_of, plausible
 from veduta.plan.scale.ratios import ratio_voters
-from veduta.plan.scale.room_sizes import room_voters
+from veduta.plan.scale.room_sizes import of_house, room_voters
 from veduta.plan.scale.sharpen import Reading, sharpened
 from veduta.plan.scale.side_readings import side_readings
 from veduta.plan.scale.vote import take_vote
@@ -62,29 +63,58 @@ class DrawnSizes:
         return wall_masks(self.ink, self.walls)
 
 
-def estimate_scale(sizes: DrawnSizes, given: float | None = None) -> Scale:
+def estimate_scale(
+    sizes: DrawnSizes, given: float | None = None, beside: Sequence[DrawnSizes] = ()
+) -> Scale:
     """The scale by the vote of all evidence; `given` (metres per pixel) goes before it.
 
-    Without any evidence it is assumed from doors, else walls, else the size of the drawing, and
+    `beside`: what other storeys on the same sheet show, whose pixels are as large. Without any
+    evidence it is assumed from doors, else walls, else the size of the drawing, and
     its basis says so. Raises `InputError` where `given` is no size of a pixel.
     """
     if given is not None and not 1e-6 < given < 10.0:
         raise InputError("--scale", f"{given} m is no size of a pixel", "Give 0.000001 to 10 m.")
-    voters = find_voters(sizes)
+    every = [sizes, *beside]
+    voters = [one for part in every for one in find_voters(part)]
     if given is not None:
         return _given(given, voters)
+    sizes = together(every)
+    found, voters = voters, plausible(voters, limits_of(sizes))
+    absurd = _set_aside(found, voters)
     doors = door_voter(sizes.doors)
     if not voters:
-        return _assumed(doors, sizes)
+        assumed = _assumed(doors, sizes)
+        return assumed.model_copy(update={"evidence": [*assumed.evidence, *absurd]})
     told = _voted([*voters, doors] if doors else voters)
+    told = told.model_copy(update={"evidence": [*told.evidence, *absurd]})
     if any(one.agrees and one.kind != "door" for one in told.evidence):
-        return _sharpened(told, sizes)
+        return _sharpened(told, every)
     # Doors outvote a lone number that means something else; but they are an assumption.
     assumed = _assumed(doors, sizes)
     others = [
         one.model_copy(update={"agrees": False}) for one in told.evidence if one.kind != "door"
     ]
     return assumed.model_copy(update={"evidence": [*assumed.evidence, *others]})
+
+
+def _set_aside(found: Sequence[Voter], kept: Sequence[Voter]) -> list[ScaleEvidence]:
+    """What has no plausible reading, as evidence that disagrees, by its likeliest reading."""
+    names = {(one.place, one.text) for one in kept}
+    evidence = []
+    for voter in found:
+        if (voter.place, voter.text) not in names:
+            best = max(voter.hypotheses, key=lambda one: one.trust)
+            size = float(np.exp(best.log_mpp))
+            evidence.append(
+                ScaleEvidence(
+                    kind=voter.kind,
+                    text=voter.text,
+                    metres_per_px=size,
+                    sigma=best.sigma,
+                    agrees=False,
+                )
+            )
+    return evidence
 
 
 def find_voters(sizes: DrawnSizes) -> list[Voter]:
@@ -109,7 +139,12 @@ def scale_notes(scale: Scale) -> list[str]:
             f"Nothing on the sheet says its scale. {by} may be wrong by"
             f" {200 * scale.sigma:.0f} %. --scale sets it."
         )
-    against = [one for one in scale.evidence if not one.agrees and one.kind != "door"]
+    # What is written as the whole house's area need not be this storey's.
+    against = [
+        one
+        for one in scale.evidence
+        if not one.agrees and one.kind != "door" and not of_house(one.text)
+    ]
     said = [one for one in scale.evidence if one.kind != "door"]
     if against:
         named = "; ".join(
@@ -149,11 +184,29 @@ def _voted(voters: list[Voter]) -> Scale:
     )
 
 
-def _sharpened(told: Scale, sizes: DrawnSizes) -> Scale:
+def together(every: Sequence[DrawnSizes]) -> DrawnSizes:
+    """What storeys on one sheet show, as if they were one."""
+    if len(every) == 1:
+        return every[0]
+    return replace(
+        every[0],
+        rooms=[room for one in every for room in one.rooms],
+        doors=[door for one in every for door in one.doors],
+        walls=[wall for one in every for wall in one.walls],
+        texts=[text for one in every for text in one.texts],
+        ink=np.max([one.ink for one in every], axis=0),
+    )
+
+
+def _sharpened(told: Scale, every: Sequence[DrawnSizes]) -> Scale:
     """The scale of the vote, by each side of a room and each line as exactly as it is measured."""
     readings = [
-        *side_readings(
-            sizes.sayings, sizes.rooms, sizes.walls, sizes.masks, sizes.ink, told.metres_per_px
+        *(
+            reading
+            for sizes in every
+            for reading in side_readings(
+                sizes.sayings, sizes.rooms, sizes.walls, sizes.masks, sizes.ink, told.metres_per_px
+            )
         ),
         *(
             Reading(math.log(one.metres_per_px), one.sigma, 1.0, 0.0)

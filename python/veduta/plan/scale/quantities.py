@@ -60,8 +60,21 @@ _RATIOS = (
 MARKED_TRUST = 0.6
 """Of `103"`, which is 10'3" where the mark of feet was lost, if rooms are so large ..."""
 
+LOST_MARK_TRUST = 0.5
+"""Of `157`, which is 15'7 where both marks were lost."""
+
 LEAST_ROOM_M, LEAST_INCHES = 1.2, 48
 """... and may be inches in all, of rooms."""
+TATAMI_M2 = 1.62
+"""A mat (jo) as agents in Japan count it, at least: 1.62 m2 by their rule of fair display ..."""
+TATAMI_STEP_M2 = 0.25
+"""... and how exactly it says an area: real mats are 1.55 to 1.82 m2."""
+TSUBO_M2 = 400.0 / 121.0
+BARE_FEET, BARE_METRES = (5, 40), (2, 12)
+"""Whole sides as in 11x12 are feet, seldom metres, of rooms between these sizes ..."""
+BARE_FEET_TRUST, BARE_METRES_TRUST = 0.7, 0.3
+BARE_STEP = 0.5
+"""... and mean no more than the nearest half of the unit."""
 
 _METRIC = r"(?P<{0}m>\d{{1,2}}[.]\d{{1,3}})\s*(?:m(?=\W|x|$))?"
 _FEET = (
@@ -84,6 +97,16 @@ _SQUARE_M = re.compile(
 _SQUARE_FT = re.compile(
     r"(?<![\d.])(\d{2,5}(?:[.]\d{1,2})?)\s*(?:sq\.?\s?f(?:ee)?t\b|ft\s?[2²]|sqft\b|sf\b)", re.I
 )
+_BARE = re.compile(
+    r"(?<![\d.'\"=])(\d{1,2})\s*x\s*(\d{1,2})(?![\d.'\"]|\s*(?:cm|mm))", re.IGNORECASE
+)
+_MATS = re.compile(r"(\d{1,2}(?:[.]\d{1,2})?)\s*(?:帖|畳|疊|叠|tatami|jo\b|mats?\b)", re.IGNORECASE)
+_TSUBO = re.compile(r"(\d{1,3}(?:[.]\d{1,2})?)\s*(?:坪|tsubo)", re.IGNORECASE)
+_HEIGHT = re.compile(
+    r"[<>≤≥]|\b(?:ht|hsp|rh|clg|hauteur|höhe|hoehe|height|ceiling|dachschr\w*)\b|\bh\s?[=:]",
+    re.IGNORECASE,
+)
+"""A height of a ceiling or of a sloping roof (`<1,80m`, `ht. 1.35`) is no length on the plan."""
 _RATIO = re.compile(r"(?<![\d.])1\s?[:/]\s?(\d{2,4})(?!\d)")
 _INCH_RATIO = re.compile(r"(?<!\d)(\d{1,2})/(\d{1,2})\s?(?:\"|'')\s?=\s?1\s?'")
 
@@ -92,7 +115,7 @@ def read_quantities(text: str) -> list[Quantity]:
     """All readings of a text as sizes; none where it holds no size."""
     plain = _plain(text)
     areas = list(_areas(plain))
-    found = [*_ratios(plain), *_sizes(plain), *areas]
+    found = [*_ratios(plain), *_sizes(plain), *_bare_feet(plain), *areas]
     if not found:
         found = list(_lengths(plain))
     return found
@@ -127,6 +150,24 @@ def _areas(plain: str) -> Iterator[Quantity]:
         yield from _within("area", (float(match[1]),), step, trust)
     for match in _SQUARE_FT.finditer(plain):
         yield from _within("area", (float(match[1]) * FOOT_M**2,), FOOT_M**2, 1.0)
+    for match in _MATS.finditer(plain):
+        yield from _within("area", (float(match[1]) * TATAMI_M2,), TATAMI_STEP_M2, 0.7)
+    for match in _TSUBO.finditer(plain):
+        yield from _within("area", (float(match[1]) * TSUBO_M2,), 0.1 * TSUBO_M2, 1.0)
+
+
+def _bare_feet(plain: str) -> Iterator[Quantity]:
+    """`11X12` of a bedroom: whole feet, or whole metres, without a mark."""
+    readings = (
+        (FOOT_M, BARE_FEET, BARE_FEET_TRUST),
+        (1.0, BARE_METRES, BARE_METRES_TRUST),
+    )
+    for match in _BARE.finditer(plain):
+        sides = (int(match[1]), int(match[2]))
+        for unit, (low, high), trust in readings:
+            if low <= min(sides) and max(sides) <= high:
+                values = (sides[0] * unit, sides[1] * unit)
+                yield Quantity("size", values, BARE_STEP * unit, trust)
 
 
 def _sizes(plain: str) -> Iterator[Quantity]:
@@ -135,13 +176,17 @@ def _sizes(plain: str) -> Iterator[Quantity]:
         for unit, a, step, trust_a in first:
             for other, b, _, trust_b in second:
                 trust = min(trust_a, trust_b)
-                # A hob or a tile of 24" x 36" is no room of two feet four by three feet six.
-                no_room = trust == MARKED_TRUST and min(a, b) < LEAST_ROOM_M
+                # A hob or a tile of 24" x 36" is no room of two feet four by three feet six, and
+                # 11 x 12 are feet, not a foot one by a foot two.
+                guessed = trust == MARKED_TRUST or (unit == "ft" and trust == LOST_MARK_TRUST)
+                no_room = guessed and min(a, b) < LEAST_ROOM_M
                 if unit == other and not no_room:
                     yield from _within("size", (a, b), step, trust)
 
 
 def _lengths(plain: str) -> Iterator[Quantity]:
+    if _HEIGHT.search(plain):
+        return
     # The raised 2 is the first thing to be lost in print: `17,4 m` may be an area.
     for match in _BARE_M.finditer(plain):
         step = 10.0 ** -len(match[1].partition(".")[2])
@@ -189,7 +234,7 @@ def _whole(
     if unit == "cm" or (unit is None and 2 <= len(digits) <= 4):
         yield "cm", number / 100.0, 0.01, 0.9 if unit else (0.5 if len(digits) == 3 else 0.2)
     if unit is None:
-        yield from _feet_of(digits, 0.5)
+        yield from _feet_of(digits, LOST_MARK_TRUST)
 
 
 def _feet_of(digits: str, trust: float) -> Iterator[tuple[str, float, float, float]]:

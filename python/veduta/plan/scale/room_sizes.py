@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import itertools
 import math
+import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -29,7 +30,7 @@ from veduta.plan.scale.evidence import (
 )
 from veduta.plan.scale.free_runs import free_runs
 from veduta.plan.scale.printed import Printed, laid_level, printed_in, room_polygon
-from veduta.plan.scale.quantities import Quantity
+from veduta.plan.scale.quantities import Quantity, read_quantities
 
 _UNLIKE = 0.25  # sides whose ratios differ by more (in logarithms) are not the two sides
 _ONE_SIDE_TRUST = 0.25  # one side alone, where the other is open to the next room
@@ -39,6 +40,9 @@ _LABEL = 2.5  # heights of text between the lines of one label
 _AREA_OF_RUNS = 0.06  # the free runs of a room span a rectangle that is not quite its area
 _AREA_STATED = 0.02  # built-in cupboards and chimneys are counted, or not
 _TOTAL_STATED = 0.05  # inner walls are counted, or not
+_TOTAL_TRUST, _HOUSE_TRUST = 0.5, 0.25  # of an area that may be of all rooms, or of all storeys
+_STOREY_OF_TOTAL = 0.2  # a storey has at least so much of what is written as the house's total
+_OF_HOUSE = re.compile(r"\b(?:total|gross|gesamt\w*|totale?|overall|whole|area)\b", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -64,26 +68,49 @@ def room_voters(
     """
     rooms = [room_polygon(outline) for outline in rooms_px]
     printed = printed_in(texts, rooms)
-    largest = max((area for one in printed for area in one.areas), default=0.0)
     total = sum(room.area for room in rooms)
+    totals = _totals(printed) if total > 0 else {}
     voters: list[Voter] = []
     places: list[tuple[NDArray[np.float64], str]] = []
     for one in printed:
         found = list(_of_room(one, printed, rooms, walls, blur_px))
-        if total > 0:
-            found += [
-                Hypothesis(
-                    _area_log(quantity.values[0], total), _TOTAL_STATED, 0.5 * quantity.trust
-                )
-                for quantity in one.quantities
-                if quantity.kind == "area" and quantity.values[0] >= 0.99 * largest
-            ]
+        found += [
+            Hypothesis(_area_log(quantity.values[0], total), _TOTAL_STATED, trust * quantity.trust)
+            for quantity in one.quantities
+            if quantity.kind == "area" and (trust := totals.get(id(one), 0.0)) > 0.0
+        ]
         if found:
             sized = any(quantity.kind != "area" for quantity in one.quantities)
             kind: EvidenceKind = "dimension" if sized else "area"
             place = _place(one.text, one.at, places)
             voters.append(Voter(kind, one.text.text, place, tuple(found), mass=one.text.score))
     return voters
+
+
+def of_house(text: str) -> bool:
+    """Whether a text says an area of the whole house: `Gross Internal Area 821 sq. ft`."""
+    area = any(one.kind == "area" for one in read_quantities(text))
+    return area and _OF_HOUSE.search(text) is not None
+
+
+def _totals(printed: list[Printed]) -> dict[int, float]:
+    """How far each text is trusted to state the area of all rooms of the sheet, by its `id`.
+
+    The largest may; so may what stands beside the plan and is not much smaller, as a house's total
+    below the one of its storey. What says that it is of the house is trusted less where another
+    text may be the storey's.
+    """
+    largest = max((area for one in printed for area in one.areas), default=0.0)
+    may: dict[int, float] = {}
+    for one in printed:
+        area = max(one.areas, default=0.0)
+        beside = one.room is None and area >= _STOREY_OF_TOTAL * largest
+        if area > 0.0 and (area >= 0.99 * largest or beside):
+            may[id(one)] = _TOTAL_TRUST
+    if len({round(max(one.areas)) for one in printed if id(one) in may}) > 1:
+        whole = [one for one in printed if id(one) in may and of_house(one.text.text)]
+        may |= {id(one): _HOUSE_TRUST for one in whole}
+    return may
 
 
 def _of_room(

@@ -2,7 +2,9 @@
 
 Regions of text look alike in all eight positions of a sheet, words do not. The longest regions are
 read in each position; words for rooms and sizes count most, since letters such as H and O read well
-in any of them.
+in any of them. A writing that the network does not know (Hebrew, Japanese, somebody's hand) gives
+letters that mean nothing in every position, some more than others: only what is read well may turn
+a sheet or mirror it.
 """
 
 from __future__ import annotations
@@ -27,6 +29,8 @@ _SIGNS = 2  # nor does a single letter: many are a room's name, and a digit in a
 _FIGURES = 0.5  # of the letters and digits of a size so many are digits
 _SYMMETRIC = frozenset("AHIMOTUVWXY8010o|-")  # the same in a mirror
 _MARGIN = 1.5  # another position must read so much better than the one that the sheet is in
+_WELL = 0.85  # what is no word known, but read so surely, speaks for a position, too, ...
+_LETTERS = 4  # ... if it has so many letters that a mirror does not show alike
 _LEAST = 4.0  # and say so much by itself: a short word that makes sense, not a line read as an l
 
 
@@ -110,7 +114,10 @@ def _position_score(
     mirrored: bool,
     turns: int,
 ) -> float:
-    return sum(map(_weight, _read_all(pixels, regions, mirrored, turns)))
+    """What speaks for a position: of the sheet's own all that is read, of others what is sure."""
+    lines = _read_all(pixels, regions, mirrored, turns)
+    as_it_is = not mirrored and turns == 0
+    return sum(_weight(line) for line in lines if as_it_is or is_well_read(line))
 
 
 def _read_all(
@@ -146,8 +153,19 @@ def _makes_sense(line: Line) -> bool:
     return bool(meanings(line.text) or (figures and read_quantities(line.text)))
 
 
+def is_well_read(line: Line) -> bool:
+    """Whether a line is a word for a room, a size, or letters that are read without doubt."""
+    if _makes_sense(line):
+        return True
+    telling = [one for one in _latin(line.text) if one not in _SYMMETRIC and one.isalpha()]
+    return line.score >= _WELL and len(telling) >= _LETTERS
+
+
+def _latin(text: str) -> list[str]:
+    return [letter for letter in text if letter.isalnum() and ord(letter) < 0x250]
+
+
 def _weight(line: Line) -> float:
     """How much a reading says for its position."""
-    letters = [letter for letter in line.text if letter.isalnum() and ord(letter) < 0x250]
-    telling = sum(0.3 if letter in _SYMMETRIC else 1.0 for letter in letters)
+    telling = sum(0.3 if letter in _SYMMETRIC else 1.0 for letter in _latin(line.text))
     return line.score**2 * telling * (_SENSE if _makes_sense(line) else 1.0)

@@ -8,6 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import Text
+from veduta.plan.names.vocabulary import meanings
+from veduta.plan.scale.quantities import read_quantities
 from veduta.plan.text.engine import Line, read_line, side_by_side
 from veduta.plan.text.letters import find_letters
 from veduta.plan.text.regions import find_regions
@@ -38,7 +40,7 @@ def read_texts(
     texts = [
         Text(text=line.text, box_px=[(float(x), float(y)) for x, y in quad], score=line.score)
         for quad, line in read
-        if line.score >= LEAST_SCORE and _is_latin(line.text)
+        if line.score >= LEAST_SCORE and (_is_latin(line.text) or _is_known(line.text))
     ]
     return [*texts, *find_letters(pixels, texts)]
 
@@ -48,6 +50,11 @@ def _is_latin(text: str) -> bool:
     return any(letter.isalnum() for letter in text) and all(
         ord(letter) < 0x0250 or letter in _SIGNS for letter in text
     )
+
+
+def _is_known(text: str) -> bool:
+    """Whether it is a word for a room or an area in another script, as 6帖 is."""
+    return bool(meanings(text) or any(one.kind == "area" for one in read_quantities(text)))
 
 
 def _read_region(

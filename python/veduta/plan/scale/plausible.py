@@ -1,0 +1,77 @@
+"""Scales by which a drawing would be no house: doors, walls and the whole say how small and large.
+
+A lone number that is read or understood wrong can outvote all else by agreeing with itself. What it
+would make of doors, of walls and of the plan as a whole speaks against it before the vote.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from veduta.plan.scale.evidence import Voter
+
+if TYPE_CHECKING:
+    from veduta.plan.scale.estimate import DrawnSizes
+
+
+@dataclass(frozen=True)
+class HouseSizes:
+    """What sizes things of a house have, least and most (m). Wide: only what is absurd is out."""
+
+    door_m: tuple[float, float] = (0.45, 2.2)
+    """The median of at least `few` doors: 0.7 to 1.0 m, as `assumed.DOOR_M` has it, by half."""
+    wall_m: tuple[float, float] = (0.015, 1.6)
+    """The median wall, of at least `few`: a line of a pen to that of a castle."""
+    rooms_m2: tuple[float, float] = (4.0, 60_000.0)
+    """All rooms of a storey: the smallest flats have 9 m2."""
+    few: int = 3
+
+
+USUAL = HouseSizes()
+
+
+def limits_of(sizes: DrawnSizes, house: HouseSizes = USUAL) -> tuple[float, float]:
+    """The least and the largest size of a pixel (m) by which the drawing can be of a house.
+
+    Where what is drawn contradicts itself, doors go before walls, and these before the whole.
+    """
+    bounds = []
+    for found, allowed in ((sizes.doors, house.door_m), (sizes.walls, house.wall_m)):
+        if len(found) >= house.few:
+            usual = float(np.median(found))
+            bounds.append((allowed[0] / usual, allowed[1] / usual))
+    area_px2 = _area(sizes)
+    if area_px2 > 0.0:
+        least, most = house.rooms_m2
+        bounds.append((math.sqrt(least / area_px2), math.sqrt(most / area_px2)))
+    low, high = 0.0, math.inf
+    for lower, upper in bounds:
+        if max(low, lower) < min(high, upper):
+            low, high = max(low, lower), min(high, upper)
+    return low, high
+
+
+def plausible(voters: Sequence[Voter], limits: tuple[float, float]) -> list[Voter]:
+    """The voters without their readings that are outside of limits (m); none without a reading."""
+    kept = []
+    for voter in voters:
+        readings = tuple(
+            one for one in voter.hypotheses if limits[0] <= math.exp(one.log_mpp) <= limits[1]
+        )
+        if readings:
+            kept.append(replace(voter, hypotheses=readings))
+    return kept
+
+
+def _area(sizes: DrawnSizes) -> float:
+    """Of all rooms, in square pixels, by the shoelace formula."""
+    total = 0.0
+    for outline in sizes.rooms:
+        x, y = np.asarray(outline, dtype=np.float64).T
+        total += 0.5 * abs(float(x @ np.roll(y, 1) - y @ np.roll(x, 1)))
+    return total
