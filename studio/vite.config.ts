@@ -41,7 +41,10 @@ export default defineConfig({
     modulePreload: { polyfill: false },
     chunkSizeWarningLimit: 800,
     rollupOptions: {
+      input: { studio: "index.html", offline: "src/offline/worker.ts" },
       output: {
+        // A service worker's address stays: the browser looks there for its next version.
+        entryFileNames: ({ name }) => (name === "offline" ? "offline.js" : "assets/[name]-[hash].js"),
         manualChunks: (id) =>
           id.includes("node_modules/three") ? "three" : undefined,
       },

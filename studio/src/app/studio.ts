@@ -17,6 +17,7 @@ import "./help-dialog.ts";
 import { inspect } from "./inspect.ts";
 import "./house-panel.ts";
 import "./joystick.ts";
+import { keepOffline } from "./keep-offline.ts";
 import "./layers-panel.ts";
 import type { Counted } from "./layers-panel.ts";
 import "./loading-screen.ts";
@@ -120,6 +121,7 @@ export class Studio extends LitElement {
       session.viewer.goHome();
       address.show(location.hash);
       document.documentElement.dataset.veduta = "ready";
+      void keepOffline(new URL(location.href));
     } catch (error) {
       this.#fail(error);
     }

@@ -17,7 +17,7 @@ export async function open(
   url: string,
   context: BrowserContextOptions = {},
 ): Promise<OpenedPage> {
-  const page = await (await browser.newContext({ viewport: DESKTOP, deviceScaleFactor: SHARPNESS, ...context })).newPage();
+  const page = await (await browser.newContext({ viewport: DESKTOP, deviceScaleFactor: SHARPNESS, serviceWorkers: "block", ...context })).newPage();
   const complaints: string[] = [];
   const { origin } = new URL(url);
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));
