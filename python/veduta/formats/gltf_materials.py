@@ -7,8 +7,10 @@ from collections.abc import Callable, Sequence
 from functools import lru_cache
 from typing import Any
 
+import numpy as np
+
 from veduta.formats.gltf_bin import GltfBin
-from veduta.imaging.encode import jpeg_bytes, mask_bytes
+from veduta.imaging.encode import jpeg_bytes, mask_bytes, png_bytes
 from veduta.place.material import Material, Texture
 
 JPEG_QUALITY = 90
@@ -64,6 +66,8 @@ class GltfMaterials:
             image, told = self._pictures(material.texture)
             shading["baseColorTexture"] = {"index": self._texture(image, self._wrap_of(row))}
             entry["extras"] = {"veduta": told}
+            if material.texture.cut:
+                entry |= {"alphaMode": "MASK", "alphaCutoff": 0.5}
         if material.unlit:
             entry["extensions"] = {UNLIT: {}}
             if UNLIT not in self._root.setdefault("extensionsUsed", []):
@@ -76,7 +80,10 @@ class GltfMaterials:
         Once in the file, whatever colours it has.
         """
         if texture not in self._images:
-            image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
+            if texture.cut:
+                image = _image(self._root, _cut_png(texture), "image/png", self._binary)
+            else:
+                image = _image(self._root, _jpeg(texture), "image/jpeg", self._binary)
             first = bool(texture.invented.flat[0])
             told: dict[str, Any] = {"invented": first}
             if (texture.invented != first).any():
@@ -121,6 +128,12 @@ def _image(root: dict[str, Any], data: bytes, mime: str, binary: GltfBin) -> int
 def _jpeg(texture: Texture) -> bytes:
     """Encoded once for all models of a process."""
     return jpeg_bytes(texture.pixels, JPEG_QUALITY, optimize=True)
+
+
+@lru_cache(maxsize=32)
+def _cut_png(texture: Texture) -> bytes:
+    alpha = np.where(texture.invented, 0, 255).astype(np.uint8)
+    return png_bytes(np.dstack([texture.pixels, alpha]))
 
 
 @lru_cache(maxsize=32)

@@ -194,7 +194,8 @@ def material_of(glb: Glb, entry: dict[str, Any]) -> Material:
     if "baseColorTexture" in shading:
         source = glb.root["textures"][shading["baseColorTexture"]["index"]]["source"]
         pixels = _pixels(glb, source, "RGB")
-        texture = Texture(pixels=pixels, invented=_invented(glb, entry, pixels))
+        cut = entry.get("alphaMode") == "MASK"
+        texture = Texture(pixels=pixels, invented=_invented(glb, entry, pixels), cut=cut)
     return Material(
         entry["name"],
         colour,

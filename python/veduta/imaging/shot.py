@@ -17,6 +17,8 @@ from PIL.ExifTags import GPS, IFD, Base
 
 _TEXT = re.compile(r"[^\x20-\x7e]+")
 _LONGEST_TEXT = 80
+_LONGEST_XMP = 1 << 20
+_PITCH = re.compile(rb"GimbalPitchDegree\s*(?:=\s*[\"']|>)\s*([+-]?\d{1,3}(?:\.\d{1,9})?)")
 _TIME = "%Y:%m:%d %H:%M:%S"
 _HIGHEST_M, _LOWEST_M = 10_000.0, -500.0
 
@@ -34,12 +36,14 @@ class Position:
 class Shot:
     """The camera (make and model), the local time and the position; None where nothing is told.
 
+    pitch_deg: how far the camera looked up, from the gimbal of an aircraft; -90 is straight down.
     notes: what is told and cannot be true.
     """
 
     camera: str | None = None
     time: datetime | None = None
     position: Position | None = None
+    pitch_deg: float | None = None
     notes: tuple[str, ...] = ()
 
 
@@ -60,8 +64,19 @@ def read_shot(image: Image.Image) -> Shot:
         camera=" ".join(word for word in words if word) or None,
         time=time,
         position=position,
+        pitch_deg=_pitch(image),
         notes=tuple(notes),
     )
+
+
+def _pitch(image: Image.Image) -> float | None:
+    """By the XMP that aircraft write beside EXIF."""
+    packet = image.info.get("xmp")
+    if not isinstance(packet, bytes):
+        return None
+    found = _PITCH.search(packet[:_LONGEST_XMP])
+    pitch = None if found is None else _number(found[1].decode("ascii"))
+    return pitch if pitch is not None and -90.5 <= pitch <= 90.0 else None
 
 
 def _text(value: object) -> str:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import closing
+from dataclasses import replace
 
 from veduta.photos.cameras.component import Component, finish_component
+from veduta.photos.cameras.plausible import absurd, cameras_by_group, focal_lengths
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.from_colmap import HOW, given_model
 from veduta.photos.intake.read import PhotoRecord, ReadPhotos, read_photos
@@ -25,6 +27,7 @@ from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import Stages
 from veduta.photos.structure import Structure, structure_of
+from veduta.photos.world.position_file import at_positions
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.outputs import writing_to
 from veduta.run.pool import Task, run_tasks
@@ -51,6 +54,10 @@ def find_components(
     """From the files to the components, that with most photos first."""
     with timed_step(told.steps, "read") as step:
         read = read_photos(call.sources, progress)
+        if told.positions is not None:
+            at_places, notes = at_positions(read.photos, told.positions)
+            read = replace(read, photos=at_places)
+            told.notes += notes
         told.photos = read.photos
         told.left += read.set_aside
         step.counts |= {"photos": len(read.photos), "set aside": len(told.left)}
@@ -103,22 +110,41 @@ def finish_components(
     A component whose cameras cannot be found is left out; NotFoundError where all are.
     """
     groups = {photo.image_id: photo.group for photo in photos}
+    by_id = {photo.image_id: photo for photo in photos}
     components: list[Component] = []
     left: list[tuple[str, str]] = []
     faults: list[NotFoundError] = []
     for number, structure in enumerate(grown):
         progress("cameras", number / len(grown))
         try:
-            component = finish_component(structure, options.camera, groups, options.random.seed)
+            shared = _sharing(components, structure, groups)
+            seed = options.random.seed
+            component = finish_component(structure, options.camera, groups, seed, shared)
         except NotFoundError as error:
             faults.append(error)
             left += [(name, _UNSOLVED.format(error.evidence)) for name in structure.names]
+            continue
+        larger = {} if not components else focal_lengths(components[0], groups)
+        why = absurd(component, by_id, larger) if components else ""
+        if why:
+            left += [(name, _UNSOLVED.format(why)) for name in structure.names]
             continue
         left += component.left
         components.append(component)
     if not components:
         raise faults[0]
     return components, left
+
+
+def _sharing(
+    components: Sequence[Component], structure: Structure, groups: Mapping[int, int]
+) -> Component | None:
+    """The largest component, where its photos share their cameras with all of these."""
+    if not components or components[0].lens.kind.sharing != "shared":
+        return None
+    known = cameras_by_group(components[0], groups)
+    there = all(groups[image] in known for image in structure.image_ids)
+    return components[0] if there else None
 
 
 def _given(call: Call, read: ReadPhotos, told: Told) -> list[Component]:

@@ -25,6 +25,7 @@ from veduta.photos.world.georeferencing import (
     in_the_world,
 )
 from veduta.photos.world.pictures import georef_pictures
+from veduta.photos.world.which_way_up import looks_down, which_way_up
 from veduta.run.page import Picture
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -76,6 +77,9 @@ def lay_components(
 
 
 def _upright(component: Component, photos: Sequence[PhotoRecord]) -> Component:
+    component = which_way_up(component, photos)
+    if looks_down(component.structure):
+        return component
     read_photo = DecodedPhotos(photos)
     return set_upright(component, lambda structure: photo_reader(structure, read_photo))
 

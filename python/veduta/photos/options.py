@@ -105,6 +105,13 @@ class ModelOptions(Options):
         default=None,
         description="ground control points: a line with the CRS, then x y z px py photo [name]",
     )
+    positions: Path | None = Field(
+        default=None,
+        description=(
+            "where the photos were taken, in place of GPS: as ODM's geo.txt, a line with the CRS, "
+            "then photo x y [z]"
+        ),
+    )
     georef: Literal["auto", "gps", "gcp", "model", "rough", "off"] = Field(
         default="auto",
         description=(

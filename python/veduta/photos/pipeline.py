@@ -109,6 +109,7 @@ def _make(
     told.left += [(name, f"has the content of {first}") for name, first in call.copies]
     told.left += [*call.unreadable, *call.unread]
     told.notes += references.notes
+    told.positions = references.positions
     if references.control is not None:
         names = [source.name for source in call.sources] + [name for name, _ in call.copies]
         told.marks = unknown_marks(references.control, names)

@@ -1,4 +1,4 @@
-"""What `report.json` and `report.html` say: table 2.1 of the thesis for this run, and pictures."""
+"""What `report.json` and `report.html` say: the run in numbers, and pictures."""
 
 from __future__ import annotations
 
@@ -28,6 +28,7 @@ from veduta.photos.report_starts import GLOBAL_NOTE, starts_notes, starts_table
 from veduta.photos.texture.step import Textured
 from veduta.photos.walls.report import walls_pictures, walls_table
 from veduta.photos.walls.step import FoundWalls
+from veduta.photos.world.position_file import PhotoPositions
 from veduta.photos.world.report import (
     georef_alarms,
     georef_line,
@@ -80,6 +81,8 @@ class Told:
     """What else a person has to know of the run."""
     marks: list[str] = field(default_factory=list)
     """Lines of the control points that name photos which are not there."""
+    positions: PhotoPositions | None = None
+    """Where a file says that photos were taken."""
     alarms: list[str] = field(default_factory=list)
     """What a person must be told at the terminal, too."""
     is_given: bool = False
@@ -163,7 +166,7 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
         summary=_headline(measures),
         facts=_facts(measures),
         pictures=[
-            plan_picture(component.structure),
+            plan_picture(component.structure, in_metres=georef[0].accepted is not None),
             *walls_pictures(component.structure, told.walls),
             *(picture for one in told.laid for picture in one.pictures),
             *(() if told.textured is None else told.textured.pictures),
@@ -182,9 +185,21 @@ def photos_report(told: Told) -> tuple[Report, bytes]:
             *_kinds(told),
         ],
         bars=[Bars("Time per step", "s", [(step.name, step.seconds) for step in told.steps])],
-        files=FILES,
+        files=_files(told),
     )
     return report, render(report, page)
+
+
+def _files(told: Told) -> list[tuple[str, str]]:
+    """What lies beside the report: a link to what is not there helps nobody."""
+    missing = set()
+    if not any(photo.video for photo in told.photos):
+        missing.add("frames/")
+    if not told.walls.pictures:
+        missing.add("walls/")
+    if told.textured is None:
+        missing |= {"model.city.json", "textures/", "parts/", "tileset.json"}
+    return [(name, meaning) for name, meaning in FILES if name not in missing]
 
 
 def failure_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
@@ -204,7 +219,9 @@ def failure_report(told: Told, failure: Failure) -> tuple[Report, bytes]:
 
 def _matches(told: Told) -> Picture:
     doubtful = [(doubt.first, doubt.second) for doubt in told.doubts]
-    return match_picture([photo.image_id for photo in told.photos], told.pairs, doubtful)
+    names = [photo.name for photo in told.photos]
+    ids = [photo.image_id for photo in told.photos]
+    return match_picture(ids, told.pairs, doubtful, names)
 
 
 def _report(told: Told, state: Literal["done", "failed"], **found: Any) -> Report:
@@ -284,15 +301,15 @@ def _run_table(told: Told, measures: dict[str, Any]) -> Table:
     shown = ", ".join(f"{width} x {height}" for width, height in sizes[:3])
     rows: list[tuple[str, str]] = [
         ("resolution", shown + (f" and {len(sizes) - 3} more" if len(sizes) > 3 else "")),
-        ("photos (N)", f"{measures['photos']}"),
-        ("calibrated (N cal)", f"{measures['calibrated']}"),
+        ("photos", f"{measures['photos']}"),
+        ("photos whose place was found", f"{measures['calibrated']}"),
         *((f"time of {step.name}", f"{step.seconds:.1f} s") for step in told.steps),
         ("time in all", f"{measures['seconds']:.1f} s"),
-        ("features per photo (n SIFT, mean)", f"{measures['keypoints_mean']:,.0f}"),
-        ("points (n points 3D)", f"{measures['points']:,}"),
-        ("error", f"{measures['error_px']:.3f} px"),
+        ("features per photo, on average", f"{measures['keypoints_mean']:,.0f}"),
+        ("points in space", f"{measures['points']:,}"),
+        ("distance of a feature from its point, on average", f"{measures['error_px']:.3f} px"),
     ]
-    note = f"As table 2.1 of the thesis that the method follows. Compared: {told.how}."
+    note = f"Which photos were compared: {told.how}."
     return Table("The run", ("what", "how much"), rows, note=note)
 
 

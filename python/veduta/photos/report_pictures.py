@@ -19,10 +19,14 @@ PAPER, INK, FAINT = (250, 249, 246), (35, 38, 43), (190, 186, 176)
 CAMERA = (179, 54, 43)
 MOST_ERROR_PX = 2.0
 BINS = 40
+_FONT, _SCALE, _LINE_PX, _MOST_LETTERS = cv2.FONT_HERSHEY_SIMPLEX, 0.4, 14, 24
 
 
-def plan_picture(structure: Structure) -> Picture:
-    """The points from above in their colours, and each camera with the way that it looks."""
+def plan_picture(structure: Structure, *, in_metres: bool = False) -> Picture:
+    """The points from above in their colours, and each camera with the way that it looks.
+
+    in_metres: whether the unit is known, and north is up.
+    """
     centres, ahead = structure.centres()[:, :2], structure.cam_from_world[:, 2, :2]
     low, high = (corner[:2] for corner in structure.seen_box())
     scale = (SIDE_PX - 2 * MARGIN_PX) / float((high - low).max())
@@ -43,16 +47,39 @@ def plan_picture(structure: Structure) -> Picture:
     ):
         cv2.line(pixels, start, end, CAMERA, 2, cv2.LINE_AA)
         cv2.circle(pixels, start, 5, CAMERA, -1, cv2.LINE_AA)
-    note = "Points in their colours; a red dot is a camera, the line the way that it looks."
+    draw_ruler(pixels, scale, "m" if in_metres else "units")
+    note = "Points in their colours; a red dot is a camera, the line the way that it looks." + (
+        " North is up." if in_metres else " The scale is not known: the unit is none of the world."
+    )
     return Picture("From above", note, png(pixels), "image/png")
+
+
+def draw_ruler(pixels: NDArray[np.uint8], px_per_unit: float, unit: str) -> None:
+    """A length of one, two or five with a power of ten, at the lower left; about a sixth as wide
+    as the picture.
+    """
+    wanted = pixels.shape[1] / 6.0 / px_per_unit
+    power = 10.0 ** np.floor(np.log10(wanted))
+    length = max(step * power for step in (1.0, 2.0, 5.0) if step * power <= wanted)
+    down = pixels.shape[0] - 14
+    end = (12 + round(length * px_per_unit), down)
+    cv2.line(pixels, (12, down), end, INK, 2)
+    for across in (12, end[0]):
+        cv2.line(pixels, (across, down - 5), (across, down + 5), INK, 2)
+    label = f"{length:g} {unit}"
+    cv2.putText(pixels, label, (12, down - 9), _FONT, 0.5, INK, 1, cv2.LINE_AA)
 
 
 def match_picture(
     image_ids: Sequence[int],
     pairs: Sequence[PairRecord],
     doubtful: Sequence[tuple[int, int]] = (),
+    names: Sequence[str] = (),
 ) -> Picture:
-    """A cell per pair of photos, the darker the more features agree; doubtful ones are red."""
+    """A cell per pair of photos, the darker the more features agree; doubtful ones are red.
+
+    names: of the photos, written beside their rows and above their columns, as far as they fit.
+    """
     rows = {image_id: row for row, image_id in enumerate(image_ids)}
     counts = np.zeros((len(rows), len(rows)))
     for pair in pairs:
@@ -68,13 +95,38 @@ def match_picture(
     ink[np.eye(len(rows), dtype=bool)] = FAINT
     side = max(1, SIDE_PX // max(1, len(rows))) * len(rows)
     pixels = cv2.resize(ink.astype(np.uint8), (side, side), interpolation=cv2.INTER_NEAREST)
+    if names:
+        pixels = _named(np.asarray(pixels, dtype=np.uint8), names)
     planar = sum(pair.planar for pair in pairs)
     note = (
         "Which photos agree: a row and a column per photo in the order of their names, the darker"
         f" the more features. {planar} pairs are explained by a plane."
         + (f" Red: {len(doubtful)} doubtful pairs, which were not used." if doubtful else "")
     )
-    return Picture("Matches", note, png(pixels), "image/png")
+    return Picture("Matches", note, png(np.asarray(pixels, np.uint8)), "image/png")
+
+
+def _named(pixels: NDArray[np.uint8], names: Sequence[str]) -> NDArray[np.uint8]:
+    """The matrix with names at the left and, turned, above; of many photos some of the names."""
+    cell = len(pixels) / len(names)
+    every = max(1, int(np.ceil(_LINE_PX / cell)))
+    labels = [_short(name) for name in names[::every]]
+    widths = [cv2.getTextSize(label, _FONT, _SCALE, 1)[0][0] for label in labels]
+    room = max(widths, default=0) + 10
+    side, above = _paper(len(pixels), room), _paper(len(pixels), room)
+    for row, (label, width) in enumerate(zip(labels, widths, strict=True)):
+        down = round((row * every + 0.5) * cell) + 4
+        for where, left in ((side, room - 5 - width), (above, 5)):
+            cv2.putText(where, label, (left, down), _FONT, _SCALE, INK, 1, cv2.LINE_AA)
+    top = np.concatenate([_paper(room, room), np.rot90(above)], axis=1)
+    return np.concatenate([top, np.concatenate([side, pixels], axis=1)], axis=0)
+
+
+def _short(name: str) -> str:
+    """Names differ at either end; OpenCV has no letters beyond ASCII."""
+    plain = name.encode("ascii", "replace").decode()
+    half = _MOST_LETTERS // 2 - 1
+    return plain if len(plain) <= _MOST_LETTERS else f"{plain[:half]}..{plain[-half:]}"
 
 
 def error_picture(errors_px: NDArray[np.float64]) -> Picture:

@@ -238,13 +238,14 @@ def adjusted(
     free_principal_point: bool,
     false_matches: bool = False,
     fixed: Sequence[int] = (),
+    held: Sequence[int] = (),
 ) -> Structure:
     """Cameras, poses and points after bundle adjustment; the observations stay.
 
     false_matches: whether there may be some, so that errors of more than `CAUCHY_PX` count less
     (Cauchy's loss). With squares, the points of a few false matches run off to infinity, and the
     cameras follow them for as long as one lets them. fixed: image ids of photos whose camera and
-    pose stay; they settle the frame, too.
+    pose stay; they settle the frame, too. held: ids of cameras that stay.
     NotFoundError where it gives no solution.
     """
     quiet_engine()
@@ -262,6 +263,8 @@ def adjusted(
     for image in fixed:
         config.set_constant_cam_intrinsics(structure.camera_of[image])
         config.set_constant_rig_from_world_pose(model.images[image].frame_id)
+    for number in held:
+        config.set_constant_cam_intrinsics(number)
     if not fixed:
         config.fix_gauge(pycolmap.BundleAdjustmentGauge.TWO_CAMS_FROM_WORLD)
     summary = pycolmap.create_default_bundle_adjuster(options, config, model).solve()

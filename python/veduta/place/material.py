@@ -16,10 +16,12 @@ class Texture:
 
     pixels: (h, w, 3) uint8 sRGB.
     invented: (h, w) bool, True where a pixel was synthesised and not photographed.
+    cut: whether one sees through where it is invented: nothing is known to be there.
     """
 
     pixels: NDArray[np.uint8]
     invented: NDArray[np.bool_]
+    cut: bool = False
 
     def __post_init__(self) -> None:
         height, width = self.pixels.shape[:2]

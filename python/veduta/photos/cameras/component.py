@@ -20,6 +20,7 @@ from veduta.photos.structure import (
     errors_px,
     without_outliers,
 )
+from veduta.run.errors import NotFoundError
 
 MOST_ERROR_PX = 4.0
 """Observations that lie further off after the last adjustment are false."""
@@ -30,8 +31,7 @@ _MISPLACED = (
     "it matches, but where that puts it it would show much that it does not: something that looks"
     " alike stands elsewhere, too"
 )
-
-
+_REMEDY = "Take photos that join the two, or say --cameras per-photo where they have other cameras."
 _KEPT_WEAK = f"fewer than {FEWEST_POINTS} points hold what may have been placed falsely"
 _KEPT_MISPLACED = "from where it was placed it would show much that it does not"
 
@@ -62,8 +62,14 @@ def finish_component(
     options: CameraOptions,
     groups: Mapping[int, int],
     seed: int,
+    shared: Component | None = None,
 ) -> Component:
-    """What the engine mapped, with the cameras that the observations speak for."""
+    """What the engine mapped, with the cameras that the observations speak for.
+
+    shared: a larger component whose cameras these photos share; they are taken as they are.
+    """
+    if shared is not None:
+        return _with_the_cameras_of(shared, mapped, groups)
     choice = choose_lens(mapped, options, groups, seed)
     free = choice.kind.principal_point == "free"
     structure = with_cameras(mapped, choice.kind, groups)
@@ -80,6 +86,34 @@ def finish_component(
     upright = oriented(held)
     left += _told(placed, held, _WEAK)
     notes = (*_kept(doubtful, _KEPT_MISPLACED), *_kept(weak, _KEPT_WEAK))
+    return Component(upright.structure, choice, upright.level_deg, left=left, notes=notes)
+
+
+def _with_the_cameras_of(
+    larger: Component, mapped: Structure, groups: Mapping[int, int]
+) -> Component:
+    """Poses and points by the cameras of another component, which stay; NotFoundError where these
+    leave nothing that hangs together.
+    """
+    known = larger.structure
+    camera_of = {groups[image]: known.camera_of[image] for image in known.image_ids}
+    own = {image: camera_of[groups[image]] for image in mapped.image_ids}
+    cameras = {number: known.cameras[number] for number in set(own.values())}
+    structure = mapped.with_cameras(cameras, own)
+    for _ in range(2):
+        structure = adjusted(
+            structure, free_principal_point=False, false_matches=True, held=tuple(cameras)
+        )
+        structure = without_outliers(structure, MOST_ERROR_PX)
+        if len(structure.points) < FEWEST_POINTS:
+            raise NotFoundError(
+                "cameras", "does not hang together with the camera that the others share", _REMEDY
+            )
+    held, weak = without_weak(structure)
+    upright = oriented(held)
+    left = _told(structure, held, _WEAK)
+    notes = _kept(weak, _KEPT_WEAK)
+    choice = LensChoice(larger.lens.kind, ())
     return Component(upright.structure, choice, upright.level_deg, left=left, notes=notes)
 
 

@@ -56,6 +56,10 @@ HALF_COST = 2.0
 """The error of half the bound on the cost, in medians of the best candidate's errors."""
 CHANCE = 2.0
 """Standard errors by which a simpler candidate may be worse."""
+HEAT_POINTS = 600
+"""Points of a first race, that leaves out what is worse by far."""
+OUT_OF_THE_HEAT = 4.0
+"""Standard errors there, which few photos tell badly."""
 OUT_OF_THE_RACE = 3.0
 """Standard errors by which a candidate is worse that is not tried on further parts."""
 
@@ -120,6 +124,7 @@ def choose_lens(
     part_of = held_out_parts(sample, rng)
     if np.bincount(part_of[part_of >= 0], minlength=PARTS).min() < FEWEST_HELD_OUT:
         return LensChoice(kinds[0], ())
+    kinds = _after_a_heat(sample, kinds, groups, rng)
     starts = {kind: with_cameras(sample, kind, groups) for kind in kinds}
     tried, fitted = _race_on(sample, part_of == 0, starts)
     tried.sort(key=lambda candidate: candidate.parameters)
@@ -131,6 +136,26 @@ def choose_lens(
         more, _ = _race_on(sample, part_of == part, {kind: fitted[kind] for kind in close})
         tried = [_joined(one, more) for one in tried]
     return LensChoice(simplest_of(tried).kind, tuple(tried))
+
+
+def _after_a_heat(
+    sample: Structure,
+    kinds: list[CameraKind],
+    groups: Mapping[int, int],
+    rng: np.random.Generator,
+) -> list[CameraKind]:
+    """Those that are not clearly worse on few points: the others would take most of the time."""
+    few = sample.sampled(HEAT_POINTS, rng)
+    if len(few.points) >= len(sample.points):
+        return kinds
+    part_of = held_out_parts(few, rng)
+    if int((part_of == 0).sum()) < FEWEST_HELD_OUT:
+        return kinds
+    tried, _ = _race_on(
+        few, part_of == 0, {kind: with_cameras(few, kind, groups) for kind in kinds}
+    )
+    left = {one.kind for one in not_worse(tried, OUT_OF_THE_HEAT)}
+    return [kind for kind in kinds if kind in left]
 
 
 def _kinds(

@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.photos.cameras.looking_down import survey_up
 from veduta.photos.structure import Structure
 
 TYPICAL_DISTANCE = 10.0
@@ -19,6 +20,10 @@ TYPICAL_DISTANCE = 10.0
 TILT_WEIGHT = 0.01
 """What the columns of the photos say of up, against their rows; it decides where all photos look
 one way, and their rows leave a circle of directions open."""
+AGREEING = 0.5
+"""Length of the mean of the photos' columns from which on they point one way, on the whole."""
+LEAST_OTHER_WAY = 0.15
+"""Share of the photos that look the other way."""
 GROUND_SHARE = 0.01
 """Share of the points that may lie under z = 0: they are the false ones, or a cellar."""
 
@@ -31,10 +36,14 @@ class Oriented:
     level_deg: float
 
 
-def oriented(structure: Structure) -> Oriented:
-    """The same model with z up, the photos looking along y, and the points about the origin."""
+def oriented(structure: Structure, up: NDArray[np.float64] | None = None) -> Oriented:
+    """The same model with z up, the photos looking along y, and the points about the origin.
+
+    up: (3,) in the frame of the model, where it is known; else by the photos, which may look down.
+    """
     rotations = structure.cam_from_world[:, :, :3]
-    up = up_direction(rotations)
+    up = survey_up(structure) if up is None else up
+    up = up_direction(rotations) if up is None else up
     level = np.rad2deg(np.arcsin(np.clip(np.abs(rotations[:, 0] @ up), 0.0, 1.0)))
     turn = _turn(up, rotations[:, 2].mean(axis=0))
     scale = TYPICAL_DISTANCE / _typical_distance(structure)
@@ -47,10 +56,30 @@ def oriented(structure: Structure) -> Oriented:
 def up_direction(cam_from_world: NDArray[np.float64]) -> NDArray[np.float64]:
     """(3,) unit vector up, in the frame of the model, from (n, 3, 3) rotations."""
     rows, columns = cam_from_world[:, 0], cam_from_world[:, 1]
-    form = rows.T @ rows - TILT_WEIGHT * columns.T @ columns
+    tilt = columns.T @ columns
+    mean = _mean_of_both_ways(rows, columns)
+    if np.linalg.norm(mean) > AGREEING:  # what is level of them lies to all sides, and goes
+        tilt = len(columns) * np.outer(mean, mean)
+    form = rows.T @ rows - TILT_WEIGHT * tilt
     up: NDArray[np.float64] = np.linalg.eigh(form)[1][:, 0]
     # Image rows count downwards.
     return up if float((columns @ up).mean()) < 0.0 else -up
+
+
+def _mean_of_both_ways(
+    rows: NDArray[np.float64], columns: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """(3,) of the columns of photos that look one way, and of those that look the other, alike.
+
+    Lines of a survey are flown there and back: what is level of their columns then goes.
+    """
+    axis = np.linalg.eigh(rows.T @ rows)[1][:, 2]
+    there = rows @ axis > 0.0
+    if min(int(there.sum()), int((~there).sum())) < LEAST_OTHER_WAY * len(rows):
+        mean: NDArray[np.float64] = columns.mean(axis=0)
+        return mean
+    both: NDArray[np.float64] = (columns[there].mean(axis=0) + columns[~there].mean(axis=0)) / 2.0
+    return both
 
 
 def transformed(

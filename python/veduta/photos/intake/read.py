@@ -33,6 +33,7 @@ class PhotoRecord:
     image_id: 1 and on, in the order of the names, frames of a film after photos. focal_px: from
     EXIF; None where it says nothing that can be true. group: number of the camera that may have
     taken it, by size, make and focal length, or film. orientation: as EXIF says that it is stored.
+    pitch_deg: how far it looked up, by the gimbal that held it.
     """
 
     image_id: int
@@ -52,6 +53,7 @@ class PhotoRecord:
     mask: Path | None = None
     mask_sha256: str | None = None
     video: str | None = None
+    pitch_deg: float | None = None
 
     @property
     def one_camera(self) -> bool:
@@ -141,6 +143,7 @@ def _record(source: Source, photo: Photo) -> PhotoRecord:
         mask=source.mask,
         mask_sha256=source.mask_sha256,
         video=source.video,
+        pitch_deg=photo.shot.pitch_deg,
     )
 
 

@@ -10,6 +10,8 @@ from veduta.photos.intake.given import Given
 from veduta.run.errors import InputError
 
 MOST_NAMED = 8
+POSITIONS = "geo.txt"
+"""As OpenDroneMap calls a file of positions."""
 _RAW = (
     *(".cr2", ".cr3", ".crw", ".nef", ".nrw", ".arw", ".srf", ".sr2", ".dng", ".orf", ".rw2"),
     *(".raf", ".pef", ".srw", ".x3f", ".3fr", ".iiq", ".mrw", ".raw", ".erf", ".kdc"),
@@ -62,6 +64,9 @@ def unread_files(folder: Path, given: Given) -> tuple[tuple[tuple[str, str], ...
     films = [path.name for path in others if path.suffix.lower() in _FILMS]
     notes = [f"{name}: is a film; give it with --video to use its frames" for name in films]
     rest = [path.name for path in others if path.name not in films]
+    if POSITIONS in rest:
+        notes.append(f"{POSITIONS}: give it with --positions to use the positions in it")
+        rest.remove(POSITIONS)
     if rest:
         more = f" and {len(rest) - MOST_NAMED} more" if len(rest) > MOST_NAMED else ""
         notes.append(f"no photos, not used: {', '.join(rest[:MOST_NAMED])}{more}")

@@ -83,7 +83,7 @@ def _uv(grid: WallGrid) -> UvMap:
 
 
 def _texture(picture: WallPicture) -> Texture:
-    """The picture without alpha: what no photo shows gets the middle of what they show, marked."""
+    """The picture with what no photo shows cut out, in the middle colour of what they show."""
     pixels, unseen = picture.pixels[..., :3].copy(), picture.pixels[..., 3] == 0
     shown = pixels[~unseen]
     fill = np.median(shown, axis=0) if len(shown) else 255.0 * np.array(_UNSEEN)
@@ -93,4 +93,4 @@ def _texture(picture: WallPicture) -> Texture:
         size = (max(1, round(shrink * unseen.shape[1])), max(1, round(shrink * unseen.shape[0])))
         pixels = cv2.resize(pixels, size, interpolation=cv2.INTER_AREA).astype(np.uint8)
         unseen = cv2.resize(unseen.astype(np.uint8), size, interpolation=cv2.INTER_NEAREST) > 0
-    return Texture(pixels, np.asarray(unseen, dtype=np.bool_))
+    return Texture(pixels, np.asarray(unseen, dtype=np.bool_), cut=bool(unseen.any()))

@@ -54,14 +54,8 @@ class ControlPoints:
 
 def read_control(path: Path) -> ControlPoints:
     """The points, in the order of the file; InputError with the line that is wrong."""
-    lines = [
-        (number, line.strip())
-        for number, line in enumerate(_text(path).splitlines(), start=1)
-        if line.strip() and not line.lstrip().startswith("#")
-    ]
-    if not lines:
-        raise InputError(path, "is empty", _HEAD)
-    crs = _crs(path, lines[0][1])
+    lines = lines_of(path)
+    crs = crs_of_head(path, lines[0][1])
     places: dict[str, NDArray[np.float64]] = {}
     seen: dict[str, list[tuple[str, tuple[float, float]]]] = {}
     naming: dict[str, tuple[int, ...]] = {}
@@ -93,6 +87,18 @@ def read_control(path: Path) -> ControlPoints:
     return replace(found, exchanged=_exchanged(found, crs, places))
 
 
+def lines_of(path: Path) -> list[tuple[int, str]]:
+    """Lines with their numbers, without remarks and empty ones; InputError where none is left."""
+    lines = [
+        (number, line.strip())
+        for number, line in enumerate(_text(path).splitlines(), start=1)
+        if line.strip() and not line.lstrip().startswith("#")
+    ]
+    if not lines:
+        raise InputError(path, "is empty", _HEAD)
+    return lines
+
+
 def _exchanged(
     found: ControlPoints, crs: str, places: Mapping[str, NDArray[np.float64]]
 ) -> ControlPoints | None:
@@ -122,7 +128,8 @@ def _text(path: Path) -> str:
         raise InputError(path, "is no text in UTF-8", "Save it as text.") from error
 
 
-def _crs(path: Path, line: str) -> str:
+def crs_of_head(path: Path, line: str) -> str:
+    """The EPSG code that the first line names; InputError where it names none that is known."""
     line = line.partition("#")[0].strip()
     code = re.fullmatch(r"(?i)EPSG\s*:?\s*(\d{4,6})", line)
     if code is not None:

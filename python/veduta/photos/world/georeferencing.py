@@ -29,6 +29,7 @@ from veduta.photos.world.georeference import Georeference, Method
 from veduta.photos.world.gps_fit import gps_georeference
 from veduta.photos.world.gps_positions import gps_positions
 from veduta.photos.world.ground import on_the_feet
+from veduta.photos.world.position_file import PhotoPositions, read_positions
 from veduta.photos.world.register import register
 from veduta.photos.world.rough import roughly
 from veduta.run.digests import file_digest
@@ -38,10 +39,11 @@ from veduta.run.inputs import require_file
 
 @dataclass(frozen=True)
 class References:
-    """What says where the place lies, read. model, control: None where none is given."""
+    """What says where the place lies, read; None where none is given."""
 
     model: CityModel | None
     control: ControlPoints | None
+    positions: PhotoPositions | None = None
 
     @property
     def notes(self) -> list[str]:
@@ -84,12 +86,14 @@ def read_references(options: ModelOptions) -> References:
     control = None if options.gcp is None else read_control(options.gcp)
     if model is not None and control is not None:
         control = _in_crs_of(control, model)
-    return References(model, control)
+    positions = None if options.positions is None else read_positions(options.positions)
+    return References(model, control, positions)
 
 
 def digests_of(options: ModelOptions) -> list[str]:
     """Of the files that the references lie in; InputError where one cannot be read."""
-    return [_digest(path) for path in (options.model, options.gcp) if path is not None]
+    given = (options.model, options.gcp, options.positions)
+    return [_digest(path) for path in given if path is not None]
 
 
 def _digest(path: Path) -> str:

@@ -8,7 +8,16 @@ from numpy.typing import NDArray
 
 from veduta.photos.city.facades import Facades, facades_of
 from veduta.photos.city.model import CityModel
-from veduta.photos.report_pictures import CAMERA, FAINT, INK, MARGIN_PX, PAPER, SIDE_PX, png
+from veduta.photos.report_pictures import (
+    CAMERA,
+    FAINT,
+    INK,
+    MARGIN_PX,
+    PAPER,
+    SIDE_PX,
+    draw_ruler,
+    png,
+)
 from veduta.photos.structure import Structure
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.georeference import Fit, Georeference
@@ -87,17 +96,8 @@ def _plan(
         cv2.line(pixels, start, end, WALL, 3, cv2.LINE_AA)
     for centre in onto(centres).tolist():
         cv2.circle(pixels, centre, 4, CAMERA, -1, cv2.LINE_AA)
-    _ruler(pixels, scale)
+    draw_ruler(pixels, scale, "m")
     return pixels
-
-
-def _ruler(pixels: NDArray[np.uint8], scale: float) -> None:
-    """Ten metres, or a hundred."""
-    metres = 10 if 10 * scale > 30 else 100
-    down = pixels.shape[0] - 14
-    cv2.line(pixels, (12, down), (12 + round(metres * scale), down), INK, 2)
-    place = (12, down - 6)
-    cv2.putText(pixels, f"{metres} m", place, cv2.FONT_HERSHEY_SIMPLEX, 0.45, INK, 1, cv2.LINE_AA)
 
 
 def _beside(first: NDArray[np.uint8], second: NDArray[np.uint8]) -> NDArray[np.uint8]:
