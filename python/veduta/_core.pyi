@@ -557,6 +557,52 @@ class GrammarLimits:
         """`memory`: bytes. `work`: steps, each looking at one pair of faces, edges or corners."""
     def __repr__(self) -> str: ...
 
+# localise.rs
+class DriveFault(ValueError): ...
+
+class VehicleParticles:
+    """Poses that a vehicle may have in a map of edges (Monte-Carlo localisation)."""
+    def __new__(
+        cls,
+        distance_m: _Array2[np.float32],
+        low: tuple[float, float],
+        cell_m: float,
+        start: tuple[float, float, float],
+        reach: tuple[float, float, float],
+        *,
+        particles: int,
+        first_draws: int,
+        seed: int,
+        sigma_m: float,
+        widest_sigma_m: float,
+        spread_share: float,
+        outlier: float,
+        outside: float,
+        blocked: float,
+        worth: float,
+        draw_below: float,
+    ) -> VehicleParticles:
+        """distance_m: (rows from the south, columns) m to the nearest edge, negative where something
+        stands that a scan cannot look through, NaN where nothing is known;
+        low: the outer corner of its first cell. start, reach: x, y (m) and heading (rad), and how far
+        each may be off. sigma_m: how far points lie from edges; `spread_share` of the particles' spread
+        while that is more, up to `widest_sigma_m`. outlier, outside: likelihoods of points on no edge
+        and off the map, where one on an edge has 1; blocked: of one that a beam went through and where
+        something stands. worth: beams that a scan counts as.
+        """
+    def step(
+        self,
+        motion: tuple[float, float, float],
+        noise: tuple[float, float, float],
+        points: _Array2[np.float64],
+        free: _Array2[np.float64],
+    ) -> tuple[list[float], list[float], float, float, float]:
+        """After a motion (forward, left in m, turn in rad) with noise of these deviations, a scan's points
+        (n, 2) in the vehicle's frame (m), and points (k, 2) that its beams went through: mean pose,
+        covariance by rows, share of the points within two sigma of an edge, share of them on the map,
+        share of the second ones where something stands.
+        """
+
 # polygons.rs
 class PolygonFault(ValueError): ...
 class BadOffsetsError(PolygonFault): ...

@@ -16,6 +16,7 @@ mod given;
 mod grammar;
 mod interruptible;
 mod limits;
+mod localise;
 mod pace;
 mod polygons;
 mod roofs;
@@ -38,6 +39,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     compress::register(m)?;
     grammar::register(m)?;
     limits::register(m)?;
+    localise::register(m)?;
     derivation::register(m)?;
     roofs::register(m)?;
     rules::register(m)?;

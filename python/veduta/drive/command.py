@@ -23,7 +23,7 @@ from veduta.drive.build.pictures import (
 from veduta.drive.build.pictures_of import Seen, look
 from veduta.drive.build.place import PICTURES, classified, drive_place
 from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
-from veduta.drive.document.model import DriveDocument, DriveSegment, PathPose
+from veduta.drive.document.model import Correction, DriveDocument, DriveSegment, PathPose
 from veduta.drive.options import DriveOptions
 from veduta.drive.read.log import log_files, read_log
 from veduta.drive.read.segments import cut_segments, driven_line
@@ -37,7 +37,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "3"
+VERSION = "4"
 DOCUMENT, POINTS = "drive.json", "points.laz"
 _JPEG_QUALITY = 90
 
@@ -53,7 +53,11 @@ def run_drive(
 
 def _make(log: Path, options: DriveOptions, work: Work) -> None:
     with work.step("read") as step:
-        record = read_log(log, options.seed)
+        spacing_m = options.columns.column_spacing_m
+        record = read_log(
+            log, options.seed, spacing_m, lambda share: work.progress("read", share),
+            work.stages / "unpacked",
+        )  # fmt: skip
         step.counts["sweeps"], step.counts["images"] = len(record.sweeps), len(record.shots)
         for note in record.notes:
             work.note(note)
@@ -149,7 +153,7 @@ def _write(
         record=log.name,
         crs=record.crs,
         origin=record.origin_m,
-        path_from="poses of the log" if record.given_poses else "registration of the scans",
+        path_from=record.path_from,
         path=[
             PathPose(
                 sweep=sweep.name,
@@ -158,6 +162,7 @@ def _write(
             )
             for sweep in record.sweeps
         ],
+        corrections=_corrections(record),
         segments=list(segments),
         notes=list(record.notes),
     )
@@ -175,6 +180,17 @@ def _write(
         (f"{PICTURES}/", "the images"),
     ):
         work.file(name, meaning)
+
+
+def _corrections(record: DriveRecord) -> list[Correction]:
+    """Each by the scan that was taken next to its time."""
+    times = np.array([sweep.time_s for sweep in record.sweeps])
+    found = []
+    for time_s, moved, why in record.corrections:
+        sweep = record.sweeps[int(np.argmin(np.abs(times - time_s)))].name
+        x, y, z = (round(float(value), 3) for value in moved)
+        found.append(Correction(sweep=sweep, moved_m=(x, y, z), reason=why))
+    return found
 
 
 def _tell(

@@ -76,6 +76,9 @@ class DriveRecord:
     crs: str | None = None
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     notes: tuple[str, ...] = ()
+    path_from: str = "poses of the log"
+    corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
+    """What was changed of the path: time (s), by how much (3,) m, why."""
 
     def path(self) -> NDArray[np.float64]:
         """(s, 3) where the scanner was at each sweep (m)."""

@@ -112,7 +112,7 @@ centre_px = [4.0, 3.0]
         ("name = ", "name ", "no TOML"),
         ('"path.parquet"', '"none.parquet"', "no such file"),
         ('"path.parquet"', '"../path.parquet"', "table"),
-        ('[path]\ntable = "path.parquet"', "", "names no"),
+        ('[path]\ntable = "path.parquet"', "", "names neither"),
     ],
 )
 def test_broken_descriptions_are_told(folder: Path, old: str, new: str, said: str) -> None:

@@ -54,6 +54,48 @@ class PathTable(_Record):
     frame: Literal["world_from_vehicle"] = "world_from_vehicle"
 
 
+class Surface(_Record):
+    """A surface model of the place: GeoTIFF beside drive.toml, or by its path.
+
+    The drive begins at `start`, or at the first of the positions of `gps`, or anywhere in `search`.
+    """
+
+    file: str = Field(min_length=1, max_length=4096)
+    start: tuple[Finite, Finite] | None = Field(
+        default=None, description="x and y where the drive begins (m, CRS of the model)"
+    )
+    heading_deg: Finite | None = Field(
+        default=None, description="to where it begins: degrees from east to north; else any"
+    )
+    search: tuple[Finite, Finite, Finite, Finite] | None = Field(
+        default=None, description="lowest x, y and highest x, y of where it may begin"
+    )
+    within_m: Annotated[Finite, Field(gt=0.0, le=1000.0)] = Field(
+        default=25.0, description="how far off `start` may be"
+    )
+    within_deg: Annotated[Finite, Field(gt=0.0, le=180.0)] = Field(
+        default=30.0, description="how far off `heading_deg` may be"
+    )
+
+
+class Positions(_Record):
+    """Positions of a GPS. table: Parquet with `time_s`, `longitude_deg`, `latitude_deg`."""
+
+    table: Table
+    clock_offset_s: Finite = 0.0
+
+
+class Bag(_Record):
+    """A ROS 1 bag, a folder of a ROS 2 bag, or an MCAP file. topics: of each table, by its name.
+
+    LaserScan becomes a table of scans; Odometry or PoseStamped of poses; NavSatFix of positions;
+    CompressedImage of images.
+    """
+
+    file: str = Field(min_length=1, max_length=4096)
+    topics: dict[Table, str] = Field(min_length=1, max_length=32)
+
+
 class DriveLog(_Record):
     """All of `drive.toml`. World: z up, metres from `origin` in `crs`."""
 
@@ -65,3 +107,6 @@ class DriveLog(_Record):
     horizontal: Scanner | None = None
     camera: CameraMount | None = None
     path: PathTable | None = None
+    surface: Surface | None = None
+    gps: Positions | None = None
+    bag: Bag | None = Field(default=None, description="where the tables are not files")

@@ -49,7 +49,8 @@ def read_clouds(folder: Path, seed: int) -> DriveRecord:
         "there are no images: nothing is textured",
     ]
     height_m = float(sweeps[0].world_from_sensor[2, 3])
-    return DriveRecord(folder.name, sweeps, (), False, height_m, True, notes=tuple(notes))
+    return DriveRecord(folder.name, sweeps, (), False, height_m, True, notes=tuple(notes),
+                       path_from="registration of the scans")  # fmt: skip
 
 
 def _reader(path: Path) -> Callable[[], NDArray[np.float64]]:

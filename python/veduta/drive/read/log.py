@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from veduta.drive.read.clouds import is_clouds, read_clouds
@@ -16,12 +17,22 @@ TRUTH = "labels"
 """A folder of somebody's answers: it is no input."""
 
 
-def read_log(folder: Path, seed: int) -> DriveRecord:
-    """The drive in a folder. InputError where there is none that Veduta can read."""
+def read_log(
+    folder: Path,
+    seed: int,
+    spacing_m: float = 0.0,
+    told: Callable[[float], None] = lambda share: None,
+    scratch: Path | None = None,
+) -> DriveRecord:
+    """The drive in a folder. spacing_m: of vertical scans. told: hears how far it is, 0 to 1.
+    scratch: a folder for what is unpacked, which stays as long as the record is used.
+
+    InputError where there is none that Veduta can read.
+    """
     if not folder.is_dir():
         raise InputError(folder, "there is no such folder", "Name a folder with a drive in it.")
     if is_own(folder):
-        return read_own(folder)
+        return read_own(folder, seed, spacing_m, told, scratch)
     if is_kitti(folder):
         return read_kitti(folder, seed)
     if is_clouds(folder):

@@ -1,4 +1,4 @@
-"""Logs with a `drive.toml`: vertical 2D scans and images in Parquet tables, with poses."""
+"""Logs with a `drive.toml`: scans of 2D scanners and images in Parquet tables."""
 
 from __future__ import annotations
 
@@ -7,22 +7,25 @@ from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
-import pyarrow
-import pyarrow.compute
-import pyarrow.parquet
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from veduta.drive.document.log import CameraMount, DriveLog, Scanner
+from veduta.drive.read.bag import unpack_bag
+from veduta.drive.read.clocks import clock_apart, shared_beams
+from veduta.drive.read.scanned_path import find_path
+from veduta.drive.read.spacing import equally_spaced
+from veduta.drive.read.spool import SpooledScans
+from veduta.drive.read.tables import list_column, read_table, time_column
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
-from veduta.run.inputs import require_file
 
 LOG = "drive.toml"
 _MOST_BYTES = 1 << 20
-_LARGEST_TABLE_BYTES = 4 << 30
-"""Of a table on disk: hours of scans."""
 _LONGEST_NAME, _LONGEST_PATH = 255, 1024
+_CLOCK_SCANS = 20_000
+"""Scans at the start of a drive from which clocks are compared."""
+_SAME_CLOCK_S = 0.005
 _SILENT_S = 1.0
 """A scanner that says nothing for longer leaves a gap, and that is said."""
 
@@ -32,22 +35,77 @@ def is_own(folder: Path) -> bool:
     return (folder / LOG).is_file()
 
 
-def read_own(folder: Path) -> DriveRecord:
-    """The drive of a folder. InputError names the file and what is wrong with it."""
+def read_own(
+    folder: Path,
+    seed: int = 1,
+    spacing_m: float = 0.0,
+    told: Callable[[float], None] = lambda share: None,
+    scratch: Path | None = None,
+) -> DriveRecord:
+    """The drive of a folder. scratch: where a bag is unpacked; it must stay. Vertical scans are
+    thinned to a spacing; of a stop one stays.
+
+    InputError names the file and what is wrong with it; NotFoundError says why there is no path.
+    """
     log = read_toml(folder / LOG)
-    if log.path is None:
-        fault = "names no [path]"
-        raise InputError(folder / LOG, fault, "Give poses: 2D scans are not localised yet.")
-    times, poses = _poses(folder / log.path.table)
     notes: list[str] = []
-    sweeps = _sweeps(folder / log.vertical.table, log.vertical, times, poses, notes)
+    if log.bag is not None:
+        if scratch is None:
+            fault = "names a bag, and there is no place to unpack it"
+            raise InputError(folder / LOG, fault, "Read it through `veduta drive`.")
+        source = scratch
+        notes += unpack_bag(folder, log, log.bag, source, told)
+    else:
+        source = folder
+    vertical = SpooledScans(source / log.vertical.table)
+    scanner = log.vertical
+    corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
+    origin, crs = log.origin, log.crs
+    if log.path is not None:
+        times, poses = _poses(source / log.path.table)
+        path_from = "poses of the log"
+    elif log.horizontal is not None:
+        level = SpooledScans(source / log.horizontal.table)
+        scanner = _on_one_clock(vertical, level, log.vertical, log.horizontal, notes)
+        found = find_path(folder, source, log, level, log.horizontal, seed, told)
+        times, poses, path_from = found.times_s, found.poses, found.told
+        origin, crs = found.origin_m, found.crs
+        corrections = tuple((float(times[row]), move, why) for row, move, why in found.corrected)
+        notes += [f"the path comes from {path_from}", *found.notes]
+    else:
+        fault = "names neither a [path] nor a [horizontal] scanner"
+        raise InputError(folder / LOG, fault, "Give poses, or scans to find them from.")
+    sweeps = _sweeps(vertical, source / scanner.table, scanner, times, poses, spacing_m, notes)
     shots: tuple[Shot, ...] = ()
     if log.camera is not None:
-        shots = _shots(folder, log.camera, times, poses, notes)
-    height_m = float(log.vertical.vehicle_from_scanner[11])
+        shots = _shots(source, log.camera, times, poses, notes)
+    height_m = float(scanner.vehicle_from_scanner[11])
     return DriveRecord(
-        log.name, sweeps, shots, True, height_m, False, log.crs, log.origin, tuple(notes)
+        log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
+        path_from, corrections,
+    )  # fmt: skip
+
+
+def _on_one_clock(
+    vertical: SpooledScans, level: SpooledScans, scanner: Scanner, other: Scanner, notes: list[str]
+) -> Scanner:
+    """The vertical scanner with its clock set by the horizontal one's, where both share a beam."""
+    beams = shared_beams(scanner, vertical.beams, other, level.beams)
+    if beams is None:
+        return scanner
+    series = []
+    for scans, own, beam in ((vertical, scanner, beams[0]), (level, other, beams[1])):
+        rows = scans.order[:_CLOCK_SCANS].tolist()
+        ranges = np.array([scans.ranges(row)[beam] for row in rows], dtype=np.float64)
+        series.append((scans.times_s[rows] + own.clock_offset_s, ranges))
+    apart = clock_apart(*series[0], *series[1])
+    if apart is None or abs(apart) < _SAME_CLOCK_S:
+        return scanner
+    notes.append(
+        f"the clock of the vertical scanner is {1000 * abs(apart):.0f} ms"
+        f" {'behind' if apart > 0.0 else 'ahead of'} that of the horizontal one: it was set"
     )
+    return scanner.model_copy(update={"clock_offset_s": scanner.clock_offset_s + apart})
 
 
 def read_toml(path: Path) -> DriveLog:
@@ -64,64 +122,10 @@ def read_toml(path: Path) -> DriveLog:
         raise InputError(path, f"{place}: {first['msg']}", "docs/drive.md describes it.") from error
 
 
-def _table(path: Path, names: tuple[str, ...]) -> pyarrow.Table:
-    if not path.is_file():
-        raise InputError(path, "there is no such file", f"{LOG} names it: put it there.")
-    require_file(path, _LARGEST_TABLE_BYTES)
-    try:
-        table = pyarrow.parquet.read_table(path)
-    except (pyarrow.ArrowException, OSError) as error:
-        raise InputError(path, "is no Parquet table that can be read", "Copy it again.") from error
-    for name in names:
-        count = table.column_names.count(name)
-        if count != 1:
-            fault = f"has {count or 'no'} column{'s' if count else ''} {name!r}"
-            raise InputError(path, fault, "docs/drive.md lists them.")
-    return table
-
-
-def _lists(path: Path, table: pyarrow.Table, name: str) -> NDArray[np.float64]:
-    """(rows, n) a column of lists of numbers, all of one length."""
-    kind = table.schema.field(name).type
-    if not (_is_list(kind) and _is_number(kind.value_type)):
-        fault = f"has {kind} and not lists of numbers in {name!r}"
-        raise InputError(path, fault, "Write lists of floats.")
-    column = table[name]
-    if column.null_count:
-        raise InputError(path, f"has rows without {name!r}", "Leave those rows out.")
-    lengths = pyarrow.compute.list_value_length(column).to_numpy()
-    if len(lengths) and (lengths != lengths[0]).any():
-        fault = f"has lists of different lengths in {name!r}"
-        raise InputError(path, fault, "Each row needs one value for each beam.")
-    values = pyarrow.compute.list_flatten(column).to_numpy().astype(np.float64)
-    shape = (len(table), int(lengths[0]) if len(lengths) else 0)
-    return np.asarray(values.reshape(shape), dtype=np.float64)
-
-
-def _is_list(kind: pyarrow.DataType) -> bool:
-    types = pyarrow.types
-    return bool(types.is_list(kind) or types.is_large_list(kind) or types.is_fixed_size_list(kind))
-
-
-def _is_number(kind: pyarrow.DataType) -> bool:
-    return bool(pyarrow.types.is_floating(kind) or pyarrow.types.is_integer(kind))
-
-
-def _times(path: Path, table: pyarrow.Table) -> NDArray[np.float64]:
-    kind = table.schema.field("time_s").type
-    if not _is_number(kind):
-        fault = f"has {kind} and not numbers in 'time_s'"
-        raise InputError(path, fault, "Write seconds as floats.")
-    times = np.asarray(table["time_s"].to_numpy(), dtype=np.float64)
-    if not np.isfinite(times).all():
-        raise InputError(path, "has a time that is no number", "Leave that row out.")
-    return times
-
-
 def _poses(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """(p,) times in ascending order and (p, 3, 4) world_from_vehicle."""
-    table = _table(path, ("time_s", "matrix"))
-    times, rows = _times(path, table), _lists(path, table, "matrix")
+    table = read_table(path, ("time_s", "matrix"))
+    times, rows = time_column(path, table), list_column(path, table, "matrix")
     if rows.shape[1:] != (12,) or len(rows) < 2 or not np.isfinite(rows).all():
         fault = "has not two poses of twelve numbers"
         raise InputError(path, fault, "Each is a 3x4 matrix by rows.")
@@ -152,18 +156,16 @@ def _is_name(name: str) -> bool:
 
 
 def _sweeps(
+    scans: SpooledScans,
     path: Path,
     scanner: Scanner,
     times: NDArray[np.float64],
     poses: NDArray[np.float64],
+    spacing_m: float,
     notes: list[str],
 ) -> tuple[Sweep, ...]:
-    table = _table(path, ("time_s", "ranges_m"))
-    if not len(table):
-        raise InputError(path, "has no scans", "Give a scan in each row.")
-    own = _times(path, table) + scanner.clock_offset_s
-    ranges = _lists(path, table, "ranges_m").astype(np.float32)
-    order = np.argsort(own, kind="stable")
+    own = scans.times_s + scanner.clock_offset_s
+    order = scans.order
     inside = (own[order] >= times[0]) & (own[order] <= times[-1])
     if not inside.any():
         fault = "has no scan within the times of the path"
@@ -176,18 +178,22 @@ def _sweeps(
         notes.append(f"the vertical scanner is silent for {silent[gap]:.1f} s")
     mount = np.vstack([np.reshape(scanner.vehicle_from_scanner, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
     places = _at(own[order], times, poses) @ mount
-    angles = scanner.first_beam_rad + np.arange(ranges.shape[1]) * scanner.beam_step_rad
+    kept = equally_spaced(places[:, :3, 3], spacing_m)
+    if len(kept) < len(order):
+        notes.append(f"{len(kept)} of {len(order)} vertical scans are used: {spacing_m} m apart")
+    angles = scanner.first_beam_rad + np.arange(scans.beams) * scanner.beam_step_rad
     beams = np.stack([np.cos(angles), np.sin(angles), np.zeros_like(angles)], axis=1)
     return tuple(
-        Sweep(f"{row:06d}", float(own[row]), place, _reader(ranges[row], beams, scanner))
-        for row, place in zip(order.tolist(), places, strict=True)
+        Sweep(f"{row:06d}", float(own[row]), place, _reader(scans, row, beams, scanner))
+        for row, place in zip(order[kept].tolist(), places[kept], strict=True)
     )
 
 
 def _reader(
-    ranges: NDArray[np.float32], beams: NDArray[np.float64], scanner: Scanner
+    scans: SpooledScans, row: int, beams: NDArray[np.float64], scanner: Scanner
 ) -> Callable[[], NDArray[np.float64]]:
     def read() -> NDArray[np.float64]:
+        ranges = scans.ranges(row)
         with np.errstate(invalid="ignore"):
             kept = (ranges >= scanner.nearest_m) & (ranges < scanner.farthest_m)
         return np.asarray(beams[kept] * ranges[kept, None], dtype=np.float64)
@@ -203,8 +209,8 @@ def _shots(
     notes: list[str],
 ) -> tuple[Shot, ...]:
     path = folder / camera.table
-    table = _table(path, ("time_s", "file"))
-    own = _times(path, table) + camera.clock_offset_s
+    table = read_table(path, ("time_s", "file"))
+    own = time_column(path, table) + camera.clock_offset_s
     mount = np.vstack([np.reshape(camera.vehicle_from_camera, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
     places = _at(own, times, poses) @ mount
     shots, missing = [], 0

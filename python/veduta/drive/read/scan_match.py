@@ -8,12 +8,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
-from scipy import ndimage
 from scipy.spatial import cKDTree
 
 Floats = NDArray[np.float64]
+_FEWEST = 10
+"""Points of a scan that can be matched."""
 
 
 @dataclass(frozen=True)
@@ -52,15 +54,63 @@ class Match:
     share: float
 
 
+class Reference:
+    """Points that scans are matched onto: (n, 2), with what is made of them once."""
+
+    def __init__(self, points: Floats, line_m: float = 0.5) -> None:
+        """line_m: neighbours on a line are this near."""
+        self.points = points
+        self.tree = cKDTree(points)
+        self.normals, self.straight = _normals(points, line_m)
+        self._field: tuple[Floats, NDArray[np.float32]] | None = None
+
+    def likelihood(self, chosen: MatchParameters) -> tuple[Floats, NDArray[np.float32]]:
+        """The lower corner of a grid, and how well a point fits in each cell of it, 0 to 1."""
+        if self._field is None:
+            low = self.points.min(axis=0) - 1.0
+            size = np.ceil((self.points.max(axis=0) + 1.0 - low) / chosen.cell_m).astype(int) + 1
+            size = np.minimum(size, 4000)
+            empty = np.ones(size, dtype=np.uint8)
+            at = ((self.points - low) / chosen.cell_m).astype(int)
+            inside = (at < size).all(axis=1)
+            empty[at[inside, 0], at[inside, 1]] = 0
+            distance = cv2.distanceTransform(empty, cv2.DIST_L2, 5) * chosen.cell_m
+            self._field = low, np.exp(-0.5 * (distance / chosen.blur_m) ** 2).astype(np.float32)
+        return self._field
+
+
 def match_scans(
-    reference: Floats, scan: Floats, start: Floats, parameters: MatchParameters | None = None
+    reference: Floats | Reference,
+    scan: Floats,
+    start: Floats,
+    parameters: MatchParameters | None = None,
 ) -> Match:
-    """reference: (n, 2), in the order of the beams; scan: (m, 2); start: (3,)."""
+    """reference: (n, 2); scan: (m, 2); start: (3,). A correlative search, then ICP."""
     chosen = parameters or MatchParameters()
-    if len(reference) < 10 or len(scan) < 10:
+    known = _reference(reference, chosen)
+    if known is None or len(scan) < _FEWEST:
         return Match(start.copy(), np.diag([1.0, 1.0, 1.0]), 0.0)
-    found = _correlated(reference, scan, start, chosen)
-    return _icp(reference, scan, found, chosen)
+    return _icp(known, scan, _correlated(known, scan, start, chosen), chosen)
+
+
+def align_scans(
+    reference: Floats | Reference,
+    scan: Floats,
+    start: Floats,
+    parameters: MatchParameters | None = None,
+) -> Match:
+    """The same from a start that is trusted: point-to-line ICP only."""
+    chosen = parameters or MatchParameters()
+    known = _reference(reference, chosen)
+    if known is None or len(scan) < _FEWEST:
+        return Match(start.copy(), np.diag([1.0, 1.0, 1.0]), 0.0)
+    return _icp(known, scan, start, chosen)
+
+
+def _reference(given: Floats | Reference, chosen: MatchParameters) -> Reference | None:
+    if isinstance(given, Reference):
+        return given
+    return Reference(given, chosen.line_m) if len(given) >= _FEWEST else None
 
 
 def moved(pose: Floats, points: Floats) -> Floats:
@@ -83,17 +133,12 @@ def joined(first: Floats, step: Floats) -> Floats:
     return np.array([flat[0], flat[1], first[2] + step[2]])
 
 
-def _correlated(reference: Floats, scan: Floats, start: Floats, chosen: MatchParameters) -> Floats:
+def _correlated(
+    reference: Reference, scan: Floats, start: Floats, chosen: MatchParameters
+) -> Floats:
     """The candidate around the start under which the scan's points lie nearest to the reference."""
-    low = reference.min(axis=0) - 1.0
-    size = np.ceil((reference.max(axis=0) + 1.0 - low) / chosen.cell_m).astype(int) + 1
-    size = np.minimum(size, 4000)
-    empty = np.ones(size, dtype=bool)
-    at = ((reference - low) / chosen.cell_m).astype(int)
-    inside = (at < size).all(axis=1)
-    empty[at[inside, 0], at[inside, 1]] = False
-    distance = ndimage.distance_transform_edt(empty) * chosen.cell_m
-    field = np.exp(-0.5 * (distance / chosen.blur_m) ** 2).astype(np.float32)
+    low, field = reference.likelihood(chosen)
+    size = np.array(field.shape)
     shifts = np.arange(-chosen.reach_m, chosen.reach_m + 1e-9, chosen.step_m)
     turns = np.arange(-chosen.reach_rad, chosen.reach_rad + 1e-9, chosen.step_rad)
     best, pose = -np.inf, start
@@ -116,9 +161,8 @@ def _correlated(reference: Floats, scan: Floats, start: Floats, chosen: MatchPar
     return pose
 
 
-def _icp(reference: Floats, scan: Floats, pose: Floats, chosen: MatchParameters) -> Match:
-    normals, straight = _normals(reference, chosen.line_m)
-    tree = cKDTree(reference)
+def _icp(reference: Reference, scan: Floats, pose: Floats, chosen: MatchParameters) -> Match:
+    normals, straight, tree = reference.normals, reference.straight, reference.tree
     pose = pose.copy()
     information = np.eye(3)
     for number in range(chosen.rounds):
@@ -129,7 +173,7 @@ def _icp(reference: Floats, scan: Floats, pose: Floats, chosen: MatchParameters)
         kept = (distance < apart) & straight[nearest]
         if kept.sum() < 6:
             break
-        normal, target = normals[nearest[kept]], reference[nearest[kept]]
+        normal, target = normals[nearest[kept]], reference.points[nearest[kept]]
         residual = ((points[kept] - target) * normal).sum(axis=1)
         weight = 1.0 / np.maximum(np.abs(residual) / chosen.huber_m, 1.0)
         arm = points[kept] - pose[:2]

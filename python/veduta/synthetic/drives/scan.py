@@ -17,7 +17,8 @@ class TruckOptions:
 
     spacing_m: of the scans. sway_m, sway_rad: how far the truck strays from a straight line; its
     poses are known. through: share of rays that go through glass; of the others nothing comes back.
-    dropped: share of scans that are lost.
+    dropped: share of scans that are lost. level: whether a second scanner looks level to the left
+    half (section 2).
     """
 
     height_m: float = 3.6
@@ -30,6 +31,7 @@ class TruckOptions:
     sway_rad: float = 0.01
     through: float = 0.85
     dropped: float = 0.0
+    level: bool = False
 
 
 @dataclass(frozen=True, eq=False)
@@ -39,6 +41,7 @@ class DriveScans:
     Beam i lies in the plane across the vehicle, at `angles_rad[i]` over level, to the left.
     kind: (s, b) uint8 `Kind`. facade_m: (s, b) range of the wall or ground without the objects
     before it, and without glass; inf where there is none.
+    level_ranges: (s, b) m of the horizontal scanner, from ahead over left to behind; None: none.
     """
 
     times_s: NDArray[np.float64]
@@ -48,6 +51,7 @@ class DriveScans:
     kind: NDArray[np.uint8]
     facade_m: NDArray[np.float64]
     options: TruckOptions
+    level_ranges: NDArray[np.float32] | None = None
 
 
 def scan_street(street: Street, options: TruckOptions, seed: int) -> DriveScans:
@@ -70,9 +74,37 @@ def scan_street(street: Street, options: TruckOptions, seed: int) -> DriveScans:
     for first in range(0, len(y), 50):
         rows = slice(first, first + 50)
         near = _near(street, float(y[rows][0]) - 3.0, float(y[rows][-1]) + 3.0)
-        ranges[rows], kind[rows], facade[rows] = _cast(near, poses[rows], angles, options, random)
+        beams = _upright(poses[rows], angles)
+        ranges[rows], kind[rows], facade[rows] = _cast(near, poses[rows], beams, options, random)
     times = y / options.speed_m_s
-    return DriveScans(times, poses, angles, ranges, kind, facade, options)
+    level = _scan_level(street, poses, options, random) if options.level else None
+    return DriveScans(times, poses, angles, ranges, kind, facade, options, level)
+
+
+def _upright(poses: NDArray[np.float64], angles: NDArray[np.float64]) -> NDArray[np.float64]:
+    """(s, b, 3) unit directions in the plane across the vehicle, to its left."""
+    level = poses[:, None, :, 1] * np.cos(angles)[None, :, None]
+    return np.asarray(level + np.array([0.0, 0.0, 1.0]) * np.sin(angles)[None, :, None])
+
+
+def _scan_level(
+    street: Street,
+    poses: NDArray[np.float64],
+    options: TruckOptions,
+    random: np.random.Generator,
+) -> NDArray[np.float32]:
+    """(s, 181) ranges of a scanner that looks level, from ahead over left to behind."""
+    angles = np.deg2rad(np.arange(0.0, 180.0 + 1e-9, options.beam_step_deg))
+    found = np.zeros((len(poses), len(angles)), dtype=np.float32)
+    for first in range(0, len(poses), 50):
+        rows = slice(first, first + 50)
+        place = poses[rows, 1, 3]
+        far = options.farthest_m
+        near = _near(street, float(place.min()) - far, float(place.max()) + far)
+        beams = poses[rows, None, :, 0] * np.cos(angles)[None, :, None]
+        beams = beams + poses[rows, None, :, 1] * np.sin(angles)[None, :, None]
+        found[rows] = _cast(near, poses[rows], beams, options, random)[0]
+    return found
 
 
 def _near(street: Street, low: float, high: float) -> Street:
@@ -93,15 +125,15 @@ def _near(street: Street, low: float, high: float) -> Street:
 def _cast(
     street: Street,
     poses: NDArray[np.float64],
-    angles: NDArray[np.float64],
+    beams: NDArray[np.float64],
     options: TruckOptions,
     random: np.random.Generator,
 ) -> tuple[NDArray[np.float32], NDArray[np.uint8], NDArray[np.float64]]:
-    shape = (len(poses), len(angles))
+    """Ranges, kinds and ranges of the facade (s, b) along beams (s, b, 3)."""
+    shape = beams.shape[:2]
     origin = poses[:, None, :, 3] + np.array([0.0, 0.0, options.height_m])
     origins = np.broadcast_to(origin, (*shape, 3)).reshape(-1, 3)
-    level = poses[:, None, :, 1] * np.cos(angles)[None, :, None]
-    directions = (level + np.array([0.0, 0.0, 1.0]) * np.sin(angles)[None, :, None]).reshape(-1, 3)
+    directions = beams.reshape(-1, 3)
     ground = rays.to_ground(origins, directions)
     wall = rays.to_boxes(origins, directions, street.walls)
     things = np.minimum(

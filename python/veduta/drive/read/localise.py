@@ -1,0 +1,207 @@
+"""Where the driven path lies in a surface model: Monte-Carlo localisation, then corrections spread.
+
+Section 2 of Frueh et al. 2005 after Frueh and Zakhor 2001: 5,000 particles follow the steps of scan
+matching; horizontal scans weigh them by edges of the model. What the particles agree on holds the
+path, and the rest of it follows by its steps.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta._core import VehicleParticles
+from veduta.drive.read.pose_graph import Fix, Step, spread_corrections
+from veduta.drive.read.scan_chain import ScanChain
+from veduta.drive.read.scan_match import between
+from veduta.drive.read.surface_model import SurfaceModel
+from veduta.run.errors import NotFoundError
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class LocaliseParameters:
+    """Thresholds of localisation.
+
+    particles, first_draws: of the filter, and of its start. sigma_m: of points about edges: cells
+    of a metre, and eaves that hang over walls. outlier: share of points that belong to no edge:
+    trees, cars. outside: what a point off the map counts as, against 1 on an edge: nothing outside
+    of it is wrong. blocked: what it counts when a beam goes through what stands there: crowns of
+    trees do that, walls do not. free_at: shares of a beam's way where that is looked at; of beams
+    longer than free_m. worth: beams that a scan counts as. most_points: of a scan that are used.
+    slip, slip_rad: of a step, its share that its length may be off, and radians per metre. sure_m:
+    particles that are spread less are agreed. lasting: scans in a row see the same wall, so their
+    covariance is taken so many times. map_m, map_rad: least deviation of a place in the model.
+    fewest_sure: share of the scans after the first agreement that must be sure. least_share: of
+    their points on edges, on average. most_through: of their beams through what stands there.
+    """
+
+    particles: int = 5000
+    first_draws: int = 100_000
+    sigma_m: float = 0.6
+    widest_sigma_m: float = 2.5
+    spread_share: float = 0.25
+    outlier: float = 0.08
+    outside: float = 0.25
+    blocked: float = 0.3
+    free_at: tuple[float, ...] = (0.4, 0.75)
+    free_m: float = 5.0
+    worth: float = 12.0
+    draw_below: float = 0.5
+    most_points: int = 90
+    slip: float = 0.03
+    slip_rad: float = 0.004
+    sure_m: float = 1.5
+    lasting: float = 10.0
+    map_m: float = 0.3
+    map_rad: float = 0.01
+    fewest_sure: float = 0.5
+    least_share: float = 0.45
+    most_through: float = 0.12
+
+
+@dataclass(frozen=True, eq=False)
+class Localised:
+    """poses: (k, 3) of the key scans in the model's CRS. moved_m: (k,) how far each was corrected,
+    after the best rigid place of the whole path. share: (k,) of the points of each on edges.
+    through: (k,) of the beams of each through what stands there. sure: (k,) whether the particles
+    agreed. spread_m: (k,) theirs.
+    """
+
+    poses: Floats
+    moved_m: Floats
+    share: Floats
+    through: Floats
+    sure: NDArray[np.bool_]
+    spread_m: Floats
+
+
+def localise(
+    chain: ScanChain,
+    model: SurfaceModel,
+    start: tuple[float, float, float],
+    reach: tuple[float, float, float],
+    seed: int,
+    loops: list[Step] | None = None,
+    told: Callable[[float], None] = lambda share: None,
+    parameters: LocaliseParameters | None = None,
+) -> Localised:
+    """start: x, y (m, CRS of the model) and heading (rad) of the first scan; reach: how far off.
+
+    NotFoundError where the particles agree on no place, or scans do not fit where they agree: a
+    model of another place is refused, not followed.
+    """
+    chosen = parameters or LocaliseParameters()
+    rows = len(chain.keys)
+    poses, covariances = np.zeros((rows, 3)), np.zeros((rows, 3, 3))
+    share, known, through = np.zeros(rows), np.zeros(rows), np.zeros(rows)
+    particles = VehicleParticles(
+        model.distance_m, model.low, model.cell_m, start, reach,
+        particles=chosen.particles, first_draws=chosen.first_draws, seed=seed,
+        sigma_m=chosen.sigma_m, widest_sigma_m=chosen.widest_sigma_m,
+        spread_share=chosen.spread_share, outlier=chosen.outlier, outside=chosen.outside,
+        blocked=chosen.blocked, worth=chosen.worth, draw_below=chosen.draw_below,
+    )  # fmt: skip
+    for row in range(rows):
+        motion, noise = np.zeros(3), np.zeros(3)
+        if row:
+            motion = between(chain.poses[row - 1], chain.poses[row])
+            noise = _noise(motion, chain.covariances[row - 1], chosen)
+        points = _thinned(chain.scans[row], chosen.most_points)
+        pose, flat, share[row], known[row], through[row] = particles.step(
+            _three(motion), _three(noise), points, _passed(points, chosen)
+        )
+        poses[row], covariances[row] = pose, np.reshape(flat, (3, 3))
+        told((row + 1) / rows)
+    spread = np.sqrt(covariances[:, 0, 0] + covariances[:, 1, 1])
+    sure = spread < chosen.sure_m
+    _must_fit(sure, share, known, through, spread, chosen)
+    steps = [
+        Step(
+            row - 1,
+            row,
+            between(chain.poses[row - 1], chain.poses[row]),
+            chain.covariances[row - 1],
+        )
+        for row in range(1, rows)
+    ]
+    least = np.diag([chosen.map_m**2, chosen.map_m**2, chosen.map_rad**2])
+    fixes = [
+        Fix(row, poses[row], chosen.lasting * (covariances[row] + least))
+        for row in np.flatnonzero(sure).tolist()
+    ]
+    placed = _placed(chain.poses, poses, sure)
+    found = spread_corrections(placed, [*steps, *(loops or [])], fixes)
+    moved = np.linalg.norm(found[:, :2] - placed[:, :2], axis=1)
+    return Localised(found, moved, share, through, sure, spread)
+
+
+def _noise(motion: Floats, covariance: Floats, chosen: LocaliseParameters) -> Floats:
+    length = float(np.hypot(motion[0], motion[1]))
+    slip = np.array([chosen.slip * length, chosen.slip * length, chosen.slip_rad * length])
+    return np.asarray(np.sqrt(np.diag(covariance) + slip**2), dtype=np.float64)
+
+
+def _three(values: Floats) -> tuple[float, float, float]:
+    return float(values[0]), float(values[1]), float(values[2])
+
+
+def _thinned(points: Floats, most: int) -> Floats:
+    every = max(int(np.ceil(len(points) / most)), 1)
+    return np.ascontiguousarray(points[::every], dtype=np.float64)
+
+
+def _passed(points: Floats, chosen: LocaliseParameters) -> Floats:
+    """(n, 2) where beams went through: the vehicle itself, and places on the way of long ones."""
+    long = points[(points**2).sum(axis=1) > chosen.free_m**2]
+    return np.concatenate([np.zeros((1, 2)), *(long * share for share in chosen.free_at)])
+
+
+def _must_fit(
+    sure: NDArray[np.bool_],
+    share: Floats,
+    known: Floats,
+    through: Floats,
+    spread: Floats,
+    chosen: LocaliseParameters,
+) -> None:
+    remedy = "Give the model of the place of the drive, and a start nearer to where it began."
+    what = "the place of the drive in the surface model"
+    if not sure.any():
+        evidence = f"the particles stay {spread.min():.1f} m apart at best"
+        raise NotFoundError(what, evidence, remedy)
+    after = int(np.argmax(sure))
+    seen = sure[after:] & (known[after:] > 0.3)
+    if sure[after:].mean() < chosen.fewest_sure or not seen.any():
+        evidence = f"they agree in {100 * sure[after:].mean():.0f} % of the scans only"
+        raise NotFoundError(what, evidence, remedy)
+    fit = float(share[after:][seen].mean())
+    if fit < chosen.least_share:
+        evidence = (
+            f"{100 * fit:.0f} % of the scans' points lie on its edges where they fit best, less"
+            f" than {100 * chosen.least_share:.0f} %"
+        )
+        raise NotFoundError(what, evidence, remedy)
+    crossed = float(through[after:][seen].mean())
+    if crossed > chosen.most_through:
+        evidence = f"{100 * crossed:.0f} % of the beams would go through what stands there"
+        raise NotFoundError(what, evidence, remedy)
+
+
+def _placed(chain: Floats, poses: Floats, sure: NDArray[np.bool_]) -> Floats:
+    """The chain as one rigid line, where the sure poses (k, 3) lie best."""
+    rows = np.flatnonzero(sure)
+    here, there = chain[rows, :2], poses[rows, :2]
+    turn = float(np.angle(np.exp(1j * (poses[rows, 2] - chain[rows, 2])).mean()))
+    if len(rows) > 5 and np.ptp(here, axis=0).max() > 5.0:
+        one = (here - here.mean(axis=0)) @ np.array([1.0, 1j])
+        two = (there - there.mean(axis=0)) @ np.array([1.0, 1j])
+        turn = float(np.angle((np.conj(one) * two).sum()))
+    cosine, sine = np.cos(turn), np.sin(turn)
+    spun = chain[:, :2] @ np.array([[cosine, sine], [-sine, cosine]])
+    move = (there - spun[rows]).mean(axis=0)
+    return np.column_stack([spun + move, chain[:, 2] + turn])
