@@ -61,6 +61,15 @@ Way = Annotated[
     ),
 ]
 
+OwnPlan = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="TOML",
+        help_behavior_hint="",
+        help="a body plan of your own: parts, joints, sides, which touch the ground",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class FaunaCall:
@@ -80,6 +89,7 @@ class FaunaCall:
     background: BackgroundPicture = None
     place: InPlace = None
     path: Way = None
+    plan: OwnPlan = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

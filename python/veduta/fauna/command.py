@@ -7,11 +7,15 @@ from pathlib import Path
 import numpy as np
 from pydantic import JsonValue
 
-from veduta.fauna.build.build import Built, build_animal, place_of
+from veduta.fauna.build.build import Built, build_animal, goer_of
+from veduta.fauna.build.going import Goer, place_of
 from veduta.fauna.build.into_place import place_into, require_place
 from veduta.fauna.document.coat import COAT, load_coat, save_coat
+from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.load import DOCUMENT, load_animal, save_animal
 from veduta.fauna.document.schema import Animal
+from veduta.fauna.limbed_command import make_limbed
+from veduta.fauna.limbed_recipe import read_limbed
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.path.given import read_path
 from veduta.fauna.path.plan import PathLimits
@@ -67,39 +71,64 @@ def _digests(record: Path) -> JsonValue:
 
 
 def _make(work: Work, record: Record, options: FaunaOptions) -> None:
-    coat: Texture | None = None
-    if record.path.suffix.lower() == ".json":
-        with work.step("document"):
-            animal = load_animal(record.path)
-            if animal.body.coat is not None:
-                coat = load_coat(record.path.parent / animal.body.coat)
+    animal, coat = _document(work, record, options)
+    if isinstance(animal, LimbedAnimal):
+        goer = make_limbed(work, animal, coat, options)
     else:
-        read = read_record(work, record, options)
-        animal, coat = read.described.animal, read.coat
-    with work.step("motion") as step:
-        built = build_animal(animal, options.motion, coat)
-        step.counts["clips"] = len(built.gaits)
-        step.counts["states"] = max(gait.states for gait in built.gaits)
-        step.counts["refused states"] = max(gait.refused for gait in built.gaits)
-    goal = None if record.place is None else _plan(work, record.place, record.way, animal)
+        goer = _limbless(work, animal, coat, options)
+    goal = None
+    if record.place is not None:
+        goal = _plan(work, record.place, record.way, goer.length_m)
     with work.step("writing"):
         save_animal(animal, work.folder / DOCUMENT)
         if coat is not None:
             save_coat(coat, work.folder / COAT)
             work.file(COAT, "its coat from the footage; half transparent where it is invented")
-        write_mesh_glb(built.mesh, work.folder / MODEL)
+        write_mesh_glb(goer.mesh, work.folder / MODEL)
         if goal is None:
-            place_of(animal, built).save(work.folder)
+            place_of(goer).save(work.folder)
         else:
             place, path = goal
-            into = place_into(place, animal, built, path.points_m, closed=path.closed)
-            into.save(work.folder)
+            place_into(place, goer, path.points_m, closed=path.closed).save(work.folder)
+    for name, meaning in (
+        (MODEL, "the animal with its skeleton and clips (glTF)"),
+        (DOCUMENT, "what was found, to edit and to build from again"),
+        ("place.json", "the animal on a path, for the studio"),
+    ):
+        work.file(name, meaning)
+
+
+def _document(
+    work: Work, record: Record, options: FaunaOptions
+) -> tuple[Animal | LimbedAnimal, Texture | None]:
+    """The animal in the record, and its coat."""
+    if record.path.suffix.lower() == ".json":
+        with work.step("document"):
+            animal = load_animal(record.path)
+            worn = animal.coat if isinstance(animal, LimbedAnimal) else animal.body.coat
+            return animal, None if worn is None else load_coat(record.path.parent / worn)
+    if record.plan is not None or options.animal.limbless is None:
+        limbed = read_limbed(work, record, options)
+        return limbed.animal, limbed.coat
+    if options.animal.view == "side":
+        fault = "is to be seen from the side, but an animal without limbs is read from above"
+        raise InputError(record.path, fault, "Give footage from above, or a body plan (--plan).")
+    read = read_record(work, record, options)
+    return read.described.animal, read.coat
+
+
+def _limbless(work: Work, animal: Animal, coat: Texture | None, options: FaunaOptions) -> Goer:
+    with work.step("motion") as step:
+        built = build_animal(animal, options.motion, coat)
+        step.counts["clips"] = len(built.gaits)
+        step.counts["states"] = max(gait.states for gait in built.gaits)
+        step.counts["refused states"] = max(gait.refused for gait in built.gaits)
     _tell(work, animal, built)
+    return goer_of(animal, built)
 
 
-def _plan(work: Work, folder: Path, way: Path | None, animal: Animal) -> tuple[Place, FoundPath]:
-    """The place, and the animal's path through it."""
-    length = animal.length.metres
+def _plan(work: Work, folder: Path, way: Path | None, length: float) -> tuple[Place, FoundPath]:
+    """The place, and the path through it of an animal so long (m)."""
     with work.step("place"):
         place = Place.load(folder)
         require_place(place, folder)
@@ -162,12 +191,6 @@ def _tell(work: Work, animal: Animal, built: Built) -> None:
     work.measure("length_m", animal.length.metres)
     work.measure("speed_lengths_s", motion.speed)
     work.measure("frames_used", source.used)
-    for name, meaning in (
-        (MODEL, "the animal with its skeleton and clips (glTF)"),
-        (DOCUMENT, "what was found, to edit and to build from again"),
-        ("place.json", "the animal on a path, for the studio"),
-    ):
-        work.file(name, meaning)
     work.fact("length", f"{animal.length.metres:.3g} m ({animal.length.provenance})")
     work.fact("frames", f"{source.used} of {source.frames}")
     work.fact("clips", ", ".join(gait.name for gait in built.gaits))

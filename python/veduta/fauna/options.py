@@ -9,7 +9,8 @@ from pydantic import Field
 from veduta.run.options import Options
 
 Limbless = Literal["snake", "worm", "fish"]
-Kind = Literal["snake", "worm", "fish"]
+Kind = Literal["snake", "worm", "fish", "lizard", "quadruped"]
+View = Literal["top", "side"]
 
 
 class AnimalOptions(Options):
@@ -19,8 +20,13 @@ class AnimalOptions(Options):
         default="snake",
         description=(
             "what kind of animal it is: a snake's tail follows its head, a worm bends where it"
-            " will, a fish has a swimmer's wave"
+            " will, a fish has a swimmer's wave; a lizard or a quadruped has legs and is fitted to"
+            " its silhouettes"
         ),
+    )
+    view: View | None = Field(
+        default=None,
+        description="from where it is seen; else a quadruped from the side, all others from above",
     )
     length_m: float | None = Field(
         default=None,
@@ -28,6 +34,12 @@ class AnimalOptions(Options):
         le=100.0,
         description="its length from head to tail, m; else that of the record, or an assumed one",
     )
+
+    @property
+    def limbless(self) -> Limbless | None:
+        """The kind, if it is one that is read by its axis alone."""
+        kinds: dict[Kind, Limbless] = {"snake": "snake", "worm": "worm", "fish": "fish"}
+        return kinds.get(self.kind)
 
 
 class FootageOptions(Options):

@@ -28,7 +28,7 @@ from veduta.run.work import Work
 @dataclass(frozen=True)
 class Record:
     """What the user gives: the footage, perhaps masks and a background picture, and perhaps a place
-    for the animal to go in, with the points of its way.
+    for the animal to go in, with the points of its way, and a body plan of their own.
     """
 
     path: Path
@@ -36,11 +36,12 @@ class Record:
     background: Path | None = None
     place: Path | None = None
     way: Path | None = None
+    plan: Path | None = None
 
     @property
     def files(self) -> tuple[Path | None, ...]:
         """All that the result depends on."""
-        return (self.path, self.masks, self.background, self.place, self.way)
+        return (self.path, self.masks, self.background, self.place, self.way, self.plan)
 
 
 @dataclass(frozen=True, eq=False)

@@ -10,7 +10,8 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from veduta.fauna.build.body import slices_along
-from veduta.fauna.build.build import build_animal, place_of
+from veduta.fauna.build.build import build_animal, goer_of
+from veduta.fauna.build.going import place_of
 from veduta.fauna.build.into_place import place_into
 from veduta.fauna.document.load import load_animal, save_animal
 from veduta.fauna.document.schema import Animal, Body, Length, Motion, Source
@@ -138,7 +139,7 @@ def test_bad_documents_are_refused(tmp_path: Path, text: str, fault: str) -> Non
 
 def test_a_place_keeps_its_animals(tmp_path: Path) -> None:
     animal = sample_animal()
-    place = place_of(animal, build_animal(animal, MotionOptions(seconds=1.0, states=20)))
+    place = place_of(goer_of(animal, build_animal(animal, MotionOptions(seconds=1.0, states=20))))
     place.save(tmp_path)
     again = Place.load(tmp_path)
     assert again.animals == place.animals
@@ -162,7 +163,7 @@ def test_an_animal_in_a_place_leaves_the_place_its_files(tmp_path: Path) -> None
         (folder / name).write_text(name)
     place.save(folder)
     path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    into = place_into(Place.load(folder), animal, built, path, closed=False)
+    into = place_into(Place.load(folder), goer_of(animal, built), path, closed=False)
     into.save(tmp_path / "out")
     assert (tmp_path / "out/walk/k.jpg").read_text() == "walk/k.jpg"
     assert (tmp_path / "out/walk.json").read_text() == "walk.json"
@@ -180,7 +181,7 @@ def test_another_animal_keeps_its_document(tmp_path: Path, twice: bool) -> None:
         (where / "animal.json").write_text(where.name)
     place.save(folder)
     path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    place_into(Place.load(folder), animal, built, path, closed=False).save(out)
+    place_into(Place.load(folder), goer_of(animal, built), path, closed=False).save(out)
     told = {
         name: (out / str(part.standing.document)).read_text()
         for name, part in Place.load(out).parts.items()

@@ -8,7 +8,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.fauna.options import Kind
+from veduta.fauna.options import Limbless
 from veduta.place.material import Texture
 
 _WIDTH, _HEIGHT = 1024, 256
@@ -30,14 +30,14 @@ class Coat:
     """Place along the body; 0: it has none that one sees."""
 
 
-_COATS: dict[Kind, Coat] = {
+_COATS: dict[Limbless, Coat] = {
     "snake": Coat((94, 78, 48), (140, 118, 74), (206, 194, 152), (44, 36, 24), 34.0, 0.35, 0.022),
     "worm": Coat((176, 118, 104), (190, 136, 120), (206, 160, 144), (150, 92, 82), 60.0, 0.2, 0.0),
     "fish": Coat((58, 66, 50), (112, 118, 92), (204, 204, 186), (34, 40, 30), 0.0, 0.6, 0.035),
 }
 
 
-def painted_coat(kind: Kind) -> Texture:
+def painted_coat(kind: Limbless) -> Texture:
     """The texture: u along the body from the head, v around it from the belly (the back at 0.5)."""
     coat = _COATS[kind]
     u = (np.arange(_WIDTH) + 0.5) / _WIDTH

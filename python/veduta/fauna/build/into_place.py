@@ -6,12 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from veduta.fauna.build.build import Built, going
+from veduta.fauna.build.going import Goer
 from veduta.fauna.document.load import DOCUMENT
-from veduta.fauna.document.schema import Animal
 from veduta.fauna.motion.angles import Floats
 from veduta.place.manifest import Start
-from veduta.place.place import Place, Standing
+from veduta.place.place import Place
 from veduta.run.errors import InputError
 
 
@@ -22,24 +21,22 @@ def require_place(place: Place, folder: Path) -> None:
         raise InputError(folder, fault, "Name a smaller place.")
 
 
-def place_into(
-    place: Place, animal: Animal, built: Built, path: Floats, *, closed: bool
-) -> Place:
+def place_into(place: Place, goer: Goer, path: Floats, *, closed: bool) -> Place:
     """The place with the animal in it; its document lies where the place will be saved.
 
     One animal of the same id is replaced: the same record twice is one animal.
     """
-    place.parts.pop(built.mesh.id, None)
-    place.animals = [one for one in place.animals if one.id != animal.name]
-    standing = Standing(name=animal.name, document=DOCUMENT, arrangement="invented")
+    place.parts.pop(goer.mesh.id, None)
+    place.animals = [one for one in place.animals if one.id != goer.name]
+    standing = goer.standing()
     alone = Place()
-    alone.add(built.mesh, standing)
+    alone.add(goer.mesh, standing)
     place = alone.with_names_apart(place)  # another animal's document has the same name
     place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
-    place.add(built.mesh, standing)
-    place.animals.append(going(animal, built, path, closed=closed))
+    place.add(goer.mesh, standing)
+    place.animals.append(goer.along(path, closed=closed))
     low, high = path.min(axis=0), path.max(axis=0)
-    size = max(float(np.linalg.norm(high - low)), 4.0 * animal.length.metres)
+    size = max(float(np.linalg.norm(high - low)), 4.0 * goer.length_m)
     middle = 0.5 * (low + high)
     eye = middle + size * np.array([-0.3, -0.75, 0.45])
     place.start = Start(

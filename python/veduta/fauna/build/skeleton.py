@@ -12,12 +12,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.fauna.build.going import ROOT
 from veduta.fauna.document.schema import Animal
 from veduta.fauna.motion.angles import Floats
 from veduta.place.skin import Skin
 
 SEGMENTS = 24
-ROOT = "root"
 
 
 @dataclass(frozen=True, eq=False)

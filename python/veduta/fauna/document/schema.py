@@ -13,7 +13,7 @@ import numpy as np
 from pydantic import BaseModel, ConfigDict, Field, model_validator
 
 from veduta.fauna.motion.angles import COEFFICIENTS, Complexes
-from veduta.fauna.options import Kind
+from veduta.fauna.options import Limbless
 
 Origin = Literal["measured", "inferred", "invented", "edited"]
 """Seen in the footage; follows from it and a rule; in no record; written by a person."""
@@ -24,11 +24,13 @@ State = Annotated[
 ]
 
 
-class _Record(BaseModel):
+class Record(BaseModel):
+    """What all records of a document are: frozen, and without unknown fields."""
+
     model_config = ConfigDict(frozen=True, extra="forbid", populate_by_name=True)
 
 
-class Source(_Record):
+class Source(Record):
     """The record that it was read from."""
 
     file: str = Field(max_length=1024)
@@ -38,7 +40,7 @@ class Source(_Record):
     left_out: list[str] = Field(default=[], max_length=100_000, description="frames, and why")
 
 
-class Length(_Record):
+class Length(Record):
     """From the head's tip along the axis to the tail's end."""
 
     metres: Annotated[float, Field(gt=0.0, le=1000.0)]
@@ -46,7 +48,7 @@ class Length(_Record):
     score: Share = Field(description="1 less the spread between frames, as a share of the length")
 
 
-class Slice(_Record):
+class Slice(Record):
     """An ellipse across the axis; all in shares of the length."""
 
     at: Share
@@ -54,7 +56,7 @@ class Slice(_Record):
     half_height: Annotated[float, Field(ge=0.0, le=1.0)]
 
 
-class Body(_Record):
+class Body(Record):
     """The part that the animal is made of."""
 
     slices: list[Slice] = Field(min_length=3, max_length=1000)
@@ -73,7 +75,7 @@ class Body(_Record):
         return self
 
 
-class Motion(_Record):
+class Motion(Record):
     """The states of the axis through the footage."""
 
     frame_s: Annotated[float, Field(gt=0.0, le=10.0)]
@@ -100,13 +102,13 @@ class Motion(_Record):
         return np.asarray(pairs[..., 0] + 1j * pairs[..., 1], dtype=np.complex128)
 
 
-class Animal(_Record):
+class Animal(Record):
     """The document."""
 
     schema_: Literal["veduta/animal"] = Field(default="veduta/animal", alias="schema")
     version: Literal[1] = 1
     name: str = Field(min_length=1, max_length=256)
-    kind: Kind
+    kind: Limbless
     source: Source
     length: Length
     body: Body

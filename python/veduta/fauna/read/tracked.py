@@ -18,7 +18,7 @@ from veduta.fauna.motion.angles import (
     coefficients,
     equal_steps,
 )
-from veduta.fauna.options import FaunaOptions, Kind
+from veduta.fauna.options import FaunaOptions, Limbless
 from veduta.fauna.read.usual import USUAL_LENGTH_M, usual_slices
 from veduta.run.errors import NotFoundError
 
@@ -29,7 +29,7 @@ _MOST_STRAY = 0.25
 """A frame whose axis is longer or shorter than the usual by this share is no good frame."""
 _SLOWEST = 0.02
 """Slower than so many body lengths a second, the footage shows no way of going."""
-_USUAL_SPEED: dict[Kind, float] = {"snake": 0.4, "worm": 0.25, "fish": 1.0}
+_USUAL_SPEED: dict[Limbless, float] = {"snake": 0.4, "worm": 0.25, "fish": 1.0}
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,7 +76,7 @@ def describe(tracked: Tracked, name: str, source: Source, options: FaunaOptions)
     again = axis_of(angles_of(states, SAMPLES))
     apart = np.linalg.norm(again - axis_of(angles), axis=2).mean()
     doubts: list[str] = []
-    kind = options.animal.kind
+    kind = _kind(options)
     length = _length(usual, lengths, tracked.unit, options, doubts)
     speed, seen = _speed(tracked, usual, options, doubts)
     animal = Animal(
@@ -97,6 +97,11 @@ def describe(tracked: Tracked, name: str, source: Source, options: FaunaOptions)
         doubts=doubts,
     )
     return Described(animal, tracked, axes / usual, angles, states)
+
+
+def _kind(options: FaunaOptions) -> Limbless:
+    """The kind; one with limbs has no midline of its own, and is described as a snake's is."""
+    return options.animal.limbless or "snake"
 
 
 def _lengths(points: Floats) -> Floats:
@@ -145,7 +150,7 @@ def _length(
         return Length(metres=given, provenance="edited", score=1.0)
     if unit == "m":
         return Length(metres=usual, provenance="measured", score=score)
-    assumed = USUAL_LENGTH_M[options.animal.kind]
+    assumed = USUAL_LENGTH_M[_kind(options)]
     doubts.append(
         f"nothing in the footage tells how long the animal is: {assumed:g} m was assumed"
         " (--length-m)"
@@ -166,7 +171,7 @@ def _speed(
     speed = way / seconds / usual
     if speed >= _SLOWEST:
         return speed, "measured"
-    assumed = _USUAL_SPEED[options.animal.kind]
+    assumed = _USUAL_SPEED[_kind(options)]
     doubts.append(
         f"the animal stays in its place in the footage: {assumed:g} body lengths a second were"
         " assumed (--speed)"
@@ -174,7 +179,7 @@ def _speed(
     return assumed, "invented"
 
 
-def _body(tracked: Tracked, usual: float, kind: Kind, doubts: list[str]) -> Body:
+def _body(tracked: Tracked, usual: float, kind: Limbless, doubts: list[str]) -> Body:
     """Elliptic slices: widths as measured where there are any, heights by the kind's shape."""
     slices = usual_slices(kind)
     half = tracked.half_widths

@@ -7,11 +7,11 @@ from numpy.typing import NDArray
 from scipy.interpolate import PchipInterpolator
 
 from veduta.fauna.document.schema import Slice
-from veduta.fauna.options import Kind
+from veduta.fauna.options import Limbless
 
-USUAL_LENGTH_M: dict[Kind, float] = {"snake": 1.2, "worm": 0.12, "fish": 0.3}
+USUAL_LENGTH_M: dict[Limbless, float] = {"snake": 1.2, "worm": 0.12, "fish": 0.3}
 
-_PROFILES: dict[Kind, tuple[tuple[float, float, float], ...]] = {
+_PROFILES: dict[Limbless, tuple[tuple[float, float, float], ...]] = {
     # place along the body, half width and half height, all in shares of the length
     "snake": (
         (0.0, 0.0060, 0.0050), (0.012, 0.0120, 0.0085), (0.03, 0.0150, 0.0105),
@@ -32,7 +32,7 @@ _PROFILES: dict[Kind, tuple[tuple[float, float, float], ...]] = {
 _SLICES = 61
 
 
-def usual_slices(kind: Kind) -> list[Slice]:
+def usual_slices(kind: Limbless) -> list[Slice]:
     """Slices along a body as that kind mostly has it, closer together at the ends."""
     rows = np.array(_PROFILES[kind])
     even = np.linspace(0.0, 1.0, _SLICES)

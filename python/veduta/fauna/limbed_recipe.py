@@ -1,0 +1,157 @@
+"""Reading footage of an animal with limbs; what was seen goes into the report."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from veduta.fauna.document.coat import COAT
+from veduta.fauna.document.limbed import LimbedAnimal
+from veduta.fauna.document.plan import BodyPlan, load_plan
+from veduta.fauna.document.schema import Source
+from veduta.fauna.limbed_pictures import chart_picture, figures_picture
+from veduta.fauna.motion.figure import Floats, figure_of
+from veduta.fauna.options import FaunaOptions
+from veduta.fauna.read.drawn import drawn_figure
+from veduta.fauna.read.footage import Footage, read_footage
+from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
+from veduta.fauna.read.limbed_coat import coat_of_plane
+from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
+from veduta.fauna.read.limbless import silhouettes_in
+from veduta.fauna.read.overlap import overlap
+from veduta.fauna.read.silhouettes import Silhouettes
+from veduta.fauna.recipe import Record
+from veduta.place.material import Texture
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError, NotFoundError
+from veduta.run.work import Work
+
+_MOST_FRAMES = 72
+"""More are not fitted: a cycle is in them many times over."""
+_FEWEST_FRAMES = 5
+
+
+@dataclass(frozen=True, eq=False)
+class ReadLimbed:
+    """The document of an animal with limbs, and its coat."""
+
+    animal: LimbedAnimal
+    coat: Texture
+
+
+def plan_for(record: Record, options: FaunaOptions) -> BodyPlan:
+    """The body plan that a record is read by; InputError where its view is another one."""
+    plan = load_plan(options.animal.kind, record.plan)
+    view = options.animal.view
+    if view is not None and view != plan.view:
+        raise InputError(
+            record.path,
+            f"is to be seen from the {view}, but the body plan {plan.name} is one from the"
+            f" {plan.view}",
+            "Give a body plan of that view (--plan); docs/fauna.md says how to write one.",
+        )
+    return plan
+
+
+def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed:
+    """The document of the animal in footage, and its coat."""
+    plan = plan_for(record, options)
+    with work.step("frames") as step:
+        footage = read_footage(record.path, options.footage.fps)
+        step.counts["frames"] = len(footage.frames)
+    if footage.assumed:
+        work.doubt(
+            f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
+            " assumed (--fps)"
+        )
+    with work.step("silhouettes") as step:
+        found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
+        step.counts["good"] = len(found.rows)
+        left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
+        step.rejected.extend(left_out)
+    found = _fewer(found)
+    with work.step("figure") as step:
+        seen = fit_limbed(
+            found.masks, footage.number[found.rows], plan, LimbedLooks(),
+            lambda: work.progress("figure", 0.5),
+        )  # fmt: skip
+        step.counts["segments"] = len(seen.fitted.figure.start)
+    joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
+    overlaps = _overlaps(seen, found, joints)
+    source = Source(
+        file=record.path.name,
+        sha256=file_digest(record.path) if record.path.is_file() else "",
+        frames=len(footage.frames),
+        used=len(found.rows),
+        left_out=left_out,
+    )
+    with work.step("gait") as step:
+        animal = described_limbs(seen, plan, record.path.stem, source, footage.frame_s, overlaps,
+                                 options)  # fmt: skip
+        step.counts["gaits"] = len(animal.gaits)
+    with work.step("coat"):
+        coat = _coat(footage, found, seen, plan, joints)
+    _tell(work, footage, found, seen, joints, overlaps, animal)
+    return ReadLimbed(animal.model_copy(update={"coat": COAT}), coat)
+
+
+def _fewer(found: Silhouettes) -> Silhouettes:
+    """The middle ones, if they are many; NotFoundError where they are too few."""
+    if len(found.rows) < _FEWEST_FRAMES:
+        raise NotFoundError(
+            "the animal's motion",
+            f"only {len(found.rows)} frames show it whole",
+            f"Give footage in which at least {_FEWEST_FRAMES} frames do.",
+        )
+    if len(found.rows) <= _MOST_FRAMES:
+        return found
+    first = (len(found.rows) - _MOST_FRAMES) // 2
+    kept = slice(first, first + _MOST_FRAMES)
+    return replace(found, masks=found.masks[kept], rows=found.rows[kept], score=found.score[kept])
+
+
+def _overlaps(seen: LimbedSeen, found: Silhouettes, joints: Floats) -> Floats:
+    fitted = seen.fitted
+    deep = fitted.deep * fitted.px_per_length
+    shape = (int(found.masks.shape[1]), int(found.masks.shape[2]))
+    return np.array(
+        [
+            overlap(drawn_figure(fitted.figure, at, deep, shape), mask)
+            for at, mask in zip(joints, found.masks, strict=True)
+        ]
+    )
+
+
+def _coat(
+    footage: Footage, found: Silhouettes, seen: LimbedSeen, plan: BodyPlan, joints: Floats
+) -> Texture:
+    scaled = scaled_animal(seen, plan, footage.frame_s)
+    return coat_of_plane(
+        footage.frames[found.rows], found.masks, figure_of(scaled.plan), scaled.turns, joints,
+        scaled.unit_px, seen.windows.faces, top=plan.view == "top",
+    )  # fmt: skip
+
+
+def _tell(
+    work: Work, footage: Footage, found: Silhouettes, seen: LimbedSeen, joints: Floats,
+    overlaps: Floats, animal: LimbedAnimal,
+) -> None:  # fmt: skip
+    work.measure("silhouette_iou_median", float(np.median(overlaps)))
+    work.measure("silhouette_iou_worst", float(np.min(overlaps)))
+    for gait in animal.gaits:
+        work.measure("cycle_s", gait.cycle_s)
+        work.measure("stride_lengths", gait.stride)
+    work.picture(
+        "The figure in the silhouettes",
+        "six of the frames: the silhouette's outline green, left limbs blue, right ones red",
+        figures_picture(footage.frames[found.rows], found.masks, seen.fitted.figure, joints),
+        wide=True,
+    )
+    if animal.poses.feet:
+        work.picture(
+            "Which feet stand",
+            "a bar for each frame in which a foot is on the ground (figure 13 of the paper)",
+            chart_picture(animal),
+            wide=True,
+        )

@@ -1,0 +1,334 @@
+"""The figure of a body plan fitted to silhouettes: its shape for all frames, its pose through time.
+
+Angles are sums of a basis in time. Of footage with cycles these are the harmonics of the cycle, and
+the right legs do half a cycle later what the left ones do: a walk, trot or pace has few numbers,
+which all frames tell together. Without cycles they are cubic splines, and each leg has its own.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.interpolate import BSpline
+from scipy.optimize import minimize
+
+from veduta.fauna.motion.figure import Figure, Floats, Ints, back_through, posed
+from veduta.fauna.read.occupancy import cover
+from veduta.fauna.read.windows import Windows
+
+_ROOT = 0.1
+"""The root's numbers are in so many lengths: about as much as a step changes them."""
+
+
+@dataclass(frozen=True)
+class FitLooks:
+    """How far shapes and poses may be from the plan's; each is one standard deviation."""
+
+    length: float = 0.25
+    """Of a segment's length, as a logarithm."""
+    deep: float = 0.35
+    """Of its thickness, as a logarithm."""
+    apart: float = 0.05
+    """Of where a limb begins, in lengths; of the far limbs from the near ones half of it."""
+    rest_rad: float = 0.35
+    """Of a joint's mean angle."""
+    swing_rad: float = 0.4
+    """Of the first harmonic of its motion; the k-th has it over k to the power 1.5."""
+    root: float = 0.06
+    """Of the root's acceleration between frames, in lengths."""
+    weight: float = 1e-3
+    """Of all that beside the silhouettes: the loss of a deviation in one number."""
+    hanging: float = 0.3
+    """What swings by itself, as a tail, moves so much less than a leg."""
+    freer: float = 0.3
+    """Each segment of a leg moves so much more than the one before it."""
+    harmonics: int = 4
+    spline_frames: float = 3.5
+    """Without cycles: frames between the knots."""
+
+
+@dataclass(frozen=True, eq=False)
+class Basis:
+    """near, far: (t, m) what a left and a right limb's angles are sums of; spread: (m,) how large
+    each share may be. shared: whether both sides have the same shares.
+    """
+
+    near: Floats
+    far: Floats
+    spread: Floats
+    shared: bool
+
+    def of(self, rows: Ints) -> Basis:
+        """In some of the frames."""
+        return replace(self, near=self.near[rows], far=self.far[rows])
+
+
+@dataclass(frozen=True, eq=False)
+class Fitted:
+    """A figure in its frames; lengths are those of the plan times px_per_length pixels.
+
+    root: (t, 2). angles: (t, s). length: (s,). deep: (j,). apart: (m, 2). shares: (g, m) of the
+    basis. loss: (t,).
+    """
+
+    figure: Figure
+    px_per_length: float
+    root: Floats
+    angles: Floats
+    length: Floats
+    deep: Floats
+    apart: Floats
+    numbers: Floats
+    loss: Floats
+
+    def joints(self) -> Floats:
+        """(t, j, 2) from the windows' middles, in lengths."""
+        return posed(self.figure, self.root, self.angles, self.length, self.apart).joints
+
+
+def cycle_basis(
+    frames: Floats, cycle: float, looks: FitLooks, harmonics: int | None = None
+) -> Basis:
+    """Harmonics of a cycle of so many frames. frames: (t,) their numbers."""
+    order = np.arange(1, (harmonics or looks.harmonics) + 1)
+
+    def at(phase: Floats) -> Floats:
+        turn = 2.0 * np.pi * phase[:, None] * order
+        return np.concatenate([np.ones((len(phase), 1)), np.cos(turn), np.sin(turn)], axis=1)
+
+    phase = frames / cycle
+    swing = looks.swing_rad / order**1.5
+    spread = np.concatenate([[looks.rest_rad], swing, swing])
+    return Basis(at(phase), at(phase + 0.5), spread, shared=True)
+
+
+def spline_basis(frames: Floats, looks: FitLooks) -> Basis:
+    """Cubic splines through time; the first share is the mean angle."""
+    first, last = float(frames[0]), float(frames[-1])
+    inner = max(1, round((last - first) / looks.spline_frames))
+    knots = np.concatenate(
+        [[first] * 3, np.linspace(first, last + 1e-6, inner + 1), [last + 1e-6] * 3]
+    )
+    splines = BSpline.design_matrix(frames, knots, 3).toarray()
+    near = np.concatenate([np.ones((len(frames), 1)), splines], axis=1)
+    spread = np.concatenate([[looks.rest_rad], np.full(near.shape[1] - 1, looks.swing_rad)])
+    return Basis(near, near, spread, shared=False)
+
+
+class Fit:
+    """The numbers of a fit, each in its own standard deviations, and the loss of them."""
+
+    def __init__(
+        self, figure: Figure, windows: Windows, basis: Basis, looks: FitLooks, frames: Floats
+    ) -> None:
+        self.frames, self.weights = frames, windows.weights()
+        self.figure, self.windows, self.basis, self.looks = figure, windows, basis, looks
+        self.far = np.array([figure.limbs[n].side == "right" for n in figure.limb])
+        twin = _twins(figure)
+        self.twin_segment, self.twin_joint, self.twin_limb = twin
+        top = bool(figure.feet()) and _seen_from_above(figure)
+        self.sign = np.where(self.far & top, -1.0, 1.0)
+        self.top = top
+        own = self.twin_segment if basis.shared else np.arange(len(figure.start))
+        self.groups, self.group = np.unique(own, return_inverse=True)
+        stiff = np.array([figure.limbs[n].part.stiff for n in figure.limb])
+        hangs = np.array([figure.limbs[n].part.swings for n in figure.limb])
+        spread = np.tile(basis.spread, (len(self.groups), 1))
+        spread[:, 1:] *= np.where(hangs, looks.hanging, 1.0)[self.groups, None]
+        place = np.zeros(len(figure.start))
+        for limb in figure.limbs:
+            if limb.part.ground:
+                place[list(limb.segments)] = np.arange(len(limb.segments))
+        spread[:, 1:] *= (1.0 + looks.freer * place)[self.groups, None]
+        self.spread = spread / stiff[self.groups, None]
+        count = len(windows.shares)
+        sizes = {
+            "root": (count, 2), "length": (len(figure.start),), "deep": (len(figure.deep),),
+            "apart": (len(figure.limbs), 2), "aside": (len(figure.limbs), 2),
+            "shares": (len(self.groups), basis.near.shape[1]),
+        }  # fmt: skip
+        self.slots: dict[str, tuple[slice, tuple[int, ...]]] = {}
+        at = 0
+        for name, shape in sizes.items():
+            size = int(np.prod(shape))
+            self.slots[name] = (slice(at, at + size), shape)
+            at += size
+        self.size = at
+
+    def part(self, numbers: Floats, name: str) -> Floats:
+        """A view of the numbers of one kind."""
+        place, shape = self.slots[name]
+        return numbers[place].reshape(shape)
+
+    def unpacked(self, numbers: Floats) -> tuple[Floats, Floats, Floats, Floats, Floats]:
+        """root, angles, length, deep, apart of a vector of numbers."""
+        looks, figure = self.looks, self.figure
+        length = figure.length * np.exp(
+            looks.length * self.part(numbers, "length")[self.twin_segment]
+        )
+        deep = figure.deep * np.exp(looks.deep * self.part(numbers, "deep")[self.twin_joint])
+        own = looks.apart * self.part(numbers, "apart")[self.twin_limb]
+        right = np.array([limb.side == "right" for limb in figure.limbs])
+        if self.top:
+            own = np.where(right[:, None], own * np.array([1.0, -1.0]), own)
+        else:
+            aside = 0.5 * looks.apart * self.part(numbers, "aside")[self.twin_limb]
+            own = own + np.where(right[:, None], aside, 0.0)
+        swing = (self.part(numbers, "shares") * self.spread)[self.group]
+        angles = np.where(self.far, self.basis.far @ swing.T, self.basis.near @ swing.T)
+        angles = figure.rest + self.sign * angles
+        return _ROOT * self.part(numbers, "root"), angles, length, deep, figure.apart + own
+
+    def loss(
+        self, numbers: Floats, px_per_length: float, soft: float
+    ) -> tuple[float, Floats, Floats]:
+        """The mean loss, its gradient, and (t,) that of the silhouettes alone."""
+        root, angles, length, deep, apart = self.unpacked(numbers)
+        pose = posed(self.figure, root, angles, length, apart)
+        seen = cover(
+            self.figure, pose.joints, deep, self.windows.places(px_per_length),
+            self.windows.flat(), self.weights, soft,
+        )  # fmt: skip
+        count = len(root)
+        by_root, by_angles, by_length, by_apart = back_through(
+            self.figure, pose, seen.by_joint / count, length
+        )
+        gradient = np.zeros(self.size)
+        looks = self.looks
+        self.part(gradient, "root")[:] = _ROOT * by_root
+        np.add.at(
+            self.part(gradient, "length"), self.twin_segment, by_length * length * looks.length
+        )
+        np.add.at(
+            self.part(gradient, "deep"), self.twin_joint,
+            seen.by_deep.sum(axis=0) / count * deep * looks.deep,
+        )  # fmt: skip
+        self._back_apart(gradient, by_apart)
+        by_angles = by_angles * self.sign
+        by_swing = np.where(
+            self.far[:, None], by_angles.T @ self.basis.far, by_angles.T @ self.basis.near
+        )
+        by_share = by_swing * self.spread[self.group]
+        np.add.at(self.part(gradient, "shares"), self.group, by_share)
+        prior = looks.weight * numbers
+        place, shape = self.slots["root"]
+        prior[place] = 0.0
+        stiff = _ROOT / looks.root
+        bend = stiff * np.diff(numbers[place].reshape(shape), n=2, axis=0)
+        total = float(seen.loss.mean() + 0.5 * looks.weight * (numbers**2).sum())
+        total -= 0.5 * looks.weight * float((numbers[place] ** 2).sum())
+        total += 0.5 * looks.weight * float((bend**2).sum())
+        rooted = prior[place].reshape(shape)
+        push = looks.weight * stiff * bend
+        rooted[:-2] += push
+        rooted[1:-1] -= 2.0 * push
+        rooted[2:] += push
+        prior[place] = rooted.ravel()
+        return total, gradient + prior, seen.loss
+
+    def _back_apart(self, gradient: Floats, by_apart: Floats) -> None:
+        right = np.array([limb.side == "right" for limb in self.figure.limbs])[:, None]
+        own = self.looks.apart * by_apart
+        if self.top:
+            own = np.where(right, own * np.array([1.0, -1.0]), own)
+        else:
+            aside = np.where(right, 0.5 * self.looks.apart * by_apart, 0.0)
+            np.add.at(self.part(gradient, "aside"), self.twin_limb, aside)
+        np.add.at(self.part(gradient, "apart"), self.twin_limb, own)
+
+    def improve(
+        self, numbers: Floats, px_per_length: float, soft: float, steps: int,
+        heard: Callable[[], None] | None = None,
+    ) -> tuple[Floats, float]:  # fmt: skip
+        """The numbers after so many steps of L-BFGS, and their loss."""
+
+        def value(at: Floats) -> tuple[float, Floats]:
+            if heard is not None:
+                heard()
+            total, gradient, _ = self.loss(at, px_per_length, soft)
+            return total, gradient
+
+        found = minimize(value, numbers, jac=True, method="L-BFGS-B", options={"maxiter": steps})
+        return np.asarray(found.x), float(found.fun)
+
+    def fitted(self, numbers: Floats, px_per_length: float, soft: float) -> Fitted:
+        """What the numbers say."""
+        root, angles, length, deep, apart = self.unpacked(numbers)
+        loss = self.loss(numbers, px_per_length, soft)[2]
+        return Fitted(
+            self.figure, px_per_length, root.copy(), angles, length, deep, apart, numbers, loss
+        )
+
+    def moved_to(self, other: Fit, numbers: Floats) -> Floats:
+        """These numbers for another figure, basis or frames of the same animal.
+
+        What the other does not share with this begins at 0, at the plan's. Frames of the other
+        that this lacks have the root between its neighbours'.
+        """
+        found = np.zeros(other.size)
+        mine, theirs = self.figure, other.figure
+        ends = [[figure.names[k] for k in figure.end] for figure in (mine, theirs)]
+        limbs = [[limb.name for limb in figure.limbs] for figure in (mine, theirs)]
+        keys = {
+            "length": (ends[0], ends[1]), "deep": (mine.names, theirs.names),
+            "apart": (limbs[0], limbs[1]), "aside": (limbs[0], limbs[1]),
+            "shares": ([ends[0][k] for k in self.groups], [ends[1][k] for k in other.groups]),
+        }  # fmt: skip
+        for name, (own, wanted) in keys.items():
+            rows = {key: row for row, key in enumerate(own)}
+            both = [(rows[key], row) for row, key in enumerate(wanted) if key in rows]
+            there, here = (list(column) for column in zip(*both, strict=True))
+            own_rows = self.part(numbers, name)[there]
+            if name == "shares":
+                own_rows = _as_many(own_rows, self.basis, other.basis)
+            other.part(found, name)[here] = own_rows
+        root = self.part(numbers, "root")
+        for axis in (0, 1):
+            other.part(found, "root")[:, axis] = np.interp(other.frames, self.frames, root[:, axis])
+        return found
+
+
+def _as_many(shares: Floats, own: Basis, other: Basis) -> Floats:
+    """Shares of a basis as those of another with more harmonics, or of other splines."""
+    count = other.near.shape[1]
+    if shares.shape[1] == count:
+        return shares
+    found = np.zeros((len(shares), count))
+    found[:, 0] = shares[:, 0]
+    if own.shared and other.shared:
+        few, many = (own.near.shape[1] - 1) // 2, (count - 1) // 2
+        for begins, whole in ((0, 0), (few, many)):
+            kept = shares[:, 1 + begins : 1 + begins + min(few, many)]
+            found[:, 1 + whole : 1 + whole + kept.shape[1]] = kept
+    return found
+
+
+def _seen_from_above(figure: Figure) -> bool:
+    """Whether right limbs mirror left ones in the plane."""
+    names = figure.names
+    for limb in figure.limbs:
+        if limb.side == "left":
+            other = names[limb.joints[0]].removesuffix("_left") + "_right"
+            left = figure.rest @ figure.turns
+            mate = next(one for one in figure.limbs if names[one.joints[0]] == other)
+            apart = left[limb.segments[0]] - left[mate.segments[0]]
+            return bool(abs(apart) > 1e-9)
+    return False
+
+
+def _twins(figure: Figure) -> tuple[Ints, Ints, Ints]:
+    """For each segment, joint and limb that on the left of it, or itself."""
+    segment: NDArray[np.int64] = np.arange(len(figure.start))
+    joint: NDArray[np.int64] = np.arange(len(figure.names))
+    limbs: NDArray[np.int64] = np.arange(len(figure.limbs))
+    left = {limb.part.name: n for n, limb in enumerate(figure.limbs) if limb.side == "left"}
+    for number, limb in enumerate(figure.limbs):
+        if limb.side == "right":
+            twin = figure.limbs[left[limb.part.name]]
+            segment[list(limb.segments)] = twin.segments
+            joint[list(limb.joints)] = twin.joints
+            limbs[number] = left[limb.part.name]
+    return segment, joint, limbs

@@ -1,0 +1,151 @@
+"""An animal with limbs in silhouettes: its cycle, its figure in every frame, the parts it has."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.fauna.document.plan import BodyPlan
+from veduta.fauna.motion.figure import Floats, figure_of
+from veduta.fauna.read.fit import Basis, Fit, FitLooks, Fitted, cycle_basis, spline_basis
+from veduta.fauna.read.silhouettes import Masks
+from veduta.fauna.read.starts import Start, StartLooks, best_start
+from veduta.fauna.read.windows import Windows, middles_of, repeat_of, windows_of
+
+
+@dataclass(frozen=True)
+class LimbedLooks:
+    """The stages of a fit."""
+
+    coarse_cells: int = 48
+    fine_cells: int = 88
+    soft: tuple[float, ...] = (0.025, 0.012)
+    """Edges of the soft silhouettes, in lengths: from coarse to fine."""
+    steps: tuple[int, ...] = (40, 60)
+    start_harmonics: int = 2
+    """With more of them legs hide in the body at first, and stay there."""
+    cycle_tries: tuple[float, ...] = (0.97, 1.0, 1.03)
+    """Of the cycle that was found; the best is between them."""
+    gain: float = 0.004
+    """An optional part is kept where the loss falls by this share."""
+    travels: float = 0.5
+    """An animal that moves by so many of its silhouettes' widths looks where it goes."""
+    fit: FitLooks = field(default_factory=FitLooks)
+    start: StartLooks = field(default_factory=StartLooks)
+
+
+@dataclass(frozen=True, eq=False)
+class LimbedSeen:
+    """fitted: the figure in the frames. windows: what it was fitted to. cycle: frames of a stride,
+    None: none was found. cycle_score: how well silhouettes repeat, 0..1. missing: optional parts
+    that the silhouettes do not show. frames: (t,) their numbers.
+    """
+
+    fitted: Fitted
+    frames: Floats
+    windows: Windows
+    cycle: float | None
+    cycle_score: float
+    missing: tuple[str, ...]
+
+
+def fit_limbed(
+    masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
+    heard: Callable[[], None],
+) -> LimbedSeen:  # fmt: skip
+    """The figure of a plan in silhouettes (t, h, w) of the numbered frames."""
+    optional = {part.name for part in plan.parts if part.optional}
+    number = frames.astype(np.float64)
+    middle = middles_of(masks)
+    coarse = windows_of(masks, looks.coarse_cells, middle)
+    repeats = repeat_of(coarse)
+    cycle, score = None, 0.0
+    if repeats is not None:
+        # Of a symmetrical gait silhouettes look the same after half a cycle.
+        step = float(np.median(np.diff(number)))
+        cycle, score = 2.0 * repeats[0] * step, repeats[1]
+    basis = _basis(number, cycle, looks.fit, looks.start_harmonics)
+    figure = figure_of(plan, optional)
+    start = best_start(
+        figure, coarse, number, basis, looks.fit, looks.start, _ways(masks, middle), heard
+    )
+    if cycle is not None:
+        start, cycle = _with_cycle(start, number, cycle, looks, heard)
+    fine = windows_of(masks, looks.fine_cells, middle)
+    if start.fit.windows.faces < 0.0:
+        fine = fine.mirrored()
+    fit = Fit(figure, fine, start.fit.basis, looks.fit, number)
+    numbers, scale = start.numbers, start.px_per_length
+    for soft, steps in zip(looks.soft, looks.steps, strict=True):
+        numbers, _ = fit.improve(numbers, scale, soft, steps, heard)
+    fit, numbers, missing = _grown(fit, numbers, scale, plan, looks, heard)
+    fitted = fit.fitted(numbers, scale, looks.soft[-1])
+    return LimbedSeen(fitted, number, fine, cycle, score, missing)
+
+
+def _basis(
+    frames: Floats, cycle: float | None, looks: FitLooks, harmonics: int | None = None
+) -> Basis:
+    if cycle is None:
+        return spline_basis(frames, looks)
+    return cycle_basis(frames, cycle, looks, harmonics)
+
+
+def _ways(masks: Masks, middle: Floats) -> tuple[float, ...]:
+    """Which ways it may look: where it goes, if it does."""
+    width = float(np.median(masks.any(axis=1).sum(axis=1)))
+    gone = float(middle[-1, 0] - middle[0, 0]) / max(width, 1.0)
+    if abs(gone) > LimbedLooks().travels:
+        return (float(np.sign(gone)),)
+    return (1.0, -1.0)
+
+
+def _with_cycle(
+    start: Start, frames: Floats, cycle: float, looks: LimbedLooks, heard: Callable[[], None]
+) -> tuple[Start, float]:
+    """The fit with the cycle at which its loss is least: a parabola through three tries."""
+    losses = []
+    for share in looks.cycle_tries:
+        fit = Fit(
+            start.fit.figure, start.fit.windows,
+            cycle_basis(frames, cycle * share, looks.fit, looks.start_harmonics), looks.fit, frames,
+        )  # fmt: skip
+        _, loss = fit.improve(
+            start.numbers, start.px_per_length, looks.start.soft, looks.start.steps, heard
+        )
+        losses.append(loss)
+    fine = np.linspace(looks.cycle_tries[0] - 0.02, looks.cycle_tries[-1] + 0.02, 141)
+    curve = np.polyval(np.polyfit(looks.cycle_tries, losses, 2), fine)
+    best = cycle * float(fine[int(curve.argmin())])
+    fit = Fit(
+        start.fit.figure, start.fit.windows, cycle_basis(frames, best, looks.fit), looks.fit, frames
+    )
+    numbers = start.fit.moved_to(fit, start.numbers)
+    return Start(fit, numbers, start.px_per_length, min(losses)), best
+
+
+def _grown(
+    fit: Fit, numbers: Floats, scale: float, plan: BodyPlan, looks: LimbedLooks,
+    heard: Callable[[], None],
+) -> tuple[Fit, Floats, tuple[str, ...]]:  # fmt: skip
+    """With the optional parts that the silhouettes show."""
+    soft = looks.soft[-1]
+    missing = [part.name for part in plan.parts if part.optional]
+    before = float(fit.loss(numbers, scale, soft)[2].mean())
+    for name in tuple(missing):
+        rest = [other for other in missing if other != name]
+        larger = Fit(figure_of(plan, rest), fit.windows, fit.basis, fit.looks, fit.frames)
+        begun = fit.moved_to(larger, numbers)
+        tried, _ = larger.improve(begun, scale, soft, 12, heard)
+        # What the rest of the figure gains by more steps is no gain of the part.
+        alone, _ = fit.improve(numbers, scale, soft, 12, heard)
+        base = float(fit.loss(alone, scale, soft)[2].mean())
+        after = float(larger.loss(tried, scale, soft)[2].mean())
+        if after < base * (1.0 - looks.gain):
+            fit, numbers, before, missing = larger, tried, after, rest
+        elif base < before:
+            numbers, before = alone, base
+    return fit, numbers, tuple(missing)

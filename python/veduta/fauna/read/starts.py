@@ -1,0 +1,152 @@
+"""Where a fit begins: which way the animal looks, and where in its stride each pair of legs is."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+from veduta.fauna.motion.figure import Figure, Floats, posed
+from veduta.fauna.read.fit import Basis, Fit, FitLooks
+from veduta.fauna.read.windows import Windows
+
+
+@dataclass(frozen=True)
+class StartLooks:
+    """What is tried."""
+
+    phases: int = 4
+    """Of half a stride, for the front and for the hind legs each."""
+    steps: int = 12
+    soft: float = 0.04
+    """Edge of the soft silhouette, in lengths."""
+    frames: int = 12
+    """In which starts are compared."""
+    best: int = 4
+    """So many starts are tried with the tail held otherwise."""
+    tail_turns_rad: tuple[float, ...] = (-0.8, -0.4, 0.0, 0.5, 1.0)
+    more_steps: int = 40
+    stride_rad: float = 0.4
+    """How far a leg swings at first."""
+    bend_rad: float = 0.35
+
+
+@dataclass(frozen=True, eq=False)
+class Start:
+    """A fit and its numbers, the windows as it looks at them, and the scale of its lengths."""
+
+    fit: Fit
+    numbers: Floats
+    px_per_length: float
+    loss: float
+
+
+def scale_of(figure: Figure, windows: Windows) -> float:
+    """Pixels in a length: the figure at rest covers as much as the silhouettes do."""
+    from veduta.fauna.read.drawn import drawn_figure
+
+    joints = posed(figure, np.zeros((1, 2)), figure.rest[None], figure.length, figure.apart).joints[
+        0
+    ]
+    cells = 200.0
+    flipped = (joints - joints.mean(axis=0)) * np.array([1.0, -1.0]) * cells + 300.0
+    covers = drawn_figure(figure, flipped, figure.deep * cells, (600, 600)).sum() / cells**2
+    area = float(np.median(windows.shares.sum(axis=(1, 2)))) * windows.cell_px**2
+    return float(np.sqrt(area / covers))
+
+
+def best_start(
+    figure: Figure, windows: Windows, frames: Floats, basis: Basis, looks: FitLooks,
+    tries: StartLooks, faces: tuple[float, ...], heard: Callable[[], None],
+) -> Start:  # fmt: skip
+    """The best of starts with several phases of the legs, for each way that it may look.
+
+    Phases are told apart in a few of the frames; the best of them are tried with the tail held
+    otherwise, too, and the best of those goes on.
+    """
+    scale = scale_of(figure, windows)
+    few = np.unique(np.linspace(0, len(frames) - 1, tries.frames).round().astype(np.int64))
+    found: list[Start] = []
+    for way in faces:
+        seen = windows if way == windows.faces else windows.mirrored()
+        fit = Fit(figure, seen.of(few), basis.of(few), looks, frames[few])
+        for front, hind in _phases(tries.phases, shared=basis.shared):
+            found.append(_tried(fit, _begin(fit, front, hind, tries), scale, tries, heard))
+    found.sort(key=lambda start: start.loss)
+    otherwise = [
+        _tried(start.fit, held, scale, tries, heard)
+        for start in found[: tries.best]
+        for held in _tails_held(start.fit, start.numbers, tries)
+    ]
+    best = min([*found[: tries.best], *otherwise], key=lambda start: start.loss)
+    seen = windows if best.fit.windows.faces == windows.faces else windows.mirrored()
+    fit = Fit(figure, seen, basis, looks, frames)
+    numbers = best.fit.moved_to(fit, best.numbers)
+    numbers, loss = fit.improve(numbers, scale, tries.soft, tries.more_steps, heard)
+    return Start(fit, numbers, scale, loss)
+
+
+def _tried(
+    fit: Fit, numbers: Floats, scale: float, tries: StartLooks, heard: Callable[[], None]
+) -> Start:
+    heard()
+    numbers, loss = fit.improve(numbers, scale, tries.soft, tries.steps)
+    return Start(fit, numbers, scale, loss)
+
+
+def _tails_held(fit: Fit, numbers: Floats, tries: StartLooks) -> list[Floats]:
+    """The numbers with what swings by itself stretched, and turned up or down where it begins."""
+    figure = fit.figure
+    swinging = [limb for limb in figure.limbs if limb.part.swings and limb.side == "middle"]
+    held: list[Floats] = []
+    for limb in swinging:
+        rows = {int(segment): row for row, segment in enumerate(fit.groups)}
+        for turn in tries.tail_turns_rad:
+            other = numbers.copy()
+            shares = fit.part(other, "shares")
+            for place, segment in enumerate(limb.segments):
+                shares[rows[segment]] = 0.0
+                if place == 0:
+                    shares[rows[segment], 0] = turn / fit.spread[rows[segment], 0]
+            fit.part(other, "length")[list(limb.segments)] = 0.0
+            fit.part(other, "deep")[list(limb.joints)] = 0.0
+            held.append(other)
+    return held
+
+
+def _phases(count: int, *, shared: bool) -> list[tuple[float, float]]:
+    if not shared:
+        return [(0.0, 0.0)]
+    half = np.arange(count) * 0.5 / count
+    return [(float(front), float(hind)) for front in half for hind in half]
+
+
+def _begin(fit: Fit, front: float, hind: float, tries: StartLooks) -> Floats:
+    """Numbers of the plan's shape at the silhouettes' middle, its legs swinging."""
+    figure, numbers = fit.figure, np.zeros(fit.size)
+    root = fit.part(numbers, "root")
+    joints = posed(figure, np.zeros((1, 2)), figure.rest[None], figure.length, figure.apart).joints[
+        0
+    ]
+    middle = 0.5 * (joints[figure.start] + joints[figure.end])
+    weight = figure.length * (figure.deep[figure.start] + figure.deep[figure.end])
+    root[:] = -(weight @ middle) / weight.sum() / 0.1
+    if not fit.basis.shared:
+        return numbers
+    shares = fit.part(numbers, "shares")
+    rows = {segment: row for row, segment in enumerate(fit.groups)}
+    body_x = joints[list(figure.limbs[0].joints), 0].mean()
+    order = (fit.basis.near.shape[1] - 1) // 2
+    for limb in figure.feet():
+        if limb.segments[0] not in rows:
+            continue
+        phase = front if joints[limb.joints[0], 0] > body_x else hind
+        for place, segment in enumerate(limb.segments[:2]):
+            row = rows[segment]
+            swing = tries.stride_rad if place == 0 else tries.bend_rad
+            turn = 2.0 * np.pi * (phase + 0.25 * place)
+            size = swing / fit.basis.spread[1]
+            shares[row, 1] = size * np.cos(turn)
+            shares[row, 1 + order] = size * np.sin(turn)
+    return numbers

@@ -1,0 +1,141 @@
+"""Silhouettes of an animal with limbs as windows that follow it, in its own lengths."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d
+
+from veduta.fauna.motion.figure import Floats
+from veduta.fauna.read.occupancy import Singles
+from veduta.fauna.read.silhouettes import Masks
+
+_MARGIN = 0.09
+
+
+@dataclass(frozen=True, eq=False)
+class Windows:
+    """shares: (t, h, w) how much of each cell the animal covers. middle_px: (t, 2) of the windows,
+    x and y down in the picture. cell_px: the side of a cell. faces: 1 where the animal looks to the
+    right of the picture, -1 where the windows are mirrored so that it does.
+    """
+
+    shares: Singles
+    middle_px: Floats
+    cell_px: float
+    faces: float
+
+    def places(self, px_per_length: float) -> Singles:
+        """(h * w, 2) the middles of the cells from the window's, x right, y up, in lengths."""
+        height, width = self.shares.shape[1:]
+        scale = self.cell_px / px_per_length
+        x = (np.arange(width) + 0.5 - 0.5 * width) * scale
+        y = (0.5 * height - np.arange(height) - 0.5) * scale
+        grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
+        return np.asarray(grid, dtype=np.float32)
+
+    def flat(self) -> Singles:
+        """(t, h * w) the shares in the order of `places`."""
+        return np.asarray(self.shares.reshape(len(self.shares), -1))
+
+    def weights(self, most: float = 5.0) -> Singles:
+        """(h * w,) how much each place counts: most where it is now the animal, now not. There the
+        legs are, of which a body's outline would otherwise have more to say.
+        """
+        mean = self.shares.mean(axis=0)
+        changes = 4.0 * mean * (1.0 - mean)
+        return np.asarray((1.0 + (most - 1.0) * changes).reshape(-1), dtype=np.float32)
+
+    def in_picture(self, points: Floats, px_per_length: float) -> Floats:
+        """(t, n, 2) px, y down, of points in lengths from the windows' middles."""
+        flipped = points * np.array([self.faces, -1.0]) * px_per_length
+        return np.asarray(self.middle_px[:, None] + flipped)
+
+    def from_picture(self, points: Floats, px_per_length: float) -> Floats:
+        """(t, n, 2) lengths from the windows' middles of points in the picture."""
+        away = (points - self.middle_px[:, None]) / px_per_length
+        return np.asarray(away * np.array([self.faces, -1.0]))
+
+    def of(self, rows: NDArray[np.int64]) -> Windows:
+        """Those of some frames."""
+        return replace(self, shares=self.shares[rows], middle_px=self.middle_px[rows])
+
+    def mirrored(self) -> Windows:
+        """The same animal looking the other way."""
+        turned = np.ascontiguousarray(self.shares[:, :, ::-1])
+        return replace(self, shares=turned, faces=-self.faces)
+
+
+def middles_of(masks: Masks) -> Floats:
+    """(t, 2) the silhouettes' middles, px, smooth through time."""
+    rows = masks.sum(axis=2).astype(np.float64)
+    columns = masks.sum(axis=1).astype(np.float64)
+    area = np.maximum(rows.sum(axis=1), 1.0)
+    y = rows @ (np.arange(rows.shape[1]) + 0.5) / area
+    x = columns @ (np.arange(columns.shape[1]) + 0.5) / area
+    middle = np.stack([x, y], axis=1)
+    return np.asarray(gaussian_filter1d(middle, 2.0, axis=0, mode="nearest"))
+
+
+def windows_of(masks: Masks, cells: int, middle_px: Floats | None = None) -> Windows:
+    """Windows about the silhouettes, so many cells along the longer side of the largest one."""
+    middle = middles_of(masks) if middle_px is None else middle_px
+    left, right, up, down = _reach(masks, middle)
+    # A figure must feel that it reaches out of the silhouettes: what lies beyond is not looked at.
+    margin = _MARGIN * max(left + right, up + down) + 2.0
+    half_w, half_h = max(left, right) + margin, max(up, down) + margin
+    cell = 2.0 * max(half_w, half_h) / cells
+    width, height = (int(np.ceil(2.0 * half / cell)) for half in (half_w, half_h))
+    shares = np.empty((len(masks), height, width), dtype=np.float32)
+    fine = max(1, round(cell))
+    for row, mask in enumerate(masks):
+        step = cell / fine
+        corner = middle[row] - 0.5 * np.array([width, height]) * cell
+        matrix = np.array([[step, 0.0, corner[0] + 0.5 * step - 0.5],
+                           [0.0, step, corner[1] + 0.5 * step - 0.5]])  # fmt: skip
+        large = cv2.warpAffine(
+            mask.astype(np.float32), matrix, (width * fine, height * fine),
+            flags=cv2.INTER_LINEAR | cv2.WARP_INVERSE_MAP,
+        )  # fmt: skip
+        shares[row] = cv2.resize(large, (width, height), interpolation=cv2.INTER_AREA)
+    return Windows(shares, middle, cell, 1.0)
+
+
+def _reach(masks: Masks, middle: Floats) -> tuple[float, float, float, float]:
+    columns: Masks = np.asarray(masks.any(axis=1))
+    rows: Masks = np.asarray(masks.any(axis=2))
+    first, last = columns.argmax(axis=1), columns.shape[1] - columns[:, ::-1].argmax(axis=1)
+    top, low = rows.argmax(axis=1), rows.shape[1] - rows[:, ::-1].argmax(axis=1)
+    return (
+        float((middle[:, 0] - first).max()), float((last - middle[:, 0]).max()),
+        float((middle[:, 1] - top).max()), float((low - middle[:, 1]).max()),
+    )  # fmt: skip
+
+
+def repeat_of(windows: Windows, least: int = 4) -> tuple[float, float] | None:
+    """After how many frames silhouettes look the same again, and how well (0..1); None: never.
+
+    The lower half of the windows is compared, where the legs are. Of a symmetrical gait this is
+    half a cycle: then the left legs stand where the right ones stood.
+    """
+    height = windows.shares.shape[1]
+    legs: NDArray[np.float32] = windows.shares[:, height // 2 :].reshape(len(windows.shares), -1)
+    count = len(legs)
+    lags = np.arange(1, max(2, int(count * 0.75)))
+    apart = np.array([float(np.abs(legs[lag:] - legs[:-lag]).mean()) for lag in lags])
+    usual = float(np.median(apart))
+    lows = [
+        k for k in range(least - 1, len(lags) - 1)
+        if apart[k] <= apart[k - 1] and apart[k] < apart[k + 1] and apart[k] < 0.75 * usual
+    ]  # fmt: skip
+    if not lows or usual <= 0.0:
+        return None
+    best = min(apart[k] for k in lows)
+    first = next(k for k in lows if apart[k] <= best + 0.4 * (usual - best))
+    low, here, high = apart[first - 1], apart[first], apart[first + 1]
+    bend = low - 2.0 * here + high
+    shift = 0.5 * (low - high) / bend if bend > 0.0 else 0.0
+    return float(lags[first] + np.clip(shift, -0.5, 0.5)), float(1.0 - here / usual)
