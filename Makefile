@@ -28,7 +28,7 @@ export PYO3_PYTHON := $(CURDIR)/$(PY)
 unexport PYTHONDONTWRITEBYTECODE
 
 .PHONY: help setup demo test lint lint-python lint-rust lint-studio test-python test-rust \
-	test-studio test-browser bench studio stubs pictures lock clean
+	test-studio test-browser test-changed bench wheel studio stubs pictures lock clean
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
@@ -110,6 +110,12 @@ test-rust: $(PACKAGES)
 test-python: setup $(CJVAL)
 	@export CHROMIUM=$$(scripts/need chromium || true); $(STAGE) "pytest" $(PY) -m pytest
 
+# Since main, or make test-changed SINCE=HEAD~3. `make test` is what counts; this is for on the way.
+test-changed: setup ## the Python tests that a change can touch
+	@files=$$($(PY) scripts/changed_tests.py $(or $(SINCE),main)); \
+	if [ -n "$$files" ]; then $(STAGE) "pytest" $(PY) -m pytest $$files; \
+	else echo "No Python test is touched."; fi
+
 test-studio: $(NODE_PACKAGES)
 	@cd studio && ../$(STAGE) "vitest" npm run --silent test
 
@@ -131,6 +137,13 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 	$(PY) docs/roofs_picture.py
 	$(PY) docs/photos_picture.py
 	$(PY) docs/walk_picture.py
+
+# One file with the extension and the studio; `pip install` of it needs neither Rust nor Node.
+wheel: setup ## one wheel, with the extension and the studio, in build/wheel
+	@rm -rf build/wheel
+	env -u CONDA_PREFIX VIRTUAL_ENV=$(CURDIR)/.venv \
+		.venv/bin/maturin build --release --locked --quiet --out build/wheel
+	@ls build/wheel/*.whl
 
 stubs: $(PACKAGES) ## the types of the extension for Python, from its Rust sources
 	@mkdir -p build
