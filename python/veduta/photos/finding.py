@@ -223,8 +223,14 @@ def _match(
     with writing_to(stages.out):
         if not database.exists():
             files = [stages.features(photo) for photo in read.photos]
-            per_photo = options.camera.cameras == "per-photo"
-            write_database(database, read.photos, files, per_photo=per_photo)
+            camera = options.camera
+            write_database(
+                database,
+                read.photos,
+                files,
+                per_photo=camera.cameras == "per-photo",
+                fisheye=camera.lens == "fisheye",
+            )
         match_pairs(database, pairs, options.match, options.random.seed, progress)
     return read_pairs(database, pairs), count_keypoints(database, read.photos)
 

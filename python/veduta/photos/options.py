@@ -10,7 +10,7 @@ from pydantic import Field
 from veduta.run.options import Options
 
 Pairing = Literal["all", "sequence", "gps", "retrieval"]
-Lens = Literal["pinhole", "simple-radial", "radial", "opencv", "other"]
+Lens = Literal["pinhole", "simple-radial", "radial", "opencv", "fisheye", "other"]
 Sharing = Literal["shared", "per-photo"]
 PrincipalPoint = Literal["middle", "free"]
 MapKind = Literal["incremental", "global"]
@@ -60,8 +60,9 @@ class MapOptions(Options):
 class CameraOptions(Options):
     """What is assumed of the cameras; `auto` lets held-out observations decide."""
 
-    lens: Literal["auto", "pinhole", "simple-radial", "radial", "opencv"] = Field(
-        default="auto", description="lens model"
+    lens: Literal["auto", "pinhole", "simple-radial", "radial", "opencv", "fisheye"] = Field(
+        default="auto",
+        description="lens model; auto tries all but fisheye, whose photos must all be such",
     )
     cameras: Literal["auto", "shared", "per-photo"] = Field(
         default="auto",
@@ -69,6 +70,13 @@ class CameraOptions(Options):
     )
     principal_point: Literal["auto", "middle", "free"] = Field(
         default="auto", description="the middle of the photo, or found with the lens"
+    )
+    panoramas: bool = Field(
+        default=False,
+        description=(
+            "photos twice as wide as high show all around (equirectangular), also where their XMP"
+            " does not say so"
+        ),
     )
 
 

@@ -14,6 +14,7 @@ from veduta.photos.idle_options import require_effect
 from veduta.photos.intake.call import Call, plan_call
 from veduta.photos.intake.frames import publish_frames, with_frames
 from veduta.photos.intake.given import NOTHING_ELSE, Given
+from veduta.photos.intake.panoramas import with_panoramas
 from veduta.photos.intake.read import sizes_of
 from veduta.photos.laying import lay_components
 from veduta.photos.options import PhotosOptions
@@ -104,6 +105,7 @@ def _make(
     told = Told(str(call.folder), options, steps)
     with timed_step(steps, "video") if call.video else nullcontext():
         call = with_frames(call, stages, progress)
+    call = with_panoramas(call, stages, progress)
     stages = Stages(opened.path, call, options)
     told.notes += call.notes
     told.left += [(name, f"has the content of {first}") for name, first in call.copies]

@@ -49,6 +49,12 @@ class Stages:
         key = result_key("video", VERSION, self.options.video, [video.name, video.sha256])
         return self.folder / f"frames-{key[:24]}"
 
+    def views(self, panoramas: list[str]) -> Path:
+        """The views that panoramas with these digests were cut into."""
+        told: list[JsonValue] = [*panoramas]
+        key = result_key("panoramas", VERSION, self.options.camera, told)
+        return self.folder / f"views-{key[:24]}"
+
     def features(self, photo: PhotoRecord) -> Path:
         """The features of a photo."""
         key = result_key("features", VERSION, self.options.match, [photo.sha256, photo.mask_sha256])
@@ -59,7 +65,9 @@ class Stages:
         photos: list[JsonValue] = [
             [source.name, source.sha256, source.mask_sha256] for source in self.call.sources
         ]
-        told: list[JsonValue] = [photos, self.options.random.seed, self.options.camera.cameras]
+        camera = self.options.camera
+        fisheye = camera.lens == "fisheye"
+        told: list[JsonValue] = [photos, self.options.random.seed, camera.cameras, fisheye]
         key = result_key("match", VERSION, self.options.match, told)
         return self.folder / f"matches-{key[:24]}.db"
 

@@ -25,6 +25,8 @@ BATCH = 40
 """Pairs between two looks at Ctrl-C."""
 START_MODEL = "SIMPLE_RADIAL"
 """The lens model that mapping begins with; `lens` chooses the one that stays."""
+FISHEYE_MODEL, FISHEYE_FOCAL = "OPENCV_FISHEYE", 0.32
+"""And its focal length over the longer side where EXIF is silent: half around, equal angles."""
 
 
 @dataclass(frozen=True)
@@ -40,13 +42,18 @@ class PairRecord:
 
 
 def write_database(
-    path: Path, photos: Sequence[PhotoRecord], features: Sequence[Path], *, per_photo: bool
+    path: Path,
+    photos: Sequence[PhotoRecord],
+    features: Sequence[Path],
+    *,
+    per_photo: bool,
+    fisheye: bool = False,
 ) -> None:
     """Write a new database with cameras, photos and features; whole or not at all.
 
     per_photo: each photo has its own camera; else those of a group whose focal length EXIF tells,
     and the frames of a film, share one. Where EXIF tells nothing, two photos of one size may still
-    come from two cameras.
+    come from two cameras. fisheye: all photos are of such lenses.
     """
     with atomic_write(path) as temporary, pycolmap.Database.open(temporary) as database:
         database.clear_all_tables()
@@ -56,7 +63,7 @@ def write_database(
             # Groups and photos are numbered from 1 on; a camera is one or the other.
             number = photo.image_id if own else len(photos) + photo.group
             if number not in rigs:
-                rigs[number] = _write_camera(database, number, photo)
+                rigs[number] = _write_camera(database, number, photo, fisheye)
             _write_photo(database, photo, number, rigs[number])
             found = read_features(file)
             database.write_keypoints(photo.image_id, found.keypoints)
@@ -66,13 +73,20 @@ def write_database(
             database.write_descriptors(photo.image_id, descriptors)
 
 
-def _write_camera(database: pycolmap.Database, number: int, photo: PhotoRecord) -> int:
-    """A camera and the rig that holds nothing else; the rig's number."""
-    focal = photo.focal_px or UNKNOWN_FOCAL * max(photo.width_px, photo.height_px)
+def _write_camera(
+    database: pycolmap.Database, number: int, photo: PhotoRecord, fisheye: bool
+) -> int:
+    """A camera and the rig that holds nothing else; the rig's number.
+
+    Of a fisheye the focal length counts as known: only with it are lines of sight what they are.
+    """
+    unknown = FISHEYE_FOCAL if fisheye else UNKNOWN_FOCAL
+    focal = photo.focal_px or unknown * max(photo.width_px, photo.height_px)
+    model = FISHEYE_MODEL if fisheye else START_MODEL
     camera = pycolmap.Camera.create_from_model_name(
-        number, START_MODEL, focal, photo.width_px, photo.height_px
+        number, model, focal, photo.width_px, photo.height_px
     )
-    camera.has_prior_focal_length = photo.focal_px is not None
+    camera.has_prior_focal_length = fisheye or photo.focal_px is not None
     database.write_camera(camera, use_camera_id=True)
     rig = pycolmap.Rig(rig_id=number)
     rig.add_ref_sensor(camera.sensor_id)
