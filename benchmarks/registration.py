@@ -125,7 +125,10 @@ def main() -> None:
     parser.add_argument("--kind", choices=KINDS, help="this kind of street alone")
     parser.add_argument("--keep", action="store_true")
     arguments = parser.parse_args()
-    keep_or_print("registration", rows(arguments.seeds, arguments.kind), NOTES, arguments.keep)
+    name = "registration"
+    if arguments.kind:  # of its own: the table of all kinds stays
+        name += "-" + arguments.kind.split()[0]
+    keep_or_print(name, rows(arguments.seeds, arguments.kind), NOTES, arguments.keep)
 
 
 if __name__ == "__main__":

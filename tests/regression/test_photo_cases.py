@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import json
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
+import pycolmap
 import pytest
 from PIL import Image
 from pyproj import Transformer
@@ -16,12 +17,13 @@ from veduta.imaging.shot import Position
 from veduta.photos.cameras.component import Component
 from veduta.photos.city.model import CityModel
 from veduta.photos.city.reading import read_city_model
+from veduta.photos.finding import finish_components
 from veduta.photos.intake.call import plan_call
 from veduta.photos.intake.from_colmap import given_model
 from veduta.photos.intake.given import Given
 from veduta.photos.intake.read import PhotoRecord, read_photos, sizes_of
-from veduta.photos.options import ModelOptions, WallOptions
-from veduta.photos.structure import Structure
+from veduta.photos.options import CameraOptions, ModelOptions, PhotosOptions, WallOptions
+from veduta.photos.structure import Structure, structure_of
 from veduta.photos.walls.find_walls import find_walls
 from veduta.photos.walls.step import set_upright
 from veduta.photos.walls.wall import Wall
@@ -189,3 +191,40 @@ def test_parts_of_facades_are_laid_into_the_model_with_gps(street: Street) -> No
 def test_parts_of_facades_are_refused_without_gps(street: Street) -> None:
     without = tuple(_at(photo, None) for photo in street.photos)
     assert not _laid(street, without).accepted
+
+
+def _mapped(cases: Path, which: str, first: int) -> Structure:
+    """A component of `itowns` as it was mapped, its photos numbered from `first` on."""
+    model = pycolmap.Reconstruction(str(cases / "itowns" / which))
+    names = {image: model.images[image].name for image in model.images}
+    found = structure_of(model, names)
+    ids = tuple(range(first, first + len(found.image_ids)))
+    camera_of = {
+        new: first + found.camera_of[old] for new, old in zip(ids, found.image_ids, strict=True)
+    }
+    cameras = {first + number: camera for number, camera in found.cameras.items()}
+    return replace(found, image_ids=ids, camera_of=camera_of, cameras=cameras)
+
+
+def test_components_of_a_shared_camera_have_one_focal_length(cases: Path) -> None:
+    """Component B had 5,353 px where A has 561 of true 565 to 575, and counted as calibrated."""
+    two = [_mapped(cases, "sparse0", 1), _mapped(cases, "sparse1", 101)]
+    photos = []
+    for structure in two:
+        for row, image in enumerate(structure.image_ids):
+            camera = structure.camera(row)
+            name, size = structure.names[row], (camera.width, camera.height)
+            photos.append(
+                PhotoRecord(image, name, Path(name), "", *size, None, None, None, None, 1, ())
+            )
+    camera = CameraOptions(lens="radial", cameras="shared", principal_point="middle")
+    components, left = finish_components(two, photos, PhotosOptions(camera=camera))
+    focals = [
+        float(one.structure.camera(row).mean_focal_length())
+        for one in components
+        for row in range(len(one.structure.names))
+    ]
+    assert max(focals) == pytest.approx(min(focals), rel=1e-9)
+    assert 540.0 < focals[0] < 600.0
+    counted = sum(len(one.structure.names) for one in components)
+    assert counted + len(left) == sum(len(structure.names) for structure in two)

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-
 import cv2
 import numpy as np
 from numpy.typing import NDArray
@@ -65,6 +63,3 @@ def fisheye_rays(side: int, focal_px: float, heading: float) -> Floats:
     c, s = np.cos(heading), np.sin(heading)
     world_from_cam = np.array([[c, 0.0, s], [-s, 0.0, c], [0.0, -1.0, 0.0]])
     return own @ world_from_cam.T
-
-
-Lens = Callable[[int], Floats]

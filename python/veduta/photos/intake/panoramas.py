@@ -78,8 +78,8 @@ def with_panoramas(call: Call, stages: Stages, progress: StepProgress = no_progr
             for number, panorama in enumerate(found):
                 progress("panoramas", number / len(found))
                 _write_views(panorama, temporary)
-            names = [panorama.source.name for panorama in found]
-            (temporary / _TOLD).write_text(json.dumps(names), encoding="utf-8")
+            told = [panorama.source.name for panorama in found]
+            (temporary / _TOLD).write_text(json.dumps(told), encoding="utf-8")
     names = {panorama.source.name for panorama in found}
     views = [Source(path.name, path, file_digest(path)) for path in sorted(folder.glob("*.jpg"))]
     taken = [source for source in call.sources if source.name not in names]
