@@ -59,11 +59,15 @@ def header(place: Place) -> list[str]:
 def _write_shape(shape: Shape, file: TextIO, starts: tuple[int, int, int]) -> tuple[int, int, int]:
     """Write an object; the numbers of the next point, texture point and normal."""
     own = shape.triangles
-    at, points = _numbered(_y_up(own.positions_m), 5)
+    places = _y_up(own.positions_m)
+    if own.colours is not None:
+        # Not in the format's first text, but read by all that read coloured meshes.
+        places = np.column_stack([places, own.colours / 255.0])
+    at, points = _numbered(places, 5)
     seen, uv = _numbered(np.column_stack([own.uv[:, 0], 1.0 - own.uv[:, 1]]), 6)
     leaning, normals = _numbered(_y_up(own.normals), 4)
     file.write(f"o {_word(shape.placed.id)}\n")
-    _write_rows(file, "v %.5f %.5f %.5f\n", points)
+    _write_rows(file, "v" + " %.5f" * points.shape[1] + "\n", points)
     _write_rows(file, "vt %.6f %.6f\n", uv)
     _write_rows(file, "vn %.4f %.4f %.4f\n", normals)
     columns = np.stack([at + starts[0], seen + starts[1], leaning + starts[2]], axis=1)

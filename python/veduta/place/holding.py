@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 SURFACES = "all of a part but its outline and attributes"
 CLASSES = "classes"
 COLOURS = "colours"
+COLOURED_CORNERS = "colours of corners"
 TEXTURES = "textures"
 LEAVES = "what opens (doors)"
 LAMPS = "lamps"
@@ -52,8 +53,8 @@ def left_out_of(place: Place, format_: PlaceFormat) -> list[str]:
     if place.parts:
         found |= {SURFACES, CLASSES, COLOURS}
     if SURFACES in lacking:
-        lacking -= {CLASSES, COLOURS, TEXTURES, LEAVES, LAMPS, MOTION}
-    if lacking & {TEXTURES, LEAVES, LAMPS, MOTION}:
+        lacking -= {CLASSES, COLOURS, COLOURED_CORNERS, TEXTURES, LEAVES, LAMPS, MOTION}
+    if lacking & {COLOURED_CORNERS, TEXTURES, LEAVES, LAMPS, MOTION}:
         for placed in place.parts.values():
             found |= _inside(placed.passing())
     return [kind for kind in format_.left_out if kind in lacking & found]
@@ -74,6 +75,8 @@ def _inside(content: Part | Mesh) -> set[str]:
     if any(material.texture is not None for material in content.materials):
         found.add(TEXTURES)
     if isinstance(content, Mesh):
+        if content.colours is not None:
+            found.add(COLOURED_CORNERS)
         if content.morphs or content.skin is not None:
             found.add(MOTION)
         return found

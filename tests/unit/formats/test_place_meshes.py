@@ -12,6 +12,7 @@ import pytest
 import trimesh
 from place_sample import area_of, corners_of, sample_place
 
+from veduta.place.holding import COLOURED_CORNERS, left_out_of
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, PlacedPart, Standing
 from veduta.place.registry import format_named, format_of, formats
@@ -71,6 +72,25 @@ def test_obj_textures_meet_their_surfaces(place: Place, tmp_path: Path) -> None:
         assert np.ptp(one.visual.uv, axis=0).min() > 0.0
         colours = one.visual.to_color().vertex_colors[:, :3].astype(float)
         assert colours.std() > 1.0  # a photo, not one pixel of it
+
+
+def test_obj_has_the_colours_of_corners(tmp_path: Path) -> None:
+    triangle = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0]], dtype=float)
+    colours = np.array([[255, 0, 0], [0, 255, 0], [0, 0, 51]], dtype=np.uint8)
+    place = Place()
+    place.add(Mesh.simple("t", triangle, np.array([[0, 1, 2]]), colours=colours))
+    place.write(tmp_path / "t.obj")
+    rows = [
+        line.split()[1:]
+        for line in (tmp_path / "t.obj").read_text().splitlines()
+        if line[:2] == "v "
+    ]
+    found = {tuple(np.round(np.array(row[:3], float) @ Y_UP, 3)): row[3:] for row in rows}
+    for at, colour in zip(triangle, colours / 255.0, strict=True):
+        np.testing.assert_allclose(np.array(found[tuple(at)], float), colour, atol=1e-4)
+    for suffix in (".dae", ".city.json"):
+        assert COLOURED_CORNERS in left_out_of(place, format_of(tmp_path / f"t{suffix}"))
+    assert COLOURED_CORNERS not in left_out_of(place, format_of(tmp_path / "t.obj"))
 
 
 def test_ply_has_colours_and_classes(place: Place, tmp_path: Path) -> None:
