@@ -55,8 +55,6 @@ def idle_notes(document: PlanDocument, options: PlanOptions) -> list[str]:
                 notes.append(f"{flag(name)} changes nothing in {', '.join(where)}, {reason}")
     if _is_given(house, "storey_height"):
         notes.append("--storey-height changes nothing: height_m of the document's storeys counts")
-    if _is_given(options.scale, "scale"):
-        notes.append("--scale changes nothing: a document is in metres")
     return notes
 
 

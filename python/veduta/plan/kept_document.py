@@ -15,7 +15,7 @@ from veduta.plan.surroundings.panorama import FILES, Pictures
 from veduta.plan.surroundings.site import with_site
 from veduta.run.errors import InputError
 
-_OPTIONS = "--north, --place, --time, --panorama and --photos"
+_OPTIONS = "--north, --place, --time, --panorama, --photos and --scale"
 UNWRITTEN = (
     f"{DOCUMENT} was edited and stays as it is: it does not say what {_OPTIONS} do. Give them"
     " again at the next rebuild, or write them there."

@@ -16,6 +16,7 @@ from veduta.plan.building import FILES_OF, Building, BuildingFiles, Visit
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
+from veduta.plan.follow_walls import with_rooms_on_walls
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
 from veduta.plan.house.furniture import check_objects
@@ -27,6 +28,7 @@ from veduta.plan.pages import Drawing, find_drawings
 from veduta.plan.photos.finish import picture_digests
 from veduta.plan.photos.given import RoomPhoto, place_of
 from veduta.plan.report import failure_report, measures, plan_report
+from veduta.plan.rescale import rescaled
 from veduta.plan.steps import (
     document_step,
     finish_step,
@@ -87,12 +89,16 @@ class PlanResult:
 
 @dataclass(frozen=True)
 class _Given:
-    """What a house is made of: a document or drawings, photos of rooms, furniture, a panorama."""
+    """What a house is made of: a document or drawings, photos of rooms, furniture, a panorama.
+
+    notes: what was changed in the document to hold together.
+    """
 
     plan: PlanDocument | list[Drawing]
     photos: Sequence[RoomPhoto]
     catalogue: Catalogue
     panorama: Pictures | None
+    notes: Sequence[str] = ()
 
 
 def run_plan(
@@ -111,7 +117,7 @@ def run_plan(
     call = plan_call(paths)
     in_place = call.is_in_place(out)
     # Checked before anything is written because of it.
-    checked = load_document(call.paths[0]) if call.kind == "document" else None
+    checked, followed = _checked(call, options)
     check_site(checked, options.site)
     catalogue = catalogue_of(options.house.catalogue)
     if checked is not None:
@@ -120,11 +126,11 @@ def run_plan(
             place_of(checked, photo.room)
     panorama = _panorama(call, checked, options)
     drawings = _drawings(call, options)
-    given = _Given(checked or drawings, photos, catalogue, panorama)
+    given = _Given(checked or drawings, photos, catalogue, panorama, followed)
     key = _key(call, given, checked, options)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=in_place) as opened:
         result = PlanResult(out, up_to_date=_is_made(opened, call, key, force=force))
-        result.notes = [] if checked is None else idle_notes(checked, options)
+        result.notes = [] if checked is None else [*followed, *idle_notes(checked, options)]
         result.left = not result.up_to_date and _is_left(opened, call)
         if result.left and (photos or not says_site(out / DOCUMENT, options.site, panorama)):
             result.notes.append(LEFT)
@@ -136,6 +142,15 @@ def run_plan(
                 progress.finished(call.subject, opened.record.items[CALL].failure)
         _tell(result, opened)
     return result
+
+
+def _checked(call: Call, options: PlanOptions) -> tuple[PlanDocument | None, list[str]]:
+    """The document that is given, with rooms on their walls and in its scale; and what changed."""
+    if call.kind != "document":
+        return None, []
+    document, followed = with_rooms_on_walls(load_document(call.paths[0]))
+    document, scaled = rescaled(document, options.scale.scale)
+    return document, [*followed, *scaled]
 
 
 def _steps(given: _Given, options: HouseOptions) -> int:
@@ -189,10 +204,10 @@ def result_key_of(call: Call, options: PlanOptions, others: Sequence[JsonValue])
 
 
 def _used(call: Call, options: PlanOptions) -> Options:
-    """The options that count: a house that is rebuilt has its drawings and scale."""
+    """The options that count: a house that is rebuilt has its drawings."""
     if call.kind == "drawings":
         return options
-    return PlanOptions(house=options.house, site=options.site)
+    return PlanOptions(house=options.house, site=options.site, scale=options.scale)
 
 
 def _is_made(opened: OutFolder, call: Call, key: str, *, force: bool) -> bool:
@@ -239,9 +254,9 @@ def _make(
     try:
         read, sheets, notes = document_step(call, given.plan, options, steps, progress)
         finished = finish_step(call, read, given.photos, steps, progress, stays=stays)
-        notes = [*notes, *finished.notes]
+        notes = [*given.notes, *notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
-        otherwise = stays and document != read
+        otherwise = stays and (document != read or bool(options.scale.scale))
         if otherwise:
             notes = [*notes, UNWRITTEN]
         if not options.house.no_furniture:

@@ -7,10 +7,11 @@ once more by what lies behind them, let the axes meet, and find rooms.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 from shapely.geometry import Point
@@ -36,7 +37,9 @@ from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.bays import with_bends
+from veduta.plan.walls.fence import fence_pieces
 from veduta.plan.walls.find import Found, find_walls
+from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.ways import Way, known_way, ways_drawn
 from veduta.run.errors import NotFoundError
 
@@ -54,6 +57,12 @@ SIZINGS = 2
 
 MOST_WALLS = 250
 """A reading with more stands: each takes a minute, and most of them are noise."""
+
+
+PLOT_NOTE = (
+    "a ring of walls stands around the plot, free of the house: it is a fence, is left out, and the"
+    " yard within it is garden"
+)
 
 
 @dataclass(frozen=True)
@@ -104,21 +113,32 @@ def read_cleaned(
     if known is not None and known.solid is not None:
         return replace(_read(cleaned, texts, known_way(known.solid), known), stairs=flights)
     ways = ways_drawn(cleaned, texts, flights)
-    readings = (partial(_read, cleaned, texts, way, known) for way in ways)
-    return replace(likeliest(readings, room_labels(texts, indoors=True)), stairs=flights)
+    labels = room_labels(texts, indoors=True)
+    tried: list[Way] = []
+
+    def readings() -> Iterator[Callable[[], Drawn]]:
+        for way in ways:
+            tried.append(way)
+            yield partial(_read, cleaned, texts, way, known)
+
+    likely, drawn = likeliest(readings(), labels)
+    if known is None and _with_own_rooms(drawn, labels) < 1.0:
+        # The least invention: what thin lines close counts once it is known how walls are drawn.
+        drawn = _read(cleaned, texts, tried[likely], known, thin=True)
+    return replace(drawn, stairs=flights)
 
 
 def likeliest(
     readings: Iterable[Callable[[], Drawn]], labels: Sequence[NDArray[np.float64]]
-) -> Drawn:
-    """The first reading in which most labels have a room each, or the best of all.
+) -> tuple[int, Drawn]:
+    """The first reading in which most labels have a room each, or the best of all; with its place.
 
     `labels` are middles (2,) px. Where there are fewer than FEWEST_LABELS, the first reading
     stands. Raises NotFoundError as the first does, if none is one.
     """
     best: Drawn | None = None
-    most, fault = -1.0, None
-    for reading in readings:
+    most, fault, likely = -1.0, None, 0
+    for place, reading in enumerate(readings):
         try:
             drawn = reading()
         except NotFoundError as error:
@@ -126,7 +146,7 @@ def likeliest(
         else:
             share = _with_own_rooms(drawn, labels)
             if share > most:
-                best, most = drawn, share
+                best, most, likely = drawn, share, place
         large = best is not None and len(best.walls) > MOST_WALLS
         if share >= APART or len(labels) < FEWEST_LABELS or large:
             break
@@ -134,7 +154,7 @@ def likeliest(
         raise fault or NotFoundError(
             "walls", "no strokes are thicker than lines", "Give a floor plan."
         )
-    return best
+    return likely, best
 
 
 def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> float:
@@ -145,8 +165,19 @@ def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> floa
     return named / max(1, len(points))
 
 
-def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls | None) -> Drawn:
+def _read(
+    cleaned: Cleaned,
+    texts: Sequence[Text],
+    way: Way,
+    known: KnownWalls | None,
+    *,
+    thin: bool = False,
+) -> Drawn:
+    """One reading; thin: rooms with a name are closed along any lines around them."""
     found = find_walls(cleaned, way)
+    fence = [found.pieces[one] for one in sorted(fence_pieces(found.pieces, found.thin_px))]
+    if fence:
+        cleaned, found = without_fence(cleaned, found, fence)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))
     if known is None:
         found = with_bends(found, sheet.faint)
@@ -167,12 +198,25 @@ def _read(cleaned: Cleaned, texts: Sequence[Text], way: Way, known: KnownWalls |
     # What a vector file says of its openings goes before what its picture looks like; in walls that
     # are told by their colour, what else is drawn in them is lines of axes.
     told = known is not None or found.by_colour
-    whole = mended(axes, found, sheet, texts, by_lines=not told)
+    whole = mended(axes, found, sheet, texts, by_lines=not told, thin=thin)
     sky = open_sky(whole.axes, found.thin_px, texts)
     axes = whole.axes if told else with_unbroken(whole.axes, sheet, found.thin_px, sky)
     axes = settled(axes, found.thin_px, sky)
     laid = known.settle(axes) if known else axes
-    return drawn_from(cleaned, found, laid, texts, whole.notes)
+    return drawn_from(cleaned, found, laid, texts, [*([PLOT_NOTE] if fence else []), *whole.notes])
+
+
+def without_fence(cleaned: Cleaned, found: Found, fence: Sequence[Piece]) -> tuple[Cleaned, Found]:
+    """The sheet and its walls without those around the plot."""
+    mask = np.zeros(cleaned.ink.shape, dtype=np.uint8)
+    for one in fence:
+        ends = [tuple(int(value) for value in np.round(end)) for end in (one.start, one.end)]
+        cv2.line(mask, ends[0], ends[1], 1, round(1.5 * one.thickness_px) + 2)
+    paper = mask.astype(np.bool_)
+    ink = np.where(paper, np.float32(0.0), cleaned.ink).astype(np.float32)
+    names = {id(one) for one in fence}
+    kept = [one for one in found.pieces if id(one) not in names]
+    return replace(cleaned, ink=ink), replace(found, pieces=kept, solid=found.solid & ~paper)
 
 
 def sized_by_doors(found: Found, judged: Sequence[Judged], pen_px: float) -> Found:

@@ -9,7 +9,7 @@ from sample_plan import sample_plan, sample_storey
 
 from veduta.plan.document import Furniture, Light
 from veduta.plan.idle_options import idle_notes
-from veduta.plan.options import HouseOptions, PlanOptions, ScaleOptions
+from veduta.plan.options import HouseOptions, PlanOptions
 
 THING = Furniture(id="f1", object="stool", room="living", at_m=(2, 2), size_m=(0.4, 0.4, 0.5))
 LAMP = Light(id="l1", kind="wall", room="living", at_m=(2, 2), above_m=2.0, lumen=500)
@@ -40,8 +40,3 @@ def test_what_changes_nothing_is_told(
     notes = idle_notes(document, PlanOptions(house=HouseOptions(**given)))
     assert [note.split()[0] for note in notes] == ([said] if said else [])
     assert all("first floor" not in note for note in notes)
-
-
-def test_a_scale_is_of_drawings() -> None:
-    notes = idle_notes(sample_plan(), PlanOptions(scale=ScaleOptions(scale=12.0)))
-    assert [note.split()[0] for note in notes] == ["--scale"]

@@ -32,9 +32,10 @@ def written(text: str) -> Text:
 
 
 def test_a_scale_by_which_doors_are_wrong_is_out() -> None:
+    # All rooms have at least 4 m2, which says more than doors of 0.3 m, and doors at most 3.2 m.
     low, high = limits_of(sizes())
-    assert low == pytest.approx(0.45 / 79.0)
-    assert high == pytest.approx(2.2 / 79.0)
+    assert low == pytest.approx(math.sqrt(4.0 / (500 * 350)))
+    assert high == pytest.approx(3.2 / 79.0)
     right, absurd = (Hypothesis(math.log(mpp), 0.01, 1.0) for mpp in (0.0106, 0.00066))
     (kept,) = plausible([Voter("dimension", "11X12", "r", (absurd, right))], (low, high))
     assert kept.hypotheses == (right,)
@@ -42,7 +43,7 @@ def test_a_scale_by_which_doors_are_wrong_is_out() -> None:
 
 
 def test_limits_that_contradict_each_other_leave_those_of_doors() -> None:
-    assert limits_of(sizes(doors=(1.0, 1.0, 1.0)))[0] == pytest.approx(0.45)
+    assert limits_of(sizes(doors=(1.0, 1.0, 1.0)))[0] == pytest.approx(0.3)
 
 
 def test_whole_numbers_without_marks_are_feet() -> None:

@@ -1,5 +1,6 @@
-"""Words for rooms in English, Finnish, French, German and Portuguese, and what they mean.
+"""Words for rooms in eleven languages, and what they mean.
 
+English, Finnish, French, German, Portuguese, Swedish, Spanish, Italian, Dutch, Hebrew, Japanese.
 The table `words.csv` was made for this project. Words are compared without case, accents and
 punctuation, since all three are lost in small print; long ones may also differ by slips of reading.
 """
@@ -19,12 +20,13 @@ from rapidfuzz import fuzz, process
 
 from veduta.plan.document import RoomUse
 
-Language = Literal["en", "fi", "fr", "de", "pt"]
+Language = Literal["en", "fi", "fr", "de", "pt", "sv", "es", "it", "nl", "he", "ja"]
 LANGUAGES: tuple[Language, ...] = get_args(Language)
 _FLAT = re.compile(r"\W*\d+(?:[,.]5)?\s?-?(?:[hHkKrR]\+|[Zz]i|[Rr]oom|[Bb]ed)")  # 3H+K+S, 2-Zimmer
 _FUZZY = 5  # letters that a word needs to be known in spite of slips
 _ALIKE = 80.0  # of 100: one slip in five letters
 _SHORT = 0.9  # score of abbreviations: they also stand for other things
+_CJK = 0x3000  # from here on, scripts are written without blanks between words
 _PART = 0.85  # score of a word in a longer label
 
 
@@ -50,7 +52,7 @@ def meanings(label: str) -> list[Meaning]:
     if not found:
         found = [
             Meaning(one.use, one.language, one.word, one.score * _PART)
-            for part in _parts(plain)
+            for part in (*_parts(plain), *_unspaced(plain))
             for one in _of_phrase(part)
         ]
     return sorted(found, key=lambda one: (-one.score, -len(one.word)))
@@ -66,7 +68,7 @@ def folded(label: str) -> str:
     plain = unicodedata.normalize("NFKD", label.replace("ß", "ss").casefold())
     plain = "".join(letter for letter in plain if not unicodedata.combining(letter))
     plain = re.sub(r"[’`´]", "'", plain)
-    plain = re.sub(r"\d+[.,\d]*\s*(m2|m²|sqm|sq\.?\s?\w+|m)?(?=\W|$)", " ", plain)
+    plain = re.sub(r"\d+[.,\d]*\s*(m2|m²|sqm|sq\.?\s?\w+|m|帖|畳|坪)?(?=\W|$)", " ", plain)
     plain = re.sub(r"(?<=[a-z])\d+$", "", plain.strip())  # mh1
     plain = re.sub(r"\s*([/+&-])\s*", r"\1", plain)
     return re.sub(r"\s+", " ", plain).strip(" .,:;_-()[]*'\"/+&")
@@ -100,6 +102,14 @@ def _parts(plain: str) -> Iterator[str]:
                 part = " ".join(words[start : start + length]).strip(" .-'")
                 if len(part) >= 3:
                     yield part
+
+
+def _unspaced(plain: str) -> Iterator[str]:
+    """The longest words that a label of a script without blanks holds, as `洋室6帖` does."""
+    if not any(ord(letter) >= _CJK for letter in plain):
+        return
+    held = [word for word in _table() if len(word) > 1 and word in plain]
+    yield from sorted(held, key=len, reverse=True)[:1]
 
 
 def _of_phrase(plain: str) -> Iterator[Meaning]:

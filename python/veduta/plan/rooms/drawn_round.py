@@ -72,6 +72,9 @@ LINES = 0.5
 DEEP = 0.9
 """It is farther from the outdoors than this part of the thickest common wall's thickness."""
 
+SWEPT = 1.15
+"""Arcs of doors part from a room what is at most so many times as wide as a door."""
+
 MOST_TURN = 0.9
 """The bulge of an arc: nearly half a circle."""
 
@@ -125,6 +128,47 @@ def drawn_walls(axes: Sequence[Axis], found: Found, raster: Raster, label: Point
             continue
         walls += [Axis(piece, (), "inferred") for piece in _pieces(line, thick, drawing)]
     return walls
+
+
+def thin_outline(
+    axes: Sequence[Axis], found: Found, raster: Raster, label: Points, door_px: float
+) -> list[Axis]:
+    """Walls all around a label (2,) px by the thin lines there: an outline beside party walls,
+    glazing, the front of a flat. None if paper leads from it to the outdoors.
+
+    They are as thick as thin walls, on the far side of the lines, and `inferred`. What a door that
+    is `door_px` wide sweeps belongs to the room.
+    """
+    room = _room(raster, label, found.thin_px, found.thickness.most_px)
+    if room is None:
+        return []
+    whole = _with_sweeps(room, raster, door_px)
+    walls = []
+    beside = max(2.0, BESIDE_WALL * found.thickness.most_px)
+    for run in _stretches(whole, raster.walls > beside):
+        face = run.astype(np.float64) + 0.5 - MARGIN
+        _, drawing = _like_the_nearest(axes, LineString(face), found.thin_px)
+        middle = _middle(face, whole, found.thin_px)
+        if middle is None:
+            continue
+        line = _hooked(middle, axes, found.thin_px)
+        if LineString(line).length >= LEAST * found.thin_px:
+            pieces = _pieces(line, found.thin_px, drawing)
+            walls += [Axis(piece, (), "inferred") for piece in pieces]
+    return walls
+
+
+def _with_sweeps(room: Mask, raster: Raster, door_px: float) -> Mask:
+    """A room with what leaves of doors sweep in it, which their arcs part from its paper."""
+    size = 2 * max(1, round(SWEPT * door_px / 2)) + 1
+    wide = np.pad(room.astype(np.uint8), size)
+    shut = cv2.morphologyEx(wide, cv2.MORPH_CLOSE, np.ones((size, size), np.uint8))
+    whole = shut[size:-size, size:-size].astype(np.bool_) & (raster.walls > 0)
+    whole &= (raster.free != raster.outside) | room
+    _, labels = cv2.connectedComponents(whole.astype(np.uint8), connectivity=4)
+    inside = np.bincount(labels[room], minlength=1)
+    inside[0] = 0
+    return np.asarray(labels == int(inside.argmax()), dtype=np.bool_)
 
 
 def raster_of(bodies: Sequence[Polygon], drawn: Mask) -> Raster:
@@ -188,12 +232,16 @@ def _runs(
 
     None of an outline that is so all around: nothing says how thick its walls are.
     """
+    return _stretches(room, (raster.outdoors <= thickest_px) & (raster.walls > beside_px))
+
+
+def _stretches(room: Mask, where: Mask) -> list[NDArray[np.int64]]:
+    """Stretches (n, 2) of a room's outline that lie where it is asked for; none if all does."""
     outlines, _ = cv2.findContours(room.astype(np.uint8), cv2.RETR_EXTERNAL, cv2.CHAIN_APPROX_NONE)
     found = []
     for outline in outlines:
         points = outline[:, 0].astype(np.int64)
-        x, y = points[:, 0], points[:, 1]
-        open_ = (raster.outdoors[y, x] <= thickest_px) & (raster.walls[y, x] > beside_px)
+        open_ = where[points[:, 1], points[:, 0]]
         if open_.all() or not open_.any():
             continue
         start = int(np.flatnonzero(~open_)[0])

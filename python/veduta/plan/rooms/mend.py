@@ -9,9 +9,11 @@ which that is not so.
 
 from __future__ import annotations
 
+import math
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -23,7 +25,7 @@ from veduta.plan.openings.gaps import Gap
 from veduta.plan.openings.settle import USUAL_DOOR, usual_door
 from veduta.plan.openings.strip import Sheet
 from veduta.plan.rooms.closing import UNDRAWN, Closing, apart
-from veduta.plan.rooms.drawn_round import drawn_walls, raster_of
+from veduta.plan.rooms.drawn_round import Raster, drawn_walls, raster_of, thin_outline
 from veduta.plan.rooms.enclosed import Enclosed, enclosed_by
 from veduta.plan.rooms.labels import room_labels
 from veduta.plan.rooms.looker import Looker
@@ -67,11 +69,12 @@ def mended(
     texts: Sequence[Text] = (),
     *,
     by_lines: bool = True,
+    thin: bool = False,
 ) -> Mended:
     """Close what is broken, the best break first, as long as that makes another room.
 
     `by_lines`: rooms with a name that are open even then are closed along lines around them; not
-    where walls are known, so that other lines are no walls.
+    where walls are known, so that other lines are no walls. `thin`: along single thin lines, too.
     """
     notes = list[str]()
     if len(axes) > MOST_WALLS:
@@ -94,8 +97,14 @@ def mended(
             notes += [_note(best[place], walls[place]) for place in kept]
             closings = looker.closings(enclosed)
     if by_lines and axes:
-        enclosed, said = _along_lines(enclosed, found, sheet, room_labels(texts, indoors=True))
-        notes += said
+        indoors = room_labels(texts, indoors=True)
+        door_px = usual or USUAL_DOOR * found.thin_px
+        for also in (False, True) if thin else (False,):
+            around = partial(_around, found=found, door_px=door_px, thin=also)
+            # Thin lines close the room that is named, and make no others.
+            most = 1.0 if also else math.inf
+            enclosed, said = _along_lines(enclosed, found, sheet, indoors, around, most)
+            notes += said
     return Mended(list(enclosed.axes), tuple(notes))
 
 
@@ -126,7 +135,12 @@ def _parts(wall: Axis, enclosed: Enclosed) -> bool:
 
 
 def _along_lines(
-    enclosed: Enclosed, found: Found, sheet: Sheet, labels: Sequence[NDArray[np.float64]]
+    enclosed: Enclosed,
+    found: Found,
+    sheet: Sheet,
+    labels: Sequence[NDArray[np.float64]],
+    around: Callable[[Sequence[Axis], Raster, NDArray[np.float64]], list[Axis]],
+    most: float,
 ) -> tuple[Enclosed, list[str]]:
     """With walls that close spaces with a label where lines do, and a note for each space."""
     notes = list[str]()
@@ -137,18 +151,33 @@ def _along_lines(
             continue
         if raster is None:
             raster = raster_of(enclosed.bodies, sheet.faint)
-        walls = drawn_walls(enclosed.axes, found, raster, label)
+        walls = around(enclosed.axes, raster, label)
         if not walls:
             continue
         tried = enclosed_by([*enclosed.axes, *walls], found.thin_px)
-        if len(tried.rooms) <= len(enclosed.rooms) or not any(
-            room.contains(name) for room in tried.rooms
-        ):
+        more = len(tried.rooms) - len(enclosed.rooms)
+        own = any(room.contains(name) for room in tried.rooms)
+        if not own or more < 1 or more > most:
             continue
         enclosed, raster = tried, None
         place = f"at pixel ({name.x:.0f}, {name.y:.0f}) of the cleaned drawing"
         notes.append(f"the room {place} is closed along the lines that are drawn around it")
     return enclosed, notes
+
+
+def _around(
+    axes: Sequence[Axis],
+    raster: Raster,
+    label: NDArray[np.float64],
+    *,
+    found: Found,
+    door_px: float,
+    thin: bool,
+) -> list[Axis]:
+    """Walls around a label that are drawn as such, or (thin) by a single line."""
+    if thin:
+        return thin_outline(axes, found, raster, label, door_px)
+    return drawn_walls(axes, found, raster, label)
 
 
 def _axis(closing: Closing, thin_px: float, glazed_px: float) -> Axis:

@@ -30,7 +30,7 @@ _BLUR_PX = 0.7  # how exactly faces of walls are found
 _RIVAL = 0.5  # a second group with so many of the votes is told of
 _DOUBT_SIGMA = 0.1
 _ALONE_SIGMA = 0.03
-_GIVEN_SIGMA = 0.001
+GIVEN_SIGMA = 0.001
 _EXACT = ("line", "bar")  # what else says the scale to a pixel
 _DISAGREES = 0.03  # a given scale that differs so much from the sheet's own is told of
 
@@ -219,12 +219,10 @@ def _sharpened(told: Scale, every: Sequence[DrawnSizes]) -> Scale:
 
 def _given(metres_per_px: float, voters: list[Voter]) -> Scale:
     own = _voted(voters).evidence if voters else []
-    first = ScaleEvidence(
-        kind="given", metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, agrees=True
-    )
+    first = ScaleEvidence(kind="given", metres_per_px=metres_per_px, sigma=GIVEN_SIGMA, agrees=True)
     judged = judged_by(metres_per_px, own)
     return Scale(
-        metres_per_px=metres_per_px, sigma=_GIVEN_SIGMA, basis="given", evidence=[first, *judged]
+        metres_per_px=metres_per_px, sigma=GIVEN_SIGMA, basis="given", evidence=[first, *judged]
     )
 
 

@@ -1,0 +1,85 @@
+"""The wall around a plot: a ring of walls in which the house stands free is a fence.
+
+Taken for the house's own, it would make the yard a room, put the roof over the plot and turn the
+windows of the house into doors between rooms.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from shapely import unary_union
+from shapely.geometry import LineString
+from shapely.geometry.base import BaseGeometry
+
+from veduta.plan.walls.pieces import Piece
+
+
+@dataclass(frozen=True)
+class PlotRule:
+    """When walls are those of a plot. Lengths count in (thin) wall thicknesses unless said.
+
+    joined: walls that come so near to each other hang together. along: a fence runs along the hull
+    of all walls, so near to it. free: it leaves so much on all sides. house: the walls within are
+    so many times as long as it. inside: and the house covers so much of the plot, as a share.
+    closed: and stands along so much of its own hull, which a core within a house does not.
+    """
+
+    joined: float = 1.0
+    along: float = 3.0
+    free: float = 3.0
+    house: float = 0.5
+    inside: tuple[float, float] = (0.2, 0.92)
+    closed: float = 0.5
+
+
+PLOT = PlotRule()
+
+
+def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) -> set[int]:
+    """Indices of the pieces that stand around a plot with a house in it; none without one."""
+    lines = [LineString([one.start, one.end]) for one in pieces]
+    if len(lines) < 5:
+        return set()
+    border = unary_union(lines).convex_hull.boundary
+    groups = _groups(pieces, lines, rule.joined * thin_px)
+    fence = {
+        index
+        for group in groups
+        for index in group
+        if all(_along(lines[other], border, rule.along * thin_px) for other in group)
+    }
+    house = [index for index in range(len(lines)) if index not in fence]
+    if not fence or not house:
+        return set()
+    walls = unary_union([lines[index] for index in house])
+    plot = unary_union([lines[index] for index in fence])
+    hull, ring = walls.convex_hull, plot.convex_hull
+    share = hull.area / max(ring.area, 1e-9)
+    free = ring.boundary.distance(hull)
+    enough = walls.length >= rule.house * plot.length
+    sized = rule.inside[0] <= share <= rule.inside[1]
+    beside = walls.buffer(rule.along * thin_px).intersection(hull.boundary).length
+    sized = sized and beside >= rule.closed * hull.boundary.length
+    return fence if enough and sized and free >= rule.free * thin_px else set()
+
+
+def _along(line: LineString, border: BaseGeometry, reach_px: float) -> bool:
+    return bool(border.buffer(reach_px).contains(line))
+
+
+def _groups(
+    pieces: Sequence[Piece], lines: Sequence[LineString], slack_px: float
+) -> list[set[int]]:
+    """Pieces whose bodies hang together."""
+    bodies = [
+        line.buffer(one.thickness_px / 2.0 + slack_px, cap_style="square")
+        for one, line in zip(pieces, lines, strict=True)
+    ]
+    whole = unary_union(bodies)
+    parts = list(getattr(whole, "geoms", [whole]))
+    groups = [
+        {index for index, line in enumerate(lines) if part.intersects(line)} for part in parts
+    ]
+    return [group for group in groups if group]
