@@ -1,4 +1,8 @@
-"""`plan.dxf`: the storeys beside each other on layers of their own, in metres (R2010)."""
+"""`plan.dxf`: the storeys beside each other on layers of their own, in metres (R2010).
+
+Doors and windows are blocks: those that look alike are one, placed as often as it stands, with id,
+type and width as attributes. Each storey has chains of dimensions along its outer walls.
+"""
 
 from __future__ import annotations
 
@@ -14,6 +18,7 @@ from ezdxf.layouts.layout import Modelspace
 
 from veduta.plan.drawing import LAYERS, Drawing, Layer, Shape
 from veduta.plan.outputs.colours import LAYER_COLOURS, rgb
+from veduta.plan.outputs.dxf_blocks import add_dimensions, place_block
 from veduta.plan.outputs.svg import GAP_M, text_size_m
 
 _NAMES: dict[Layer, str] = {
@@ -46,7 +51,11 @@ def _plan_dxf(drawings: Sequence[Drawing]) -> bytes:
         left, _, right, top = drawing.bounds_m
         offset = x - left if x else 0.0
         for shape in drawing.shapes:
-            _add(space, shape, offset)
+            if shape.layer in ("doors", "windows"):
+                place_block(document, shape, offset, _NAMES[shape.layer])
+            else:
+                _add(space, shape, offset)
+        add_dimensions(document, drawing, offset)
         _add_labels(space, drawing, offset, top)
         x = offset + right + GAP_M
     return _content(document)

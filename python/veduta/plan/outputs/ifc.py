@@ -32,12 +32,16 @@ from veduta.plan.house.wall_regions import wall_regions
 from veduta.plan.options import HouseOptions
 from veduta.plan.outputs.ifc_finish import finishes_of
 from veduta.plan.outputs.ifc_furniture import FurnitureMaker
+from veduta.plan.outputs.ifc_looks import by_name, describe
+from veduta.plan.outputs.ifc_paths import add_paths
 from veduta.plan.outputs.ifc_stairs import add_stairs, triangles_of
 from veduta.plan.surroundings.site import Site
 
 Entity = Any
 _NAMESPACE = uuid.UUID("5f0b7f0c-6a0e-4d3c-9d5e-2f4f0a5b7c11")
 _PANEL_M = 0.05
+VIEW = "ReferenceView_V1.2"
+"""The model view definition of buildingSMART that the file keeps to."""
 DoorOperation = Literal[
     "SINGLE_SWING_LEFT", "SINGLE_SWING_RIGHT", "DOUBLE_DOOR_SINGLE_SWING", "DOUBLE_DOOR_SLIDING",
     "SLIDING_TO_LEFT", "SLIDING_TO_RIGHT", "FOLDING_TO_LEFT", "FOLDING_TO_RIGHT",
@@ -65,6 +69,10 @@ def house_ifc(house: House, options: HouseOptions, site: Site | None = None) -> 
     roof = _roof(model, house)
     if roof is not None:
         model.contain(storeys[-1], [roof], "roof")
+    kinds = ("IfcWall", "IfcDoor", "IfcWindow", "IfcSlab", "IfcRoof", "IfcSpace")
+    named = by_name(one for kind in kinds for one in model.file.by_type(kind))
+    describe(model, house, named, options.slab)
+    add_paths(model, house, named)
     return model.content()
 
 
@@ -131,6 +139,7 @@ class _Model:
     def content(self) -> bytes:
         """The file, the same for the same house."""
         header = self.file.header
+        header.file_description.description = (f"ViewDefinition [{VIEW}]",)
         header.file_name.time_stamp = "1970-01-01T00:00:00"
         header.file_name.name = "house.ifc"
         header.file_name.originating_system = f"Veduta {veduta.__version__}"

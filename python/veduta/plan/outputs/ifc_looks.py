@@ -1,0 +1,253 @@
+"""What an architect looks for in `house.ifc`, besides shapes: materials, colours, types, property
+sets and quantities, each on the element it is of.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from typing import Any
+
+from veduta.plan.house.build import House
+from veduta.plan.house.hole import Hole
+from veduta.plan.house.space import Space
+from veduta.plan.outputs.ifc_model import Entity, Model
+
+_LOOKS: dict[str, tuple[str, tuple[float, float, float], float]] = {
+    "outer wall": ("Masonry", (0.86, 0.82, 0.76), 0.0),
+    "inner wall": ("Lightweight partition", (0.93, 0.92, 0.90), 0.0),
+    "door": ("Wood", (0.55, 0.38, 0.24), 0.0),
+    "window": ("Glass", (0.62, 0.78, 0.86), 0.6),
+    "slab": ("Concrete", (0.70, 0.70, 0.70), 0.0),
+    "roof": ("Roof tiles", (0.52, 0.25, 0.20), 0.0),
+}
+"""Kind of element: its material, its colour (sRGB, 0 to 1) and its transparency. All are invented:
+no plan says them."""
+
+
+class Describer:
+    """Gives elements of a model materials, colours, types, properties and quantities."""
+
+    def __init__(self, model: Model) -> None:
+        self.model = model
+        self._materials = {
+            kind: model.make("IfcMaterial", Name=name, Category=kind)
+            for kind, (name, _, _) in _LOOKS.items()
+        }
+        self._styles = {kind: self._style(kind) for kind in _LOOKS}
+        self._members: dict[str, list[Entity]] = {}
+        self._types: dict[str, tuple[Entity, list[Entity]]] = {}
+        self._layers: dict[tuple[str, float], tuple[Entity, list[Entity]]] = {}
+
+    def made_of(self, element: Entity, kind: str) -> None:
+        """An element of one material, and of its colour."""
+        self._members.setdefault(kind, []).append(element)
+        self._coloured(element, kind)
+
+    def layered(self, wall: Entity, kind: str, thickness_m: float) -> None:
+        """A wall of one layer of its thickness, and of its colour."""
+        key = (kind, round(thickness_m, 3))
+        if key not in self._layers:
+            layer = self.model.make(
+                "IfcMaterialLayer", Material=self._materials[kind], LayerThickness=key[1]
+            )
+            layers = self.model.make(
+                "IfcMaterialLayerSet", MaterialLayers=[layer], LayerSetName=_wall_name(*key)
+            )
+            usage = self.model.make(
+                "IfcMaterialLayerSetUsage",
+                ForLayerSet=layers,
+                LayerSetDirection="AXIS2",
+                DirectionSense="POSITIVE",
+                OffsetFromReferenceLine=-key[1] / 2.0,
+            )
+            self._layers[key] = (usage, [])
+        self._layers[key][1].append(wall)
+        self._coloured(wall, kind)
+
+    def typed(self, element: Entity, kind: str, name: str, **named: Any) -> None:
+        """An element as one of a type, which is made once."""
+        if name not in self._types:
+            self._types[name] = (self.model.rooted(kind, name, **named), [])
+        self._types[name][1].append(element)
+
+    def properties(self, element: Entity, name: str, values: Mapping[str, object]) -> None:
+        """A property set of an element: truth values, numbers, and words."""
+        made = [
+            self.model.make("IfcPropertySingleValue", Name=key, NominalValue=self._value(value))
+            for key, value in values.items()
+        ]
+        own = self.model.rooted("IfcPropertySet", f"{element.Name} {name}", HasProperties=made)
+        own.Name = name
+        self._defines(element, own, name)
+
+    def quantities(self, element: Entity, name: str, values: Mapping[str, float]) -> None:
+        """Base quantities of an element: lengths, areas (`...Area`) and volumes (`...Volume`)."""
+        made = []
+        for key, value in values.items():
+            kind = next((one for one in ("Area", "Volume") if key.endswith(one)), "Length")
+            made.append(
+                self.model.make(
+                    f"IfcQuantity{kind}", Name=key, **{f"{kind}Value": round(float(value), 5)}
+                )
+            )
+        own = self.model.rooted(
+            "IfcElementQuantity",
+            f"{element.Name} {name}",
+            MethodOfMeasurement="BaseQuantities",
+            Quantities=made,
+        )
+        own.Name = name
+        self._defines(element, own, name)
+
+    def finish(self) -> None:
+        """The relations to materials and types, one for all that share one."""
+        for kind, members in self._members.items():
+            self._associated(f"{kind} material", members, self._materials[kind])
+        for (kind, thickness_m), (usage, walls) in self._layers.items():
+            self._associated(f"{_wall_name(kind, thickness_m)} layers", walls, usage)
+        for name, (kind, members) in self._types.items():
+            self.model.rooted(
+                "IfcRelDefinesByType", f"{name} members",
+                RelatedObjects=members, RelatingType=kind,
+            )  # fmt: skip
+
+    def _associated(self, name: str, members: list[Entity], material: Entity) -> None:
+        self.model.rooted(
+            "IfcRelAssociatesMaterial", name, RelatedObjects=members, RelatingMaterial=material
+        )
+
+    def _defines(self, element: Entity, definition: Entity, name: str) -> None:
+        self.model.rooted(
+            "IfcRelDefinesByProperties", f"{element.Name} has {name}",
+            RelatedObjects=[element], RelatingPropertyDefinition=definition,
+        )  # fmt: skip
+
+    def _value(self, value: object) -> Entity:
+        if isinstance(value, bool):
+            return self.model.make("IfcBoolean", value)
+        if isinstance(value, float):
+            return self.model.make("IfcReal", value)
+        return self.model.make("IfcLabel", str(value))
+
+    def _style(self, kind: str) -> Entity:
+        _, (red, green, blue), transparency = _LOOKS[kind]
+        colour = self.model.make("IfcColourRgb", None, red, green, blue)
+        shading = self.model.make("IfcSurfaceStyleShading", colour, transparency)
+        return self.model.make("IfcSurfaceStyle", Name=kind, Side="BOTH", Styles=[shading])
+
+    def _coloured(self, element: Entity, kind: str) -> None:
+        if element.Representation is None:
+            return
+        for shape in element.Representation.Representations:
+            for item in shape.Items:
+                self.model.make("IfcStyledItem", Item=item, Styles=[self._styles[kind]])
+
+
+def describe(model: Model, house: House, named: Mapping[str, Entity], slab_m: float) -> None:
+    """All elements of a house: named are those of the file, by the names that they have there."""
+    describer = Describer(model)
+    for space in house.spaces:
+        height = space.storey.height_m - slab_m
+        for name in space.lines:
+            wall = named.get(f"{space.storey.name} wall {name}")
+            if wall is not None:
+                _wall(describer, space, name, wall, height)
+        for hole in space.holes:
+            filling = named.get(f"{space.storey.name} {hole.opening.id}")
+            if filling is not None:
+                _filling(describer, hole, filling)
+        for room in space.storey.rooms:
+            own = named.get(f"{space.storey.name} {room.id}")
+            if own is not None:
+                said = {"Reference": room.use, "IsExternal": room.outdoors}
+                describer.properties(own, "Pset_SpaceCommon", said)
+                _provenance(describer, own, room.use_origin, room.score)
+    for entity in named.values():
+        if entity.is_a("IfcSlab"):
+            _slab(describer, entity)
+        elif entity.is_a("IfcRoof"):
+            describer.made_of(entity, "roof")
+            describer.properties(entity, "Pset_RoofCommon", {"IsExternal": True})
+            _provenance(describer, entity, "invented")
+    describer.finish()
+
+
+def _wall(describer: Describer, space: Space, name: str, entity: Entity, height: float) -> None:
+    line = space.lines[name]
+    wall = line.wall
+    kind = "outer wall" if wall.outer else "inner wall"
+    holes = [one for one in space.holes if one.line.wall.id == name]
+    length, width = line.line.length, wall.thickness_m
+    cut = sum(one.width_m * (one.high_m - one.low_m) for one in holes)
+    side = length * height
+    called = _wall_name(kind, width)
+    describer.layered(entity, kind, width)
+    use = "SOLIDWALL" if wall.outer else "PARTITIONING"
+    describer.typed(entity, "IfcWallType", called, PredefinedType=use)
+    describer.properties(entity, "Pset_WallCommon", {"Reference": called, "IsExternal": wall.outer})
+    describer.quantities(
+        entity,
+        "Qto_WallBaseQuantities",
+        {
+            "Length": length, "Width": width, "Height": height,
+            "GrossFootprintArea": length * width, "GrossSideArea": side,
+            "NetSideArea": max(side - cut, 0.0), "GrossVolume": side * width,
+            "NetVolume": max(side - cut, 0.0) * width,
+        },
+    )  # fmt: skip
+    _provenance(describer, entity, wall.origin, wall.score)
+
+
+def _filling(describer: Describer, hole: Hole, entity: Entity) -> None:
+    is_door = entity.is_a("IfcDoor")
+    kind = "door" if is_door else "window"
+    high, wide = hole.high_m - hole.low_m, hole.width_m
+    called = f"{hole.type} {kind} {100 * wide:.0f} x {100 * high:.0f} cm"
+    describer.made_of(entity, kind)
+    if is_door:
+        way = entity.OperationType or "NOTDEFINED"
+        describer.typed(
+            entity, "IfcDoorType", f"{called} {way}",
+            PredefinedType=entity.PredefinedType, OperationType=way,
+        )  # fmt: skip
+    else:
+        describer.typed(
+            entity, "IfcWindowType", called,
+            PredefinedType="WINDOW", PartitioningType="NOTDEFINED",
+        )  # fmt: skip
+    word = kind.capitalize()
+    external = hole.line.wall.outer
+    describer.properties(
+        entity, f"Pset_{word}Common", {"Reference": called, "IsExternal": external}
+    )
+    describer.quantities(
+        entity, f"Qto_{word}BaseQuantities", {"Width": wide, "Height": high, "Area": wide * high}
+    )
+    _provenance(describer, entity, hole.opening.origin, hole.opening.score)
+
+
+def _slab(describer: Describer, entity: Entity) -> None:
+    describer.made_of(entity, "slab")
+    on_ground = entity.PredefinedType == "BASESLAB"
+    name = "ground slab" if on_ground else "floor slab"
+    describer.typed(entity, "IfcSlabType", name, PredefinedType=entity.PredefinedType)
+    describer.properties(entity, "Pset_SlabCommon", {"Reference": name, "IsExternal": on_ground})
+    _provenance(describer, entity, "invented")
+
+
+def _provenance(
+    describer: Describer, entity: Entity, origin: str, score: float | None = None
+) -> None:
+    values: dict[str, object] = {"Origin": origin}
+    if score is not None:
+        values["Score"] = float(score)
+    describer.properties(entity, "Veduta_Provenance", values)
+
+
+def _wall_name(kind: str, thickness_m: float) -> str:
+    return f"{kind} {1000 * thickness_m:.0f} mm"
+
+
+def by_name(entities: Iterable[Entity]) -> dict[str, Entity]:
+    """Elements by their names."""
+    return {entity.Name: entity for entity in entities}

@@ -1,0 +1,110 @@
+"""What an architect expects of `house.ifc` and `plan.dxf`, counted by readers of others."""
+
+from __future__ import annotations
+
+import io
+from pathlib import Path
+
+import ezdxf
+import ifcopenshell
+import ifcopenshell.util.element
+import pytest
+from sample_plan import DEPTH_M, OUTER_M, WIDTH_M, sample_plan, sample_storey
+
+from veduta.plan.drawing import draw
+from veduta.plan.house.build import build_house
+from veduta.plan.options import HouseOptions
+from veduta.plan.outputs.dxf import plan_dxf
+from veduta.plan.outputs.ifc import house_ifc
+
+
+@pytest.fixture(scope="module")
+def model() -> ifcopenshell.file:
+    upper = sample_storey(name="upper floor", elevation_m=2.8)
+    house = build_house(sample_plan(sample_storey(), upper), HouseOptions())
+    content = house_ifc(house, HouseOptions()).decode()
+    return ifcopenshell.file.from_string(content)
+
+
+def test_the_header_names_the_reference_view(model: ifcopenshell.file) -> None:
+    assert model.header.file_description.description == ("ViewDefinition [ReferenceView_V1.2]",)
+
+
+@pytest.mark.parametrize("kind", ["IfcWall", "IfcDoor", "IfcWindow", "IfcSlab"])
+def test_each_element_has_material_colour_type_and_properties(
+    model: ifcopenshell.file, kind: str
+) -> None:
+    elements = model.by_type(kind)
+    styled = {one.Item.id() for one in model.by_type("IfcStyledItem")}
+    assert elements
+    for one in elements:
+        assert ifcopenshell.util.element.get_material(one) is not None
+        assert ifcopenshell.util.element.get_type(one).is_a(f"{kind}Type")
+        sets = ifcopenshell.util.element.get_psets(one)
+        assert isinstance(sets[f"Pset_{kind[3:]}Common"]["IsExternal"], bool)
+        assert sets["Veduta_Provenance"]["Origin"] in {"measured", "inferred", "invented"}
+        bodies = [
+            s for s in one.Representation.Representations if s.RepresentationIdentifier == "Body"
+        ]
+        assert all(item.id() in styled for shape in bodies for item in shape.Items)
+
+
+def test_walls_have_quantities_axes_and_connections(model: ifcopenshell.file) -> None:
+    for wall in model.by_type("IfcWall"):
+        sizes = ifcopenshell.util.element.get_psets(wall)["Qto_WallBaseQuantities"]
+        assert sizes["GrossSideArea"] == pytest.approx(sizes["Length"] * sizes["Height"], abs=1e-3)
+        assert sizes["NetSideArea"] <= sizes["GrossSideArea"]
+        assert sizes["NetVolume"] == pytest.approx(sizes["NetSideArea"] * sizes["Width"], abs=1e-3)
+        kinds = [one.RepresentationIdentifier for one in wall.Representation.Representations]
+        assert kinds == ["Axis", "Body"]
+        assert wall.ConnectedTo or wall.ConnectedFrom
+    external = [
+        ifcopenshell.util.element.get_psets(one)["Pset_WallCommon"]["IsExternal"]
+        for one in model.by_type("IfcWall")
+    ]
+    assert external.count(True) == 12
+    assert external.count(False) == 2
+
+
+def test_rooms_are_bounded_by_their_walls_and_openings(model: ifcopenshell.file) -> None:
+    for space in model.by_type("IfcSpace"):
+        kinds = [one.RelatedBuildingElement.is_a() for one in space.BoundedBy]
+        assert kinds.count("IfcWall") >= 0
+        assert "IfcDoor" in kinds
+        assert "IfcWindow" in kinds
+
+
+def test_doors_and_windows_are_blocks_with_attributes() -> None:
+    storey = sample_storey()
+    house = build_house(sample_plan(storey), HouseOptions())
+    content = plan_dxf([draw(space) for space in house.spaces])
+    document = ezdxf.read(io.StringIO(content.decode()))
+    assert not document.audit().errors
+    placed = document.modelspace().query("INSERT")
+    told = {one.get_attrib_text("ID"): one for one in placed}
+    assert set(told) == {one.id for one in storey.openings if one.kind != "gap"}
+    for opening in storey.openings:
+        width = float(told[opening.id].get_attrib_text("WIDTH"))
+        assert width == pytest.approx(opening.width_m, abs=0.002)
+    assert plan_dxf([draw(space) for space in house.spaces]) == content
+
+
+def test_dimensions_say_how_large_the_house_is() -> None:
+    house = build_house(sample_plan(), HouseOptions())
+    document = ezdxf.read(io.StringIO(plan_dxf([draw(one) for one in house.spaces]).decode()))
+    found = sorted(one.get_measurement() for one in document.modelspace().query("DIMENSION"))
+    assert found[-1] == pytest.approx(WIDTH_M + OUTER_M, abs=1e-3)
+    assert any(one == pytest.approx(DEPTH_M + OUTER_M, abs=1e-3) for one in found)
+
+
+def test_a_second_reader_finds_the_walls(tmp_path: Path) -> None:
+    pyogrio = pytest.importorskip("pyogrio")
+    if "DXF" not in pyogrio.list_drivers():
+        pytest.skip("this GDAL reads no DXF")
+    house = build_house(sample_plan(), HouseOptions())
+    path = tmp_path / "plan.dxf"
+    path.write_bytes(plan_dxf([draw(one) for one in house.spaces]))
+    meta, _, geometry, fields = pyogrio.raw.read(path, layer="entities")
+    layers = dict(zip(meta["fields"], fields, strict=True))["Layer"]
+    assert len(geometry) > 10
+    assert {"A-WALL", "A-DOOR", "A-GLAZ", "A-ANNO-DIMS"} <= set(layers)
