@@ -27,13 +27,22 @@ export PYO3_PYTHON := $(CURDIR)/$(PY)
 # the tests start a thousand.
 unexport PYTHONDONTWRITEBYTECODE
 
-.PHONY: help setup demo test lint lint-python lint-rust lint-studio test-python test-rust \
+COMMA := ,
+
+# Is there once `make gpu` was asked for: the extension then has graphics cards from there on.
+GPU := .venv/.gpu
+
+.PHONY: help setup gpu demo test lint lint-python lint-rust lint-studio test-python test-rust \
 	test-studio test-browser test-changed bench wheel studio stubs pictures lock clean
 
 help: ## what there is
 	@sed -n 's/^\([a-z-]*\):.*## /\1\t/p' $(MAKEFILE_LIST) | expand -t 14
 
 setup: $(EXTENSION) $(STUDIO) ## everything that `veduta` needs: .venv, the extension, the studio
+
+gpu: $(PACKAGES) ## the extension with graphics cards, for --device: a minute or two more
+	@touch $(GPU)
+	@$(MAKE) --no-print-directory setup
 
 demo: setup ## a synthetic street, rebuilt from its photo and compared with the truth
 	.venv/bin/veduta demo -o out/demo $(DEMO)
@@ -54,10 +63,11 @@ $(PACKAGES): requirements/lock.txt .venv/.bootstrap
 	$(UV) pip sync --quiet --require-hashes --python $(PY) $<
 	@touch $@
 
-$(EXTENSION): $(PACKAGES) pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES)
+$(EXTENSION): $(PACKAGES) pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES) $(wildcard $(GPU))
 	@scripts/need cargo
 	env -u CONDA_PREFIX VIRTUAL_ENV=$(CURDIR)/.venv \
-		.venv/bin/maturin develop --release --locked --uv --quiet
+		.venv/bin/maturin develop --release --locked --uv --quiet \
+		--features pyo3/extension-module$(if $(wildcard $(GPU)),$(COMMA)gpu)
 	@touch $@
 
 # Not `npm ci`: from 11.16 on it refuses a lock without download addresses, naming the packages of

@@ -20,6 +20,67 @@ class MissingAsset:
         """What the lot's failure is where there is no such asset."""
     def __repr__(self) -> str: ...
 
+# cards.rs
+class GpuFault(RuntimeError): ...
+
+class GraphicsCard:
+    """A graphics card. GpuFault says why there is none, or that it vanished."""
+    def __new__(cls, *, software: bool = False) -> GraphicsCard:
+        """The fastest one. software: adapters that compute on the processor, too, for tests."""
+    def name(self) -> str:
+        """As its maker calls it."""
+    def destroy(self) -> None:
+        """Gives it back: whoever still uses it is told that it vanished."""
+    def carve_hull(
+        self,
+        cameras: _Array2[np.float64],
+        distances: Sequence[_Array2[np.float32]],
+        corners: _Array2[np.float64],
+        low_m: tuple[float, float, float],
+        side_m: float,
+        levels: int,
+    ) -> CarvedVolume:
+        """As `carve_hull` does."""
+    def match_pair(
+        self,
+        here: _Array3[np.uint8],
+        there: _Array3[np.uint8],
+        shown_here: _Array2[np.bool_],
+        shown_there: _Array2[np.bool_],
+        *,
+        low: int,
+        count: int,
+        rows: int,
+        gamma_colour: float,
+        gamma_px: float,
+        most: int,
+        path: tuple[int, int] | None,
+    ) -> _Array2[np.float32]:
+        """As `match_pair` does."""
+    def link_views(
+        self,
+        camera: _Array1[np.float64],
+        width: int,
+        height: int,
+        chains: Sequence[
+            Sequence[
+                tuple[
+                    _Array1[np.float64],
+                    _Array2[np.float64],
+                    _Array2[np.float64],
+                    _Array2[np.float32],
+                ]
+            ]
+        ],
+        *,
+        deviation_px: float,
+        most_deviations: float,
+        most_across_px: float,
+        near: float,
+        far: float,
+    ) -> tuple[_Array1[np.float32], _Array1[np.float32], _Array1[np.uint8]]:
+        """As `link_views` does."""
+
 # carve.rs
 class CarveFault(ValueError): ...
 
@@ -556,6 +617,56 @@ class GrammarLimits:
     ) -> GrammarLimits:
         """`memory`: bytes. `work`: steps, each looking at one pair of faces, edges or corners."""
     def __repr__(self) -> str: ...
+
+# linking.rs
+def match_pair(
+    here: _Array3[np.uint8],
+    there: _Array3[np.uint8],
+    shown_here: _Array2[np.bool_],
+    shown_there: _Array2[np.bool_],
+    *,
+    low: int,
+    count: int,
+    rows: int,
+    gamma_colour: float,
+    gamma_px: float,
+    most: int,
+    path: tuple[int, int] | None,
+) -> _Array2[np.float32]:
+    """The disparity of each pixel of a rectified picture, x there less x here (px), NaN where there is
+    none. here, there: (h, w, 3) sRGB; shown: (h, w), where each has pixels. low, count: the disparities
+    that are tried. rows, gamma_colour, gamma_px, most: of the costs (3.1, 3.2). path: what a step of
+    one disparity along a row costs, and one of more; None takes the least cost of each pixel.
+    """
+
+def confirm_pair(
+    here: _Array2[np.float32], there: _Array2[np.float32], most_px: float
+) -> _Array2[np.float32]:
+    """The disparities that lead back from the other picture within so many pixels; NaN elsewhere."""
+
+def link_views(
+    camera: _Array1[np.float64],
+    width: int,
+    height: int,
+    chains: Sequence[
+        Sequence[
+            tuple[
+                _Array1[np.float64], _Array2[np.float64], _Array2[np.float64], _Array2[np.float32]
+            ]
+        ]
+    ],
+    *,
+    deviation_px: float,
+    most_deviations: float,
+    most_across_px: float,
+    near: float,
+    far: float,
+) -> tuple[_Array1[np.float32], _Array1[np.float32], _Array1[np.uint8]]:
+    """Depths of a view (m, NaN where unknown) row by row, their deviations (of the inverse depth), and
+    the number of views that each was found from, by chains of links (3.3, 3.4). width, height: of the
+    view. chains: up and down the sequence, for each step the next view's camera, rectified from this
+    view's pixels, the next view's pixels from rectified ones, and the disparities.
+    """
 
 # localise.rs
 class DriveFault(ValueError): ...

@@ -23,4 +23,6 @@ pub enum CarveError {
     },
     #[error("the volume's side is no length: {side}")]
     Side { side: f64 },
+    #[error("the graphics card did not answer")]
+    Engine,
 }

@@ -16,35 +16,70 @@ pub const MOST_LEVELS: u32 = 11;
 const FAR_VOXELS: f64 = 4.0;
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Verdict {
+pub enum Verdict {
     Outside,
     Inside,
     Boundary,
 }
 
-struct Cube {
-    at: [u16; 3],
+/// A cube of a level of the octree.
+#[derive(Debug, Clone)]
+pub struct Cube {
+    pub at: [u16; 3],
     /// The views that see a boundary in it.
-    open: Vec<u16>,
+    pub open: Vec<u16>,
+}
+
+/// Where cubes are judged and voxels are measured: all of the work that grows with the views.
+pub trait Engine {
+    /// What each cube of a level is, and the views of it that are still open.
+    fn judge(&self, cubes: Vec<Cube>, level: u32) -> Result<Vec<(Verdict, Cube)>, CarveError>;
+    /// Of each cube of the last level the evidence at its voxels (m), at most `far_m`, x slowest.
+    fn measure(&self, cubes: &[Cube], far_m: f32) -> Result<Vec<f32>, CarveError>;
+}
+
+struct Cores<'a> {
+    views: &'a [View<'a>],
+    root: Root,
+}
+
+impl Engine for Cores<'_> {
+    fn judge(&self, cubes: Vec<Cube>, level: u32) -> Result<Vec<(Verdict, Cube)>, CarveError> {
+        let each = cubes.into_par_iter();
+        Ok(each
+            .map(|cube| judge(cube, level, self.views, &self.root))
+            .collect())
+    }
+
+    fn measure(&self, cubes: &[Cube], far_m: f32) -> Result<Vec<f32>, CarveError> {
+        let mut values = vec![0.0; cubes.len() * IN_BLOCK];
+        values
+            .par_chunks_mut(IN_BLOCK)
+            .zip(cubes)
+            .for_each(|(into, cube)| evaluate(cube, self.views, &self.root, far_m, into));
+        Ok(values)
+    }
 }
 
 /// What the silhouettes leave of the root; a point behind a camera is outside.
 pub fn carve(views: &[View<'_>], root: Root) -> Result<Volume, CarveError> {
     check(views, root)?;
+    carve_on(&Cores { views, root }, views.len(), root)
+}
+
+/// The same on another engine, which has the views. `check` is the caller's.
+pub fn carve_on(engine: &dyn Engine, views: usize, root: Root) -> Result<Volume, CarveError> {
     let depth = root.levels - BLOCK.trailing_zeros();
     let along = 1_usize << depth;
     let mut blocks = vec![OUTSIDE; along.pow(3)];
-    let every: Vec<u16> = (0..views.len() as u16).collect();
+    let every: Vec<u16> = (0..views as u16).collect();
     let mut cubes = vec![Cube {
         at: [0; 3],
         open: every,
     }];
     let mut counts = Vec::new();
     for level in 0..=depth {
-        let judged: Vec<(Verdict, Cube)> = cubes
-            .into_par_iter()
-            .map(|cube| judge(cube, level, views, &root))
-            .collect();
+        let judged = engine.judge(cubes, level)?;
         let count = |of: Verdict| judged.iter().filter(|one| one.0 == of).count();
         counts.push([Verdict::Outside, Verdict::Inside, Verdict::Boundary].map(count));
         for (_, cube) in judged.iter().filter(|one| one.0 == Verdict::Inside) {
@@ -62,11 +97,7 @@ pub fn carve(views: &[View<'_>], root: Root) -> Result<Volume, CarveError> {
         blocks[index(cube.at, along)] = order as i32;
     }
     let far_m = (FAR_VOXELS * root.voxel_m()) as f32;
-    let mut values = vec![0.0; cubes.len() * IN_BLOCK];
-    values
-        .par_chunks_mut(IN_BLOCK)
-        .zip(&cubes)
-        .for_each(|(into, cube)| evaluate(cube, views, &root, far_m, into));
+    let values = engine.measure(&cubes, far_m)?;
     Ok(Volume {
         root,
         blocks,
@@ -76,7 +107,8 @@ pub fn carve(views: &[View<'_>], root: Root) -> Result<Volume, CarveError> {
     })
 }
 
-fn check(views: &[View<'_>], root: Root) -> Result<(), CarveError> {
+/// Whether the views and the root can be carved.
+pub fn check(views: &[View<'_>], root: Root) -> Result<(), CarveError> {
     if views.is_empty() {
         return Err(CarveError::NoViews);
     }

@@ -16,4 +16,4 @@ mod volume;
 
 pub use error::CarveError;
 pub use view::{Photo, Projection, View};
-pub use volume::{Root, Volume, BLOCK};
+pub use volume::{Root, Volume, BLOCK, IN_BLOCK};

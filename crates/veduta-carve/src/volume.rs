@@ -3,7 +3,8 @@ use veduta_surface::Samples;
 
 /// Voxels along an edge of a block.
 pub const BLOCK: usize = 8;
-pub(crate) const IN_BLOCK: usize = BLOCK * BLOCK * BLOCK;
+/// Voxels of a block.
+pub const IN_BLOCK: usize = BLOCK * BLOCK * BLOCK;
 pub(crate) const OUTSIDE: i32 = -1;
 pub(crate) const INSIDE: i32 = -2;
 

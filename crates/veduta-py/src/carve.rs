@@ -74,7 +74,7 @@ fn triangles_of(triangles: &PyReadonlyArray2<'_, u32>, vertices: usize) -> PyRes
     Ok(faces)
 }
 
-fn views_of<'a>(
+pub fn views_of<'a>(
     cameras: &PyReadonlyArray2<'_, f64>,
     distances: &'a [PyReadonlyArray2<'_, f32>],
     corners: &PyReadonlyArray2<'_, f64>,
@@ -103,7 +103,7 @@ fn views_of<'a>(
 /// What silhouettes left of a cube: signed evidence, less than zero inside.
 #[pyclass(frozen, module = "veduta._core")]
 pub struct CarvedVolume {
-    volume: Volume,
+    pub volume: Volume,
 }
 
 #[pymethods]

@@ -3,6 +3,8 @@
 use pyo3::prelude::*;
 
 mod assets;
+#[cfg(feature = "gpu")]
+mod cards;
 mod carve;
 mod chain;
 mod city;
@@ -16,6 +18,7 @@ mod given;
 mod grammar;
 mod interruptible;
 mod limits;
+mod linking;
 mod localise;
 mod pace;
 mod polygons;
@@ -34,12 +37,15 @@ mod walk;
 
 #[pymodule]
 fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    #[cfg(feature = "gpu")]
+    cards::register(m)?;
     carve::register(m)?;
     chain::register(m)?;
     compress::register(m)?;
     grammar::register(m)?;
     limits::register(m)?;
     localise::register(m)?;
+    linking::register(m)?;
     derivation::register(m)?;
     roofs::register(m)?;
     rules::register(m)?;

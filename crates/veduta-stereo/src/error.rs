@@ -12,6 +12,8 @@ pub enum StereoError {
     },
     #[error("depths from {near} to {far} are no range")]
     Range { near: f32, far: f32 },
+    #[error("a pair cannot be matched so: rows odd and at most 63, 1 to 1024 disparities, the same height")]
+    Pair,
     #[error("no neighbour is given")]
     NoNeighbour,
     #[error("a camera's matrix cannot be used: a focal length or an entry is no number above 0")]

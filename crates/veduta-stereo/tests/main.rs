@@ -6,6 +6,8 @@ mod scene;
 #[cfg(test)]
 mod maps;
 #[cfg(test)]
+mod pairs;
+#[cfg(test)]
 mod planes;
 #[cfg(test)]
 mod surfaces;

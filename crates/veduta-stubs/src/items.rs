@@ -14,7 +14,11 @@ use crate::types::{text_of, Names, Way};
 use crate::StubError;
 
 /// The base classes of exceptions that PyO3 names otherwise.
-const BUILT_IN: [(&str, &str); 2] = [("PyValueError", "ValueError"), ("PyException", "Exception")];
+const BUILT_IN: [(&str, &str); 3] = [
+    ("PyValueError", "ValueError"),
+    ("PyRuntimeError", "RuntimeError"),
+    ("PyException", "Exception"),
+];
 
 /// All declarations, by their files.
 pub struct Items<'a> {

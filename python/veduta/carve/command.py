@@ -16,6 +16,7 @@ from veduta.carve.build.consistency import Consistency, carve_by_colour
 from veduta.carve.build.hull import Hull, carve_hull, root_of
 from veduta.carve.build.measures import Measures, measure_mesh, overlaps
 from veduta.carve.build.place import Shape, base_of, object_mesh, photo_name, place_of
+from veduta.carve.build.texturing import textured
 from veduta.carve.build.upright import turn_upright
 from veduta.carve.faults import doubtful_views, refuse_silhouettes
 from veduta.carve.options import CarveOptions
@@ -23,6 +24,8 @@ from veduta.carve.pictures import carved_picture, outlines_picture, sides_pictur
 from veduta.carve.read.masks import find_masks
 from veduta.carve.read.views import Record, read_views
 from veduta.carve.views import View
+from veduta.place.mesh import Mesh
+from veduta.run.card import choose_engine, tell_engine
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.page import Bars
@@ -30,7 +33,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "1"
+VERSION = "2"
 MODEL, POINTS = "object.glb", "object.ply"
 
 
@@ -60,22 +63,34 @@ def run_carve(
 
 
 def _make(work: Work, cameras: CameraSet, folder: Path, name: str, options: CarveOptions) -> None:
+    engine = choose_engine(options.device.device)
     cameras, views = _read(work, cameras, folder, options)
     with work.step("bounds"):
         root = root_of(find_bounds(views), options.volume.levels)
     with work.step("hull") as step:
-        hull = carve_hull(views, root)
+        hull = carve_hull(views, root, engine=engine)
         step.counts["voxels inside"] = hull.volume.inside()
         step.counts["cubes judged"] = sum(sum(level) for level in hull.volume.counts())
         if hull.volume.inside() == 0:
             raise _nothing(views)
+    tell_engine(work, engine)
     consistency = _carve_by_colour(work, hull, views, options)
     shape = _mesh(work, views, hull if consistency is None else consistency.hull, consistency)
     measures = _measure(work, views, shape, cameras)
     kept = options.volume.up == "kept" or cameras.crs is not None
     shift = np.zeros(3) if kept else base_of(shape.positions)
+    with work.step("object"):
+        coloured = object_mesh(name, shape, shift)
+    shown = coloured
+    if not options.texture.no_texture:
+        with work.step("texture") as step:
+            most = options.texture.max_atlas_px
+            found = textured(coloured, shift, views, most, work.progress)
+            step.counts["charts"] = found.charts
+            work.measure("textured_share", round(found.seen_share, 4))
+            shown = found.mesh
     with work.step("writing"):
-        _write(work, name, shape, views, cameras, shift)
+        _write(work, (coloured, shown), views, cameras, shift)
     _tell(work, shape, views, measures, cameras)
 
 
@@ -172,14 +187,13 @@ def _measure(work: Work, views: Sequence[View], shape: Shape, cameras: CameraSet
 
 def _write(
     work: Work,
-    name: str,
-    shape: Shape,
+    meshes: tuple[Mesh, Mesh],
     views: Sequence[View],
     cameras: CameraSet,
     shift: np.ndarray[tuple[int, ...], np.dtype[np.float64]],
 ) -> None:
-    mesh = object_mesh(name, shape, shift)
-    place = place_of(mesh, views, cameras, shift)
+    """meshes: with a colour for each vertex, and as it is shown."""
+    place = place_of(meshes[1], views, cameras, shift)
     for number, view in enumerate(views):
         path = work.folder / photo_name(number)
         path.parent.mkdir(exist_ok=True)
@@ -187,9 +201,9 @@ def _write(
         path.write_bytes(data.tobytes())
     place.save(work.folder)
     place.write(work.folder / MODEL)
-    place.write(work.folder / POINTS)
-    work.file(MODEL, "the object, coloured, for any program that shows glTF")
-    work.file(POINTS, "the same mesh as PLY")
+    place_of(meshes[0], views, cameras, shift).write(work.folder / POINTS)
+    work.file(MODEL, "the object, with its texture, for any program that shows glTF")
+    work.file(POINTS, "the same as PLY, closed, with a colour for each vertex")
     work.file("place.json", "the place for `veduta view`, with the cameras and their photos")
 
 

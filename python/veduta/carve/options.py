@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from veduta.run.card import DeviceOptions
 from veduta.run.options import Options
 
 
@@ -56,9 +57,22 @@ class ColourOptions(Options):
     )
 
 
+class TextureOptions(Options):
+    """How the object is painted."""
+
+    no_texture: bool = Field(
+        False, description="give each vertex of the object a colour, in place of a texture"
+    )
+    max_atlas_px: int = Field(
+        4096, ge=256, le=16_384, description="longest side of the object's texture (px)"
+    )
+
+
 class CarveOptions(Options):
     """All that changes the result."""
 
     silhouettes: SilhouetteOptions = SilhouetteOptions()
     volume: VolumeOptions = VolumeOptions()
     colour: ColourOptions = ColourOptions()
+    texture: TextureOptions = TextureOptions()
+    device: DeviceOptions = DeviceOptions()

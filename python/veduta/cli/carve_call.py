@@ -8,8 +8,15 @@ from typing import Annotated
 
 import tyro
 
-from veduta.carve.options import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions
+from veduta.carve.options import (
+    CarveOptions,
+    ColourOptions,
+    SilhouetteOptions,
+    TextureOptions,
+    VolumeOptions,
+)
 from veduta.cli.run_arguments import Force, Out, Quiet
+from veduta.run.card import DeviceOptions
 
 Record = Annotated[
     tyro.conf.Positional[Path],
@@ -36,9 +43,17 @@ class CarveCall:
     silhouettes: SilhouetteOptions = field(default_factory=SilhouetteOptions)
     volume: VolumeOptions = field(default_factory=VolumeOptions)
     colour: ColourOptions = field(default_factory=ColourOptions)
+    texture: TextureOptions = field(default_factory=TextureOptions)
+    device: DeviceOptions = field(default_factory=DeviceOptions)
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> CarveOptions:
         """What changes the result."""
-        return CarveOptions(silhouettes=self.silhouettes, volume=self.volume, colour=self.colour)
+        return CarveOptions(
+            silhouettes=self.silhouettes,
+            volume=self.volume,
+            colour=self.colour,
+            texture=self.texture,
+            device=self.device,
+        )

@@ -16,6 +16,7 @@ from veduta.dense.options import (
     SurfaceOptions,
     ViewOptions,
 )
+from veduta.run.card import DeviceOptions
 
 Cameras = Annotated[
     tyro.conf.Positional[Path],
@@ -52,11 +53,16 @@ class DenseCall:
     depth: DepthOptions = field(default_factory=DepthOptions)
     surface: SurfaceOptions = field(default_factory=SurfaceOptions)
     random: RandomOptions = field(default_factory=RandomOptions)
+    device: DeviceOptions = field(default_factory=DeviceOptions)
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> DenseOptions:
         """What changes the result."""
         return DenseOptions(
-            views=self.views, depth=self.depth, surface=self.surface, random=self.random
+            views=self.views,
+            depth=self.depth,
+            surface=self.surface,
+            random=self.random,
+            device=self.device,
         )

@@ -19,6 +19,8 @@ from veduta.dense.build.surface import RawSurface, build_surface, cut_surface, n
 from veduta.dense.build.texturing import textured
 from veduta.dense.depths import Matching, all_depth_maps
 from veduta.dense.document import DepthMap, Views
+from veduta.dense.linked_depths import Linking, all_linked_depths
+from veduta.dense.maps import write_maps_of
 from veduta.dense.options import DenseOptions
 from veduta.dense.parameters import DenseParameters
 from veduta.dense.read.neighbours import Comparison, choose_neighbours
@@ -29,6 +31,7 @@ from veduta.dense.read.pictures import (
     working_scale,
 )
 from veduta.dense.read.sparse import SparsePoints, match_points
+from veduta.dense.read.walls import WALLS, Elevation, read_elevations
 from veduta.dense.telling import (
     middle_depths_m,
     tell_depths,
@@ -37,7 +40,9 @@ from veduta.dense.telling import (
 )
 from veduta.dense.writing import write_cloud, write_depths, write_place
 from veduta.place.mesh import Mesh
-from veduta.run.errors import NotFoundError
+from veduta.run.card import choose_engine
+from veduta.run.digests import file_digest
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
@@ -57,6 +62,7 @@ class _Given:
     cameras: CameraSet
     usable: list[Camera]
     left: list[str]
+    walls: list[Elevation]
     digests: JsonValue
 
 
@@ -76,10 +82,15 @@ def run_dense(
     InputError where the cameras or the photos cannot be used together.
     """
     chosen = options or DenseOptions()
+    _require_shaders(chosen)
     found = read_cameras(cameras, images)
     usable, left = usable_cameras(found)
     name = cameras.resolve().name
-    given = _Given(name, found, usable, left, cameras_digest(found, usable))
+    walls = read_elevations(cameras) if cameras.is_dir() else []
+    digests: JsonValue = [cameras_digest(found, usable)]
+    if walls:
+        digests = [cameras_digest(found, usable), file_digest(cameras / WALLS)]
+    given = _Given(name, found, usable, left, walls, digests)
     call = VerbCall("dense", VERSION, given.name, chosen, given.digests)
     return run_verb(
         call,
@@ -90,16 +101,29 @@ def run_dense(
     )
 
 
+def _require_shaders(options: DenseOptions) -> None:
+    """InputError where a graphics card is asked for and the method cannot use one."""
+    if options.device.device == "gpu" and options.depth.method != "linking":
+        fault = f"--method {options.depth.method} has no shaders yet"
+        remedy = "Use --method linking, or --device auto, which goes on with the processor."
+        raise InputError("--device gpu", fault, remedy)
+
+
 def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     parameters = DenseParameters()
     for note in given.cameras.notes:
         work.note(note)
     views, scale = _views(work, given, options)
-    comparisons = _comparisons(work, given, views, options, parameters)
+    comparisons, sparse = _comparisons(work, given, views, options, parameters)
     agree = min(options.depth.agree, 1 if len(comparisons) < 3 else options.depth.agree)
     inputs: JsonValue = [given.digests, scale]
-    matching = Matching(views, comparisons, inputs, agree, options.random.seed, parameters)
-    readers = all_depth_maps(work, matching)
+    if options.depth.method == "linking":
+        engine = choose_engine(options.device.device)
+        linking = Linking(views, comparisons, sparse, inputs, agree, parameters, engine)
+        readers = all_linked_depths(work, linking)
+    else:
+        matching = Matching(views, comparisons, inputs, agree, options.random.seed, parameters)
+        readers = all_depth_maps(work, matching)
 
     def depth_map(view: int) -> DepthMap:
         return readers[view]()
@@ -108,6 +132,7 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     with work.step("depth files"):
         pictures = write_depths(work, views, comparisons, depth_map)
     cloud = _cloud(work, views, comparisons, depth_map, options, parameters)
+    write_maps_of(work, cloud, given.cameras, given.walls, parameters.elevation)
     mesh = None
     if not options.surface.no_mesh:
         mesh = _mesh(work, views, comparisons, depth_map, options, parameters)
@@ -143,7 +168,7 @@ def _views(work: Work, given: _Given, options: DenseOptions) -> tuple[Views, flo
 
 def _comparisons(
     work: Work, given: _Given, views: Views, options: DenseOptions, parameters: DenseParameters
-) -> list[Comparison]:
+) -> tuple[list[Comparison], SparsePoints]:
     with work.step("neighbours") as step:
         sparse = _sparse(given, views, parameters)
         found, left = choose_neighbours(
@@ -160,7 +185,7 @@ def _comparisons(
         work.doubt(f"{len(left)} photos overlap with no other and have no depth map")
     if len(found) == 2:
         work.doubt("only two photos: no third one confirms a depth")
-    return found
+    return found, sparse
 
 
 def _sparse(given: _Given, views: Views, parameters: DenseParameters) -> SparsePoints:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
+from veduta.run.card import DeviceOptions
 from veduta.run.options import Options
 
 Box = tuple[float, float, float, float, float, float]
@@ -32,6 +33,13 @@ class ViewOptions(Options):
 class DepthOptions(Options):
     """How depths are found."""
 
+    method: Literal["patchmatch", "linking"] = Field(
+        default="patchmatch",
+        description=(
+            "planes that several photos confirm (patchmatch); or disparities of photos in a row,"
+            " linked along the sequence (linking: the thesis's way, faster and rougher)"
+        ),
+    )
     agree: Annotated[int, Field(ge=1, le=8)] = Field(
         default=2,
         description="other photos that must show a depth, too (1 where there are only two)",
@@ -71,3 +79,4 @@ class DenseOptions(Options):
     depth: DepthOptions = DepthOptions()
     surface: SurfaceOptions = SurfaceOptions()
     random: RandomOptions = RandomOptions()
+    device: DeviceOptions = DeviceOptions()

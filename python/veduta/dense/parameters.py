@@ -5,8 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from veduta.dense.build.cloud import CloudParameters
+from veduta.dense.build.elevation import ElevationParameters
 from veduta.dense.build.surface import SurfaceParameters
 from veduta.dense.read.agreeing import AgreeParameters
+from veduta.dense.read.linking import LinkParameters
 from veduta.dense.read.matching import MatchParameters
 from veduta.dense.read.neighbours import NeighbourParameters
 from veduta.dense.read.sparse import SparseParameters
@@ -19,6 +21,8 @@ class DenseParameters:
     sparse: SparseParameters = field(default_factory=SparseParameters)
     neighbours: NeighbourParameters = field(default_factory=NeighbourParameters)
     match: MatchParameters = field(default_factory=MatchParameters)
+    link: LinkParameters = field(default_factory=LinkParameters)
     agree: AgreeParameters = field(default_factory=AgreeParameters)
     cloud: CloudParameters = field(default_factory=CloudParameters)
+    elevation: ElevationParameters = field(default_factory=ElevationParameters)
     surface: SurfaceParameters = field(default_factory=SurfaceParameters)

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.carve.build.bounds import Bounds
 from veduta.carve.views import Mask, View, camera_rows
+from veduta.run.card import Engine
 
 Floats = NDArray[np.float64]
 
@@ -63,17 +64,24 @@ def root_of(bounds: Bounds, levels: int, rule: HullRule | None = None) -> Root:
     return Root((bounds.low_m + bounds.high_m - side) / 2.0, side, levels)
 
 
-def carve_hull(views: Sequence[View], root: Root, rule: HullRule | None = None) -> Hull:
-    """What all silhouettes together leave of the cube (4.3.2)."""
+def carve_hull(
+    views: Sequence[View], root: Root, rule: HullRule | None = None, engine: Engine | None = None
+) -> Hull:
+    """What all silhouettes together leave of the cube (4.3.2). engine: the processor if not given."""
     rule = rule or HullRule()
     fields = [outline_distances(view.mask, rule) for view in views]
-    volume = _core.carve_hull(
+    given = (
         camera_rows([view.camera for view in views]),
         [distances for distances, _ in fields],
         np.array([corner for _, corner in fields], dtype=np.float64),
         root.low_m.tolist(),
         root.side_m,
         root.levels,
+    )
+    if engine is None:
+        return Hull(root, _core.carve_hull(*given))
+    volume = engine.run(
+        lambda card: card.carve_hull(*given), lambda: _core.carve_hull(*given)
     )
     return Hull(root, volume)
 

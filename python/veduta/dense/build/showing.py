@@ -18,8 +18,14 @@ def depth_picture(
     near, far = near_far_m
     known = np.isfinite(depths_m)
     inverse = 1.0 / np.where(known, depths_m, far)
-    share = np.clip((inverse - 1.0 / far) / max(1.0 / near - 1.0 / far, 1e-12), 0.0, 1.0)
-    coloured = cv2.applyColorMap((share * 255.0).astype(np.uint8), cv2.COLORMAP_TURBO)[:, :, ::-1]
+    share = (inverse - 1.0 / far) / max(1.0 / near - 1.0 / far, 1e-12)
+    return share_picture(share, known)
+
+
+def share_picture(share: NDArray[np.floating], known: NDArray[np.bool_]) -> NDArray[np.uint8]:
+    """(h, w, 3) uint8: 1 red, 0 blue; dark where unknown."""
+    whole = (np.clip(np.where(known, share, 0.0), 0.0, 1.0) * 255.0).astype(np.uint8)
+    coloured = cv2.applyColorMap(whole, cv2.COLORMAP_TURBO)[:, :, ::-1]
     return np.where(known[:, :, None], coloured, UNKNOWN).astype(np.uint8)
 
 

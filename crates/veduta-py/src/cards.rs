@@ -1,0 +1,177 @@
+//! A graphics card for Python, and what runs on it: `veduta_gpu`, the GIL released.
+
+use numpy::{PyArray1, PyArray2, PyReadonlyArray1, PyReadonlyArray2, PyReadonlyArray3};
+use pyo3::create_exception;
+use pyo3::exceptions::PyRuntimeError;
+use pyo3::prelude::*;
+use veduta_carve::Root;
+use veduta_gpu::link::Linker;
+use veduta_gpu::pair::Matcher;
+use veduta_gpu::{Card, GpuError};
+use veduta_stereo::link::{LinkRule, Step};
+use veduta_stereo::pair::PairRule;
+
+use crate::carve::{views_of, CarvedVolume};
+use crate::linking::{own_step, path_given, rectified, shaped, step_of, told, OwnStep};
+use crate::stereo::camera_of;
+
+/// As in `linking`: the stub's types are read file by file.
+type GivenStep<'py> = (
+    PyReadonlyArray1<'py, f64>,
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray2<'py, f64>,
+    PyReadonlyArray2<'py, f32>,
+);
+type Found<'py> = (
+    Bound<'py, PyArray1<f32>>,
+    Bound<'py, PyArray1<f32>>,
+    Bound<'py, PyArray1<u8>>,
+);
+
+create_exception!(_core, GpuFault, PyRuntimeError);
+
+fn fault(error: GpuError) -> PyErr {
+    GpuFault::new_err(error.to_string())
+}
+
+/// A graphics card. GpuFault says why there is none, or that it vanished.
+#[pyclass(frozen, module = "veduta._core")]
+struct GraphicsCard {
+    card: Card,
+    matcher: Matcher,
+    linker: Linker,
+}
+
+#[pymethods]
+impl GraphicsCard {
+    /// The fastest one. software: adapters that compute on the processor, too, for tests.
+    #[new]
+    #[pyo3(signature = (*, software = false))]
+    fn new(py: Python<'_>, software: bool) -> PyResult<Self> {
+        py.detach(|| {
+            let card = Card::open(software)?;
+            let (matcher, linker) = (Matcher::new(&card), Linker::new(&card));
+            Ok(Self {
+                card,
+                matcher,
+                linker,
+            })
+        })
+        .map_err(fault)
+    }
+
+    /// As its maker calls it.
+    fn name(&self) -> &str {
+        self.card.name()
+    }
+
+    /// Gives it back: whoever still uses it is told that it vanished.
+    fn destroy(&self) {
+        self.card.destroy();
+    }
+
+    /// As `carve_hull` does.
+    #[allow(clippy::too_many_arguments)]
+    fn carve_hull(
+        &self,
+        py: Python<'_>,
+        cameras: PyReadonlyArray2<'_, f64>,
+        distances: Vec<PyReadonlyArray2<'_, f32>>,
+        corners: PyReadonlyArray2<'_, f64>,
+        low_m: [f64; 3],
+        side_m: f64,
+        levels: u32,
+    ) -> PyResult<CarvedVolume> {
+        let views = views_of(&cameras, &distances, &corners)?;
+        let root = Root {
+            low_m,
+            side_m,
+            levels,
+        };
+        let found = py.detach(|| veduta_gpu::carve::carve(&self.card, &views, root));
+        Ok(CarvedVolume {
+            volume: found.map_err(fault)?,
+        })
+    }
+
+    /// As `match_pair` does.
+    #[pyo3(signature = (here, there, shown_here, shown_there, *, low, count, rows, gamma_colour,
+                        gamma_px, most, path))]
+    #[allow(clippy::too_many_arguments)]
+    fn match_pair<'py>(
+        &self,
+        py: Python<'py>,
+        here: PyReadonlyArray3<'py, u8>,
+        there: PyReadonlyArray3<'py, u8>,
+        shown_here: PyReadonlyArray2<'py, bool>,
+        shown_there: PyReadonlyArray2<'py, bool>,
+        low: i32,
+        count: usize,
+        rows: usize,
+        gamma_colour: f64,
+        gamma_px: f64,
+        most: u8,
+        path: Option<(u16, u16)>,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let rule = PairRule {
+            low,
+            count,
+            rows,
+            gamma_colour,
+            gamma_px,
+            most,
+            path: path_given(path),
+        };
+        let (own, other) = (
+            rectified(&here, &shown_here)?,
+            rectified(&there, &shown_there)?,
+        );
+        let found = py.detach(|| self.matcher.disparities(&self.card, own, other, &rule));
+        shaped(py, found.map_err(fault)?, (own.height, own.width))
+    }
+
+    /// As `link_views` does.
+    #[pyo3(signature = (camera, width, height, chains, *, deviation_px, most_deviations,
+                        most_across_px, near, far))]
+    #[allow(clippy::too_many_arguments)]
+    fn link_views<'py>(
+        &self,
+        py: Python<'py>,
+        camera: PyReadonlyArray1<'py, f64>,
+        width: usize,
+        height: usize,
+        chains: Vec<Vec<GivenStep<'py>>>,
+        deviation_px: f32,
+        most_deviations: f32,
+        most_across_px: f32,
+        near: f32,
+        far: f32,
+    ) -> PyResult<Found<'py>> {
+        let own = camera_of(&camera.as_array().to_vec())?;
+        let each = |chain: &Vec<GivenStep<'py>>| chain.iter().map(own_step).collect();
+        let given: Vec<Vec<OwnStep>> = chains.iter().map(each).collect::<PyResult<_>>()?;
+        let [up, down] = given.as_slice() else {
+            return Err(GpuFault::new_err("a chain up and one down"));
+        };
+        let rule = LinkRule {
+            deviation_px,
+            most_deviations,
+            most_across_px,
+            near,
+            far,
+        };
+        let found = py.detach(|| {
+            let up: Vec<Step<'_>> = up.iter().map(step_of).collect();
+            let down: Vec<Step<'_>> = down.iter().map(step_of).collect();
+            let chains: [&[Step<'_>]; 2] = [&up, &down];
+            self.linker
+                .link(&self.card, own, [width, height], chains, &rule)
+        });
+        Ok(told(py, found.map_err(fault)?))
+    }
+}
+
+pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
+    m.add("GpuFault", m.py().get_type::<GpuFault>())?;
+    m.add_class::<GraphicsCard>()
+}

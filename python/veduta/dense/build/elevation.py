@@ -1,0 +1,103 @@
+"""Elevations with depth: how far what stands before and behind a wall's plane is from it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy import ndimage
+
+from veduta.dense.read.walls import Elevation
+
+
+@dataclass(frozen=True)
+class ElevationParameters:
+    """reach: depth before and behind the plane that belongs to a wall, times its height. spread:
+    points farther from the median of what is seen there, in cells of the cloud's spacing, are
+    another surface. gap_cells: a hole so many cells wide is filled from around it.
+    """
+
+    reach: float = 0.25
+    gap_cells: int = 2
+
+
+@dataclass(frozen=True, eq=False)
+class WallDepth:
+    """depths_m: (h, w) float32, on the grid of the wall's picture: out of its plane, towards who
+    looks at it, above 0; NaN where no point is. cell_px: pixels of the picture along a cell.
+    """
+
+    depths_m: NDArray[np.float32]
+    cell_px: int
+
+
+def wall_depth(
+    points_m: NDArray[np.float64], wall: Elevation, parameters: ElevationParameters
+) -> WallDepth:
+    """The depth of each pixel: the median of the points in its cell.
+
+    Cells are squares of pixels, as small as the points allow that lie there: half have one.
+    """
+    height, width = wall.shape
+    from_start = points_m - wall.start_m
+    out = from_start @ wall.outward
+    column = (from_start @ wall.along - wall.left_m) / wall.pixel_m
+    row = (wall.upper_m - points_m[:, 2]) / wall.pixel_m
+    near = np.abs(out) <= parameters.reach * wall.height_m
+    near &= (column >= 0.0) & (column < width) & (row >= 0.0) & (row < height)
+    if not near.any():
+        return WallDepth(np.full(wall.shape, np.nan, dtype=np.float32), 1)
+    out, column, row = out[near], column[near], row[near]
+    cell = 1
+    while cell < max(wall.shape) and _filled(row, column, wall.shape, cell) < 0.5:
+        cell *= 2
+    cells = _medians(out, row // cell, column // cell, _cells(wall.shape, cell))
+    closed = _closed(cells, parameters.gap_cells)
+    whole = np.kron(closed, np.ones((cell, cell), dtype=np.float32))
+    return WallDepth(np.ascontiguousarray(whole[:height, :width], dtype=np.float32), cell)
+
+
+def _cells(shape: tuple[int, int], cell: int) -> tuple[int, int]:
+    return -(-shape[0] // cell), -(-shape[1] // cell)
+
+
+def _filled(
+    row: NDArray[np.float64], column: NDArray[np.float64], shape: tuple[int, int], cell: int
+) -> float:
+    """The share of the cells around the points that have one."""
+    rows, columns = (row // cell).astype(np.intp), (column // cell).astype(np.intp)
+    taken = len(np.unique(rows * _cells(shape, cell)[1] + columns))
+    box = (np.ptp(rows) + 1) * (np.ptp(columns) + 1)
+    return taken / float(box)
+
+
+def _medians(
+    values: NDArray[np.float64],
+    row: NDArray[np.float64],
+    column: NDArray[np.float64],
+    shape: tuple[int, int],
+) -> NDArray[np.float32]:
+    """The median of each cell, NaN where there is none."""
+    index = row.astype(np.intp) * shape[1] + column.astype(np.intp)
+    order = np.lexsort((values, index))
+    index, values = index[order], values[order]
+    first = np.flatnonzero(np.r_[True, index[1:] != index[:-1]])
+    count = np.diff(np.r_[first, len(index)])
+    middle = 0.5 * (values[first + (count - 1) // 2] + values[first + count // 2])
+    found = np.full(shape[0] * shape[1], np.nan, dtype=np.float32)
+    found[index[first]] = middle
+    return found.reshape(shape)
+
+
+def _closed(cells: NDArray[np.float32], gap: int) -> NDArray[np.float32]:
+    """Holes up to so many cells wide, filled with the nearest depth."""
+    known = np.isfinite(cells)
+    if gap <= 0 or known.all() or not known.any():
+        return cells
+    away, (rows, columns) = ndimage.distance_transform_edt(~known, return_indices=True)
+    found = cells.copy()
+    close = ndimage.binary_closing(np.pad(known, gap), iterations=gap)[gap:-gap, gap:-gap]
+    fill = close & ~known & (away <= gap)
+    found[fill] = cells[rows[fill], columns[fill]]
+    return found

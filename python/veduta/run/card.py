@@ -1,0 +1,97 @@
+"""The graphics card that a verb may use: chosen once, and told when it is not there or vanishes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any, Literal, TypeVar
+
+from pydantic import Field
+
+from veduta import _core
+from veduta.run.errors import InputError
+from veduta.run.options import Options
+from veduta.run.work import Work
+
+Device = Literal["auto", "cpu", "gpu"]
+T = TypeVar("T")
+
+ABSENT = "Use --device auto, which goes on with the processor."
+NOT_BUILT = "this Veduta was built without graphics cards"
+
+
+class DeviceOptions(Options):
+    """What computes the heavy steps that there are shaders for."""
+
+    device: Device = Field(
+        default="auto",
+        description=(
+            "a graphics card where there is one (auto), the processor (cpu), or a graphics card and"
+            " nothing else (gpu)"
+        ),
+    )
+
+
+class Engine:
+    """Where the heavy steps of a run are computed.
+
+    card: the open graphics card, or None: the processor. told: how it was chosen, for the report.
+    lost: why the card was given up in the middle, or None.
+    """
+
+    def __init__(self, device: Device, card: _core.GraphicsCard | None, told: str) -> None:
+        self.device: Device = device
+        self.card = card
+        self.told = told
+        self.lost: str | None = None
+
+    def run(self, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]) -> T:
+        """On the card where there is one. If it vanishes, `auto` computes this again on the
+        processor and stays there; where `gpu` was asked for that is an InputError.
+        """
+        if self.card is None:
+            return on_cores()
+        try:
+            return on_card(self.card)
+        except _fault() as why:
+            if self.device == "gpu":
+                raise InputError("--device gpu", str(why), ABSENT) from why
+            self.card, self.lost = None, str(why)
+            return on_cores()
+
+
+def choose_engine(device: Device, *, software: bool = False) -> Engine:
+    """The card or the processor, as `device` says; InputError where `gpu` is asked for in vain.
+
+    software: adapters that compute on the processor, too, for tests.
+    """
+    if device == "cpu":
+        return Engine(device, None, "the processor, as --device cpu says")
+    made: Any = getattr(_core, "GraphicsCard", None)
+    if made is None:
+        if device == "gpu":
+            raise InputError("--device gpu", NOT_BUILT, f"Run `make gpu` once. {ABSENT}")
+        return Engine(device, None, f"the processor: {NOT_BUILT}")
+    try:
+        card: _core.GraphicsCard = made(software=software)
+    except _fault() as why:
+        if device == "gpu":
+            raise InputError("--device gpu", str(why), ABSENT) from why
+        return Engine(device, None, f"the processor: {why}")
+    return Engine(device, card, f"the graphics card {card.name()}")
+
+
+def tell_engine(work: Work, engine: Engine) -> None:
+    """In the report: what computed, and that the card was given up where it was."""
+    work.fact("Computed by", engine.told)
+    if engine.lost is not None:
+        work.doubt(f"{engine.lost}; from there on the processor computed")
+
+
+def _fault() -> type[Exception]:
+    """What a card raises; where there are none, nothing does."""
+    found: type[Exception] = getattr(_core, "GpuFault", _Never)
+    return found
+
+
+class _Never(Exception):
+    """Raised by nothing."""
