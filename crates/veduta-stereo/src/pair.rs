@@ -78,7 +78,7 @@ impl PairRule {
 #[inline]
 fn difference(a: [u8; 3], b: [u8; 3]) -> usize {
     let sum: u32 = (0..3).map(|c| u32::from(a[c].abs_diff(b[c]))).sum();
-    (sum * 85 >> 8) as usize
+    ((sum * 85) >> 8) as usize
 }
 
 impl Rectified<'_> {
@@ -185,7 +185,7 @@ impl Matcher<'_> {
                 let sum = u16::from(own[0].abs_diff(red[d]))
                     + u16::from(own[1].abs_diff(green[d]))
                     + u16::from(own[2].abs_diff(blue[d]));
-                costs[d] = ((sum * 85 >> 8) as u8).max(none[d]).min(most);
+                costs[d] = (((sum * 85) >> 8) as u8).max(none[d]).min(most);
             }
         }
     }
@@ -286,8 +286,8 @@ pub fn confirmed(here: &mut [f32], there: &[f32], widths: [usize; 2], most_px: f
             } else {
                 f32::NAN
             };
-            // Not a number where either is unknown, which is no agreement.
-            if !((*one + back).abs() <= most_px) {
+            let off = (*one + back).abs();
+            if off.is_nan() || off > most_px {
                 *one = f32::NAN;
             }
         }

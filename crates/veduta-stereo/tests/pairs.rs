@@ -35,7 +35,7 @@ fn plain(here: &[u8], there: &[u8], width: usize, height: usize, rule: &PairRule
                 if y + v >= 0 && y + v < height as i64 {
                     let other = at(here, x, y + v).unwrap();
                     let sum = 3 * u32::from(own.abs_diff(other));
-                    let weight = table[(v + half) as usize * 256 + (sum * 85 >> 8) as usize];
+                    let weight = table[(v + half) as usize * 256 + ((sum * 85) >> 8) as usize];
                     raw.push((v, weight));
                 }
             }
@@ -53,7 +53,7 @@ fn plain(here: &[u8], there: &[u8], width: usize, height: usize, rule: &PairRule
                         let to = x + i64::from(rule.low) + d;
                         let cost = match (at(here, x, y + v), at(there, to, y + v)) {
                             (Some(a), Some(b)) => {
-                                (3 * u32::from(a.abs_diff(b)) * 85 >> 8).min(u32::from(rule.most))
+                                ((3 * u32::from(a.abs_diff(b)) * 85) >> 8).min(u32::from(rule.most))
                             }
                             _ => u32::from(rule.most),
                         };

@@ -16,6 +16,10 @@ from veduta.dense.read.sparse import SparsePoints
 from veduta.run.card import Engine
 
 Disparities = NDArray[np.float32]
+ChainStep = tuple[
+    NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], NDArray[np.float32]
+]
+"""The next view's camera, the two homographies of `veduta_stereo::link` (Rust), disparities."""
 MOST_DISPARITIES = 1024
 """That `veduta_stereo::pair` (Rust) takes."""
 
@@ -184,7 +188,7 @@ def linked_depths(
         camera_row(camera),
         camera.width_px,
         camera.height_px,
-        [[_step(views, one) for one in chain] for chain in chains],
+        [chain_steps(views, chain) for chain in chains],
     )
     settings = LinkSettings(
         deviation_px=rule.deviation_px,
@@ -210,9 +214,12 @@ def linked_depths(
     )
 
 
-def _step(
-    views: Views, one: MatchedPair
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64], Disparities]:
+def chain_steps(views: Views, chain: list[MatchedPair]) -> list[ChainStep]:
+    """What `link_views` takes of a chain."""
+    return [_step(views, one) for one in chain]
+
+
+def _step(views: Views, one: MatchedPair) -> ChainStep:
     there, back = one.pair.rectified[0], np.linalg.inv(one.pair.rectified[1])
     row = camera_row(views.cameras[one.views[1]])
     return row, there / np.linalg.norm(there[2]), back / np.linalg.norm(back[2]), one.there

@@ -1,0 +1,169 @@
+"""What a graphics card makes of carve's hull and of linking, beside the processor of its machine.
+
+Two steps, for the machine with the card has only Python, numpy and the extension. gpu.py --pack
+given.npz [--data FOLDER] takes the silhouettes of the Oxford dinosaur and Merton College I (after
+`veduta photos`); there, gpu.py --measure given.npz [--core EXTENSION] writes found.json beside it;
+gpu.py --record found.json keeps `benchmarks/results/gpu.md`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import importlib.util
+import json
+import os
+import platform
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+TIMES = 9
+RULE = {"rows": 25, "gamma_colour": 40.0, "gamma_px": 15.0, "most": 40, "path": (600, 12_000)}
+LINKS = {"deviation_px": 0.6, "most_deviations": 3.0, "most_across_px": 1.5}
+AIMS = {"carve 256": 0.1, "links of Merton College I": 0.1}
+
+
+def timed(function: Callable[[], Any]) -> tuple[Any, float]:
+    """What it makes, and the median of its seconds after one to warm up."""
+    found = function()
+    seconds = []
+    for _ in range(TIMES):
+        began = time.perf_counter()
+        function()
+        seconds.append(time.perf_counter() - began)
+    return found, float(np.median(seconds))
+
+
+def measure(given: Path, core: Any, software: bool) -> dict[str, Any]:
+    """Rows of seconds on the card and on the processor, and whether they agree."""
+    data = np.load(given)
+    card = core.GraphicsCard(software=software)
+    rows = [*_carved(data, core, card), *_pairs(data, core, card), _links(data, core, card)]
+    machine = f"{card.name()}; {platform.processor() or platform.machine()}, {os.cpu_count()} cores"
+    return {"machine": machine, "rows": rows}
+
+
+def _carved(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
+    distances = [np.ascontiguousarray(data[f"d{i}"]) for i in range(len(data["cams"]))]
+    low, side = data["low"].tolist(), float(data["side"])
+    rows = []
+    for levels in (6, 7, 8, 9):
+        call = (data["cams"], distances, data["corners"], low, side, levels)
+        (a, on_card), (b, on_cores) = (
+            timed(lambda engine=engine, call=call: engine.carve_hull(*call))
+            for engine in (card, core)
+        )
+        same = abs(a.inside() - b.inside())
+        rows.append(_row(f"carve {2**levels}", on_card, on_cores, f"{same} voxels differ"))
+    return rows
+
+
+def _pairs(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
+    rows = []
+    for number in range(2):
+        parts = ("a", "b", "as", "bs")
+        call = [np.ascontiguousarray(data[f"p{number}{one}"]) for one in parts]
+        low, count = (int(one) for one in data[f"p{number}t"])
+        (a, on_card), (b, on_cores) = (
+            timed(
+                lambda engine=engine, call=call, low=low, count=count: engine.match_pair(
+                    *call, low=low, count=count, **RULE
+                )
+            )
+            for engine in (card, core)
+        )
+        same = float(((np.isnan(a) & np.isnan(b)) | (np.abs(a - b) < 1e-3)).mean())
+        height, width = a.shape
+        name = f"pair {number + 1} of Merton, {width} x {height}, {count} disparities, one way"
+        rows.append(_row(name, on_card, on_cores, f"{same:.4%} of the pixels the same"))
+    return rows
+
+
+def _links(data: Any, core: Any, card: Any) -> dict[str, Any]:
+    given = []
+    for view in sorted(int(one[1:]) for one in data.files if one[0] == "v" and one[1:].isdigit()):
+        near, far, width, height = (float(one) for one in data[f"v{view}r"])
+        chains = [
+            [
+                tuple(
+                    np.ascontiguousarray(data[f"v{view}c{way}s{step}q{part}"]) for part in range(4)
+                )
+                for step in range(int(data[f"v{view}c{way}"]))
+            ]
+            for way in (0, 1)
+        ]
+        given.append((data[f"v{view}"], int(width), int(height), chains, near, far))
+
+    def linked(engine: Any) -> list[Any]:
+        return [
+            engine.link_views(camera, width, height, chains, near=near, far=far, **LINKS)
+            for camera, width, height, chains, near, far in given
+        ]
+
+    (a, on_card), (b, on_cores) = (timed(lambda e=engine: linked(e)) for engine in (card, core))
+    same = np.mean([float((one[2] == other[2]).mean()) for one, other in zip(a, b, strict=True)])
+    told = f"{same:.4%} of the pixels with as many estimates"
+    return _row("links of Merton College I", on_card, on_cores, told)
+
+
+def _row(what: str, on_card: float, on_cores: float, agreement: str) -> dict[str, Any]:
+    return {
+        "what": what,
+        "card, s": round(on_card, 4),
+        "processor, s": round(on_cores, 4),
+        "aim, s": AIMS.get(what),
+        "agreement": agreement,
+    }
+
+
+def pack(out: Path, data: Path) -> None:
+    """What the machine with the card needs."""
+    from gpu_inputs import carve_inputs, link_inputs
+
+    np.savez_compressed(out, **carve_inputs(data), **link_inputs(data))
+
+
+def main() -> None:
+    """Pack, measure or record."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--pack", type=Path)
+    parser.add_argument("--measure", type=Path)
+    parser.add_argument("--record", type=Path)
+    parser.add_argument("--core", type=Path, help="the extension, where Veduta is not installed")
+    parser.add_argument("--software", action="store_true")
+    parser.add_argument(
+        "--data", type=Path, default=Path(__file__).resolve().parents[2] / "shared" / "data"
+    )
+    given = parser.parse_args()
+    if given.pack is not None:
+        pack(given.pack, given.data)
+    elif given.measure is not None:
+        found = measure(given.measure, _core(given.core), given.software)
+        print(json.dumps(found, indent=1))
+        given.measure.with_name("found.json").write_text(json.dumps(found, indent=1) + "\n")
+    elif given.record is not None:
+        from record import record
+
+        found = json.loads(given.record.read_text())
+        note = f"Measured on another machine: {found['machine']}."
+        record("gpu", found["rows"], [note, *found.get("notes", [])])
+
+
+def _core(path: Path | None) -> Any:
+    if path is None:
+        from veduta import _core as core
+
+        return core
+    spec = importlib.util.spec_from_file_location("_core", path)
+    if spec is None or spec.loader is None:
+        raise SystemExit(f"{path} is no extension")
+    made = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(made)
+    return made
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,91 @@
+"""What `gpu.py` takes to the machine with the card: arrays alone."""
+
+from __future__ import annotations
+
+import tempfile
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.cameras import read_cameras
+from veduta.carve.build.bounds import find_bounds
+from veduta.carve.build.hull import outline_distances, root_of
+from veduta.carve.options import SilhouetteOptions
+from veduta.carve.read.views import read_views
+from veduta.carve.views import camera_rows
+from veduta.dense.document import camera_row
+from veduta.dense.read.linking import (
+    LinkParameters,
+    MatchedPair,
+    chain_steps,
+    chains_of,
+    match_views,
+    pair_range,
+)
+from veduta.dense.read.neighbours import NeighbourParameters, choose_neighbours
+from veduta.dense.read.pictures import open_views, usable_cameras
+from veduta.dense.read.rectifying import rectified_side, rectify_pair
+from veduta.dense.read.sparse import SparsePoints
+from veduta.photos.options import PhotosOptions
+from veduta.photos.pipeline import run_photos
+from veduta.run.card import choose_engine
+from veduta.run.progress import Progress
+
+Arrays = dict[str, NDArray[Any]]
+
+
+def carve_inputs(data: Path) -> Arrays:
+    """The Oxford dinosaur: cameras, and distances to the outlines."""
+    folder = data / "silhouettes" / "vgg-dino"
+    views = read_views(folder, read_cameras(folder), SilhouetteOptions()).views
+    root = root_of(find_bounds(views), 8)
+    fields = [outline_distances(view.mask) for view in views]
+    found: Arrays = {f"d{number}": field for number, (field, _) in enumerate(fields)}
+    return found | {
+        "cams": camera_rows([view.camera for view in views]),
+        "corners": np.array([corner for _, corner in fields], dtype=np.float64),
+        "low": root.low_m,
+        "side": np.array(root.side_m),
+    }
+
+
+def link_inputs(data: Path) -> Arrays:
+    """Merton College I at 640 x 480: rectified pairs, and the chains of its views."""
+    with tempfile.TemporaryDirectory() as scratch:
+        out = Path(scratch) / "cameras"
+        run_photos(data / "photos" / "merton" / "I", out, PhotosOptions(), Progress(quiet=True))
+        given = read_cameras(out)
+        usable, _ = usable_cameras(given)
+        views = open_views(usable, 640 / max(one.width_px for one in usable), {})
+        if given.points is None or given.visible is None:
+            raise SystemExit("`veduta photos` found no points")
+        sparse = SparsePoints(given.points, given.visible)
+        comparisons, _ = choose_neighbours(views, sparse, 4, NeighbourParameters())
+        rule, engine = LinkParameters(), choose_engine("cpu")
+        order = [one.view for one in comparisons]
+        found: Arrays = {}
+        pairs = {}
+        for number, two in enumerate(zip(order[:-1], order[1:], strict=True)):
+            pair = rectify_pair(views.cameras[two[0]], views.cameras[two[1]], rule.rectify)
+            if isinstance(pair, str):
+                raise SystemExit(pair)
+            tried = pair_range(sparse, views, two, pair, rule)
+            pairs[two] = MatchedPair(two, pair, *match_views(views, two, pair, tried, rule, engine))
+            found[f"p{number}t"] = np.array(tried)
+            for place, name in enumerate("ab"):
+                side = rectified_side(
+                    views, two[place], pair.rectified[place], pair.widths[place], pair.height
+                )
+                found[f"p{number}{name}"], found[f"p{number}{name}s"] = side
+        for one in comparisons:
+            camera, name = views.cameras[one.view], f"v{one.view}"
+            found[name] = camera_row(camera)
+            size = [one.near_m, one.far_m, camera.width_px, camera.height_px]
+            found[f"{name}r"] = np.array(size)
+            for way, chain in enumerate(chains_of(one.view, pairs, order, rule.most_links)):
+                found[f"{name}c{way}"] = np.array(len(chain))
+                for step, parts in enumerate(chain_steps(views, chain)):
+                    found |= {f"{name}c{way}s{step}q{n}": part for n, part in enumerate(parts)}
+    return found
