@@ -9,6 +9,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.photos.cameras.component import Component
+from veduta.photos.city.facades import facades_of
+from veduta.photos.city.lifted import lifted
 from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.options import PhotosOptions
@@ -24,6 +26,7 @@ from veduta.photos.world.georeferencing import (
     georeference,
     in_the_world,
 )
+from veduta.photos.world.ground import ground_height
 from veduta.photos.world.pictures import georef_pictures
 from veduta.photos.world.which_way_up import looks_down, which_way_up
 from veduta.run.page import Picture
@@ -108,6 +111,20 @@ def _laid(
         pictures += georef_pictures(structure, walls, tried, model)
     moved = replace(component, structure=in_the_world(structure, found.accepted))
     return Laid(moved, walls_in_the_world(walls, found.accepted), found, tuple(pictures))
+
+
+def on_the_ground(laid: Sequence[Laid], references: References) -> tuple[References, str]:
+    """A model without heights set onto the ground where control points say how high that lies.
+
+    By the model itself and by GPS the photos are laid onto its feet instead.
+    """
+    accepted = laid[0].georef.accepted
+    model = references.model
+    if accepted is None or accepted.method != "gcp" or model is None:
+        return references, ""
+    ground = ground_height(laid[0].component.structure)
+    city, note = lifted(model, facades_of(model), ground)
+    return replace(references, model=city), note
 
 
 def walls_in_the_world(walls: tuple[Wall, ...], found: Georeference | None) -> tuple[Wall, ...]:

@@ -16,7 +16,7 @@ from veduta.photos.intake.frames import publish_frames, with_frames
 from veduta.photos.intake.given import NOTHING_ELSE, Given
 from veduta.photos.intake.panoramas import with_panoramas
 from veduta.photos.intake.read import sizes_of
-from veduta.photos.laying import lay_components
+from veduta.photos.laying import lay_components, on_the_ground
 from veduta.photos.options import PhotosOptions
 from veduta.photos.report import Told
 from veduta.photos.stages import COMMAND, VERSION, Stages
@@ -133,6 +133,8 @@ def _make(
                 components, notes = adjust_components(components, references.control, step)
                 told.notes += notes
         laid = lay_components(components, references, told.photos, options, steps, progress)
+        references, note = on_the_ground(laid, references)
+        told.alarms += [note] if note else []
         publish_frames(call, opened, key)
         write_results(laid, references, told, opened, key, progress)
     opened.finish()
