@@ -9,23 +9,33 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.formats.dae_read import read_dae_mesh
 from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.formats.obj_read import ReadMesh, read_obj
 from veduta.grammar.assets.asset import Asset, Slot
 from veduta.run.errors import InputError
 
-SUFFIXES = (".obj", ".glb")
+SUFFIXES = (".obj", ".glb", ".dae")
 WELD = 1e-6
 """Points nearer than this share of the mesh's extent are one."""
 
 
 def read_asset(name: str, path: Path) -> Asset:
     """The asset of a file, by the name that rules have for it; InputError says what is wrong."""
-    mesh = read_obj(path, path.parent) if path.suffix.lower() == ".obj" else read_glb_mesh(path)
-    asset = _cleaned(name, mesh)
+    asset = _cleaned(name, _mesh(path))
     if asset is None:
         raise InputError(path, "has no face with an area", "Check it in the program it comes from.")
     return asset
+
+
+def _mesh(path: Path) -> ReadMesh:
+    match path.suffix.lower():
+        case ".obj":
+            return read_obj(path, path.parent)
+        case ".dae":
+            return read_dae_mesh(path)
+        case _:
+            return read_glb_mesh(path)
 
 
 def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:

@@ -114,7 +114,9 @@ class Library:
             hint = f"Did you mean `{near[0]}`?" if near else "docs/assets.md lists those there are."
             raise InputError(name, "is no asset that Veduta brings along", hint)
         if not name.lower().endswith(SUFFIXES):
-            raise InputError(name, "is no OBJ or GLB file", f"Built-in assets begin with {PREFIX}")
+            raise InputError(
+                name, "is no OBJ, GLB or COLLADA file", f"Built-in assets begin with {PREFIX}"
+            )
         path = self.search.find(name)
         if path is None:
             looked = ", ".join(str(folder) for folder in self.search.folders)
