@@ -20,6 +20,7 @@ from veduta import _core
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.dissolving import dissolved
 from veduta.grammar.instancing import instances_of
+from veduta.grammar.left_out import left_out_notes
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -90,7 +91,7 @@ def _part(
         features=_features(derived, used, part_id),
         materials=tuple(number_of),
         instances=instances,
-        notes=_notes(derived, int((~kept).sum()), textures),
+        notes=_notes(derived, derived.polygon_feature[~kept], textures),
     )
 
 
@@ -186,12 +187,13 @@ def _materials(
 
 
 def _notes(
-    derived: _core.DerivedLot, dropped: int, textures: Mapping[str, Texture]
+    derived: _core.DerivedLot, dropped: NDArray[np.int32], textures: Mapping[str, Texture]
 ) -> tuple[str, ...]:
-    """What the building does not show, and what the rules said."""
+    """What the building does not show, and what the rules said; dropped: the features of surfaces
+    that are left out.
+    """
     notes = list(dict.fromkeys(derived.messages))[:20]
-    if dropped:
-        notes.append(f"{dropped} surfaces were left out: too thin, or their lines cross")
+    notes += left_out_notes(derived.feature_name[row] for row in dropped.tolist())
     unknown = sorted({name for name in derived.feature_class if name and name not in _KNOWN})
     if unknown:
         notes.append(f"material.name is no class that is known, so `other`: {', '.join(unknown)}")

@@ -24,6 +24,7 @@ from veduta.grammar.failures import Failures
 from veduta.grammar.given import check_options
 from veduta.grammar.ground import is_level
 from veduta.grammar.joining import tables, write_ground, write_ground_city, write_pictures
+from veduta.grammar.left_out import told_of_all
 from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
 from veduta.grammar.options import GrammarOptions
@@ -324,6 +325,8 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         result.failures.add_all(named, summary.get("untold", 0))
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
+    whole = result.built
+    result.notes += told_of_all((row["notes"] for row in whole.rows), whole.dropped, call.files)
     names = {square.name for square in call.squares.every}
     files = [path for path in folder.record.files if path.startswith("parts/")]
     folders = {"/".join(path.split("/")[:2]) for path in files}

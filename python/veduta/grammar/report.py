@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from veduta.grammar.failures import Failures
+from veduta.grammar.left_out import is_left_out
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.reported import FILE, Sum, as_json, joined
 from veduta.grammar.same_faults import told_once
@@ -121,9 +122,11 @@ def _result(lot: Mapping[str, Any]) -> dict[str, Any]:
 def _notes(whole: Whole) -> list[str]:
     """What several buildings say is said once."""
     said = whole.notes + Counter(note for lot in whole.rows for note in set(lot["notes"]))
-    told = [f"{note} ({count} lots)" if count > 1 else note for note, count in said.items()]
-    if whole.dropped:
-        told.append(f"{whole.dropped} surfaces were left out: too thin, or their lines cross")
+    told = [
+        f"{note} ({count} lots)" if count > 1 else note
+        for note, count in said.items()
+        if not is_left_out(note)  # of all lots together, with lines, it is told for itself
+    ]
     return told[:50]
 
 

@@ -76,7 +76,7 @@ def test_slivers_are_left_out_and_told() -> None:
     text = f'Lot --> {sliver} Rest\nRest --> set(material.name, "ground")'
     part = build_part(derived(text), "lot")
     assert areas(part) == pytest.approx({"ground": 60.0})
-    assert any("1 surfaces were left out" in note for note in part.notes)
+    assert any("1 surfaces of " in note and "left out" in note for note in part.notes)
 
 
 NAMED = """
