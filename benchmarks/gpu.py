@@ -15,6 +15,7 @@ import os
 import platform
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -53,8 +54,7 @@ def _carved(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
     for levels in (6, 7, 8, 9):
         call = (data["cams"], distances, data["corners"], low, side, levels)
         (a, on_card), (b, on_cores) = (
-            timed(lambda engine=engine, call=call: engine.carve_hull(*call))
-            for engine in (card, core)
+            timed(partial(engine.carve_hull, *call)) for engine in (card, core)
         )
         same = abs(a.inside() - b.inside())
         rows.append(_row(f"carve {2**levels}", on_card, on_cores, f"{same} voxels differ"))
@@ -68,11 +68,7 @@ def _pairs(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
         call = [np.ascontiguousarray(data[f"p{number}{one}"]) for one in parts]
         low, count = (int(one) for one in data[f"p{number}t"])
         (a, on_card), (b, on_cores) = (
-            timed(
-                lambda engine=engine, call=call, low=low, count=count: engine.match_pair(
-                    *call, low=low, count=count, **RULE
-                )
-            )
+            timed(partial(engine.match_pair, *call, low=low, count=count, **RULE))
             for engine in (card, core)
         )
         same = float(((np.isnan(a) & np.isnan(b)) | (np.abs(a - b) < 1e-3)).mean())
@@ -103,7 +99,7 @@ def _links(data: Any, core: Any, card: Any) -> dict[str, Any]:
             for camera, width, height, chains, near, far in given
         ]
 
-    (a, on_card), (b, on_cores) = (timed(lambda e=engine: linked(e)) for engine in (card, core))
+    (a, on_card), (b, on_cores) = (timed(partial(linked, engine)) for engine in (card, core))
     same = np.mean([float((one[2] == other[2]).mean()) for one, other in zip(a, b, strict=True)])
     told = f"{same:.4%} of the pixels with as many estimates"
     return _row("links of Merton College I", on_card, on_cores, told)
@@ -123,7 +119,8 @@ def pack(out: Path, data: Path) -> None:
     """What the machine with the card needs."""
     from gpu_inputs import carve_inputs, link_inputs
 
-    np.savez_compressed(out, **carve_inputs(data), **link_inputs(data))
+    arrays: dict[str, Any] = {**carve_inputs(data), **link_inputs(data)}
+    np.savez_compressed(out, **arrays)
 
 
 def main() -> None:

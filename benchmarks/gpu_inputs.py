@@ -87,5 +87,6 @@ def link_inputs(data: Path) -> Arrays:
             for way, chain in enumerate(chains_of(one.view, pairs, order, rule.most_links)):
                 found[f"{name}c{way}"] = np.array(len(chain))
                 for step, parts in enumerate(chain_steps(views, chain)):
-                    found |= {f"{name}c{way}s{step}q{n}": part for n, part in enumerate(parts)}
+                    for number, part in enumerate(parts):
+                        found[f"{name}c{way}s{step}q{number}"] = np.asarray(part)
     return found

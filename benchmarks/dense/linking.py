@@ -15,6 +15,7 @@ import os
 import tempfile
 import time
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -75,9 +76,7 @@ def pair_row(size: tuple[int, int, int], engines: list[Engine]) -> Row:
         name = "cores" if engine.card is None else "card"
         for kind, path in (("DP", True), ("WTA", False)):
             found = timed(
-                lambda path=path, engine=engine: disparities_of(
-                    sides[0], sides[1], (0, count), rule, engine, path=path
-                )
+                partial(disparities_of, sides[0], sides[1], (0, count), rule, engine, path=path)
             )
             row[f"{kind}, {name}, s"] = round(found[0], 4)
             if engine.card is None:
@@ -111,7 +110,7 @@ def merton_row(cameras: Path, folder: Path, device: str) -> Row:
         "matching, s": round(stereo, 3),
         "links, s": round(links, 3),
         "cloud and mesh, s": round(rest, 3),
-        "known": result.measures["known_share"],  # type: ignore[dict-item]
+        "known": str(result.measures["known_share"]),
         "thesis DSM, s": THESIS_MERTON[1],
         "thesis MVCL, s": THESIS_MERTON[2],
         "thesis 3DMG & TM, s": THESIS_MERTON[3],

@@ -34,7 +34,7 @@ def ground_map(cloud: DenseCloud, seed: int) -> GroundMap:
     points = cloud.points_m
     draw = np.random.default_rng(seed)
     some = draw.choice(len(points), min(len(points), SAMPLE), replace=False)
-    beside = cKDTree(points[:, :2]).query(points[some, :2], k=2)[0][:, -1]
+    beside = np.asarray(cKDTree(points[:, :2]).query(points[some, :2], k=2)[0])[:, -1]
     low, high = points[:, :2].min(axis=0), points[:, :2].max(axis=0)
     span = np.maximum(high - low, 1e-6)
     apart = float(np.median(beside[np.isfinite(beside)])) if len(points) > 1 else float(span.max())
