@@ -16,9 +16,9 @@ from veduta.synthetic.walks.record import GorgeWalk, write_walk
 from veduta.walk.build.film import frame_at
 from veduta.walk.build.local_model import build_local_model
 from veduta.walk.build.way import find_way
-from veduta.walk.command import read_record
-from veduta.walk.options import WalkOptions
+from veduta.walk.options import TakeOptions
 from veduta.walk.read.pairs import read_stereo
+from veduta.walk.record import read_stereo_record
 
 PICTURE = Path(__file__).parent / "images" / "walk.webp"
 FRAMES, MS = 14, 80
@@ -31,7 +31,7 @@ def main() -> None:
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         write_walk(folder, GorgeWalk(keys=4, step_m=3.0, width_px=480, height_px=270))
-        record = read_record(folder, WalkOptions(), None)
+        record = read_stereo_record(folder, TakeOptions(), None)
         rig = record.rectifier.rig
         models = [
             build_local_model(read_stereo(views[0], record.rectifier), rig) for views in record.keys

@@ -11,11 +11,11 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.told import tell_result
     from veduta.cli.walk_call import WalkCall
     from veduta.run.progress import Progress
-    from veduta.walk.command import run_walk
+    from veduta.walk.command import Sources, run_walk
 
     call = parse(WalkCall, "veduta walk", arguments)
     result = run_walk(
         call.folder, call.out, call.options(), Progress(quiet=call.quiet),
-        calibration=call.calibration, force=call.force,
+        sources=Sources(call.calibration, call.calibrate, call.cameras), force=call.force,
     )  # fmt: skip
     return tell_result(result, quiet=call.quiet)

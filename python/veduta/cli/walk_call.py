@@ -9,7 +9,14 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Out, Quiet
-from veduta.walk.options import MorphOptions, PlayOptions, TakeOptions, WalkOptions
+from veduta.walk.options import (
+    BoardOptions,
+    MorphOptions,
+    PhotoOptions,
+    PlayOptions,
+    TakeOptions,
+    WalkOptions,
+)
 
 Folder = Annotated[
     tyro.conf.Positional[Path],
@@ -30,6 +37,23 @@ Calibration = Annotated[
         help="walk.toml, OpenCV YAML, Middlebury's or KITTI's calib.txt; if not given, that in DIR",
     ),
 ]
+Boards = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="DIR",
+        help_behavior_hint="",
+        help="pictures of a board by both cameras (left/ and right/), by which they are calibrated",
+    ),
+]
+Cameras = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="PATH",
+        help_behavior_hint="",
+        help="cameras of the frames in DIR, which a single camera took along a path: a result of"
+        " veduta photos, a COLMAP model, or another that veduta reads",
+    ),
+]
 
 
 @dataclass(frozen=True)
@@ -45,12 +69,18 @@ class WalkCall:
     folder: Folder
     out: Out
     calibration: Calibration = None
+    calibrate: Boards = None
+    cameras: Cameras = None
     take: TakeOptions = field(default_factory=TakeOptions)
     morph: MorphOptions = field(default_factory=MorphOptions)
     play: PlayOptions = field(default_factory=PlayOptions)
+    board: BoardOptions = field(default_factory=BoardOptions)
+    photo: PhotoOptions = field(default_factory=PhotoOptions)
     force: Force = False
     quiet: Quiet = False
 
     def options(self) -> WalkOptions:
         """What changes the result."""
-        return WalkOptions(take=self.take, morph=self.morph, play=self.play)
+        return WalkOptions(
+            take=self.take, morph=self.morph, play=self.play, board=self.board, photo=self.photo
+        )

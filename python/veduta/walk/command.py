@@ -26,7 +26,6 @@ from veduta.walk.build.place import (
     Station,
     picture_name,
     walk_of,
-    world_from_first,
     write_picture,
     write_way,
 )
@@ -34,32 +33,18 @@ from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way, WaySettings, find_way
 from veduta.walk.build.way_file import arrays_of, way_of
 from veduta.walk.document.load import DOCUMENT, write_document
-from veduta.walk.keys import KeyFigures, picture_of, read_key, views_by_key
+from veduta.walk.keys import KeyFigures
 from veduta.walk.options import WalkOptions
-from veduta.walk.read.calibration import find_calibration
-from veduta.walk.read.layout import find_pairs
-from veduta.walk.read.pairs import Rectifier, make_rectifier, read_pair
-from veduta.walk.rig import Image, PairFiles, Rig
+from veduta.walk.photo_record import read_photo_record
+from veduta.walk.read.board import calibrate_rig
+from veduta.walk.record import WalkRecord, read_stereo_record
+from veduta.walk.rig import Image, Rig
 from veduta.walk.tell import document_of, tell_walk
 
 VERSION = "2"
 FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0
-
-
-@dataclass(frozen=True, eq=False)
-class Record:
-    """What was given: the views of the key positions in their order, how they are rectified."""
-
-    keys: list[tuple[PairFiles, ...]]
-    rectifier: Rectifier
-    calibration: Path
-
-    @property
-    def files(self) -> list[Path]:
-        """All pictures."""
-        return [path for views in self.keys for one in views for path in (one.left, one.right)]
 
 
 @dataclass(eq=False)
@@ -73,34 +58,69 @@ class Found:
     clouds: list[tuple[NDArray[np.float64], NDArray[np.uint8]]] = field(default_factory=list)
 
 
+@dataclass(frozen=True)
+class Sources:
+    """What a walk is made of besides its folder.
+
+    calibration: the rig's file; boards: a folder of pictures of a board that calibrate it; cameras:
+    where the frames of a single camera were taken. All None: the calibration lies in the folder.
+    """
+
+    calibration: Path | None = None
+    boards: Path | None = None
+    cameras: Path | None = None
+
+
 def run_walk(
     folder: Path, out: Path, options: WalkOptions, progress: Progress, *,
-    calibration: Path | None = None, force: bool = False,
+    sources: Sources = Sources(), force: bool = False,
 ) -> VerbResult:  # fmt: skip
     """Make the walk of a folder into OUT."""
-    record = read_record(folder, options, calibration)
-    inputs = [file_digest(path) for path in (record.calibration, *record.files)]
+    record, notes = read_record(folder, options, sources)
+    inputs = [file_digest(path) for path in record.files]
     call = VerbCall("walk", VERSION, folder.resolve().name, options, [*inputs])
-    return run_verb(call, out, lambda work: _make(work, record, options), progress, force=force)
+
+    def make(work: Work) -> None:
+        for note in notes:
+            work.note(note)
+        _make(work, record, options)
+
+    return run_verb(call, out, make, progress, force=force)
 
 
-def read_record(folder: Path, options: WalkOptions, calibration: Path | None) -> Record:
-    """The views that the options take; InputError where the folder is not right."""
-    take = options.take
-    keys = views_by_key(find_pairs(folder))[take.first :: take.every][: take.count]
-    if not keys:
-        raise InputError(folder, f"has no key position {take.first}", "Begin at an earlier one.")
-    first = keys[0][0]
-    rig = find_calibration(folder, calibration, first.left.parent.name)
-    left, _ = read_pair(first, None)
-    return Record(keys, make_rectifier(rig, (left.shape[1], left.shape[0])), rig.source)
+def read_record(
+    folder: Path, options: WalkOptions, sources: Sources = Sources()
+) -> tuple[WalkRecord, list[str]]:
+    """The key positions that the options take, and what is to be said of them."""
+    given = [one for one in (sources.calibration, sources.boards, sources.cameras) if one]
+    if len(given) > 1:
+        raise InputError(
+            given[1], "is one of two things that say where the cameras are",
+            "Give one of --calibration, --calibrate and --cameras.",
+        )  # fmt: skip
+    if sources.cameras is not None:
+        return read_photo_record(
+            folder, sources.cameras, options.take, options.photo.largest_px
+        ), []
+    if sources.boards is None:
+        return read_stereo_record(folder, options.take, sources.calibration), []
+    found = calibrate_rig(sources.boards, options.board)
+    rig = found.rig
+    baseline_m = float(np.linalg.norm(rig.right_from_left[:, 3]))
+    notes = [
+        f"the rig was calibrated by {found.used} pairs of pictures of a board, whose corners are"
+        f" {found.off_px:.2f} px off; the cameras are {baseline_m:.4f} m apart"
+    ]
+    if found.left_out:
+        notes.append(f"pictures of the board that were left out: {', '.join(found.left_out)}")
+    return read_stereo_record(folder, options.take, rig, found.files), notes
 
 
-def _make(work: Work, record: Record, options: WalkOptions) -> None:
+def _make(work: Work, record: WalkRecord, options: WalkOptions) -> None:
     with work.step("walk") as step:
         found = _find(work, record, options)
         step.counts["key positions"] = len(found.stations)
-        step.counts["views"] = len(record.files) // 2
+        step.counts["views"] = sum(len(views) for views in record.keys)
         step.counts["transitions"] = len(found.ways)
     if len(found.stations) < 2:
         raise NotFoundError("a walk", "there is one key position", "Give pairs of at least two.")
@@ -117,19 +137,18 @@ def _make(work: Work, record: Record, options: WalkOptions) -> None:
     tell_walk(work, found.stations, found.ends, found.ways)
 
 
-def _find(work: Work, record: Record, options: WalkOptions) -> Found:
+def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
     """All key positions and the transitions between them."""
-    rig, settings = record.rectifier.rig, _settings(options)
+    rig, settings = record.rig, _settings(options)
     found = Found()
     before: LocalModel | None = None
-    world = world_from_first()
+    world = record.first
     for number, views in enumerate(record.keys):
         work.progress("walk", number / len(record.keys))
-        key = read_key(work, views, record.rectifier)
+        key = record.key(work, number)
         if before is not None:
             ends = (number - 1, number)
-            files = [one for n in ends for one in record.keys[n]]
-            way = _way(work, before, key.model, rig, settings, files)
+            way = _way(work, before, key.model, record, settings, ends)
             back = np.linalg.inv(np.vstack([way.second_from_first, [0.0, 0.0, 0.0, 1.0]]))
             world = world @ (back if way.forth is not None else _ahead(rig))
             found.ways.append(way)
@@ -154,13 +173,13 @@ def _gains(found: Found) -> Gains:
     return level_gains(len(found.stations), compared)
 
 
-def _picture(work: Work, record: Record, gains: Gains, number: int) -> Image:
+def _picture(work: Work, record: WalkRecord, gains: Gains, number: int) -> Image:
     """What a key position shows, its exposure levelled."""
-    return levelled(picture_of(work, record.keys[number], record.rectifier), gains[number])
+    return levelled(record.picture(work, number), gains[number])
 
 
 def _write_place(
-    work: Work, record: Record, found: Found, gains: Gains, options: WalkOptions
+    work: Work, record: WalkRecord, found: Found, gains: Gains, options: WalkOptions
 ) -> int:
     """Pictures, models, the index and the document; how many points there are."""
     pictures = [picture_name(number) for number in range(len(found.stations))]
@@ -179,16 +198,16 @@ def _write_place(
     place.clouds.append(Cloud("points", points, colours))
     place.save(work.folder)
     document = document_of(
-        record.rectifier.rig, record.keys, found.figures, found.stations, gains, found.ends,
+        record.rig, record.keys, found.figures, found.stations, gains, found.ends,
         found.ways,
     )  # fmt: skip
     write_document(document, work.folder / DOCUMENT)
     return len(points)
 
 
-def _film(work: Work, record: Record, found: Found, gains: Gains, options: WalkOptions) -> int:
+def _film(work: Work, record: WalkRecord, found: Found, gains: Gains, options: WalkOptions) -> int:
     """The walk from end to end, as its front view sees it."""
-    screen = Screen.of(record.rectifier.rig)
+    screen = Screen.of(record.rig)
 
     def frames() -> Iterator[Image]:
         for number, (way, (start, end)) in enumerate(zip(found.ways, found.ends, strict=True)):
@@ -212,16 +231,17 @@ def _settings(options: WalkOptions) -> WaySettings:
 
 
 def _way(
-    work: Work, first: LocalModel, second: LocalModel, rig: Rig, settings: WaySettings,
-    files: list[PairFiles],
+    work: Work, first: LocalModel, second: LocalModel, record: WalkRecord, settings: WaySettings,
+    ends: tuple[int, int],
 ) -> Way:  # fmt: skip
     """One transition, kept for a run that is killed later."""
-    inputs = [file_digest(path) for pair in files for path in (pair.left, pair.right)]
+    inputs = [file_digest(path) for number in ends for path in record.files_of(number)]
     options = work.options.model_dump(mode="json")
+    given = record.pose(*ends)
     name = f"way-{first.key}-{second.key}"
     arrays = work.kept_arrays(
-        name, [*inputs, repr(rig), options],
-        lambda: arrays_of(find_way(first, second, rig, settings)),
+        name, [*inputs, repr(record.rig), options],
+        lambda: arrays_of(find_way(first, second, record.rig, settings, given)),
     )  # fmt: skip
     return way_of(arrays)
 

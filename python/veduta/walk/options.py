@@ -17,6 +17,27 @@ class TakeOptions(Options):
     count: int | None = Field(default=None, ge=1, description="how many key positions at most")
 
 
+class BoardOptions(Options):
+    """The board by whose pictures the two cameras are calibrated (--calibrate)."""
+
+    board: str = Field(default="9x6", description="its inner corners, across and down")
+    square_m: float = Field(default=0.025, gt=0.0, le=5.0, description="side of a square (m)")
+    markers: str = Field(
+        default="", description="dictionary of a ChArUco board's markers (4X4_50); empty: none"
+    )
+    marker_share: float = Field(
+        default=0.75, gt=0.1, lt=1.0, description="side of a marker over that of a square"
+    )
+
+
+class PhotoOptions(Options):
+    """Of a single camera's frames (--cameras)."""
+
+    largest_px: int = Field(
+        default=1000, ge=64, le=8000, description="longest side at which frames are used (px)"
+    )
+
+
 class MorphOptions(Options):
     """How views are matched and become one another."""
 
@@ -47,3 +68,5 @@ class WalkOptions(Options):
     take: TakeOptions = TakeOptions()
     morph: MorphOptions = MorphOptions()
     play: PlayOptions = PlayOptions()
+    board: BoardOptions = BoardOptions()
+    photo: PhotoOptions = PhotoOptions()

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from veduta.walk.build.screen import Points, Screen
 from veduta.walk.build.sky import find_sky
-from veduta.walk.build.stereo import StereoSettings, match_stereo
+from veduta.walk.build.stereo import StereoSettings, carried_over, match_stereo, smoothed
 from veduta.walk.rig import Image, Rig, StereoPair
 
 SKY_M = 2000.0
@@ -64,3 +64,16 @@ def build_local_model(
     depth = np.where(sky, SKY_M, depth).astype(np.float32)
     measured = np.isfinite(found.left) & ~sky
     return LocalModel(pair.key, Screen.of(rig), pair.left, depth, measured, sky)
+
+
+def model_of_depth(
+    key: str, image: Image, depth_m: NDArray[np.float32], sure: NDArray[np.bool_], rig: Rig
+) -> LocalModel:
+    """The same from a depth (h, w) that was found otherwise; sure: (h, w) where it is believed."""
+    stereo_m = rig.focal_px[0] * rig.baseline_m
+    disparity = np.where(sure, stereo_m / np.maximum(depth_m, 1e-6), np.nan).astype(np.float32)
+    kept = smoothed(disparity)
+    sky = find_sky(image, kept)
+    filled = np.maximum(carried_over(kept, image), stereo_m / FARTHEST_M)
+    depth = np.where(sky, SKY_M, stereo_m / filled).astype(np.float32)
+    return LocalModel(key, Screen.of(rig), image, depth, np.isfinite(kept) & ~sky, sky)

@@ -52,8 +52,8 @@ def match_stereo(
     found = _checked(left, right, rig, settings, count)
     if _is_short(found, rig, settings, count):
         found = _checked(left, right, rig, settings, _longer(count, rig, settings))
-    sure = _smoothed(found, settings)
-    return Disparities(sure, _filled(sure, left, settings))
+    sure = smoothed(found, settings)
+    return Disparities(sure, carried_over(sure, left, settings))
 
 
 def _checked(
@@ -118,7 +118,9 @@ def _agreed(
     return np.where(agree, left, np.nan).astype(np.float32)
 
 
-def _smoothed(disparity: NDArray[np.float32], settings: StereoSettings) -> NDArray[np.float32]:
+def smoothed(
+    disparity: NDArray[np.float32], settings: StereoSettings = StereoSettings()
+) -> NDArray[np.float32]:
     """A median against spurious values, then a Gaussian that does not reach over edges of depth."""
     known = np.isfinite(disparity)
     filled = np.where(known, disparity, 0.0).astype(np.float32)
@@ -130,8 +132,8 @@ def _smoothed(disparity: NDArray[np.float32], settings: StereoSettings) -> NDArr
     return np.where(kept, smooth, np.nan).astype(np.float32)
 
 
-def _filled(
-    disparity: NDArray[np.float32], guide: Image, settings: StereoSettings
+def carried_over(
+    disparity: NDArray[np.float32], guide: Image, settings: StereoSettings = StereoSettings()
 ) -> NDArray[np.float32]:
     """Carried over gaps by weighted least squares along the picture's edges."""
     known = np.isfinite(disparity)

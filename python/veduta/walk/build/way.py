@@ -16,7 +16,7 @@ from veduta.walk.build.local_model import LocalModel
 from veduta.walk.build.matches import match_features
 from veduta.walk.build.mesh import MeshSettings, MorphMesh, mesh_of
 from veduta.walk.build.morph import find_morphs, inverse
-from veduta.walk.build.pose import relative_pose
+from veduta.walk.build.pose import Pose, relative_pose
 from veduta.walk.build.sampling import sampled
 from veduta.walk.rig import Image, Rig
 
@@ -65,30 +65,39 @@ class Way:
 
 
 def find_way(
-    first: LocalModel, second: LocalModel, rig: Rig, settings: WaySettings = WaySettings()
-) -> Way:
-    """From one key position to the next; a cut where nothing is in common."""
-    matches = match_features(first.plane, second.plane)
-    try:
-        pose = relative_pose(first.plane, second.plane, rig, matches)
-    except NotFoundError as error:
-        return Way(np.eye(4)[:3], why=error.evidence)
-    forth, back = find_morphs(first, second, pose.second_from_first, settings.flow)
+    first: LocalModel, second: LocalModel, rig: Rig, settings: WaySettings = WaySettings(),
+    given: Matrix | None = None,
+) -> Way:  # fmt: skip
+    """From one key position to the next; a cut where nothing is in common.
+
+    given: (3, 4) second_from_first where it is known; then it is not sought.
+    """
+    found: Pose | None = None
+    pose = given
+    if pose is None:
+        matches = match_features(first.plane, second.plane)
+        try:
+            found = relative_pose(first.plane, second.plane, rig, matches)
+        except NotFoundError as error:
+            return Way(np.eye(4)[:3], why=error.evidence)
+        pose = found.second_from_first
+    forth, back = find_morphs(first, second, pose, settings.flow)
     meshes = mesh_of(forth, settings.mesh), mesh_of(back, settings.mesh)
     psi = float(forth.region.mean()), float(back.region.mean())
     shared = forth.region & ~first.sky
     ratio = compare_colours(first.image[shared], sampled(second.image, forth.target)[shared])
     gain = np.array(ratio or (1.0, 1.0, 1.0))
     there, picture = judge(
-        meshes[0], pose.second_from_first, second.screen, levelled(first.image, gain), second.image,
+        meshes[0], pose, second.screen, levelled(first.image, gain), second.image,
         psi[0], settings.judge,
     )  # fmt: skip
     here, _ = judge(
-        meshes[1], inverse(pose.second_from_first), first.screen, levelled(second.image, 1.0 / gain),
+        meshes[1], inverse(pose), first.screen, levelled(second.image, 1.0 / gain),
         first.image, psi[1], settings.judge,
     )  # fmt: skip
     labelling = forth.flow.labelling
     return Way(
-        pose.second_from_first, *meshes, there, picture, int(pose.inliers.sum()), pose.residual_px,
+        pose, *meshes, there, picture, 0 if found is None else int(found.inliers.sum()),
+        None if found is None else found.residual_px,
         (labelling.energy, labelling.energy_icm, labelling.bound), there.why or here.why, ratio,
     )  # fmt: skip

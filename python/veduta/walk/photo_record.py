@@ -1,0 +1,116 @@
+"""A single camera's path as a record of key positions."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from veduta.run.work import Work
+from veduta.walk.build.local_model import LocalModel, model_of_depth
+from veduta.walk.build.photo_depth import FramePlanes
+from veduta.walk.build.place import world_from_first
+from veduta.walk.keys import KeyFigures, KeyModel
+from veduta.walk.options import TakeOptions
+from veduta.walk.read.photo_path import PhotoPath, read_photo_path
+from veduta.walk.record import Matrix, taken
+from veduta.walk.rig import Image, PairFiles, Rig
+
+UNKNOWN = (
+    "the cameras' scale is not known: neighbouring frames are taken to be 1 m apart, and all"
+    " lengths follow from it"
+)
+
+
+@dataclass(frozen=True, eq=False)
+class PhotoRecord:
+    """Frames whose cameras are known. numbers: those of the frames that are key positions."""
+
+    path: PhotoPath
+    numbers: list[int]
+    sources: tuple[Path, ...]
+
+    @property
+    def rig(self) -> Rig:
+        """Neighbouring frames as two cameras."""
+        return self.path.rig
+
+    @property
+    def keys(self) -> list[tuple[PairFiles, ...]]:
+        """One view each: the frame and the next one."""
+        pairs = self.path.pairs
+        return [(pairs[n],) for n in self.numbers]
+
+    @property
+    def files(self) -> list[Path]:
+        """The cameras' files and all frames that count."""
+        around = {n for number in self.numbers for n in self._around(number)}
+        pairs = self.path.pairs
+        return [*self.sources, *(pairs[n].left for n in sorted(around))]
+
+    @property
+    def first(self) -> Matrix:
+        """As the cameras say, where they are in metres; else level at the origin."""
+        if not self.path.known:
+            return world_from_first()
+        pose = np.vstack([self.path.cameras[self.numbers[0]].cam_from_world, [0.0, 0.0, 0.0, 1.0]])
+        return np.asarray(np.linalg.inv(pose))
+
+    @cached_property
+    def _planes(self) -> FramePlanes:
+        return FramePlanes(self.path.cameras, self.path.picture, self.path.span)
+
+    def _around(self, number: int) -> list[int]:
+        return [number, *self._planes.neighbours(number)]
+
+    def files_of(self, number: int) -> list[Path]:
+        """The frame, those beside it, and the cameras."""
+        pairs = self.path.pairs
+        return [*self.sources, *(pairs[n].left for n in self._around(self.numbers[number]))]
+
+    def key(self, work: Work, number: int) -> KeyModel:
+        """Depth from the frames before and after."""
+        if not self.path.known and UNKNOWN not in work.doubts:
+            work.doubt(UNKNOWN)
+        return KeyModel(self._model(self.numbers[number]), KeyFigures(np.eye(3)[None]))
+
+    def _model(self, frame: int) -> LocalModel:
+        depth, sure = self._planes.depth(frame)
+        return model_of_depth(
+            self.path.pairs[frame].key, self.path.picture(frame), depth, sure, self.rig
+        )
+
+    def picture(self, work: Work, number: int) -> Image:
+        """The frame."""
+        return self.path.picture(self.numbers[number])
+
+    def pose(self, first: int, second: int) -> Matrix | None:
+        """As the cameras say."""
+        return self.path.pose(self.numbers[first], self.numbers[second])
+
+
+def read_photo_record(
+    folder: Path, cameras: Path, take: TakeOptions, largest_px: int
+) -> PhotoRecord:
+    """The frames that the options take; all of them give depth."""
+    path = read_photo_path(folder, cameras, largest_px)
+    numbered: list[tuple[PairFiles, ...]] = [(pair,) for pair in path.pairs]
+    chosen = {views[0].left for views in taken(numbered, take, folder)}
+    numbers = [n for n, pair in enumerate(path.pairs) if pair.left in chosen]
+    return PhotoRecord(path, numbers, _sources(cameras))
+
+
+def _sources(cameras: Path) -> tuple[Path, ...]:
+    """The files that say where the cameras are."""
+    if cameras.is_file():
+        return (cameras,)
+    inner = sorted(one for one in cameras.rglob("*") if one.is_file() and _says_cameras(one))
+    return tuple(inner)
+
+
+def _says_cameras(path: Path) -> bool:
+    return path.suffix in {".bin", ".txt", ".json", ".camera", ".mat", ".yaml", ".yml"} and (
+        not path.name.startswith("report") and ".veduta" not in path.parts
+    )
