@@ -12,8 +12,12 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.walk_call import WalkCall
     from veduta.run.progress import Progress
     from veduta.walk.command import Sources, run_walk
+    from veduta.walk.rebuild import run_rebuild
 
     call = parse(WalkCall, "veduta walk", arguments)
+    if call.folder.suffix == ".json":
+        result = run_rebuild(call.folder, call.out, Progress(quiet=call.quiet), force=call.force)
+        return tell_result(result, quiet=call.quiet)
     result = run_walk(
         call.folder, call.out, call.options(), Progress(quiet=call.quiet),
         sources=Sources(call.calibration, call.calibrate, call.cameras), force=call.force,

@@ -25,7 +25,7 @@ Folder = Annotated[
         help_behavior_hint="",
         help=(
             "folder with left/ and right/, image_2/ and image_3/, or image_l/ and image_r/, and the"
-            " calibration of the two cameras"
+            " calibration of the two cameras; or an edited walk.json, from which it is built again"
         ),
     ),
 ]

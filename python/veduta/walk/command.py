@@ -18,6 +18,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.walk.build.film import flat_picture, frames_of, write_film
 from veduta.walk.build.flow import FlowSettings
+from veduta.walk.build.graph import worlds_of
 from veduta.walk.build.judge import JudgeLimits
 from veduta.walk.build.level import Compared, Gains, level_gains, levelled
 from veduta.walk.build.local_model import FARTHEST_M, LocalModel
@@ -56,6 +57,11 @@ class Found:
     ways: list[Way] = field(default_factory=list)
     ends: list[tuple[int, int]] = field(default_factory=list)
     clouds: list[tuple[NDArray[np.float64], NDArray[np.uint8]]] = field(default_factory=list)
+
+    def add(self, found: tuple[Way, tuple[int, int]]) -> None:
+        """A transition."""
+        self.ways.append(found[0])
+        self.ends.append(found[1])
 
 
 @dataclass(frozen=True)
@@ -139,27 +145,43 @@ def _make(work: Work, record: WalkRecord, options: WalkOptions) -> None:
 
 def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
     """All key positions and the transitions between them."""
-    rig, settings = record.rig, _settings(options)
+    settings = _settings(options)
+    links = _links(record, options.take.links)
     found = Found()
     before: LocalModel | None = None
-    world = record.first
-    for number, views in enumerate(record.keys):
+    shapes: list[Screen] = []
+    for number in range(len(record.keys)):
         work.progress("walk", number / len(record.keys))
         key = record.key(work, number)
         if before is not None:
-            ends = (number - 1, number)
-            way = _way(work, before, key.model, record, settings, ends)
-            back = np.linalg.inv(np.vstack([way.second_from_first, [0.0, 0.0, 0.0, 1.0]]))
-            world = world @ (back if way.forth is not None else _ahead(rig))
-            found.ways.append(way)
-            found.ends.append(ends)
-        found.stations.append(Station(views[0].key, key.model.screen, world))
+            found.add(_way(work, before, key.model, record, settings, (number - 1, number)))
+        shapes.append(key.model.screen)
         found.figures.append(key.figures)
-        found.clouds.append(_cloud(key.model, world))
+        found.clouds.append(_cloud(key.model))
         before = key.model
-    gap = max((one.gap for one in found.figures), default=0.0)
+    for ends in links:
+        first, second = (record.key(work, number).model for number in ends)
+        found.add(_way(work, first, second, record, settings, ends))
+    worlds = worlds_of(len(shapes), record.first, found.ends, found.ways, _ahead(record.rig))
+    names = [views[0].key for views in record.keys]
+    found.stations = [Station(*one) for one in zip(names, shapes, worlds, strict=True)]
     if any(len(views) > 1 for views in record.keys):
-        work.measure("largest_gap_share", gap)
+        work.measure("largest_gap_share", max(one.gap for one in found.figures))
+    return found
+
+
+def _links(record: WalkRecord, links: tuple[str, ...]) -> list[tuple[int, int]]:
+    """The numbers of the key positions of FROM:TO; InputError where there are no such."""
+    names = [views[0].key for views in record.keys]
+    found = []
+    for link in links:
+        ends = next(((a, b) for a in names for b in names if a != b and link == f"{a}:{b}"), None)
+        if ends is None:
+            raise InputError(
+                link, "is no link of two key positions",
+                f"Say FROM:TO with names as {names[0]} and {names[-1]}.",
+            )  # fmt: skip
+        found.append((names.index(ends[0]), names.index(ends[1])))
     return found
 
 
@@ -192,14 +214,25 @@ def _write_place(
     ]
     place = Place()
     place.walks.append(
-        walk_of("Walk", DOCUMENT, found.stations, pictures, told, options.play.speed_m_s)
+        walk_of(
+            "Walk",
+            DOCUMENT,
+            found.stations,
+            pictures,
+            [entry for entry, _ in told],
+            options.play.speed_m_s,
+        )
     )
-    points, colours = (np.concatenate(column) for column in zip(*found.clouds, strict=True))
+    worlds = [one.world_from_camera for one in found.stations]
+    points = np.concatenate(
+        [own @ to[:3, :3].T + to[:3, 3] for (own, _), to in zip(found.clouds, worlds, strict=True)]
+    )
+    colours = np.concatenate([own for _, own in found.clouds])
     place.clouds.append(Cloud("points", points, colours))
     place.save(work.folder)
     document = document_of(
         record.rig, record.keys, found.figures, found.stations, gains, found.ends,
-        found.ways,
+        found.ways, [models for _, models in told],
     )  # fmt: skip
     write_document(document, work.folder / DOCUMENT)
     return len(points)
@@ -210,8 +243,10 @@ def _film(work: Work, record: WalkRecord, found: Found, gains: Gains, options: W
     screen = Screen.of(record.rig)
 
     def frames() -> Iterator[Image]:
-        for number, (way, (start, end)) in enumerate(zip(found.ways, found.ends, strict=True)):
-            work.progress("video", number / len(found.ways))
+        for way, (start, end) in zip(found.ways, found.ends, strict=True):
+            if end != start + 1:
+                continue  # a link: the film goes along the path
+            work.progress("video", start / len(found.stations))
             shown = [
                 (_picture(work, record, gains, n), found.stations[n].screen) for n in (start, end)
             ]
@@ -233,8 +268,8 @@ def _settings(options: WalkOptions) -> WaySettings:
 def _way(
     work: Work, first: LocalModel, second: LocalModel, record: WalkRecord, settings: WaySettings,
     ends: tuple[int, int],
-) -> Way:  # fmt: skip
-    """One transition, kept for a run that is killed later."""
+) -> tuple[Way, tuple[int, int]]:  # fmt: skip
+    """One transition and its ends, kept for a run that is killed later."""
     inputs = [file_digest(path) for number in ends for path in record.files_of(number)]
     options = work.options.model_dump(mode="json")
     given = record.pose(*ends)
@@ -243,7 +278,7 @@ def _way(
         name, [*inputs, repr(record.rig), options],
         lambda: arrays_of(find_way(first, second, record.rig, settings, given)),
     )  # fmt: skip
-    return way_of(arrays)
+    return way_of(arrays), ends
 
 
 def _ahead(rig: Rig) -> NDArray[np.float64]:
@@ -253,24 +288,25 @@ def _ahead(rig: Rig) -> NDArray[np.float64]:
     return matrix
 
 
-def _cloud(
-    model: LocalModel, world: NDArray[np.float64]
-) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
-    """What stereo measured near a key position, as points in the world."""
+def _cloud(model: LocalModel) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+    """What stereo measured near a key position, as points in its camera's frame."""
     thin = (slice(None, None, CLOUD_STEP_PX), slice(None, None, CLOUD_STEP_PX))
     chosen = model.measured[thin] & (model.depth_m[thin] < min(CLOUD_FARTHEST_M, FARTHEST_M))
-    points = model.points[thin][chosen]
-    return points @ world[:3, :3].T + world[:3, 3], model.image[thin][chosen]
+    return model.points[thin][chosen], model.image[thin][chosen]
 
 
 def _written(
     folder: Path, number: int, ends: tuple[int, int], way: Way, pictures: list[str]
-) -> WalkTransition:
+) -> tuple[WalkTransition, tuple[str, str] | None]:
+    """The entry of the place, and the files of the models, which a fade has for a rebuild."""
     score = None if way.verdict is None else way.verdict.score_db
     start, end = ends
-    if way.kind != "morph":
-        return WalkTransition(start=start, end=end, kind=way.kind, score_db=score)
-    forth, back = write_way(folder, number, way, (pictures[start], pictures[end]))
-    return WalkTransition(
-        start=start, end=end, kind="morph", forth=forth, back=back, score_db=score
+    models = None
+    if way.forth is not None:
+        models = write_way(folder, number, way, (pictures[start], pictures[end]))
+    if way.kind != "morph" or models is None:
+        return WalkTransition(start=start, end=end, kind=way.kind, score_db=score), models
+    entry = WalkTransition(
+        start=start, end=end, kind="morph", forth=models[0], back=models[1], score_db=score
     )
+    return entry, models

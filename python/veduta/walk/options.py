@@ -15,6 +15,11 @@ class TakeOptions(Options):
     every: int = Field(default=1, ge=1, le=1000, description="take every n-th key position")
     first: int = Field(default=0, ge=0, description="number of the first key position, from 0")
     count: int | None = Field(default=None, ge=1, description="how many key positions at most")
+    links: tuple[str, ...] = Field(
+        default=(),
+        description="transitions besides those to the next key position, as FROM:TO: where a path"
+        " branches or comes back",
+    )
 
 
 class BoardOptions(Options):

@@ -34,8 +34,9 @@ NOTE = (
 def document_of(
     rig: Rig, keys: list[tuple[PairFiles, ...]], figures: list[KeyFigures], stations: list[Station],
     gains: Gains, ends: list[tuple[int, int]], ways: list[Way],
+    models: list[tuple[str, str] | None],
 ) -> WalkDocument:  # fmt: skip
-    """`walk.json` of a walk. ends: the numbers of the key positions of each way."""
+    """`walk.json` of a walk. ends: the numbers of the key positions of each way; models: files."""
     return WalkDocument(
         rig=RigRecord(
             width_px=rig.width_px, height_px=rig.height_px, focal_px=rig.focal_px,
@@ -44,8 +45,8 @@ def document_of(
         ),
         keys=[_key(*one) for one in zip(keys, figures, stations, gains, strict=True)],
         transitions=[
-            _transition(way, stations[start].id, stations[end].id)
-            for way, (start, end) in zip(ways, ends, strict=True)
+            _transition(way, stations[start].id, stations[end].id, files)
+            for way, (start, end), files in zip(ways, ends, models, strict=True)
         ],
     )  # fmt: skip
 
@@ -67,7 +68,8 @@ def _key(views: tuple[PairFiles, ...], key: KeyFigures, station: Station, gain: 
     )  # fmt: skip
 
 
-def _transition(way: Way, start: str, end: str) -> TransitionRecord:
+def _transition(way: Way, start: str, end: str, models: tuple[str, str] | None) -> TransitionRecord:
+    forth, back = models or (None, None)
     verdict = way.verdict
     energies = way.energies or (None, None, None)
     return TransitionRecord(
@@ -77,6 +79,7 @@ def _transition(way: Way, start: str, end: str) -> TransitionRecord:
         score_db=None if verdict is None else verdict.score_db,
         unmoved_db=None if verdict is None else verdict.unmoved_db,
         energy=energies[0], energy_icm=energies[1], energy_bound=energies[2],
+        forth=forth, back=back,
     )  # fmt: skip
 
 
@@ -104,8 +107,8 @@ def tell_walk(
     work.file("place.json", "the place that `veduta view` shows")
     work.file("points.ply", "what stereo measured near the key positions")
     work.file("walk/key-*.webp", "what each key position shows")
-    if "morph" in kinds:
-        work.file("walk/way-*.glb", "the models of both ends of each transition that morphs")
+    if any(way.forth is not None for way in ways):
+        work.file("walk/way-*.glb", "the models of both ends of each transition that is no cut")
     work.summary = (
         f"{len(stations)} key positions, {sum(steps):.1f} m: {kinds.count('morph')} transitions"
         f" morph, {kinds.count('fade')} cross-fade, {kinds.count('cut')} are cut"

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from typing import Annotated, Literal, Self
 
 from pydantic import BaseModel, ConfigDict, Field, model_validator
@@ -9,6 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field, model_validator
 VERSION = 1
 Finite = Annotated[float, Field(allow_inf_nan=False)]
 Matrix = Annotated[tuple[Finite, ...], Field(min_length=16, max_length=16)]
+MODEL = re.compile(r"walk/[A-Za-z0-9_-]{1,100}\.glb")
 Kind = Literal["morph", "fade", "cut"]
 
 
@@ -67,6 +69,17 @@ class TransitionRecord(_Record):
     energy: Finite | None = None
     energy_icm: Finite | None = None
     energy_bound: Finite | None = None
+    forth: str | None = Field(
+        default=None, description="file of the start's model, if there is one"
+    )
+    back: str | None = Field(default=None, description="file of the end's model")
+
+    @model_validator(mode="after")
+    def _models_are_inside(self) -> Self:
+        for name in (self.forth, self.back):
+            if name is not None and not MODEL.fullmatch(name):
+                raise ValueError(f"{name!r} is no model of this walk")
+        return self
 
 
 class WalkDocument(_Record):
