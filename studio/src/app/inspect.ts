@@ -5,6 +5,7 @@
  */
 import type { Feature } from "../core/features.ts";
 import type { MorphState } from "../core/morph-walk.ts";
+import type { StrollCost } from "../three/morph-show.ts";
 import { roomsOf } from "../core/room-map.ts";
 import type { StudioState } from "../core/state.ts";
 import { stretchAt } from "../core/tour.ts";
@@ -43,6 +44,8 @@ export interface Inspection {
   animals(): { id: string; place: Vec3; pace: number }[];
   /** Where one is on a walk from view to view; null where one is on none. */
   stroll(): MorphState | null;
+  /** What the last frame of that walk cost, and what is held for it; null where one is on none. */
+  strollCost(): StrollCost | null;
   bounds(): { min: Vec3; max: Vec3 };
   /** `loading`: files on their way; `missing`: those that did not come. */
   stats(): ViewerStats & { load_s: number; loading: number; missing: string[] };
@@ -121,6 +124,7 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     },
     animals: () => viewer.animals.states,
     stroll: () => store.value.morph,
+    strollCost: () => viewer.strollCost,
     bounds: () => viewer.solid.bounds,
     stats: () => {
       const { waiting, missing } = session.onTheWay;

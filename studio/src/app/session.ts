@@ -181,10 +181,13 @@ function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
   return (["model", "walls", "points", "cameras"] as const).filter((layer) => has[layer]);
 }
 
+/** Nothing can be drawn in space. */
+export class NoWebGL extends Fault {}
+
 function checkWebGL(): void {
   const context = document.createElement("canvas").getContext("webgl2");
   if (context === null) {
-    throw new Fault(
+    throw new NoWebGL(
       "This browser",
       "it offers no WebGL 2, with which the place is drawn",
       "Switch on hardware acceleration in the browser's settings, update the browser or the graphics driver, or try Firefox, Chrome, Edge or Safari on another machine.",

@@ -28,7 +28,9 @@ import type { Minimap } from "./minimap.ts";
 import "./photo-list.ts";
 import "./photo-panel.ts";
 import "./records-panel.ts";
-import { openPlace, type Session } from "./session.ts";
+import "./plain-walk.ts";
+import { type PlainWalk, plainWalkOf } from "./plain-walk.ts";
+import { NoWebGL, openPlace, type Session } from "./session.ts";
 import { shownFeature } from "./shown-feature.ts";
 import { strollPanel, wheelOn } from "./stroll.ts";
 import { studioStyles } from "./studio-styles.ts";
@@ -47,12 +49,14 @@ export class Studio extends LitElement {
     progress: { state: true },
     layersOpen: { state: true },
     notice: { state: true },
+    plain: { state: true },
   };
   declare fault: Fault | null;
   declare session: Session | null;
   declare progress: { share: number; file: string };
   declare layersOpen: boolean;
   declare notice: string;
+  declare plain: PlainWalk | null;
   readonly #store = new Store<StudioState>(INITIAL_STATE);
   #noticeTimer = 0;
   #commands: Commands | null = null;
@@ -66,6 +70,7 @@ export class Studio extends LitElement {
     this.progress = { share: 0, file: "" };
     this.layersOpen = matchMedia("(min-width: 900px)").matches;
     this.notice = "";
+    this.plain = null;
     this.#store.subscribe((now, before) => {
       this.requestUpdate();
       const opened = now.selected !== null && before.selected === null;
@@ -123,7 +128,10 @@ export class Studio extends LitElement {
       document.documentElement.dataset.veduta = "ready";
       void keepOffline(new URL(location.href));
     } catch (error) {
-      this.#fail(error);
+      // Without WebGL 2 a walk still has its pictures.
+      this.plain = error instanceof NoWebGL ? await plainWalkOf(new URL(location.href)) : null;
+      if (this.plain === null) this.#fail(error);
+      else document.documentElement.dataset.veduta = "ready";
     }
   }
 
@@ -168,7 +176,8 @@ export class Studio extends LitElement {
       <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}
         @wheel=${(event: WheelEvent) => wheelOn(event, this.session, this.#store)}></canvas>
       ${this.session !== null && this.fault === null ? this.#panels(this.session) : nothing}
-      ${this.session === null && this.fault === null
+      ${this.plain === null ? nothing : html`<veduta-plain-walk .plain=${this.plain}></veduta-plain-walk>`}
+      ${this.session === null && this.fault === null && this.plain === null
         ? html`<veduta-loading .share=${this.progress.share} .file=${this.progress.file}></veduta-loading>`
         : nothing}
       ${this.fault === null ? nothing : html`<veduta-message .fault=${this.fault}></veduta-message>`}

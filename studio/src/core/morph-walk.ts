@@ -155,23 +155,64 @@ export function placeOn(walk: MorphWalk, at: number): { transition: number; m: n
   return { transition, m: inside - transition };
 }
 
-/** Where one is after walking so many metres on, backwards where they are negative; both ends stop. */
-export function walkedOn(walk: MorphWalk, at: number, metres: number): number {
-  let now = Math.min(Math.max(at, 0), walk.transitions.length);
-  let left = metres;
-  while (left !== 0) {
-    const ahead = left > 0;
-    const transition = ahead ? Math.floor(now) : Math.ceil(now) - 1;
+/** Just before the end of a transition, where the next one of the list begins elsewhere. */
+const EDGE = 1e-6;
+/** A way that goes on in the list is taken rather than another in nearly the same direction (rad). */
+const ONWARD = 0.15;
+/** A way that is cut is taken where there is no other. */
+const CUT = 10;
+
+/** The place of m (0..1) in a transition, as `placeOn` reads it. */
+function atOf({ transitions }: MorphWalk, transition: number, m: number): number {
+  const next = transitions[transition + 1];
+  const joins = next === undefined || next.start === transitions[transition]?.end;
+  return m < 1 || joins ? transition + m : transition + 1 - EDGE;
+}
+
+/** How far to the left of where a station looks another one is (rad). */
+function leftOf(from: Station | undefined, to: Station | undefined): number {
+  if (from === undefined || to === undefined) return 0;
+  const [here, there] = [from.worldFromCamera, to.worldFromCamera];
+  const along = (column: number): number =>
+    [0, 1, 2].reduce((sum, row) => sum + (here[4 * column + row] ?? 0) * ((there[12 + row] ?? 0) - (here[12 + row] ?? 0)), 0);
+  return Math.atan2(-along(0), along(2));
+}
+
+/** The transition that goes on from the end (or, backwards, the start) of another, where one looks; null: none. */
+function onward({ stations, transitions }: MorphWalk, from: number, ahead: boolean, left: number): number | null {
+  const way = transitions[from];
+  const here = ahead ? way?.end : way?.start;
+  let [best, least] = [null as number | null, Infinity];
+  for (const [n, { start, end, kind }] of transitions.entries()) {
+    if (n === from || (ahead ? start : end) !== here) continue;
+    const aside = ahead ? Math.abs(leftOf(stations[start], stations[end]) - left) : 0;
+    const cost = aside + (n === (ahead ? from + 1 : from - 1) ? 0 : ONWARD) + (kind === "cut" ? CUT : 0);
+    if (cost < least) [best, least] = [n, cost];
+  }
+  return best;
+}
+
+/**
+ * Where one is after walking so many metres on, backwards where they are negative. Where the path
+ * branches one goes where one looks: so far to the left (rad). Where it ends one stops.
+ */
+export function walkedOn(walk: MorphWalk, at: number, metres: number, left = 0): number {
+  let { transition, m } = placeOn(walk, at);
+  const ahead = metres > 0;
+  let rest = Math.abs(metres);
+  while (rest > 1e-9) {
     const length = walk.lengths_m[transition];
     if (length === undefined) break;
-    const room = ahead ? transition + 1 - now : now - transition;
-    const step = Math.min(Math.abs(left) / length, room);
-    now = ahead ? now + step : now - step;
-    if (step === room) now = ahead ? transition + 1 : transition;
-    left -= Math.sign(left) * step * length;
-    if (Math.abs(left) < 1e-9) break;
+    const step = Math.min(rest / length, ahead ? 1 - m : m);
+    m += ahead ? step : -step;
+    rest -= step * length;
+    if (rest <= 1e-9) break;
+    const next = onward(walk, transition, ahead, left);
+    if (next === null) break;
+    transition = next;
+    m = ahead ? 0 : 1;
   }
-  return now;
+  return atOf(walk, transition, m);
 }
 
 /** How far the way goes up to a place on it (m). */
@@ -179,13 +220,22 @@ export function metresTo(walk: MorphWalk, at: number): number {
   return walk.lengths_m.reduce((sum, length, n) => sum + length * Math.min(1, Math.max(0, at - n)), 0);
 }
 
-/** The transitions that have to be there: the one in which one is, one ahead and one behind. */
+/** No more transitions are held, however many ways part here. */
+const MOST_HELD = 5;
+
+/** The transitions that have to be there: the one in which one is, those ahead and those behind. */
 export function nearTransitions(walk: MorphWalk, at: number): number[] {
   const { transition } = placeOn(walk, at);
-  return [transition, transition + 1, transition - 1].filter((n) => n >= 0 && n < walk.transitions.length);
+  const way = walk.transitions[transition];
+  if (way === undefined) return [];
+  const others = [...walk.transitions.keys()].filter((n) => n !== transition);
+  const ahead = others.filter((n) => walk.transitions[n]?.start === way.end);
+  const behind = others.filter((n) => walk.transitions[n]?.end === way.start);
+  return [transition, ...ahead, ...behind].slice(0, MOST_HELD);
 }
 
 /** Without what lies between: the station that is nearer. */
-export function nearestStation(at: number): number {
-  return Math.round(at);
+export function nearestStation(walk: MorphWalk, at: number): number {
+  const { transition, m } = placeOn(walk, at);
+  return atOf(walk, transition, Math.round(m));
 }

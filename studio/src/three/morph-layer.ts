@@ -74,6 +74,11 @@ export class MorphLayer {
     renderer.render(this.#scene, camera);
   }
 
+  /** Of the picture that it draws and its depth. */
+  get bytes(): number {
+    return this.target.width * this.target.height * 8;
+  }
+
   dispose(): void {
     this.target.depthTexture?.dispose();
     this.target.dispose();

@@ -50,6 +50,25 @@ export class MorphFiles {
     return this.#ways.size;
   }
 
+  /** How many models and pictures are on their way. */
+  get waiting(): number {
+    const models = [...this.#ways.values()].filter((way) => way === null).length;
+    return models + [...this.#pictures.values()].filter((picture) => picture === null).length;
+  }
+
+  /** On the card: models as they are, pictures with their smaller ones. */
+  get bytes(): number {
+    let sum = 0;
+    for (const way of this.#ways.values()) {
+      for (const end of way === null ? [] : [way.forth, way.back]) sum += bytesOf(end.seen) + bytesOf(end.torn);
+    }
+    for (const picture of this.#pictures.values()) {
+      const { width, height } = (picture?.image ?? { width: 0, height: 0 }) as ImageBitmap;
+      sum += (width * height * 4 * 4) / 3;
+    }
+    return Math.round(sum);
+  }
+
   /** Asks for what is near, and lets go of the rest. */
   follow(at: number): void {
     const near = nearTransitions(this.#walk, at);
@@ -165,6 +184,11 @@ function taken(geometry: BufferGeometry, file: string): BufferGeometry {
   own.setAttribute("psi", column("_psi"));
   own.setAttribute("moved", moved);
   return own;
+}
+
+function bytesOf(geometry: BufferGeometry): number {
+  const columns = [...Object.values(geometry.attributes), ...(geometry.index === null ? [] : [geometry.index])];
+  return columns.reduce((sum, column) => sum + column.array.byteLength, 0);
 }
 
 function dispose({ seen, torn }: EndModel): void {

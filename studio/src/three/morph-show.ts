@@ -27,6 +27,15 @@ const MOST_PITCH = 0.9;
 const TURN_RAD_S = 0.8;
 const RUN = 3;
 
+/** calls, triangles: of the last frame. held: models of transitions; waiting: on their way. bytes: on the card. */
+export interface StrollCost {
+  readonly calls: number;
+  readonly triangles: number;
+  readonly held: number;
+  readonly waiting: number;
+  readonly bytes: number;
+}
+
 export class MorphShow {
   readonly #walks: readonly MorphWalk[];
   readonly #files: readonly MorphFiles[];
@@ -36,6 +45,7 @@ export class MorphShow {
   readonly #mix = mixUniforms(NEAR_M, FAR_M);
   readonly #screen = new Scene();
   readonly #flat = new OrthographicCamera(-1, 1, 1, -1, 0, 1);
+  #drawn = { calls: 0, triangles: 0 };
   #yaw = 0;
   #pitch = 0;
 
@@ -52,9 +62,10 @@ export class MorphShow {
     await this.#files[state.which]?.settle(state.at);
   }
 
-  /** The models that are held of the walk that one is on. */
-  held(which: number): number {
-    return this.#files[which]?.held ?? 0;
+  cost(which: number): StrollCost {
+    const files = this.#files[which];
+    const bytes = (files?.bytes ?? 0) + this.#own.bytes + this.#other.bytes;
+    return { ...this.#drawn, held: files?.held ?? 0, waiting: files?.waiting ?? 0, bytes };
   }
 
   /** In the drawn frame. */
@@ -86,7 +97,7 @@ export class MorphShow {
     const steered = wish.forward !== 0;
     const pace = walk.speed_m_s * (steered ? wish.forward * (wish.run ? RUN : 1) : state.playing ? 1 : 0);
     if (pace === 0) return turn.left === 0 && turn.up === 0 ? null : { ...state };
-    const at = walkedOn(walk, state.at, pace * seconds);
+    const at = walkedOn(walk, state.at, pace * seconds, this.#yaw);
     const ended = at === state.at;
     return { ...state, at, playing: state.playing && !steered && !ended };
   }
@@ -95,7 +106,7 @@ export class MorphShow {
     const walk = this.#walks[state.which];
     const files = this.#files[state.which];
     if (walk === undefined || files === undefined) return;
-    const at = state.instant ? nearestStation(state.at) : state.at;
+    const at = state.instant ? nearestStation(walk, state.at) : state.at;
     files.follow(at);
     const { transition, m } = placeOn(walk, at);
     const way = walk.transitions[transition];
@@ -110,8 +121,11 @@ export class MorphShow {
     this.#other.show(end, models?.back ?? null, other, own, 1 - m, state.look);
     const before = renderer.autoClear;
     renderer.autoClear = false;
+    this.#drawn = { calls: 0, triangles: 0 };
     this.#own.draw(renderer, this.#camera, size.x, size.y);
+    this.#count(renderer);
     this.#other.draw(renderer, this.#camera, size.x, size.y);
+    this.#count(renderer);
     renderer.setRenderTarget(null);
     this.#mix.ownColour.value = this.#own.target.texture;
     this.#mix.ownDepth.value = this.#own.target.depthTexture;
@@ -119,7 +133,13 @@ export class MorphShow {
     this.#mix.otherDepth.value = this.#other.target.depthTexture;
     this.#mix.m.value = whole;
     renderer.render(this.#screen, this.#flat);
+    this.#count(renderer);
     renderer.autoClear = before;
+  }
+
+  #count({ info: { render } }: WebGLRenderer): void {
+    this.#drawn.calls += render.calls;
+    this.#drawn.triangles += render.triangles;
   }
 
   dispose(): void {

@@ -13,7 +13,7 @@ import { DrawLoop } from "./draw-loop.ts";
 import type { Frusta } from "./frusta.ts";
 import { Follower } from "./follower.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
-import type { MorphShow } from "./morph-show.ts";
+import type { MorphShow, StrollCost } from "./morph-show.ts";
 import { NEAR_M, OrbitRig } from "./orbit-rig.ts";
 import type { ShownPhoto } from "./photo-show.ts";
 import { Picker } from "./picker.ts";
@@ -165,6 +165,12 @@ export class Viewer {
       triangles: this.solid.faceCount,
       tiles: this.#town?.tileCount ?? 0,
     };
+  }
+
+  /** Of the walk from view to view that one is on. */
+  get strollCost(): StrollCost | null {
+    const { morph } = this.#store.value;
+    return morph === null ? null : (this.#morphs?.cost(morph.which) ?? null);
   }
 
   /** The photos that lie on the place, and how far each has faded in. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { Fault } from "../../src/core/fault.ts";
-import { heightToCover, metresTo, type MorphWalk, nearTransitions, placeOn, reachOf, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
+import { heightToCover, metresTo, type MorphWalk, nearestStation, nearTransitions, placeOn, reachOf, readMorphWalk, walkedOn } from "../../src/core/morph-walk.ts";
 import { isInside } from "../../src/core/place.ts";
 
 const station = (id: string, y: number): object => ({
@@ -67,6 +67,25 @@ describe("a walk from view to view", () => {
     expect(heightToCover(cylinder, 3)).toBeCloseTo(high);
   });
 
+  it("goes where one looks at a branch, and back", () => {
+    // From b the way goes on to c; another one leads to d, on the left.
+    const left = { ...station("d", 2), transform: [1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, -2, 4, 0, 1] };
+    const walk = read({
+      keys: [station("a", 0), station("b", 2), station("c", 6), left],
+      transitions: [morph, { ...morph, start: 1, end: 2 }, { ...morph, start: 1, end: 3 }],
+    });
+    expect(walkedOn(walk, 0, 3)).toBeCloseTo(1.25);
+    const onTheLeft = walkedOn(walk, 0, 3, 0.8);
+    expect(placeOn(walk, onTheLeft)).toEqual({ transition: 2, m: expect.closeTo(1 / Math.hypot(2, 2)) as number });
+    expect(walkedOn(walk, onTheLeft, -2)).toBeCloseTo(0.5);
+    // The ends of both ways are no way on.
+    expect(placeOn(walk, walkedOn(walk, 1.5, 99)).transition).toBe(1);
+    expect(placeOn(walk, walkedOn(walk, 2.5, 99))).toEqual({ transition: 2, m: 1 });
+    expect(nearTransitions(walk, 0.5)).toEqual([0, 1, 2]);
+    expect(placeOn(walk, nearestStation(walk, 1.7)).transition).toBe(1);
+    expect(nearestStation(walk, 1.3)).toBe(1);
+  });
+
   it("walks metres across transitions of different lengths, and stops at both ends", () => {
     const walk = read();
     expect(walkedOn(walk, 0, 1)).toBeCloseTo(0.5);
@@ -78,7 +97,8 @@ describe("a walk from view to view", () => {
   });
 
   it("asks for the transition that one is in, one ahead and one behind", () => {
-    const walk = read({ transitions: [morph, morph, morph, morph] });
+    const keys = [0, 1, 2, 3, 4].map((n) => station(`${n}`, n));
+    const walk = read({ keys, transitions: [0, 1, 2, 3].map((n) => ({ ...morph, start: n, end: n + 1 })) });
     expect(nearTransitions(walk, 0)).toEqual([0, 1]);
     expect(nearTransitions(walk, 2.5)).toEqual([2, 3, 1]);
     expect(nearTransitions(walk, 4)).toEqual([3, 2]);
