@@ -27,6 +27,9 @@ _BESIDE_UV = 1e-3
 _SIXTEEN_BITS = 65535
 _STILL = 1e-6
 """A joint that moves by less in a clip (m, or of a quaternion) has no channel there."""
+WEBP = "EXT_texture_webp"
+LINEAR, MIPMAPS = 9729, 9987
+"""glTF's filters."""
 Y_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.0], [0, 0, 0, 1.0]])
 """glTF's frame from the part's."""
 
@@ -56,6 +59,7 @@ def mesh_glb_bytes(mesh: Mesh) -> bytes:
     }
     materials = GltfMaterials(root, mesh.materials, lambda row: _wrap(mesh, row), binary)
     numbers = [materials.number(row) for row in range(len(mesh.materials))]
+    _add_pictures(root, mesh)
     shape: dict[str, Any] = {"primitives": _primitives(mesh, numbers, binary)}
     if mesh.morphs:
         shape["weights"] = [0.0] * len(mesh.morphs)
@@ -70,6 +74,29 @@ def mesh_glb_bytes(mesh: Mesh) -> bytes:
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
     root["buffers"] = [{"byteLength": len(binary.content)}]
     return glb_container(root, bytes(binary.content))
+
+
+def _add_pictures(root: dict[str, Any], mesh: Mesh) -> None:
+    """Textures that are WebP files beside the model."""
+    if not mesh.pictures:
+        return
+    names = list(dict.fromkeys(mesh.pictures.values()))
+    images, textures = root.setdefault("images", []), root.setdefault("textures", [])
+    samplers = root.setdefault("samplers", [])
+    sampler = {"magFilter": LINEAR, "minFilter": MIPMAPS, "wrapS": CLAMP, "wrapT": CLAMP}
+    samplers.append(sampler)
+    number = {}
+    for name in names:
+        images.append({"uri": name, "mimeType": "image/webp"})
+        entry = {"sampler": len(samplers) - 1, "extensions": {WEBP: {"source": len(images) - 1}}}
+        textures.append(entry)
+        number[name] = len(textures) - 1
+    for material in root["materials"]:
+        if material["name"] in mesh.pictures:
+            texture = {"index": number[mesh.pictures[material["name"]]]}
+            material["pbrMetallicRoughness"]["baseColorTexture"] = texture
+    for kind in ("extensionsUsed", "extensionsRequired"):
+        root[kind] = [*root.get(kind, []), WEBP]
 
 
 def _primitives(mesh: Mesh, numbers: list[int], binary: GltfBin) -> list[dict[str, Any]]:

@@ -35,6 +35,7 @@ class Mesh:
     texture's upper left. colours: (v, 3) uint8 sRGB, which multiply the material's colour.
     values: further numbers of the vertices, (v,) float32 by name (in the file `_NAME`).
     extras: what a verb has to tell its player in the studio, under names of its own.
+    pictures: by a material's name, a WebP file beside the model that is its texture.
     """
 
     id: str
@@ -55,6 +56,7 @@ class Mesh:
     notes: tuple[str, ...] = ()
     extras: Mapping[str, JsonValue] = field(default_factory=dict)
     values: Mapping[str, NDArray[np.float32]] = field(default_factory=dict)
+    pictures: Mapping[str, str] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
         vertices, faces = len(self.positions_m), len(self.triangles)

@@ -150,7 +150,10 @@ export class MorphFiles {
 
   async #model(file: string): Promise<EndModel> {
     const bytes = await fetchBytes(fileAddress(file, this.#manifest), file, () => undefined);
-    const { scene } = await new GLTFLoader().parseAsync(bytes, "").catch((error: unknown) => {
+    const loader = new GLTFLoader();
+    // The picture is for other programs: here one is shared by all models of its station.
+    loader.register(() => ({ name: "EXT_texture_webp", loadTexture: async () => await Promise.resolve(new Texture()) }));
+    const { scene } = await loader.parseAsync(bytes, "").catch((error: unknown) => {
       throw new Fault(file, `the model is broken (${error instanceof Error ? error.message : String(error)})`, REMEDY);
     });
     const geometries = new Map<string, BufferGeometry>();

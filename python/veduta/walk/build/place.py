@@ -92,6 +92,7 @@ def model_of(name: str, mesh: MorphMesh, own_from_other: Matrix, pictures: tuple
         morphs=(Morph("next", (arrived @ Z_UP.T).astype(np.float32)),),
         extras={"walk": {"pictures": list(pictures)}},
         values={"psi": mesh.psi},
+        pictures={name: Path(pictures[0]).name for name in ("seen", "between")},
     )
 
 
