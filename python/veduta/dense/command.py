@@ -18,7 +18,7 @@ from veduta.dense.build.standing import place_from_cameras
 from veduta.dense.build.surface import RawSurface, build_surface, cut_surface, natural_voxel_m
 from veduta.dense.build.texturing import textured
 from veduta.dense.depths import Matching, all_depth_maps
-from veduta.dense.document import DepthMap, Views
+from veduta.dense.document import DepthMap, Elevation, Views
 from veduta.dense.linked_depths import Linking, all_linked_depths
 from veduta.dense.maps import write_maps_of
 from veduta.dense.options import DenseOptions
@@ -31,7 +31,7 @@ from veduta.dense.read.pictures import (
     working_scale,
 )
 from veduta.dense.read.sparse import SparsePoints, match_points
-from veduta.dense.read.walls import WALLS, Elevation, read_elevations
+from veduta.dense.read.walls import WALLS, read_elevations
 from veduta.dense.telling import (
     middle_depths_m,
     tell_depths,

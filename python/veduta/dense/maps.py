@@ -12,7 +12,7 @@ from veduta.dense.build.cloud import DenseCloud
 from veduta.dense.build.elevation import ElevationParameters, wall_depth
 from veduta.dense.build.ground_map import ground_map, write_maps
 from veduta.dense.build.showing import share_picture
-from veduta.dense.read.walls import Elevation
+from veduta.dense.document import Elevation
 from veduta.run.page import Table
 from veduta.run.work import Work
 

@@ -11,7 +11,8 @@ import pytest
 from veduta.dense.build.cloud import DenseCloud
 from veduta.dense.build.elevation import ElevationParameters, wall_depth
 from veduta.dense.build.ground_map import ground_map, write_maps
-from veduta.dense.read.walls import Elevation, read_elevations
+from veduta.dense.document import Elevation
+from veduta.dense.read.walls import read_elevations
 from veduta.run.errors import InputError
 
 RULE = ElevationParameters()

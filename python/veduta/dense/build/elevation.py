@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from veduta.dense.read.walls import Elevation
+from veduta.dense.document import Elevation
 
 
 @dataclass(frozen=True)
