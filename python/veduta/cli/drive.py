@@ -15,5 +15,7 @@ def run(arguments: list[str]) -> int:
 
     call = parse(DriveCall, "veduta drive", arguments)
     progress = Progress(quiet=call.quiet)
-    result = run_drive(call.log, call.out, call.options(), progress, force=call.force)
+    result = run_drive(
+        call.log, call.out, call.options(), progress, document=call.document, force=call.force
+    )
     return tell_result(result, quiet=call.quiet)

@@ -17,9 +17,17 @@ Log = Annotated[
         metavar="LOG",
         help_behavior_hint="",
         help=(
-            "folder of a drive: with a drive.toml, in the layout of KITTI odometry (velodyne/,"
-            " poses.txt, calib.txt), or of scans (*.pcd)"
+            "folder of a drive: with a drive.toml, in a layout of KITTI (odometry or raw), or of"
+            " scans (PCD, LAS, LAZ)"
         ),
+    ),
+]
+Document = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="JSON",
+        help_behavior_hint="",
+        help="an edited drive.json of this log: its path and segments are taken",
     ),
 ]
 Seed = Annotated[int, tyro.conf.arg(help="seed of what is drawn at random")]
@@ -41,6 +49,7 @@ class DriveCall:
     columns: ColumnOptions = field(default_factory=ColumnOptions)
     mesh: MeshOptions = field(default_factory=MeshOptions)
     texture: TextureOptions = field(default_factory=TextureOptions)
+    document: Document = None
     seed: Seed = 1
     force: Force = False
     quiet: Quiet = False

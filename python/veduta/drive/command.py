@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -11,26 +12,22 @@ from numpy.typing import NDArray
 from PIL import Image
 from pydantic import JsonValue
 
-from veduta.drive.build.beside import column_spacing, points_beside
-from veduta.drive.build.pictures import (
-    atlas_picture,
-    depth_picture,
-    histogram_picture,
-    object_picture,
-    plan_picture,
-    source_picture,
-)
-from veduta.drive.build.pictures_of import Seen, look
+from veduta.drive.build.beside import column_spacing
+from veduta.drive.build.edited import with_document
+from veduta.drive.build.facade_files import FACADES, write_facades
+from veduta.drive.build.outcome import Outcome
+from veduta.drive.build.pictures import plan_picture
 from veduta.drive.build.place import PICTURES, classified, drive_place
-from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
+from veduta.drive.document.load import DOCUMENT, load_document
 from veduta.drive.document.model import Correction, DriveDocument, DriveSegment, PathPose
 from veduta.drive.options import DriveOptions
 from veduta.drive.read.log import log_files, read_log
 from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import DriveRecord
+from veduta.drive.stages import layer_segments, texture_segments
 from veduta.formats.laz import write_laz
 from veduta.run.digests import file_digest
-from veduta.run.errors import NotFoundError
+from veduta.run.errors import InputError, NotFoundError
 from veduta.run.page import Table
 from veduta.run.progress import Progress
 from veduta.run.report import Count
@@ -38,26 +35,48 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
 VERSION = "4"
-DOCUMENT, POINTS = "drive.json", "points.laz"
+POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
 
 def run_drive(
-    log: Path, out: Path, options: DriveOptions, progress: Progress, *, force: bool = False
+    log: Path,
+    out: Path,
+    options: DriveOptions,
+    progress: Progress,
+    *,
+    document: Path | None = None,
+    force: bool = False,
 ) -> VerbResult:
-    """The whole verb. InputError where the log cannot be read."""
+    """The whole verb. document: an edited `drive.json` of this log: its path and its segments are
+    taken instead of being found. InputError where the log cannot be read.
+    """
+    if options.texture.anonymise:
+        fault = "cannot be done: there is no detector of faces and number plates"
+        raise InputError("--anonymise", fault, "Blur the images before, and leave it out.")
     inputs: list[JsonValue] = [[path.name, file_digest(path)] for path in log_files(log)]
-    call = VerbCall("drive", VERSION, log.name or str(log), options, inputs)
-    return run_verb(call, out, lambda work: _make(log, options, work), progress, force=force)
+    edited, in_place = None, False
+    if document is not None:
+        edited = (document, load_document(document))
+        inputs.append(["edited", file_digest(document)])
+        in_place = document.resolve() == (out / DOCUMENT).resolve()
+    name = "drive" if edited is None else "drive (rebuild)"
+    call = VerbCall(name, VERSION, log.name or str(log), options, inputs, in_place)
+    make = partial(_make, log, options, edited)
+    return run_verb(call, out, make, progress, force=force)
 
 
-def _make(log: Path, options: DriveOptions, work: Work) -> None:
+def _make(
+    log: Path, options: DriveOptions, edited: tuple[Path, DriveDocument] | None, work: Work
+) -> None:
     with work.step("read") as step:
         spacing_m = options.columns.column_spacing_m
         record = read_log(
             log, options.seed, spacing_m, lambda share: work.progress("read", share),
             work.stages / "unpacked",
         )  # fmt: skip
+        if edited is not None:
+            record = with_document(record, edited[1], edited[0])
         step.counts["sweeps"], step.counts["images"] = len(record.sweeps), len(record.shots)
         for note in record.notes:
             work.note(note)
@@ -68,78 +87,24 @@ def _make(log: Path, options: DriveOptions, work: Work) -> None:
         line = driven_line(record.path(), spacing, ahead_m)
         if len(line) < 2:
             raise NotFoundError("a path", "the scanner did not move", "Drive along a street.")
-        segments = cut_segments(line, spacing)
+        segments = cut_segments(line, spacing) if edited is None else edited[1].segments
         step.counts["segments"] = len(segments)
         step.rejected += [f"{one.id}: {one.reason}" for one in segments if one.fate == "leave-out"]
-    geometries = _geometries(record, segments, options, road_m, work)
-    seen = _looked(record, geometries, options.seed, work)
-    textured = _textured(geometries, seen, options, work)
+    digests: JsonValue = [[path.name, file_digest(path)] for path in log_files(log)]
+    layered = layer_segments(record, segments, options, road_m, digests, work)
+    outcomes = texture_segments(record, layered, options, digests, work)
     with work.step("place"):
-        _write(log, record, segments, textured, seen, line, road_m, work)
-    _tell(record, textured, line, work)
-
-
-def _geometries(
-    record: DriveRecord,
-    segments: Sequence[DriveSegment],
-    options: DriveOptions,
-    road_m: float,
-    work: Work,
-) -> list[Geometry]:
-    found = []
-    with work.step("layers") as step:
-        built = [one for one in segments if one.fate == "build"]
-        for number, segment in enumerate(built):
-            work.progress("layers", number / len(built))
-            frame = frame_of(segment, options, road_m)
-            points = points_beside(record, segment, options)
-            geometry = reconstruct(segment, frame, points, options)
-            if geometry.measured_walls() < 10:
-                step.rejected.append(f"{segment.id}: no facade stands along it")
-                continue
-            found.append(geometry)
-            step.counts[f"{segment.id}: objects"] = geometry.object_count
-    if not found:
-        raise NotFoundError(
-            "a facade", "no segment has a main depth", "Drive along a street with buildings."
-        )
-    return found
-
-
-def _looked(
-    record: DriveRecord, geometries: Sequence[Geometry], seed: int, work: Work
-) -> list[Seen]:
-    with work.step("images") as step:
-        hiding = [one.foreground() for one in geometries]
-        hiding += [one.crowns(seed) for one in geometries]
-        foreground = np.concatenate(hiding)
-        seen = []
-        for number, shot in enumerate(record.shots):
-            work.progress("images", number / len(record.shots))
-            seen.append(look(shot, foreground))
-        step.counts["images"] = len(seen)
-    return seen
-
-
-def _textured(
-    geometries: Sequence[Geometry], seen: Sequence[Seen], options: DriveOptions, work: Work
-) -> list[Textured]:
-    found = []
-    with work.step("texture") as step:
-        for number, geometry in enumerate(geometries):
-            work.progress("texture", number / len(geometries))
-            one = texture(geometry, seen, options)
-            found.append(one)
-            step.counts[f"{geometry.segment.id}: triangles"] = len(one.surface.triangles)
-    return found
+        told = {one.segment.id: one.segment for one in layered}
+        known = [told.get(one.id, one) for one in segments]
+        _write(log, record, known, outcomes, line, road_m, work)
+    _tell(record, outcomes, line, work)
 
 
 def _write(
     log: Path,
     record: DriveRecord,
     segments: Sequence[DriveSegment],
-    textured: Sequence[Textured],
-    seen: Sequence[Seen],
+    outcomes: Sequence[Outcome],
     line: NDArray[np.float64],
     road_m: float,
     work: Work,
@@ -168,17 +133,25 @@ def _write(
     )
     text = json.dumps(document.model_dump(mode="json", by_alias=True), indent=1)
     (folder / DOCUMENT).write_text(text + "\n", encoding="utf-8")
-    cloud = classified([one.geometry for one in textured])
+    cloud = classified(outcomes)
     write_laz(cloud.points_m, cloud.colours, folder / POINTS, crs=record.crs,
               origin_m=record.origin_m, classes=cloud.classes)  # fmt: skip
-    drive_place(record, textured, seen, line, road_m).save(folder)
-    for name, meaning in (
+    drive_place(record, outcomes, line, road_m).save(folder)
+    planes = write_facades(outcomes, folder / FACADES)
+    files = [
         ("place.json", "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
         (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass"),
         (DOCUMENT, "the path and its segments"),
-        (f"{PICTURES}/", "the images"),
-    ):
+    ]
+    files += (
+        [("taken-out.ply", "what was taken out")] if (folder / "taken-out.ply").exists() else []
+    )
+    if planes:
+        files.append((f"{FACADES}/", "each facade plane straight on, and where it stands"))
+    work.measure("facade_planes", planes)
+    files += [(f"{PICTURES}/", "the images")] if record.shots else []
+    for name, meaning in files:
         work.file(name, meaning)
 
 
@@ -194,39 +167,42 @@ def _corrections(record: DriveRecord) -> list[Correction]:
 
 
 def _tell(
-    record: DriveRecord, textured: Sequence[Textured], line: NDArray[np.float64], work: Work
+    record: DriveRecord, outcomes: Sequence[Outcome], line: NDArray[np.float64], work: Work
 ) -> None:
-    triangles = sum(len(one.surface.triangles) for one in textured)
-    objects = sum(one.geometry.object_count for one in textured)
-    fine = sum(one.fine_triangles for one in textured)
-    share = sum(one.unseen_share * one.fine_triangles for one in textured) / max(fine, 1)
-    work.measure("segments", len(textured))
+    triangles = sum(one.triangles for one in outcomes)
+    objects = sum(one.objects for one in outcomes)
+    fine = sum(one.fine for one in outcomes)
+    share = sum(one.unseen_share * one.fine for one in outcomes) / max(fine, 1)
+    work.measure("segments", len(outcomes))
     work.measure("triangles", triangles)
     work.measure("triangles_before_joining", fine)
-    work.measure("joining_error_m", round(max(one.error_m for one in textured), 4))
+    work.measure("joining_error_m", round(max(one.error_m for one in outcomes), 4))
     work.measure("objects_taken_out", objects)
     work.measure("triangles_seen_in_no_image", round(share, 4))
-    work.measure("atlas_px", sum(int(one.atlas.surface.sum()) for one in textured))
-    work.measure("image_px", textured[0].atlas.inputs_px)
+    work.measure("atlas_px", sum(one.texels for one in outcomes))
+    work.measure("image_px", sum(shot.width_px * shot.height_px for shot in record.shots))
     work.summary = (
-        f"{len(textured)} facade meshes of {triangles:,} triangles; {objects} objects taken out;"
+        f"{len(outcomes)} facade meshes of {triangles:,} triangles; {objects} objects taken out;"
         f" {100 * share:.1f} % of the triangles are seen in no image"
     )
+    if record.shots:
+        work.note(f"{PICTURES}/ and the textures are not anonymised: blur the images before")
     if not record.shots:
         work.doubt("there are no images: nothing is textured")
     elif share > 0.2:
         work.doubt(f"{100 * share:.0f} % of the triangles are seen in no image: plain or invented")
+    points = np.concatenate([one.points for one in outcomes])
+    kinds = np.concatenate([one.kinds for one in outcomes])
     work.picture(
         "From above", "Building yellow, foreground green, ground brown, glass blue, path white",
-        plan_picture([one.geometry for one in textured], line),
+        plan_picture(points, kinds, line),
     )  # fmt: skip
     rows: list[list[Count | None]] = []
-    for one in textured:
-        _segment_pictures(one, work)
-        kinds = np.bincount(one.geometry.layers.kind, minlength=66)
+    for one in outcomes:
+        count = np.bincount(one.kinds, minlength=66)
         rows.append([
-            one.geometry.segment.id, int(kinds[6]), int(kinds[2]), int(kinds[64]), int(kinds[65]),
-            one.geometry.object_count, round(one.unseen_share, 3), one.geometry.segment.reason,
+            one.segment.id, int(count[6]), int(count[2]), int(count[64]), int(count[65]),
+            one.objects, round(one.unseen_share, 3), one.segment.reason,
         ])  # fmt: skip
     work.table(Table(
         "Segments",
@@ -234,21 +210,3 @@ def _tell(
          "triangles seen in no image", "why it is so cut"],
         rows,
     ))  # fmt: skip
-
-
-def _segment_pictures(one: Textured, work: Work) -> None:
-    geometry, name = one.geometry, one.geometry.segment.id
-    work.picture(f"{name}: as scanned", "Depth image before; near is light",
-                 depth_picture(geometry.layers.first, geometry), wide=True)  # fmt: skip
-    work.picture(f"{name}: depth histogram", "Main depth white, split depth blue",
-                 histogram_picture(geometry), wide=True)  # fmt: skip
-    work.picture(f"{name}: objects", "What stood before the facade", object_picture(geometry),
-                 wide=True)  # fmt: skip
-    work.picture(f"{name}: background", "Depth image after",
-                 depth_picture(geometry.background.depth, geometry), wide=True)  # fmt: skip
-    work.picture(f"{name}: what is known", "Grey measured, orange filled, blue inferred",
-                 source_picture(one.background, geometry), wide=True)  # fmt: skip
-    work.picture(f"{name}: atlas before", "Red is seen in no image",
-                 atlas_picture(one, filled=False), wide=True)  # fmt: skip
-    work.picture(f"{name}: atlas after", "Holes filled, and marked",
-                 atlas_picture(one, filled=True), wide=True)  # fmt: skip

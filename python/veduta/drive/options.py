@@ -54,6 +54,10 @@ class TextureOptions(Options):
         description="invent the texture of what no image shows, and mark it; --no-fill leaves it"
         " grey",
     )
+    anonymise: bool = Field(
+        default=False,
+        description="blur faces and number plates; refused while there is no detector for them",
+    )
 
 
 class DriveOptions(Options):

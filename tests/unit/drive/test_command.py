@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+import shutil
 from pathlib import Path
 
 import laspy
@@ -10,6 +12,7 @@ import pytest
 
 from veduta.drive import DriveOptions, run_drive
 from veduta.drive.document.model import DriveDocument
+from veduta.drive.options import TextureOptions
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
@@ -52,6 +55,19 @@ def test_walls_and_ground_stand_in_the_place(out: Path) -> None:
     assert place.tours[0].id == "drive"
 
 
+def test_facade_planes_stand_along_the_street(out: Path) -> None:
+    planes = json.loads((out / "facades/facades.json").read_text())["facades"]
+    assert 1 <= len(planes) <= 12
+    assert sum(plane["width_m"] for plane in planes) > 20.0
+    for plane in planes:
+        left, right = np.array(plane["left_m"]), np.array(plane["right_m"])
+        assert abs(left[0] + 11.0) < 1.2
+        assert abs(right[0] + 11.0) < 1.2
+        assert left[1] < right[1]  # looking west, north is to the right
+        assert 2.0 < plane["height_m"] < 17.0
+        assert "picture" not in plane  # there are no images
+
+
 def test_points_have_their_classes(out: Path) -> None:
     cloud = laspy.read(out / "points.laz")
     kinds = set(np.unique(cloud.classification).tolist())
@@ -74,6 +90,76 @@ def test_second_run_has_nothing_to_do(log: Path, out: Path) -> None:
         run_drive(log, out, DriveOptions(seed=2), Progress(quiet=True))
 
 
+def test_edited_document_is_rebuilt_from(log: Path, out: Path, tmp_path: Path) -> None:
+    document = DriveDocument.model_validate_json((out / "drive.json").read_text())
+    segment = document.segments[0]
+    half = segment.model_copy(update={"line": segment.line[: len(segment.line) // 2]})
+    edited = document.model_copy(update={"segments": [half]})
+    path = tmp_path / "edited.json"
+    path.write_text(edited.model_dump_json(by_alias=True))
+    quiet = Progress(quiet=True)
+    result = run_drive(log, tmp_path / "out", DriveOptions(), quiet, document=path)
+    assert result.measures["segments"] == 1
+    whole, part = (
+        Place.load(one).parts["left-001"].triangles()[0] for one in (out, tmp_path / "out")
+    )
+    assert np.ptp(part[:, 1]) == pytest.approx(np.ptp(whole[:, 1]) / 2, rel=0.15)
+
+
+def test_segment_is_left_as_it_is_where_the_document_says_so(
+    log: Path, out: Path, tmp_path: Path
+) -> None:
+    folder = tmp_path / "out"
+    shutil.copytree(out, folder)
+    path = folder / "drive.json"
+    document = DriveDocument.model_validate_json(path.read_text())
+    fated = [one.model_copy(update={"fate": "as-is"}) for one in document.segments[:1]]
+    path.write_text(document.model_copy(update={"segments": fated}).model_dump_json(by_alias=True))
+    result = run_drive(log, folder, DriveOptions(), Progress(quiet=True), document=path)
+    assert result.measures["objects_taken_out"] == 0
+    assert 64 not in np.unique(laspy.read(folder / "points.laz").classification)
+    vertices = Place.load(folder).parts["left-001"].triangles()[0]
+    assert (vertices[:, 0] > -7.5).any()  # cars stand in the mesh again
+    again = run_drive(log, folder, DriveOptions(), Progress(quiet=True), document=path)
+    assert again.up_to_date
+
+
+def test_document_of_another_drive_is_refused(log: Path, out: Path, tmp_path: Path) -> None:
+    path = tmp_path / "edited.json"
+    text = (out / "drive.json").read_text()
+    path.write_text(text.replace('"sweep": "000003"', '"sweep": "900003"'))
+    with pytest.raises(InputError, match=r"'900003' that is not in the log"):
+        run_drive(log, tmp_path / "o", DriveOptions(), Progress(quiet=True), document=path)
+    path.write_text('{"schema": "veduta/drive"}')
+    with pytest.raises(InputError, match="Field required"):
+        run_drive(log, tmp_path / "o", DriveOptions(), Progress(quiet=True), document=path)
+
+
+def test_killed_run_goes_on_from_what_was_made(
+    log: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As after kill -9: the private folder has stages and no result."""
+
+    def killed(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    with monkeypatch.context() as patch:
+        patch.setattr("veduta.drive.stages.texture", killed)
+        with pytest.raises(KeyboardInterrupt):
+            run_drive(log, tmp_path / "out", DriveOptions(), Progress(quiet=True))
+    made: list[str] = []
+    from veduta.drive import stages
+
+    whole = stages.reconstruct
+    monkeypatch.setattr(
+        "veduta.drive.stages.reconstruct", lambda *given: made.append("again") or whole(*given)
+    )
+    run_drive(log, tmp_path / "out", DriveOptions(), Progress(quiet=True))
+    assert made == []
+    for name in ("drive.json", "parts/left-001.glb", "place.json"):
+        assert (tmp_path / "out" / name).read_bytes() == (out / name).read_bytes()
+
+
 def test_street_without_houses_is_no_success(tmp_path: Path) -> None:
     street = build_street(StreetOptions(length_m=10.0, cars=0, trees=0, lamps=0), 1)
     nothing = np.zeros((0, 2, 3))
@@ -84,6 +170,13 @@ def test_street_without_houses_is_no_success(tmp_path: Path) -> None:
     result = run_drive(tmp_path / "log", tmp_path / "out", DriveOptions(), Progress(quiet=True))
     assert result.exit_code == 3
     assert "facade" in (result.failure.reason if result.failure else "")
+
+
+def test_anonymising_is_refused_rather_than_left_out(log: Path, tmp_path: Path) -> None:
+    options = DriveOptions(texture=TextureOptions(anonymise=True))
+    with pytest.raises(InputError, match="no detector"):
+        run_drive(log, tmp_path / "out", options, Progress(quiet=True))
+    assert not (tmp_path / "out").exists()
 
 
 def test_folder_without_a_drive_is_refused(tmp_path: Path) -> None:

@@ -89,7 +89,7 @@ def test_folder_without_scans_is_refused(folder: Path) -> None:
 def test_colour_camera_that_is_none_is_refused(folder: Path, matrix: str) -> None:
     (folder / "image_2").mkdir()
     (folder / "calib.txt").write_text(f"Tr: {_TR}\nP2: {matrix}\n")
-    with pytest.raises(InputError, match="P2 is not") as error:
+    with pytest.raises(InputError, match="is not the matrix") as error:
         read_kitti(folder, 1)
     assert error.value.subject.endswith("calib.txt")
     assert error.value.remedy

@@ -65,10 +65,11 @@ def atlas_picture(textured: Textured, *, filled: bool) -> NDArray[np.uint8]:
     return np.asarray(cv2.resize(pixels, None, fx=shrink, fy=shrink, interpolation=cv2.INTER_AREA))
 
 
-def plan_picture(geometries: list[Geometry], line: NDArray[np.float64]) -> NDArray[np.uint8]:
-    """(h, w, 3) from above: the path, the points by class, the main depths."""
-    points = np.concatenate([one.layers.points.points[:, :2] for one in geometries])
-    kinds = np.concatenate([one.layers.kind for one in geometries])
+def plan_picture(
+    points: NDArray[np.float64], kinds: NDArray[np.uint8], line: NDArray[np.float64]
+) -> NDArray[np.uint8]:
+    """(h, w, 3) from above: the path, the points (n, 3) by class, the main depths."""
+    points = points[:, :2]
     everything = np.vstack([points, line[:, :2]])
     low, high = np.quantile(everything, [0.001, 0.999], axis=0)
     scale = min(1000.0 / max(float((high - low).max()), 1.0), 20.0)

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +18,7 @@ from veduta.drive.build.pictures_of import Seen
 from veduta.drive.build.roof_line import find_roof_line
 from veduta.drive.build.surface import Surface, build_surface
 from veduta.drive.build.texture_fill import fill_texture
+from veduta.drive.build.trees import TreeParameters, as_scanned, direction_changes
 from veduta.drive.document.model import DriveSegment
 from veduta.drive.options import DriveOptions
 
@@ -26,6 +27,8 @@ NEAREST_M = 1.0
 TALL_M = 1.9
 """Cars and hedges are lower; trunks and poles are not."""
 CROWN_M, CROWN_HIGH_M, CROWN_POINTS = 0.6, 3.0, 40_000
+_BEFORE_ATLAS, _BEFORE_FILL = 0.1, 0.4
+"""How much of the time of texturing has gone by then."""
 LOWEST_DEG, HIGHEST_DEG = -85.0, 72.0
 
 
@@ -104,20 +107,46 @@ def reconstruct(
     farthest = options.columns.farthest_m
     sorted_points = sort_into_columns(points, frame, NEAREST_M, farthest)
     layers = split_layers(sorted_points, frame, farthest)
+    if segment.fate == "as-is":
+        return _left_alone(segment, frame, layers)
+    share = direction_changes(layers.first, frame)
+    if share > TreeParameters().most:
+        why = f"{segment.reason}; mostly trees ({100 * share:.0f} % direction changes): left as is"
+        left = segment.model_copy(update={"fate": "as-is", "reason": why})
+        return _left_alone(left, frame, layers)
     objects, count = find_objects(layers.foreground)
     background = fill_background(layers, frame)
     return Geometry(segment, frame, layers, objects, count, background)
 
 
-def texture(geometry: Geometry, seen: Sequence[Seen], options: DriveOptions) -> Textured:
-    """Section 7, and the walls up to the roof line."""
+def _left_alone(segment: DriveSegment, frame: ColumnFrame, layers: Layers) -> Geometry:
+    """Meshed as scanned: nothing of it is foreground."""
+    kind = layers.kind.copy()
+    kind[kind == PointClass.FOREGROUND] = PointClass.UNCLASSIFIED
+    background = as_scanned(layers, layers.depths.main)
+    none = np.zeros(frame.shape, dtype=np.int32)
+    return Geometry(segment, frame, replace(layers, kind=kind), none, 0, background)
+
+
+def texture(
+    geometry: Geometry,
+    seen: Sequence[Seen],
+    options: DriveOptions,
+    told: Callable[[float], None] = lambda share: None,
+) -> Textured:
+    """Section 7, and the walls up to the roof line. told: hears how far it is, 0 to 1."""
     frame, background = geometry.frame, geometry.background
     tops, known = find_roof_line(background, frame, seen, options.texture.wall_top_m)
     raised = raise_walls(background, frame, tops)
     fine = build_surface(raised.depth, raised.source, raised.wall, frame)
+    told(_BEFORE_ATLAS)
     atlas = build_atlas(raised.depth, frame, seen, options.texture.texel_m)
+    told(_BEFORE_FILL)
     if options.texture.fill:
-        pixels, invented, plain = fill_texture(atlas, options.texture.texel_m)
+        pixels, invented, plain = fill_texture(
+            atlas, options.texture.texel_m,
+            lambda share: told(_BEFORE_FILL + (1.0 - _BEFORE_FILL) * share),
+        )  # fmt: skip
     else:
         pixels, plain = atlas.pixels, atlas.surface & ~atlas.seen
         invented = np.zeros_like(plain)

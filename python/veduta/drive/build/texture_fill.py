@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
@@ -34,9 +35,15 @@ class TextureFillParameters:
 
 
 def fill_texture(
-    atlas: Atlas, texel_m: float, parameters: TextureFillParameters | None = None
+    atlas: Atlas,
+    texel_m: float,
+    told: Callable[[float], None] = lambda share: None,
+    parameters: TextureFillParameters | None = None,
 ) -> tuple[NDArray[np.uint8], NDArray[np.bool_], NDArray[np.bool_]]:
-    """The atlas without holes, (h, w) which texels are invented, and (h, w) which stay plain."""
+    """The atlas without holes, (h, w) which texels are invented, and (h, w) which stay plain.
+
+    told: hears how far it is, 0 to 1.
+    """
     chosen = parameters or TextureFillParameters()
     if not atlas.seen.any():
         return atlas.pixels, np.zeros_like(atlas.seen), atlas.surface.copy()
@@ -47,7 +54,7 @@ def fill_texture(
     pixels, known = _along_lines(atlas.pixels, atlas.seen, invented, texel_m, chosen)
     rest = invented & ~known
     pixels[rest] = _diffused(pixels, known)[rest]
-    pixels = _copied(pixels, atlas.seen, rest, texel_m, chosen)
+    pixels = _copied(pixels, atlas.seen, rest, texel_m, told, chosen)
     pixels[plain] = np.median(atlas.pixels[atlas.seen], axis=0).astype(np.uint8)
     return np.asarray(pixels, dtype=np.uint8), invented, plain
 
@@ -57,6 +64,7 @@ def _copied(
     seen: NDArray[np.bool_],
     holes: NDArray[np.bool_],
     texel_m: float,
+    told: Callable[[float], None],
     chosen: TextureFillParameters,
 ) -> NDArray[np.uint8]:
     """Holes with enough that is seen around them are filled by what repeats there (section 7.3).
@@ -67,7 +75,8 @@ def _copied(
     count, label, boxes, _ = cv2.connectedComponentsWithStats(holes.astype(np.uint8))
     margin = int(chosen.around_m / texel_m)
     order = np.argsort(-boxes[1:count, cv2.CC_STAT_AREA], kind="stable")[: chosen.most_holes] + 1
-    for number in order.tolist():
+    for done, number in enumerate(order.tolist()):
+        told(done / len(order))
         left, top, width, height, area = boxes[number].tolist()
         if area < chosen.fewest_px:
             break

@@ -39,14 +39,14 @@ def read_kitti(folder: Path, seed: int) -> DriveRecord:
     InputError names the file that is missing or broken.
     """
     calibration = _calibration(folder / CALIBRATION)
-    cam_from_sensor = _square(_needed(calibration, "Tr", folder / CALIBRATION))
+    cam_from_sensor = _square(needed_matrix(calibration, "Tr", folder / CALIBRATION))
     scans = sorted((folder / SCANS).glob("*.bin"))
     if not scans:
         raise InputError(folder / SCANS, "has no scans (*.bin)", "Name a folder that has some.")
     poses = _poses(folder / POSES, len(scans))
     times = _times(folder / TIMES, len(scans))
     places = [_WORLD_FROM_START @ pose @ cam_from_sensor for pose in poses]
-    first = _points(scans[0])
+    first = read_velodyne(scans[0])
     path = np.array([place[:3, 3] for place in places])
     level = level_road(first @ places[0][:3, :3].T + places[0][:3, 3], path[:1], seed)
     sweeps = tuple(
@@ -63,10 +63,10 @@ def read_kitti(folder: Path, seed: int) -> DriveRecord:
 
 
 def _reader(path: Path) -> Callable[[], NDArray[np.float64]]:
-    return lambda: _points(path)
+    return lambda: read_velodyne(path)
 
 
-def _points(path: Path) -> NDArray[np.float64]:
+def read_velodyne(path: Path) -> NDArray[np.float64]:
     """(n, 3) the usable points of a scan (m, sensor frame)."""
     size = path.stat().st_size
     if size > _MOST_BYTES or size % _POINT_BYTES:
@@ -80,18 +80,19 @@ def _points(path: Path) -> NDArray[np.float64]:
 
 def _calibration(path: Path) -> dict[str, NDArray[np.float64]]:
     found = {}
-    for number, line in enumerate(_text(path).splitlines(), 1):
+    for number, line in enumerate(text_of(path).splitlines(), 1):
         name, colon, rest = line.partition(":")
         if colon and rest.strip():
-            values = _numbers(rest, path, number)
+            values = numbers_of(rest, path, number)
             if len(values) == 12:
                 found[name.strip()] = values.reshape(3, 4)
     return found
 
 
-def _needed(
+def needed_matrix(
     calibration: dict[str, NDArray[np.float64]], name: str, path: Path
 ) -> NDArray[np.float64]:
+    """A matrix of a calibration file, by its name."""
     if name not in calibration:
         fault = f"has no line {name!r} with twelve numbers"
         raise InputError(path, fault, "KITTI's own calibration files have it: add it.")
@@ -99,7 +100,7 @@ def _needed(
 
 
 def _poses(path: Path, count: int) -> list[NDArray[np.float64]]:
-    rows = [_numbers(line, path, number) for number, line in enumerate(_lines(path), 1)]
+    rows = [numbers_of(line, path, number) for number, line in enumerate(lines_of(path), 1)]
     for number, row in enumerate(rows, 1):
         if len(row) != 12:
             fault = f"line {number} has {len(row)} numbers and not twelve"
@@ -114,7 +115,7 @@ def _times(path: Path, count: int) -> NDArray[np.float64]:
     """(count,) seconds; ten a second where there is no file, as KITTI's scanner turns."""
     if not path.is_file():
         return np.asarray(np.arange(count) * 0.1, dtype=np.float64)
-    values = [float(_numbers(line, path, row)[0]) for row, line in enumerate(_lines(path), 1)]
+    values = [float(numbers_of(line, path, row)[0]) for row, line in enumerate(lines_of(path), 1)]
     if len(values) < count:
         fault = f"has {len(values)} times for {count} scans"
         raise InputError(path, fault, "Give one time for each scan, or remove the file.")
@@ -130,16 +131,8 @@ def _shots(
 ) -> tuple[Shot, ...]:
     if not (folder / PICTURES).is_dir():
         return ()
-    matrix = _needed(calibration, "P2", folder / CALIBRATION)
-    beside = np.eye(4)
-    # P2 = K [I | t]: the colour camera stands beside the grey one, looking the same way.
-    try:
-        beside[:3, 3] = -np.linalg.solve(matrix[:, :3], matrix[:, 3])
-    except np.linalg.LinAlgError:
-        beside[:3, 3] = np.nan
-    if not (np.isfinite(beside).all() and matrix[0, 0] > 0.0 and matrix[1, 1] > 0.0):
-        fault = "P2 is not the matrix of a camera"
-        raise InputError(folder / CALIBRATION, fault, "Copy KITTI's own calibration file.")
+    matrix = needed_matrix(calibration, "P2", folder / CALIBRATION)
+    beside = beside_grey(matrix, folder / CALIBRATION)
     shots = []
     for row, name in enumerate(names):
         path = next(
@@ -148,7 +141,7 @@ def _shots(
         )
         if path is None:
             continue
-        width, height = _size(path)
+        width, height = image_size(path)
         # KITTI counts pixels from the centre of the first: half a pixel less than here.
         centre = (float(matrix[0, 2]) + 0.5, float(matrix[1, 2]) + 0.5)
         focal = (float(matrix[0, 0]), float(matrix[1, 1]))
@@ -157,7 +150,23 @@ def _shots(
     return tuple(shots)
 
 
-def _size(path: Path) -> tuple[int, int]:
+def beside_grey(matrix: NDArray[np.float64], path: Path) -> NDArray[np.float64]:
+    """(4, 4) grey_from_colour of a projection P2 = K [I | t] (3, 4): beside it, the same way
+    round.
+    """
+    beside = np.eye(4)
+    try:
+        beside[:3, 3] = -np.linalg.solve(matrix[:, :3], matrix[:, 3])
+    except np.linalg.LinAlgError:
+        beside[:3, 3] = np.nan
+    if not (np.isfinite(beside).all() and matrix[0, 0] > 0.0 and matrix[1, 1] > 0.0):
+        fault = "the projection of the colour camera is not the matrix of a camera"
+        raise InputError(path, fault, "Copy KITTI's own calibration file.")
+    return beside
+
+
+def image_size(path: Path) -> tuple[int, int]:
+    """Width and height (px)."""
     try:
         with Image.open(path) as image:
             return image.size
@@ -169,11 +178,13 @@ def _square(matrix: NDArray[np.float64]) -> NDArray[np.float64]:
     return np.vstack([matrix, [0.0, 0.0, 0.0, 1.0]])
 
 
-def _lines(path: Path) -> list[str]:
-    return [line for line in _text(path).splitlines() if line.strip()]
+def lines_of(path: Path) -> list[str]:
+    """Its lines that are not empty."""
+    return [line for line in text_of(path).splitlines() if line.strip()]
 
 
-def _text(path: Path) -> str:
+def text_of(path: Path) -> str:
+    """A file of the layout as text."""
     if not path.is_file():
         raise InputError(path, "there is no such file", "The layout of KITTI odometry needs it.")
     try:
@@ -182,7 +193,8 @@ def _text(path: Path) -> str:
         raise InputError(path, "is no text", "Copy it again.") from error
 
 
-def _numbers(text: str, path: Path, line: int) -> NDArray[np.float64]:
+def numbers_of(text: str, path: Path, line: int) -> NDArray[np.float64]:
+    """The finite numbers of a line."""
     try:
         values = np.array([float(word) for word in text.split()])
     except ValueError as error:

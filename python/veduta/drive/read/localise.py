@@ -36,13 +36,14 @@ class LocaliseParameters:
     slip, slip_rad: of a step, its share that its length may be off, and radians per metre. sure_m:
     particles that are spread less are agreed. lasting: scans in a row see the same wall, so their
     covariance is taken so many times. map_m, map_rad: least deviation of a place in the model.
-    fewest_sure: share of the scans after the first agreement that must be sure. least_share: of
-    their points on edges, on average. most_through: of their beams through what stands there.
+    fewest_sure: share of the scans after the first agreement that must be sure; fewest_of_all: of
+    all scans. least_share: of their points on edges, on average. most_through: of their beams
+    through what stands there.
     """
 
     particles: int = 5000
     first_draws: int = 100_000
-    sigma_m: float = 0.6
+    sigma_m: float = 0.5
     widest_sigma_m: float = 2.5
     spread_share: float = 0.25
     outlier: float = 0.08
@@ -50,7 +51,7 @@ class LocaliseParameters:
     blocked: float = 0.3
     free_at: tuple[float, ...] = (0.4, 0.75)
     free_m: float = 5.0
-    worth: float = 12.0
+    worth: float = 4.0
     draw_below: float = 0.5
     most_points: int = 90
     slip: float = 0.03
@@ -60,6 +61,7 @@ class LocaliseParameters:
     map_m: float = 0.3
     map_rad: float = 0.01
     fewest_sure: float = 0.5
+    fewest_of_all: float = 0.25
     least_share: float = 0.45
     most_through: float = 0.12
 
@@ -104,7 +106,8 @@ def localise(
         particles=chosen.particles, first_draws=chosen.first_draws, seed=seed,
         sigma_m=chosen.sigma_m, widest_sigma_m=chosen.widest_sigma_m,
         spread_share=chosen.spread_share, outlier=chosen.outlier, outside=chosen.outside,
-        blocked=chosen.blocked, worth=chosen.worth, draw_below=chosen.draw_below,
+        blocked=chosen.blocked, worth=chosen.worth,
+        draw_below=chosen.draw_below,
     )  # fmt: skip
     for row in range(rows):
         motion, noise = np.zeros(3), np.zeros(3)
@@ -173,6 +176,9 @@ def _must_fit(
     what = "the place of the drive in the surface model"
     if not sure.any():
         evidence = f"the particles stay {spread.min():.1f} m apart at best"
+        raise NotFoundError(what, evidence, remedy)
+    if sure.mean() < chosen.fewest_of_all:
+        evidence = f"they agree in {100 * sure.mean():.0f} % of the scans only"
         raise NotFoundError(what, evidence, remedy)
     after = int(np.argmax(sure))
     seen = sure[after:] & (known[after:] > 0.3)

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from veduta.drive.read.clouds import is_clouds, read_clouds
 from veduta.drive.read.kitti import is_kitti, read_kitti
+from veduta.drive.read.kitti_raw import calibration_files, is_kitti_raw, read_kitti_raw
 from veduta.drive.read.own import is_own, read_own
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import InputError
@@ -35,12 +36,14 @@ def read_log(
         return read_own(folder, seed, spacing_m, told, scratch)
     if is_kitti(folder):
         return read_kitti(folder, seed)
+    if is_kitti_raw(folder):
+        return read_kitti_raw(folder, seed)
     if is_clouds(folder):
         return read_clouds(folder, seed)
     raise InputError(
         folder,
         "has no drive that Veduta can read",
-        "It reads folders with a drive.toml, the layout of KITTI odometry, and *.pcd scans.",
+        "It reads folders with a drive.toml, the layouts of KITTI, and scans as PCD, LAS or LAZ.",
     )
 
 
@@ -55,6 +58,10 @@ def log_files(folder: Path) -> list[Path]:
         and TRUTH not in path.relative_to(folder).parts
         and not any((parent / PRIVATE).is_dir() for parent in _between(path, folder))
     )
+    if is_kitti_raw(folder):
+        found += [
+            path for path in calibration_files(folder) if path.parent != folder and path.is_file()
+        ]
     if len(found) > _MOST_FILES:
         raise InputError(folder, f"has more than {_MOST_FILES} files", "Name one drive's folder.")
     return found

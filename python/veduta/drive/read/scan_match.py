@@ -27,6 +27,7 @@ class MatchParameters:
     the reference counts e^-1/2. apart_m: points farther apart do not match in ICP, at first; at the
     end a third of it. huber_m: residuals above weigh less (a beam's noise is 1 to 3 cm).
     sigma_m: noise of a residual, for the covariance. line_m: neighbours on a line are this near.
+    on_m: a point so near lies on the reference.
     """
 
     reach_m: float = 0.6
@@ -39,6 +40,7 @@ class MatchParameters:
     huber_m: float = 0.05
     sigma_m: float = 0.02
     line_m: float = 0.5
+    on_m: float = 0.2
     rounds: int = 30
 
 
@@ -62,11 +64,12 @@ class Reference:
         self.points = points
         self.tree = cKDTree(points)
         self.normals, self.straight = _normals(points, line_m)
-        self._field: tuple[Floats, NDArray[np.float32]] | None = None
+        self._fields: dict[tuple[float, float], tuple[Floats, NDArray[np.float32]]] = {}
 
     def likelihood(self, chosen: MatchParameters) -> tuple[Floats, NDArray[np.float32]]:
         """The lower corner of a grid, and how well a point fits in each cell of it, 0 to 1."""
-        if self._field is None:
+        key = (chosen.cell_m, chosen.blur_m)
+        if key not in self._fields:
             low = self.points.min(axis=0) - 1.0
             size = np.ceil((self.points.max(axis=0) + 1.0 - low) / chosen.cell_m).astype(int) + 1
             size = np.minimum(size, 4000)
@@ -75,8 +78,9 @@ class Reference:
             inside = (at < size).all(axis=1)
             empty[at[inside, 0], at[inside, 1]] = 0
             distance = cv2.distanceTransform(empty, cv2.DIST_L2, 5) * chosen.cell_m
-            self._field = low, np.exp(-0.5 * (distance / chosen.blur_m) ** 2).astype(np.float32)
-        return self._field
+            fit = np.exp(-0.5 * (distance / chosen.blur_m) ** 2).astype(np.float32)
+            self._fields[key] = low, fit
+        return self._fields[key]
 
 
 def match_scans(
@@ -185,7 +189,7 @@ def _icp(reference: Reference, scan: Floats, pose: Floats, chosen: MatchParamete
         if np.abs(step).max() < 1e-5 and number >= chosen.rounds // 2:
             break
     distance = np.asarray(tree.query(moved(pose, scan))[0])
-    share = float((distance < chosen.apart_m / 3.0).mean())
+    share = float((distance < chosen.on_m).mean())
     pose[2] = (pose[2] + np.pi) % (2 * np.pi) - np.pi
     covariance = np.asarray(chosen.sigma_m**2 * np.linalg.inv(information), dtype=np.float64)
     return Match(pose, covariance, share)

@@ -34,9 +34,11 @@ class SurfaceParameters:
     side; it is taken off to find the ground. low_m: so much over the ground the foot of an edge may
     lie below the scan's plane. canny: thresholds of edges of a photo. farthest_m: distances to
     edges are not told beyond. finest_m: cells are cut no smaller to lay edges on their borders.
-    eaves_m: roofs stand out over walls by about so much.
+    eaves_m: roofs stand out over walls by about so much. inside: cells, by which walls are behind
+    the borders of cells that have the height of the highest thing in them.
     rough_m: heights that differ by more from the median around them, on average over
-    `rough_over_m`, are of a tree: it has no edges, as a scan below its crown goes through.
+    `rough_over_m`, are of a tree: it has no edges. leaf_m, leaf_over_m: the same with less doubt
+    where it is asked whether a beam may go through; a wall that is missed there does no harm.
     """
 
     step_m: float = 2.0
@@ -45,9 +47,12 @@ class SurfaceParameters:
     canny: tuple[int, int] = (60, 150)
     farthest_m: float = 25.0
     finest_m: float = 0.25
-    eaves_m: float = 0.25
+    eaves_m: float = 0.1
+    inside: float = 0.4
     rough_m: float = 0.8
     rough_over_m: float = 3.5
+    leaf_m: float = 0.3
+    leaf_over_m: float = 2.5
 
 
 @dataclass(frozen=True, eq=False)
@@ -146,12 +151,13 @@ def _of_heights(
     filled = np.ascontiguousarray(heights[tuple(nearest)])
     ground = _ground(filled, cell_m, chosen)
     edge, times = _edges(filled, ground, cell_m, scanner_m, chosen)
-    tree = _trees(filled, cell_m, chosen)
-    edge &= ~_finer(tree, times)
+    leaves = _trees(filled, cell_m, chosen.leaf_m, chosen.leaf_over_m)
+    edge &= ~_finer(_trees(filled, cell_m, chosen.rough_m, chosen.rough_over_m), times)
     distance = _to_edges(edge, cell_m / times, chosen)
     near = float((distance < 1.0).mean())
-    distance[_finer((filled - ground > scanner_m) & ~tree, times)] *= -1.0
-    distance += chosen.eaves_m
+    distance += cell_m / times / 2.0  # cells are told from their middles, edges lie between them
+    distance[_finer((filled - ground > scanner_m) & ~leaves, times)] *= -1.0
+    distance += chosen.eaves_m + chosen.inside * cell_m
     return SurfaceModel(distance, low, cell_m / times, ground, times, crs, near)
 
 
@@ -200,12 +206,12 @@ def _edges(
 
 
 def _trees(
-    heights: NDArray[np.float32], cell_m: float, chosen: SurfaceParameters
+    heights: NDArray[np.float32], cell_m: float, rough_m: float, over_m: float
 ) -> NDArray[np.bool_]:
     """Cells where the surface is rough; a median keeps the steps of walls."""
     off = np.abs(heights - cv2.medianBlur(heights, 3))
-    side = max(round(chosen.rough_over_m / cell_m) | 1, 3)
-    return np.asarray(cv2.blur(off, (side, side)) > chosen.rough_m, dtype=bool)
+    side = max(round(over_m / cell_m) | 1, 3)
+    return np.asarray(cv2.blur(off, (side, side)) > rough_m, dtype=bool)
 
 
 def _finer(cells: NDArray[Any], times: int) -> NDArray[Any]:

@@ -1,0 +1,201 @@
+"""The segments of a drive one after the other: of each only what others need stays in memory.
+
+What is made of a segment is on disk as soon as it is made, so that a killed run goes on from there.
+"""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from pydantic import JsonValue
+from scipy.spatial import cKDTree
+
+from veduta.drive.build.beside import points_beside
+from veduta.drive.build.outcome import Outcome, outcome_of
+from veduta.drive.build.pictures import (
+    atlas_picture,
+    depth_picture,
+    histogram_picture,
+    object_picture,
+    source_picture,
+)
+from veduta.drive.build.pictures_of import Seen, look
+from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
+from veduta.drive.document.model import DriveSegment
+from veduta.drive.kept import load_result, save_result
+from veduta.drive.options import DriveOptions
+from veduta.drive.record import DriveRecord, Shot
+from veduta.run.errors import NotFoundError
+from veduta.run.work import Work
+
+FEWEST_COLUMNS = 10
+"""Columns with a facade that a segment needs."""
+NEAR_M = 45.0
+"""Images taken farther away add nothing to a facade, and nothing farther hides one."""
+HELD_IMAGES = 24
+"""Images in memory at once."""
+
+
+@dataclass(frozen=True, eq=False)
+class Layered:
+    """A segment with a facade. hidden: (n, 3) float32 what may hide facades, crowns included (m).
+
+    load: its geometry, from disk.
+    """
+
+    segment: DriveSegment
+    hidden: NDArray[np.float32]
+    load: Callable[[], Geometry]
+
+
+def layer_segments(
+    record: DriveRecord,
+    segments: Sequence[DriveSegment],
+    options: DriveOptions,
+    road_m: float,
+    digests: JsonValue,
+    work: Work,
+) -> list[Layered]:
+    """Sections 5 and 6 for all segments. NotFoundError where none has a facade."""
+    found = []
+    with work.step("layers") as step:
+        built = [one for one in segments if one.fate != "leave-out"]
+        for number, segment in enumerate(built):
+            work.progress("layers", number / len(built))
+
+            def load(segment: DriveSegment = segment) -> Geometry:
+                return _kept_geometry(record, segment, options, road_m, digests, work)
+
+            geometry = load()
+            if geometry.segment.fate == "as-is" and segment.fate != "as-is":
+                step.rejected.append(f"{segment.id}: {geometry.segment.reason}")
+            if geometry.segment.fate == "build" and geometry.measured_walls() < FEWEST_COLUMNS:
+                step.rejected.append(f"{segment.id}: no facade stands along it")
+                continue
+            hidden = [geometry.foreground(), geometry.crowns(options.seed)]
+            found.append(Layered(geometry.segment, np.concatenate(hidden).astype(np.float32), load))
+            step.counts[f"{segment.id}: objects"] = geometry.object_count
+    if not found:
+        raise NotFoundError(
+            "a facade", "no segment has a main depth", "Drive along a street with buildings."
+        )
+    return found
+
+
+def _kept_geometry(
+    record: DriveRecord,
+    segment: DriveSegment,
+    options: DriveOptions,
+    road_m: float,
+    digests: JsonValue,
+    work: Work,
+) -> Geometry:
+    def make() -> Geometry:
+        points = points_beside(record, segment, options)
+        return reconstruct(segment, frame_of(segment, options, road_m), points, options)
+
+    kept: Geometry = work.kept(
+        f"layers-{segment.id}", _inputs(segment, options, digests), make, save_result,
+        lambda folder: load_result(Geometry, folder),
+    )  # fmt: skip
+    return kept
+
+
+def texture_segments(
+    record: DriveRecord,
+    layered: Sequence[Layered],
+    options: DriveOptions,
+    digests: JsonValue,
+    work: Work,
+) -> list[Outcome]:
+    """Section 7 for all segments, and what the report shows of each."""
+    found = []
+    images = _Images(record, layered)
+    with work.step("texture") as step:
+        for number, one in enumerate(layered):
+
+            def told(share: float, number: int = number) -> None:
+                work.progress("texture", (number + share) / len(layered))
+
+            told(0.0)
+            seen = images.near(one.segment)
+
+            def make(
+                one: Layered = one,
+                seen: list[Seen] = seen,
+                told: Callable[[float], None] = told,
+            ) -> Textured:
+                return texture(one.load(), seen, options, told)
+
+            made = work.kept(
+                f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
+                save_result, lambda folder: load_result(Textured, folder),
+            )  # fmt: skip
+            found.append(outcome_of(made, seen, options.texture.texel_m))
+            _show(made, work)
+            step.counts[f"{one.segment.id}: triangles"] = len(made.surface.triangles)
+        step.counts["images"] = images.looked
+    return found
+
+
+def _inputs(segment: DriveSegment, options: DriveOptions, digests: JsonValue) -> JsonValue:
+    return [digests, segment.model_dump(mode="json"), options.model_dump(mode="json")]
+
+
+class _Images:
+    """The images of a drive with what hides facades in each, a few in memory at a time."""
+
+    def __init__(self, record: DriveRecord, layered: Sequence[Layered]) -> None:
+        self._shots = record.shots
+        self._places = np.array([shot.world_from_cam[:3, 3] for shot in record.shots])
+        self._hidden = [one.hidden for one in layered]
+        self._held: OrderedDict[int, Seen] = OrderedDict()
+        self.looked = 0
+
+    def near(self, segment: DriveSegment) -> list[Seen]:
+        """Those taken near a segment, in their order."""
+        if not len(self._shots):
+            return []
+        line = np.array(segment.line)
+        distance, _ = cKDTree(line[:, :2]).query(self._places[:, :2])
+        return [self._seen(row) for row in np.flatnonzero(distance < NEAR_M).tolist()]
+
+    def _seen(self, row: int) -> Seen:
+        if row not in self._held:
+            self._held[row] = look(self._shots[row], self._around(self._shots[row]))
+            self.looked += 1
+        self._held.move_to_end(row)
+        while len(self._held) > HELD_IMAGES:
+            self._held.popitem(last=False)
+        return self._held[row]
+
+    def _around(self, shot: Shot) -> NDArray[np.float64]:
+        """(n, 3) what may hide facades in an image."""
+        eye = shot.world_from_cam[:2, 3]
+        near = [
+            points[((points[:, :2] - eye) ** 2).sum(axis=1) < (2 * NEAR_M) ** 2]
+            for points in self._hidden
+        ]
+        return np.concatenate(near).astype(np.float64)
+
+
+def _show(one: Textured, work: Work) -> None:
+    geometry, name = one.geometry, one.geometry.segment.id
+    work.picture(f"{name}: as scanned", "Depth image before; near is light",
+                 depth_picture(geometry.layers.first, geometry), wide=True)  # fmt: skip
+    work.picture(f"{name}: depth histogram", "Main depth white, split depth blue",
+                 histogram_picture(geometry), wide=True)  # fmt: skip
+    work.picture(f"{name}: objects", "What stood before the facade", object_picture(geometry),
+                 wide=True)  # fmt: skip
+    work.picture(f"{name}: background", "Depth image after",
+                 depth_picture(geometry.background.depth, geometry), wide=True)  # fmt: skip
+    work.picture(f"{name}: what is known", "Grey measured, orange filled, blue inferred",
+                 source_picture(one.background, geometry), wide=True)  # fmt: skip
+    work.picture(f"{name}: atlas before", "Red is seen in no image",
+                 atlas_picture(one, filled=False), wide=True)  # fmt: skip
+    work.picture(f"{name}: atlas after", "Holes filled, and marked",
+                 atlas_picture(one, filled=True), wide=True)  # fmt: skip

@@ -1,0 +1,66 @@
+"""The street from above: a surface model with cells of a metre and the errors of one."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import rasterio
+from numpy.typing import NDArray
+from rasterio.transform import from_origin
+
+from veduta.synthetic.drives.street import Street
+
+HOUSE_M = 10.0
+"""Depth of houses behind their fronts."""
+_MARGIN_M = 30.0
+
+
+def surface_of(
+    street: Street, cell_m: float = 1.0, seed: int = 1
+) -> tuple[NDArray[np.float32], tuple[float, float]]:
+    """(rows from the south, columns) heights, NaN where nothing came back, and the lower corner.
+
+    Crowns and cars are in it, heights err by 0.1 m, cells lie where they lie, a fiftieth is empty.
+    """
+    random = np.random.default_rng(seed)
+    low = (-40.0 + random.uniform(0, cell_m), -_MARGIN_M + random.uniform(0, cell_m))
+    rows = int((street.length_m + 2 * _MARGIN_M) / cell_m)
+    columns = int(70.0 / cell_m)
+    heights = np.zeros((rows, columns))
+
+    def raise_to(x0: float, x1: float, y0: float, y1: float, top: float) -> None:
+        first = [max(int((v - o) / cell_m), 0) for v, o in ((x0, low[0]), (y0, low[1]))]
+        last = [max(int((v - o) / cell_m) + 1, 0) for v, o in ((x1, low[0]), (y1, low[1]))]
+        part = heights[first[1] : last[1], first[0] : last[0]]
+        np.maximum(part, top, out=part)
+
+    for (x0, y0, z0), (x1, y1, z1) in street.walls.tolist():
+        if z0 == 0.0:
+            raise_to(x1 - HOUSE_M, x1, y0, y1, z1)
+        else:
+            raise_to(x0, x1, y0, y1, z1)
+    for (x0, y0, _), (x1, y1, z1) in street.objects.tolist():
+        raise_to(x0, x1, y0, y1, z1)
+    for x, y, z, radius in street.balls.tolist():
+        raise_to(x - radius, x + radius, y - radius, y + radius, z + 0.5 * radius)
+    noisy = heights + random.normal(0.0, 0.1, heights.shape)
+    noisy[random.uniform(size=heights.shape) < 0.02] = np.nan
+    return noisy.astype(np.float32), low
+
+
+def write_surface(
+    heights: NDArray[np.float32],
+    low: tuple[float, float],
+    path: Path,
+    cell_m: float = 1.0,
+    crs: str | None = "EPSG:25832",
+) -> None:
+    """As GeoTIFF."""
+    top = low[1] + cell_m * len(heights)
+    with rasterio.open(
+        path, "w", driver="GTiff", width=heights.shape[1], height=len(heights), count=1,
+        dtype="float32", crs=crs, nodata=float("nan"),
+        transform=from_origin(low[0], top, cell_m, cell_m),
+    ) as file:  # fmt: skip
+        file.write(heights[::-1], 1)
