@@ -14,14 +14,14 @@ from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.build.place import world_from_first
 from veduta.walk.keys import KeyFigures, KeyModel
 from veduta.walk.options import TakeOptions
+from veduta.walk.panorama_record import (
+    PanoramaRecord,
+    panorama_record,
+    views_of_panoramas,
+)
 from veduta.walk.read.photo_path import PhotoPath, read_photo_path
 from veduta.walk.record import Matrix, taken
 from veduta.walk.rig import Image, PairFiles, Rig
-
-UNKNOWN = (
-    "the cameras' scale is not known: neighbouring frames are taken to be 1 m apart, and all"
-    " lengths follow from it"
-)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,8 +72,7 @@ class PhotoRecord:
 
     def key(self, work: Work, number: int) -> KeyModel:
         """Depth from the frames before and after."""
-        if not self.path.known and UNKNOWN not in work.doubts:
-            work.doubt(UNKNOWN)
+        self.path.tell(work)
         return KeyModel(self._model(self.numbers[number]), KeyFigures(np.eye(3)[None]))
 
     def _model(self, frame: int) -> LocalModel:
@@ -93,9 +92,12 @@ class PhotoRecord:
 
 def read_photo_record(
     folder: Path, cameras: Path, take: TakeOptions, largest_px: int
-) -> PhotoRecord:
-    """The frames that the options take; all of them give depth."""
+) -> PhotoRecord | PanoramaRecord:
+    """The frames that the options take, or the panoramas whose views they are; all give depth."""
     path = read_photo_path(folder, cameras, largest_px)
+    views = views_of_panoramas([one.name for one in path.given])
+    if views is not None and len(views) > 1:
+        return panorama_record(path, views, take, folder, _sources(cameras))
     numbered: list[tuple[PairFiles, ...]] = [(pair,) for pair in path.pairs]
     chosen = {views[0].left for views in taken(numbered, take, folder)}
     numbers = [n for n, pair in enumerate(path.pairs) if pair.left in chosen]

@@ -16,7 +16,7 @@ from veduta.synthetic.walks.record import GorgeWalk, write_walk
 from veduta.synthetic.walks.shoot import WalkCamera
 from veduta.walk.command import Sources, run_walk
 from veduta.walk.options import TakeOptions, WalkOptions
-from veduta.walk.photo_record import read_photo_record
+from veduta.walk.photo_record import PhotoRecord, read_photo_record
 from veduta.walk.read.photo_path import read_photo_path
 
 WALK = GorgeWalk(keys=4, step_m=0.8, width_px=256, height_px=160)
@@ -49,6 +49,7 @@ def _write_cameras(folder: Path, cameras: list[WalkCamera]) -> None:
 def test_depth_comes_from_the_frames_before_and_after(frames: Path) -> None:
     record = read_photo_record(frames / "photos", frames / "cameras", TakeOptions(), 1000)
     assert record.rig.baseline_m == pytest.approx(0.8, rel=0.05)
+    assert isinstance(record, PhotoRecord)
     model = record._model(1)
     true = np.load(frames / "depth" / "001.npy")
     seen = model.measured & np.isfinite(true)

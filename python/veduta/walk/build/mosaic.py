@@ -61,13 +61,17 @@ class _Laid:
     sky: Mask
 
 
-def make_mosaic(models: list[LocalModel], limits: MosaicLimits = MosaicLimits()) -> Mosaic:
+def make_mosaic(
+    models: list[LocalModel], turns: Turns | None = None, limits: MosaicLimits = MosaicLimits()
+) -> Mosaic:
     """Register, make consistent by (7) and merge the views of one key position.
+
+    turns: the rotations, where they are known.
 
     NotFoundError where no two views have anything in common. Views that have nothing in common
     with the others are left out: `turns.found`.
     """
-    turns = find_turns(models)
+    turns = find_turns(models) if turns is None else turns
     used = [n for n in range(len(models)) if turns.found[n]]
     if len(used) < 2:
         raise NotFoundError(

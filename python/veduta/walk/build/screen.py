@@ -14,6 +14,9 @@ Points = NDArray[np.float64]
 BESIDE_RAD = 0.6
 """How far beyond the edge of a cylinder's picture a point still has a place on it."""
 
+BEHIND_RAD = 3.12
+"""Beyond it a point is behind, however wide the picture is."""
+
 
 @dataclass(frozen=True)
 class Screen:
@@ -75,5 +78,6 @@ class Screen:
         depth = np.hypot(points[..., 0], points[..., 2])
         left = -self.centre_px[0] / self.focal_px[0]
         right = (self.width_px - self.centre_px[0]) / self.focal_px[0]
-        beside = (angle < left - BESIDE_RAD) | (angle > right + BESIDE_RAD)
+        first, last = max(left - BESIDE_RAD, -BEHIND_RAD), min(right + BESIDE_RAD, BEHIND_RAD)
+        beside = (angle < first) | (angle > last)
         return angle, np.where(beside, -1.0, depth)

@@ -14,12 +14,19 @@ from numpy.typing import NDArray
 from veduta.cameras import Camera, CameraSet, read_cameras, straight_camera, undistorted
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
+from veduta.run.work import Work
 from veduta.walk.rig import Image, PairFiles, Rig
 
 NEIGHBOURS = 1.0
 """A scale that nobody knows: neighbouring frames are so far apart (taken for metres)."""
+UNKNOWN = (
+    "the cameras' scale is not known: neighbouring frames are taken to be 1 m apart, and all"
+    " lengths follow from it"
+)
 SIZE_SLACK = 0.02
 """By which sizes and focal lengths of frames may differ, as a share."""
+STILL = 0.05
+"""A share of the longest step below which cameras stand in one place: views of a panorama."""
 ASIDE = 4.0
 """Nearest and farthest points of the source are believed up to this factor."""
 
@@ -88,10 +95,25 @@ class PhotoPath:
 
     def pose(self, first: int, second: int) -> NDArray[np.float64]:
         """(3, 4) second_from_first."""
-        turn, shift = np.split(self.cameras[second].cam_from_world, [3], axis=1)
-        own, move = np.split(self.cameras[first].cam_from_world, [3], axis=1)
-        between = turn @ own.T
-        return np.column_stack([between, shift - between @ move])
+        return between(self.cameras[first], self.cameras[second])
+
+    def tell(self, work: Work) -> None:
+        """Say once that the scale is not known, where it is not."""
+        if not self.known and UNKNOWN not in work.doubts:
+            work.doubt(UNKNOWN)
+
+
+def between(first: Camera, second: Camera) -> NDArray[np.float64]:
+    """(3, 4) second_from_first."""
+    turn, shift = np.split(second.cam_from_world, [3], axis=1)
+    own, move = np.split(first.cam_from_world, [3], axis=1)
+    turned = turn @ own.T
+    return np.column_stack([turned, shift - turned @ move])
+
+
+def centre_of(camera: Camera) -> NDArray[np.float64]:
+    """(3,) where it stands."""
+    return camera.centre()
 
 
 def read_photo_path(folder: Path, cameras: Path, largest_px: int) -> PhotoPath:
@@ -99,10 +121,10 @@ def read_photo_path(folder: Path, cameras: Path, largest_px: int) -> PhotoPath:
     if not folder.is_dir():
         raise InputError(folder, "there is no such folder", "Give the folder of the frames.")
     found = read_cameras(cameras, folder)
-    order = sorted(
-        (n for n, one in enumerate(found.cameras) if one.picture is not None),
-        key=lambda n: _natural(found.cameras[n].name),
-    )
+    order = _pictured(found)
+    if not order and cameras.is_dir():  # views that were cut out of panoramas lie with the cameras
+        found = read_cameras(cameras)
+        order = _pictured(found)
     if len(order) < 2:
         raise InputError(
             cameras, f"has {len(order)} cameras with pictures in {folder}",
@@ -119,10 +141,17 @@ def read_photo_path(folder: Path, cameras: Path, largest_px: int) -> PhotoPath:
     return PhotoPath(cameras, given, prepared, visible, known)
 
 
+def _pictured(found: CameraSet) -> list[int]:
+    """The cameras that have pictures, in the order of their names."""
+    numbers = [n for n, one in enumerate(found.cameras) if one.picture is not None]
+    return sorted(numbers, key=lambda n: _natural(found.cameras[n].name))
+
+
 def _step(given: tuple[Camera, ...], source: Path) -> float:
     """The usual distance of neighbours."""
     steps = np.linalg.norm(np.diff([one.centre() for one in given], axis=0), axis=1)
-    middle = float(np.median(steps))
+    moved = steps[steps > STILL * steps.max(initial=0.0)]
+    middle = float(np.median(moved)) if len(moved) else 0.0
     if not middle > 0.0:
         raise InputError(
             source, "has all cameras in one place", "A walk needs frames along a path."

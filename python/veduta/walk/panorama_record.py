@@ -1,0 +1,176 @@
+"""Panoramas along a path as a record: each is a key position, its views are joined to a mosaic."""
+
+from __future__ import annotations
+
+import re
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+
+import numpy as np
+
+from veduta.run.work import Work
+from veduta.walk.build.local_model import LocalModel, model_of_depth
+from veduta.walk.build.mosaic import make_mosaic
+from veduta.walk.build.photo_depth import FramePlanes
+from veduta.walk.build.place import world_from_first
+from veduta.walk.build.turns import Turns
+from veduta.walk.keys import KeyFigures, KeyModel
+from veduta.walk.options import TakeOptions
+from veduta.walk.read.photo_path import PhotoPath, between, centre_of
+from veduta.walk.record import Matrix, taken
+from veduta.walk.rig import Image, PairFiles, Rig
+
+VIEW = re.compile(r"(.+)_view(\d{1,2})(?:\.\w+)?")
+"""How `veduta photos` names the views that it cuts out of a panorama."""
+
+
+def views_of_panoramas(names: list[str]) -> dict[str, dict[int, int]] | None:
+    """The numbers of the views of each panorama, by its name; None where a name is no view's."""
+    found: dict[str, dict[int, int]] = {}
+    for number, name in enumerate(names):
+        said = VIEW.fullmatch(name)
+        if said is None:
+            return None
+        found.setdefault(said[1], {})[int(said[2])] = number
+    return found
+
+
+@dataclass(frozen=True, eq=False)
+class PanoramaRecord:
+    """path: all views. panoramas: of each key position its views' numbers, by direction.
+
+    chosen: those of the panoramas that are key positions; all of them give depth.
+    """
+
+    path: PhotoPath
+    panoramas: list[tuple[str, dict[int, int]]]
+    chosen: list[int]
+    sources: tuple[Path, ...]
+
+    @cached_property
+    def rig(self) -> Rig:
+        """A view of two neighbouring panoramas as two cameras."""
+        one = self.path.cameras[0]
+        steps = np.linalg.norm(np.diff(self._centres, axis=0), axis=1)
+        baseline_m = float(np.median(steps))
+        return Rig(one.width_px, one.height_px, one.focal_px, one.centre_px, baseline_m)
+
+    @cached_property
+    def _centres(self) -> Matrix:
+        """(p, 3) where the panoramas were taken: in the middle of their views' places."""
+        return np.array(
+            [
+                np.median([centre_of(self.path.cameras[n]) for n in views.values()], axis=0)
+                for _, views in self.panoramas
+            ]
+        )
+
+    @cached_property
+    def _fronts(self) -> list[int]:
+        """The view of each panorama that looks along the path."""
+        ahead = np.diff(self._centres, axis=0, append=self._centres[-1:])
+        ahead[-1] = ahead[-2]
+        fronts = []
+        for (_, views), along in zip(self.panoramas, ahead, strict=True):
+            towards = {
+                n: float(self.path.cameras[n].cam_from_world[2, :3] @ along) for n in views.values()
+            }
+            fronts.append(max(towards, key=lambda n: towards[n]))
+        return fronts
+
+    @property
+    def keys(self) -> list[tuple[PairFiles, ...]]:
+        """The views of each panorama, and the same of the next one."""
+        return [self._views(one) for one in self.chosen]
+
+    def _views(self, panorama: int) -> tuple[PairFiles, ...]:
+        name, views = self.panoramas[panorama]
+        other = self.panoramas[panorama + 1 if panorama + 1 < len(self.panoramas) else panorama - 1]
+        pairs = self.path.pairs
+        return tuple(
+            PairFiles(name, str(side), pairs[n].left, pairs[other[1].get(side, n)].left)
+            for side, n in sorted(views.items())
+        )
+
+    @property
+    def files(self) -> list[Path]:
+        """The cameras' files and all views."""
+        return [*self.sources, *(pair.left for pair in self.path.pairs)]
+
+    def files_of(self, number: int) -> list[Path]:
+        """Those of the panorama, of the ones beside it, and the cameras'."""
+        around = range(
+            max(0, self.chosen[number] - 1), min(len(self.panoramas), self.chosen[number] + 2)
+        )
+        pairs = self.path.pairs
+        return [
+            *self.sources,
+            *(pairs[n].left for one in around for n in self.panoramas[one][1].values()),
+        ]
+
+    @property
+    def first(self) -> Matrix:
+        """As the cameras say, where they are in metres; else level at the origin."""
+        if not self.path.known:
+            return world_from_first()
+        front = self.path.cameras[self._fronts[self.chosen[0]]]
+        return np.asarray(np.linalg.inv(np.vstack([front.cam_from_world, [0.0, 0.0, 0.0, 1.0]])))
+
+    @cached_property
+    def _sides(self) -> dict[int, tuple[list[int], FramePlanes]]:
+        """For each direction the views along the path, and their planes."""
+        sides = sorted({side for _, views in self.panoramas for side in views})
+        found = {}
+        for side in sides:
+            numbers = [views[side] for _, views in self.panoramas if side in views]
+            planes = FramePlanes(
+                [self.path.cameras[n] for n in numbers],
+                lambda n, numbers=numbers: self.path.picture(numbers[n]),  # type: ignore[misc]
+                lambda n, numbers=numbers: self.path.span(numbers[n]),  # type: ignore[misc]
+            )
+            found[side] = (numbers, planes)
+        return found
+
+    def key(self, work: Work, number: int) -> KeyModel:
+        """The mosaic of a panorama's views, whose rotations the cameras say."""
+        self.path.tell(work)
+        name, views = self.panoramas[self.chosen[number]]
+        order = sorted(views)
+        models = [self._model(name, side, views[side]) for side in order]
+        front = self._fronts[self.chosen[number]]
+        turns = np.array(
+            [
+                between(self.path.cameras[views[side]], self.path.cameras[front])[:, :3]
+                for side in order
+            ]
+        )
+        known = Turns([views[side] for side in order].index(front), turns, 0, 0.0)
+        mosaic = make_mosaic(models, known)
+        return KeyModel(mosaic.model, KeyFigures(turns, known.front, mosaic.gap))
+
+    def _model(self, name: str, side: int, view: int) -> LocalModel:
+        numbers, planes = self._sides[side]
+        depth, sure = planes.depth(numbers.index(view))
+        return model_of_depth(name, self.path.picture(view), depth, sure, self.rig)
+
+    def picture(self, work: Work, number: int) -> Image:
+        """What the mosaic shows."""
+        return self.key(work, number).model.image
+
+    def pose(self, first: int, second: int) -> Matrix | None:
+        """From front view to front view, as the cameras say."""
+        fronts = [self.path.cameras[self._fronts[self.chosen[n]]] for n in (first, second)]
+        return between(*fronts)
+
+
+def panorama_record(
+    path: PhotoPath, views: dict[str, dict[int, int]], take: TakeOptions, folder: Path,
+    sources: tuple[Path, ...],
+) -> PanoramaRecord:  # fmt: skip
+    """The panoramas that the options take."""
+    panoramas = list(views.items())
+    whole = PanoramaRecord(path, panoramas, list(range(len(panoramas))), sources)
+    names = [views[0].key for views in taken(whole.keys, take, folder)]
+    chosen = [number for number, (name, _) in enumerate(panoramas) if name in set(names)]
+    return PanoramaRecord(path, panoramas, chosen, sources)

@@ -1,0 +1,87 @@
+"""Panoramas along a path: their views' rotations are known, depth comes from the next panorama."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PIL import Image
+from scipy.spatial.transform import Rotation
+
+from veduta.run.progress import Progress
+from veduta.synthetic.walks.gorge import make_gorge
+from veduta.synthetic.walks.record import GorgeWalk, cameras_of
+from veduta.synthetic.walks.shoot import GorgeScene, WalkCamera
+from veduta.walk.command import Sources, run_walk
+from veduta.walk.options import TakeOptions, WalkOptions
+from veduta.walk.panorama_record import PanoramaRecord, views_of_panoramas
+from veduta.walk.photo_record import read_photo_record
+
+SIDES, SIDE_PX = 8, 112
+FOCAL_PX = 0.5 * SIDE_PX / np.tan(np.deg2rad(43.5))
+
+
+@pytest.fixture(scope="module")
+def panoramas(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Three panoramas 0.8 m apart as eight views each, named as `veduta photos` names them."""
+    folder = tmp_path_factory.mktemp("panoramas")
+    gorge = make_gorge(3.0)
+    scene = GorgeScene(gorge)
+    for name in ("photos", "cameras"):
+        (folder / name).mkdir()
+    for key, camera in enumerate(cameras_of(GorgeWalk(keys=3, step_m=0.8), gorge)):
+        for side in range(SIDES):
+            pose = camera.world_from_camera.copy()
+            turn = Rotation.from_euler("y", 2.0 * np.pi * side / SIDES).as_matrix()
+            pose[:3, :3] = pose[:3, :3] @ turn
+            view = WalkCamera(SIDE_PX, SIDE_PX, float(FOCAL_PX), pose)
+            name = f"pano{key}_view{side}.png"
+            Image.fromarray(scene.shoot(view, samples=1).image).save(folder / "photos" / name)
+            _write_camera(folder / "cameras" / f"{name}.camera", view)
+    return folder
+
+
+def _write_camera(path: Path, one: WalkCamera) -> None:
+    middle = one.width_px / 2.0 - 0.5
+    rows = [
+        [one.focal_px, 0.0, middle], [0.0, one.focal_px, middle], [0.0, 0.0, 1.0], [0.0, 0.0, 0.0],
+        *one.world_from_camera[:3, :3].tolist(), one.world_from_camera[:3, 3].tolist(),
+        [one.width_px, one.height_px],
+    ]  # fmt: skip
+    path.write_text("\n".join(" ".join(str(value) for value in row) for row in rows) + "\n")
+
+
+def test_views_are_told_by_their_names() -> None:
+    names = ["a_view0.jpg", "a_view1.jpg", "b_b_view0.jpg"]
+    assert views_of_panoramas(names) == {"a": {0: 0, 1: 1}, "b_b": {0: 2}}
+    assert views_of_panoramas(["a_view0.jpg", "hall.jpg"]) is None
+
+
+def test_a_walk_of_panoramas_looks_all_around(panoramas: Path, tmp_path: Path) -> None:
+    sources = Sources(cameras=panoramas / "cameras")
+    options = WalkOptions(take=TakeOptions(count=2))
+    result = run_walk(
+        panoramas / "photos", tmp_path / "out", options, Progress(quiet=True), sources=sources
+    )
+    assert result.exit_code == 0
+    told = json.loads((tmp_path / "out" / "walk.json").read_text())
+    (way,) = told["transitions"]
+    assert way["distance_m"] == pytest.approx(0.8, rel=0.05)
+    assert way["score_db"] > way["unmoved_db"]
+    assert [one["id"] for one in told["keys"]] == ["pano0", "pano1"]
+    assert len(told["keys"][0]["views"]) == SIDES
+    key = json.loads((tmp_path / "out" / "place.json").read_text())["walks"][0]["keys"][0]
+    assert key["projection"] == "cylinder"
+    assert key["width_px"] == pytest.approx(2.0 * 3.1 * FOCAL_PX, abs=2)
+    assert result.measures["largest_gap_share"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_the_front_looks_along_the_path(panoramas: Path) -> None:
+    record = read_photo_record(panoramas / "photos", panoramas / "cameras", TakeOptions(), 500)
+    assert isinstance(record, PanoramaRecord)
+    assert record.rig.baseline_m == pytest.approx(0.8, rel=0.05)
+    pose = record.pose(0, 2)
+    assert pose is not None
+    assert -pose[2, 3] == pytest.approx(1.6, rel=0.05)
