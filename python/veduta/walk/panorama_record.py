@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -20,20 +19,6 @@ from veduta.walk.options import TakeOptions
 from veduta.walk.read.photo_path import PhotoPath, between, centre_of
 from veduta.walk.record import Matrix, taken
 from veduta.walk.rig import Image, PairFiles, Rig
-
-VIEW = re.compile(r"(.+)_view(\d{1,2})(?:\.\w+)?")
-"""How `veduta photos` names the views that it cuts out of a panorama."""
-
-
-def views_of_panoramas(names: list[str]) -> dict[str, dict[int, int]] | None:
-    """The numbers of the views of each panorama, by its name; None where a name is no view's."""
-    found: dict[str, dict[int, int]] = {}
-    for number, name in enumerate(names):
-        said = VIEW.fullmatch(name)
-        if said is None:
-            return None
-        found.setdefault(said[1], {})[int(said[2])] = number
-    return found
 
 
 @dataclass(frozen=True, eq=False)

@@ -14,12 +14,8 @@ from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.build.place import world_from_first
 from veduta.walk.keys import KeyFigures, KeyModel
 from veduta.walk.options import TakeOptions
-from veduta.walk.panorama_record import (
-    PanoramaRecord,
-    panorama_record,
-    views_of_panoramas,
-)
-from veduta.walk.read.photo_path import PhotoPath, read_photo_path
+from veduta.walk.panorama_record import PanoramaRecord, panorama_record
+from veduta.walk.read.photo_path import PhotoPath, read_photo_path, views_of_panoramas
 from veduta.walk.record import Matrix, taken
 from veduta.walk.rig import Image, PairFiles, Rig
 

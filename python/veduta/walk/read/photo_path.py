@@ -30,6 +30,20 @@ STILL = 0.05
 ASIDE = 4.0
 """Nearest and farthest points of the source are believed up to this factor."""
 
+VIEW = re.compile(r"(.+)_view(\d{1,2})(?:\.\w+)?")
+"""How `veduta photos` names the views that it cuts out of a panorama."""
+
+
+def views_of_panoramas(names: list[str]) -> dict[str, dict[int, int]] | None:
+    """The numbers of the views of each panorama, by its name; None where a name is no view's."""
+    found: dict[str, dict[int, int]] = {}
+    for number, name in enumerate(names):
+        said = VIEW.fullmatch(name)
+        if said is None:
+            return None
+        found.setdefault(said[1], {})[int(said[2])] = number
+    return found
+
 
 @dataclass(frozen=True, eq=False)
 class PhotoPath:
@@ -122,8 +136,8 @@ def read_photo_path(folder: Path, cameras: Path, largest_px: int) -> PhotoPath:
         raise InputError(folder, "there is no such folder", "Give the folder of the frames.")
     found = read_cameras(cameras, folder)
     order = _pictured(found)
-    if not order and cameras.is_dir():  # views that were cut out of panoramas lie with the cameras
-        found = read_cameras(cameras)
+    if not order and views_of_panoramas([one.name for one in found.cameras]) is not None:
+        found = read_cameras(cameras)  # views that were cut out of panoramas lie with the cameras
         order = _pictured(found)
     if len(order) < 2:
         raise InputError(

@@ -16,8 +16,9 @@ from veduta.synthetic.walks.record import GorgeWalk, cameras_of
 from veduta.synthetic.walks.shoot import GorgeScene, WalkCamera
 from veduta.walk.command import Sources, run_walk
 from veduta.walk.options import TakeOptions, WalkOptions
-from veduta.walk.panorama_record import PanoramaRecord, views_of_panoramas
+from veduta.walk.panorama_record import PanoramaRecord
 from veduta.walk.photo_record import read_photo_record
+from veduta.walk.read.photo_path import views_of_panoramas
 
 SIDES, SIDE_PX = 8, 112
 FOCAL_PX = 0.5 * SIDE_PX / np.tan(np.deg2rad(43.5))
