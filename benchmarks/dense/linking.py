@@ -1,6 +1,6 @@
 """`veduta dense --method linking` beside tables 3.1 and 3.2 of Moslah's thesis.
 
-python benchmarks/dense/linking.py [--data FOLDER] [--no-keep]: table 3.1 is the matching of one
+python benchmarks/dense/linking.py [--cameras DIR] [--no-keep]: table 3.1 is the matching of one
 rectified pair at given sizes and ranges of disparities, of pictures of noise: the time does not
 depend on what they show. Table 3.2 is a set of photos after `veduta photos`: Merton College I,
 three photos at 640 x 480, with the range of disparities that its sparse points ask for. Where there
@@ -121,6 +121,9 @@ def main() -> None:
     """Measure, print, keep."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--data", type=Path, default=None)
+    parser.add_argument(
+        "--cameras", type=Path, help="what `veduta photos` made of Merton College I"
+    )
     parser.add_argument("--no-keep", action="store_true")
     given = parser.parse_args()
     engines = [choose_engine("cpu")]
@@ -129,12 +132,15 @@ def main() -> None:
         engines.append(card)
     rows = [pair_row(size, engines) for size in [*THESIS_PAIRS]]
     photos = (given.data or data()) / "photos" / "merton" / "I"
-    if photos.is_dir():
+    if photos.is_dir() or given.cameras is not None:
         with tempfile.TemporaryDirectory() as scratch:
             folder = Path(scratch)
-            run_photos(photos, folder / "cameras", PhotosOptions(), Progress(quiet=True))
+            cameras = given.cameras
+            if cameras is None:
+                cameras = folder / "cameras"
+                run_photos(photos, cameras, PhotosOptions(), Progress(quiet=True))
             devices = ["cpu"] if card.card is None else ["cpu", "gpu"]
-            rows += [merton_row(folder / "cameras", folder, one) for one in devices]
+            rows += [merton_row(cameras, folder, one) for one in devices]
     notes = [
         "Thesis: NVIDIA GeForce 8800 GTS, 3.0 GHz processor (2009).",
         f"Load when it began: {os.getloadavg()[0]:.1f}, on {os.cpu_count()} cores.",

@@ -31,7 +31,7 @@ def _pair(left: Camera, right: Camera, one: NDArray[np.uint8], other: NDArray[np
         none,
         size,
         relative[:3, :3],
-        relative[:3, 3],
+        relative[:3, 3:],
         flags=cv2.CALIB_ZERO_DISPARITY,
         alpha=0,
     )

@@ -31,6 +31,7 @@ from veduta.dense import DenseOptions, run_dense
 from veduta.dense.options import DepthOptions, SurfaceOptions
 from veduta.synthetic.build import build
 from veduta.synthetic.camera import Camera, look_at
+from veduta.synthetic.layout import STYLES
 from veduta.synthetic.light import daylight
 from veduta.synthetic.part import mirrors, to_part
 from veduta.synthetic.photo import Lens, develop
@@ -47,7 +48,7 @@ PEER = Path(__file__).with_name("peer_patchmatch.py")
 
 def scene(seed: int) -> tuple[RayScene, list[Camera], list[NDArray[np.uint8]]]:
     """A facade, five cameras before it, and their photos."""
-    layout = design("haussmann", seed, None, None)
+    layout = design(STYLES[seed % len(STYLES)], seed)
     built = build(layout, seed, ())
     cast = RayScene([(to_part(built, "facade"), np.eye(4))], mirrors(built, "facade"))
     middle, front = 0.5 * layout.width_m, 0.0
@@ -90,8 +91,8 @@ def shown(cast: RayScene, camera: Camera) -> Floats:
 
 
 def truth(cast: RayScene, cameras: list[Camera]) -> tuple[Floats, Floats]:
-    """The surface a third of a pixel fine, and a spot for each pixel that two photos see."""
-    fine = np.concatenate([shown(cast, finer(one, 3)) for one in cameras[1:4:2]])
+    """The surface half a pixel fine, and a spot for each pixel that two photos see."""
+    fine = np.concatenate([shown(cast, finer(one, 2)) for one in cameras[1:4:2]])
     spots = shown(cast, cameras[2])
     seen = np.zeros(len(spots), dtype=int)
     for camera in cameras:

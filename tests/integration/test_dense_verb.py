@@ -133,3 +133,29 @@ def test_a_photo_of_another_shape_is_refused(photos: Path, tmp_path: Path) -> No
     done = refused("dense", folder, "-o", tmp_path / "out")
     assert done.returncode == 2
     assert "view1" in done.stderr
+
+
+def test_what_moves_between_the_photos_is_left_out(tmp_path: Path) -> None:
+    folder = write_set(tmp_path / "moving")
+    noise = np.random.default_rng(5).integers(0, 255, (30, 30, 3), dtype=np.uint8)
+    for number, path in enumerate(sorted((folder / "images").iterdir())):
+        pixels = np.array(Image.open(path))
+        row, column = (40 + 9 * number, 20 + 31 * number)
+        pixels[row : row + 30, column : column + 30] = noise
+        Image.fromarray(pixels).save(path)
+    out = tmp_path / "out"
+    assert main(["dense", str(folder), "-o", str(out), "--quiet", "--no-mesh"]) == 0
+    for number, eye in enumerate(eyes(4)):
+        found = np.array(Image.open(out / "depth" / f"view{number}.tif"))
+        truth, _ = depths(eye)
+        known = np.isfinite(found)
+        assert known.mean() > 0.4
+        away = np.abs(found - truth)[known] / truth[known]
+        assert np.quantile(away, 0.9) < 0.02
+
+
+def test_a_graphics_card_is_refused_where_it_cannot_be_used(photos: Path, tmp_path: Path) -> None:
+    done = refused("dense", photos, "-o", tmp_path / "out", "--device", "gpu")
+    assert done.returncode == 2
+    assert "--method patchmatch has no shaders yet" in done.stderr
+    assert "--device auto" in done.stderr

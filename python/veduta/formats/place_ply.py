@@ -1,7 +1,7 @@
 """A place as binary PLY: triangles with colours, and what each one is; or its points alone.
 
 A place without parts is written as its points. A vertex has its texture's colour there. A face has
-its class, by its place in the list that a comment tells. Axes: z up, metres.
+its class, by its place in the list that a comment tells. Axes: z up, in metres where the place is.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def write_ply(place: Place, path: Path) -> None:
         first += len(own_vertices)
     every, triangles = np.concatenate(vertices), np.concatenate(faces)
     with atomic_write(path) as temporary, temporary.open("wb") as file:
-        file.write(_header(len(every), len(triangles)).encode("ascii"))
+        file.write(_header(len(every), len(triangles), place.scale).encode("ascii"))
         file.write(every.tobytes())
         file.write(triangles.tobytes())
 
@@ -72,14 +72,15 @@ def _columns(shape: Shape, first: int) -> tuple[NDArray[np.void], NDArray[np.voi
     return rows, faces
 
 
-def _header(vertices: int, faces: int) -> str:
+def _header(vertices: int, faces: int, scale: str) -> str:
     columns = ("x", "y", "z", "nx", "ny", "nz")
     floats = "".join(f"property float {name}\n" for name in columns)
     colours = "".join(f"property uchar {name}\n" for name in ("red", "green", "blue"))
+    unit = "metres" if scale == "metres" else "unit of length unknown"
     classes = " ".join(f"{one.code}={one.value}" for one in SemanticClass)
     return (
         "ply\nformat binary_little_endian 1.0\n"
-        f"comment Veduta, z up, metres; class: {classes}\n"
+        f"comment Veduta, z up, {unit}; class: {classes}\n"
         f"element vertex {vertices}\n{floats}{colours}"
         f"element face {faces}\n"
         "property list uchar int vertex_indices\nproperty uchar class\nend_header\n"

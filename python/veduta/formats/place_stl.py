@@ -17,8 +17,9 @@ _HEADER_BYTES = 80
 def write_stl(place: Place, path: Path) -> None:
     """Write all triangles, part by part."""
     count = 0
+    unit = "metres" if place.scale == "metres" else "unit of length unknown"
     with atomic_write(path) as temporary, temporary.open("wb") as file:
-        file.write(b"Veduta, z up, metres".ljust(_HEADER_BYTES) + bytes(4))
+        file.write(f"Veduta, z up, {unit}".encode().ljust(_HEADER_BYTES) + bytes(4))
         for shape in shapes(place):
             own = shape.triangles
             corners = own.positions_m[own.corners]
