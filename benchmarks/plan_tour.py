@@ -28,6 +28,7 @@ from veduta.plan.document import Furniture, PlanDocument, Storey
 from veduta.plan.house.build import House, build_house
 from veduta.plan.options import HouseOptions
 from veduta.plan.tour.find import EYE_M, Tour, find_tour
+from veduta.plan.tour.stops import is_cupboard
 from veduta.synthetic.plans.layout import make_house
 from veduta.synthetic.seeds import stream
 
@@ -75,10 +76,10 @@ def judge(house: House, tour: Tour) -> Judged:
         (space.storey.name, room.id)
         for space in house.spaces
         for room, shape in space.rooms
-        if _stands_in(shape, feet, space.storey)
+        if not is_cupboard(room) and _stands_in(shape, feet, space.storey)
     }
     return Judged(
-        rooms=sum(len(space.rooms) for space in house.spaces),
+        rooms=sum(not is_cupboard(room) for space in house.spaces for room, _ in space.rooms),
         visited=len(visited),
         missed=tour.notes,
         clear_m=min(_to_model(house, feet), _to_furniture(house, feet)),

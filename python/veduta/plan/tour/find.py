@@ -1,4 +1,8 @@
-"""The tour of a house: once around it, in by its door, through all rooms, and out again."""
+"""The tour of a house: around it, in by its door, through its rooms, and out again.
+
+It is outdoors for a fifth of its time at most, goes into no cupboards, and looks at no wall that is
+right before one's eyes.
+"""
 
 from __future__ import annotations
 
@@ -19,12 +23,13 @@ from veduta.plan.house.build import House
 from veduta.plan.house.entrance import entrances
 from veduta.plan.house.flights import stairwells
 from veduta.plan.tour import gaze, pace
+from veduta.plan.tour.clear_view import cleared, sights_of
 from veduta.plan.tour.climbs import climbs_of
 from veduta.plan.tour.free import BODY_M, SLIM_M, Ground, ground_of
 from veduta.plan.tour.grid import CELL_M, Cells, Grid, cells_of
 from veduta.plan.tour.leaves import open_leaves
 from veduta.plan.tour.outside import Outside, outside_of
-from veduta.plan.tour.smooth import STEP_M, resampled, smoothed
+from veduta.plan.tour.smooth import STEP_M, lengths_along, resampled, smoothed
 from veduta.plan.tour.stops import Stop, Stops, short_order, squares_in, stops_of
 from veduta.plan.tour.stretches import Stretch, stretches_of
 
@@ -37,6 +42,14 @@ SHORT_SHARE = 0.4
 THROUGH: frozenset[RoomUse] = frozenset({"hall", "corridor", "stairs"})
 """Where one passes, and stops only if the way does not lead through."""
 ON_FLOOR_M = 0.05
+OUTDOORS = 0.2
+"""At most so much of the tour is outdoors ..."""
+SPARED = 0.8
+"""... of which so much is planned: slow turns add to it."""
+COMING = 0.7
+"""Of the time outdoors so much is for coming, the rest for leaving."""
+LEAST_M = 1.0
+"""But at least so far before the door one begins and ends."""
 INDOORS = "the tour is indoors only: no way in from outside that is wide enough leads to most rooms"
 
 
@@ -69,7 +82,10 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
         return None
     legs = _legs_through(plan.begin.node, plan.found.stops, plan.grid, plan.grounds)
     around = outside if plan.begin.is_outside else None
-    timed = pace.timed(_motions(legs, around, first.slab, speed_m_s))
+    ring, legs = _shared_out(legs, around, first.slab, speed_m_s)
+    motions = _motions(legs, ring, first.slab, speed_m_s)
+    sights = sights_of(plan.grounds)
+    timed = pace.timed(motions, lambda feet, yaw: cleared(feet, yaw, sights))
     eyes = timed.feet_m + np.array([0.0, 0.0, EYE_M])
     path = CameraPath("tour", timed.times_s, eyes, timed.directions, FOV_RAD)
     length = float(np.linalg.norm(np.diff(eyes, axis=0), axis=1).sum())
@@ -244,13 +260,54 @@ def _way(squares: list[int], grid: Grid, grounds: Sequence[Ground]) -> NDArray[n
     return np.concatenate(pieces)
 
 
-def _motions(
+def _shared_out(
     legs: Sequence[Leg], outside: Outside | None, slab: BaseGeometry, speed_m_s: float
+) -> tuple[NDArray[np.float64] | None, list[Leg]]:
+    """The way around the house (n, 2), or what of it there is time for, and the legs, cut likewise.
+
+    Outdoors one is for OUTDOORS of the tour at most: first the walk around is shortened to its end,
+    then the way from there to the door and back.
+    """
+    if outside is None or len(legs) < 2:
+        return None, list(legs)
+    inside_s = 0.0
+    for motion in _motions(legs, None, slab, speed_m_s):
+        x, y, z = motion.feet_m.T
+        indoors = shapely.contains_xy(slab, x, y) | (np.abs(z - motion.feet_m[0, 2]) > ON_FLOOR_M)
+        inside_s += pace.SAMPLE_S * float(indoors.sum())
+    budget_m = SPARED * OUTDOORS / (1.0 - OUTDOORS) * inside_s * speed_m_s
+    first, last = legs[0], legs[-1]
+    come, come_m = _cut_outdoors(first.points_m[::-1], slab, max(COMING * budget_m, LEAST_M))
+    leave, leave_m = _cut_outdoors(last.points_m, slab, max((1.0 - COMING) * budget_m, LEAST_M))
+    cut = [Leg(come[::-1], first.stop), *legs[1:-1], Leg(leave, last.stop)]
+    left_m = budget_m - come_m - leave_m
+    if len(come) < len(first.points_m) or left_m < LEAST_M:
+        return None, cut
+    along = lengths_along(np.column_stack([outside.ring_m, np.zeros(len(outside.ring_m))]))
+    return outside.ring_m[along >= along[-1] - left_m], cut
+
+
+def _cut_outdoors(
+    points_m: NDArray[np.float64], slab: BaseGeometry, most_m: float
+) -> tuple[NDArray[np.float64], float]:
+    """A way (n, 3) out of a house, at most so far beyond its door, and how far that is."""
+    within = np.flatnonzero(shapely.contains_xy(slab, points_m[:, 0], points_m[:, 1]))
+    door = int(within[-1]) if len(within) else 0
+    beyond = lengths_along(points_m[door:])
+    kept = max(int(np.searchsorted(beyond, most_m, "right")), 1)
+    return points_m[: max(door + kept, 2)], float(beyond[min(kept, len(beyond)) - 1])
+
+
+def _motions(
+    legs: Sequence[Leg],
+    ring_m: NDArray[np.float64] | None,
+    slab: BaseGeometry,
+    speed_m_s: float,
 ) -> list[pace.Motion]:
     motions: list[pace.Motion] = []
-    if outside is not None:
-        height = np.full(len(outside.ring_m), legs[0].points_m[0, 2])
-        ring = np.column_stack([outside.ring_m, height])
+    if ring_m is not None and len(ring_m) > 1:
+        height = np.full(len(ring_m), legs[0].points_m[0, 2])
+        ring = np.column_stack([ring_m, height])
         centre = np.array(slab.centroid.coords[0])
         motions.append(pace.walk(ring, *gaze.around(ring, centre), speed_m_s))
     views = [gaze.walking(leg.points_m, _middle(leg.stop)) for leg in legs]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -26,6 +27,9 @@ KEY_S = 1.0
 """Keys are no further apart: half a turn between two would be ambiguous."""
 KEY_M = 0.01
 KEY_RAD = math.radians(0.5)
+
+
+Look = Callable[[NDArray[np.float64], NDArray[np.float64]], NDArray[np.float64]]
 
 
 @dataclass(frozen=True)
@@ -84,13 +88,16 @@ def look(at_m: NDArray[np.float64], yaws: list[float], pitch: float) -> Motion:
     return Motion(np.repeat(at_m[None], len(yaw), axis=0), yaw, np.full(len(yaw), pitch))
 
 
-def timed(motions: list[Motion]) -> Timed:
+def timed(motions: list[Motion], look_past: Look | None = None) -> Timed:
     """All motions after each other: calm, never turning too fast, as few keys.
 
-    Where the view would turn faster than the limit, all goes slower there.
+    look_past: changes yaws (n,) at places (n, 3) so that one sees more. Where the view would turn
+    faster than the limit, all goes slower there.
     """
     feet = np.concatenate([motion.feet_m for motion in motions])
     yaw = _joined([motion.yaw for motion in motions])
+    if look_past is not None:
+        yaw = look_past(feet, yaw)
     calm = CALM_S / SAMPLE_S
     yaw = gaussian_filter1d(yaw, calm, mode="nearest")
     pitch = np.concatenate([motion.pitch for motion in motions])

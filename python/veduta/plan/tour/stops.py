@@ -10,7 +10,7 @@ import shapely
 from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
-from veduta.plan.document import Room
+from veduta.plan.document import Room, RoomUse
 from veduta.plan.tour.free import Ground
 from veduta.plan.tour.grid import Grid
 
@@ -18,6 +18,11 @@ WIDE_M = 0.8
 """Clearer than this no place needs to be."""
 FAR_COST = 0.15
 """What a metre away from the room's middle counts, in metres of clearance."""
+
+
+STORES: frozenset[RoomUse] = frozenset({"wardrobe", "storage", "technical"})
+CUPBOARD_M2 = {True: 3.0, False: 0.9}
+"""Rooms that are smaller, and are for storing (or not), one does not go into."""
 
 
 @dataclass(frozen=True)
@@ -44,6 +49,11 @@ def title_of(room: Room) -> str:
     return room.name or (room.use.capitalize() if known else f"Room {room.id}")
 
 
+def is_cupboard(room: Room) -> bool:
+    """Whether a room is no place to be shown: a wardrobe, a store or a duct of few square metres."""
+    return room.area_m2 < CUPBOARD_M2[room.use in STORES]
+
+
 def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
     """A stop in each room to which there is a way from a square."""
     reached = grid.reachable(start)
@@ -52,6 +62,8 @@ def stops_of(grounds: Sequence[Ground], grid: Grid, start: int) -> Stops:
     for storey, ground in enumerate(grounds):
         before, notes = len(stops), []
         for room, shape in ground.space.rooms:
+            if is_cupboard(room):
+                continue
             within = squares_in(shape, grid, storey)
             there = within[reached[within]]
             if len(there):
