@@ -308,6 +308,9 @@ class PlanDocument(_Record):
 
     schema_: Literal["veduta/plan"] = Field(default="veduta/plan", alias="schema")
     version: Literal[1] = 1
+    flat: bool = Field(
+        default=False, description="a flat in a larger house: no roof of its own, no garden"
+    )
     north_deg: Annotated[float, Field(ge=0.0, le=360.0)] | None = Field(
         default=None,
         description="where north is on the page, clockwise from up; null: not known, up is taken",

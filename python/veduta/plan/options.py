@@ -101,6 +101,13 @@ class HouseOptions(Options):
         default="ceiling",
         description="lamps of rooms at their ceilings, on their walls, or none at all",
     )
+    flat: bool = Field(
+        default=False,
+        description=(
+            "it is a flat: no roof of its own, no garden, and the tour stays inside; so it is where"
+            " the sheet says so"
+        ),
+    )
     surroundings: Literal["garden", "none"] = Field(
         default="garden", description="what lies around the house: ground with plants, or nothing"
     )

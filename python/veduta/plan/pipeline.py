@@ -16,6 +16,7 @@ from veduta.plan.building import FILES_OF, Building, BuildingFiles, Visit
 from veduta.plan.call import Call, plan_call
 from veduta.plan.document import PlanDocument
 from veduta.plan.doubts import doubts
+from veduta.plan.flats import flat_options, with_flat
 from veduta.plan.follow_walls import with_rooms_on_walls
 from veduta.plan.furnish.catalogue.digest import catalogue_digests
 from veduta.plan.furnish.catalogue.read import Catalogue, catalogue_of
@@ -256,16 +257,18 @@ def _make(
         finished = finish_step(call, read, given.photos, steps, progress, stays=stays)
         notes = [*given.notes, *notes, *finished.notes]
         document = sited(finished.document, options.site, given.panorama)
+        document = with_flat(document, options.house, by_text=call.kind == "drawings")
+        built = flat_options(document, options.house)
         otherwise = stays and (document != read or bool(options.scale.scale))
         if otherwise:
             notes = [*notes, UNWRITTEN]
         if not options.house.no_furniture:
             document = furnish_step(document, given.catalogue, options.house, steps, progress)
         document = light_step(document, options, steps, progress).document
-        house = house_step(document, finished.pictures, options.house, steps, progress)
+        house = house_step(document, finished.pictures, built, steps, progress)
         site = site_of(document)
-        building.give(Building(house, options.house, site))
-        tour = tour_step(house, options.house, steps, progress)
+        building.give(Building(house, built, site))
+        tour = tour_step(house, built, steps, progress)
         progress("drawings", 0.0)
         with timed_step(steps, "drawings"):
             result = result_of(document, house, tour, sheets, finished, given.panorama, site)
@@ -281,7 +284,7 @@ def _make(
         with writing_to(opened.path), timed_step(steps, "write") as step:
             if stays:
                 keep_panorama(read, opened.path, work)
-            step.rejected.extend(write_result(result, building, work, options.house))
+            step.rejected.extend(write_result(result, building, work, built))
         report, page = plan_report(result, call.subject, used, steps, notes)
         with writing_to(opened.path):
             (work / "report.json").write_bytes(report.to_json())

@@ -26,7 +26,7 @@ from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judg
 from veduta.plan.openings.curved_gaps import gaps_on_circles
 from veduta.plan.openings.evidence import Views
 from veduta.plan.openings.gaps import find_gaps, trimmed
-from veduta.plan.openings.leaf_pieces import leaf_pieces
+from veduta.plan.openings.leaf_pieces import free_leaves, leaf_pieces
 from veduta.plan.openings.outdoors import leads_outdoors
 from veduta.plan.openings.settle import USUAL_DOOR, settled, usual_door
 from veduta.plan.openings.sky import open_sky
@@ -190,6 +190,9 @@ def _read(
         found = sized
         judged = judge_gaps(found, views)
     leaves = leaf_pieces(found.pieces, judged)
+    if known is None and way.drawing == "filled":
+        door_px = usual_door(judged) or USUAL_DOOR * found.thin_px
+        leaves |= free_leaves(found.pieces, found.thin_px, door_px)
     if leaves:
         walls = [one for index, one in enumerate(found.pieces) if index not in leaves]
         found = replace(found, pieces=walls)

@@ -142,7 +142,7 @@ def tour_step(
         return None
     progress("tour", 0.0)
     with timed_step(steps, "tour") as step:
-        tour = find_tour(house, options.tour_speed)
+        tour = find_tour(house, options.tour_speed, indoors=options.flat)
         if tour is None:
             step.rejected.append("there is no tour: no room has a floor on which one can stand")
             return None

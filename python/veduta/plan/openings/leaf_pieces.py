@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.plan.openings.classify import Judged
 from veduta.plan.openings.evidence import LEAST_ARC
@@ -20,6 +21,12 @@ LONGER = 1.2
 SHORTER = 0.35
 """Nor shorter than this part: the rest is too thin to be seen as wall."""
 
+SLANTED = 0.96
+"""The larger part of a slanted direction: more than 16 degrees from upright."""
+
+HANGS = 1.5
+"""So near to a wall, in (thin) wall thicknesses, an end hangs on it."""
+
 
 def leaf_pieces(pieces: Sequence[Piece], judged: Sequence[Judged]) -> set[int]:
     """Indices of pieces of wall that are leaves of doors.
@@ -31,6 +38,35 @@ def leaf_pieces(pieces: Sequence[Piece], judged: Sequence[Judged]) -> set[int]:
     return {
         index for index, piece in enumerate(pieces) if any(_is_leaf(piece, arc) for arc in leaves)
     }
+
+
+def free_leaves(pieces: Sequence[Piece], thin_px: float, door_px: float) -> set[int]:
+    """Indices of slanted pieces that hang on a wall by one end alone, as long as a door is wide.
+
+    Leaves that are drawn without an arc: as walls they would end in a room.
+    """
+    ends = np.array([[one.start, one.end] for one in pieces])
+    found = set()
+    for index, piece in enumerate(pieces):
+        slanted = float(np.abs(piece.direction).max()) < SLANTED
+        sized = SHORTER * door_px <= piece.length_px <= LONGER * door_px
+        if not (slanted and sized) or piece.bulge:
+            continue
+        others = [one for place, one in enumerate(pieces) if place != index]
+        touching = [
+            any(_away(end, one) <= HANGS * thin_px + one.thickness_px / 2 for one in others)
+            for end in ends[index]
+        ]
+        if touching.count(True) == 1:
+            found.add(index)
+    return found
+
+
+def _away(point: NDArray[np.float64], piece: Piece) -> float:
+    """How far a point is from the centre line of a piece."""
+    run = piece.end - piece.start
+    share = float(np.clip((point - piece.start) @ run / max(float(run @ run), 1e-9), 0.0, 1.0))
+    return float(np.hypot(*(point - piece.start - share * run)))
 
 
 def _leaves(judged: Judged) -> list[Arc]:

@@ -72,10 +72,10 @@ class Leg:
     stop: Stop | None
 
 
-def find_tour(house: House, speed_m_s: float) -> Tour | None:
-    """The tour; None where there is no room in which one can stand."""
+def find_tour(house: House, speed_m_s: float, *, indoors: bool = False) -> Tour | None:
+    """The tour; None where there is no room in which one can stand. indoors: of a flat."""
     first = house.spaces[house.ground]
-    ways_in = entrances(first)
+    ways_in = () if indoors else entrances(first)
     outside = outside_of(first, ways_in[0]) if ways_in else None
     plan = _plan(house, outside)
     if plan is None:
@@ -92,7 +92,7 @@ def find_tour(house: House, speed_m_s: float) -> Tour | None:
     notes = (
         *coarse_notes(plan.grounds, plan.grid.storeys),
         *plan.found.missed,
-        *((INDOORS,) if around is None else ()),
+        *((INDOORS,) if around is None and not indoors else ()),
     )
     return Tour(path, stretches_of(timed, plan.grounds), length, notes, plan.grounds)
 

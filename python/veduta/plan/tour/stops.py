@@ -50,7 +50,7 @@ def title_of(room: Room) -> str:
 
 
 def is_cupboard(room: Room) -> bool:
-    """Whether a room is no place to be shown: a wardrobe, a store or a duct of few square metres."""
+    """Whether a room is no place to be shown: a wardrobe, a store, a duct of few square metres."""
     return room.area_m2 < CUPBOARD_M2[room.use in STORES]
 
 

@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.drawn import Cleaned
+from veduta.plan.walls.blobs import without_blobs
 from veduta.plan.walls.curved import curved_pieces, lies_in
 from veduta.plan.walls.jogs import jogs
 from veduta.plan.walls.join import joined
@@ -43,6 +44,9 @@ BLOB = 0.75
 PALE = 0.65
 """What has less than this part of the walls' usual ink is no wall."""
 
+SHADED, PALE_SHADED = 0.7, 0.5
+"""Where things that are too thick for walls take so much of all solid ink, this part suffices."""
+
 
 @dataclass(frozen=True)
 class Found:
@@ -63,21 +67,9 @@ class Found:
 
 def find_walls(cleaned: Cleaned, way: Way) -> Found:
     """Find the pieces, as they are drawn; NotFoundError where no strokes are walls."""
-    drawing, thickness = way.drawing, way.thickness
-    known, alone = way.told == "known", way.told in ("known", "by pen")
-    # Of what is known, short piers between openings count, too; a pen's strokes may be thin.
-    solid = way.mask if alone else thick_strokes(way.mask, thickness)
-    if way.told == "by pen":
-        solid = without_marks(solid, way.mask, thickness)
-    elif not known and drawing in ("filled", "single-line"):
-        # Shaded panes are thick strokes, too, but paler than the walls.
-        solid = without_marks(solid, way.mask, thickness)
-        level = float(np.median(cleaned.ink[solid])) if solid.any() else 1.0
-        dark = way.mask & (cleaned.ink > PALE * level)
-        if drawing == "single-line":
-            # The edges of lines are as pale as panes: without them all lines are thinner.
-            thickness = wall_thickness(dark, cleaned.line_px) or thickness
-        solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
+    drawing = way.drawing
+    known = way.told == "known"
+    solid, thickness = _solid(cleaned, way)
     least_px = 0.8 * thickness.least_px
     if drawing == "single-line":
         # Tracks are whole pixels wide, which is much of a line; the measured width judges later.
@@ -107,6 +99,30 @@ def find_walls(cleaned: Cleaned, way: Way) -> Found:
     if not known:
         whole = [one for one in whole if not _is_blob(one, thin_px)]
     return Found(whole, solid, thickness, thin_px, curved, way.told == "by colour")
+
+
+def _solid(cleaned: Cleaned, way: Way) -> tuple[NDArray[np.bool_], Thickness]:
+    """The mask of what is wall for its thickness and its tone, and how thick walls are."""
+    drawing, thickness = way.drawing, way.thickness
+    # Of what is known, short piers between openings count, too; a pen's strokes may be thin.
+    alone = way.told in ("known", "by pen")
+    solid = way.mask if alone else thick_strokes(way.mask, thickness)
+    if way.told == "by pen":
+        return without_marks(solid, way.mask, thickness), thickness
+    if way.told == "known" or drawing not in ("filled", "single-line"):
+        return solid, thickness
+    # Shaded panes are thick strokes, too, but paler than the walls.
+    solid = without_marks(solid, way.mask, thickness)
+    slim = without_blobs(solid, thickness) if drawing == "filled" else solid
+    shaded = drawing == "filled" and int(slim.sum()) < SHADED * int(solid.sum())
+    level = float(np.median(cleaned.ink[slim])) if slim.any() else 1.0
+    # Beside large shaded things walls that are thin and pale are walls all the same.
+    dark = way.mask & (cleaned.ink > (PALE_SHADED if shaded else PALE) * level)
+    if drawing == "single-line":
+        # The edges of lines are as pale as panes: without them all lines are thinner.
+        thickness = wall_thickness(dark, cleaned.line_px) or thickness
+    solid = without_marks(thick_strokes(dark, thickness), dark, thickness)
+    return (without_blobs(solid, thickness) if drawing == "filled" else solid), thickness
 
 
 def thin_thickness(pieces: Sequence[Piece]) -> float:
