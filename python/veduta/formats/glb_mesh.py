@@ -56,6 +56,11 @@ def _joined(pieces: list[trimesh.Trimesh], most_corners: int) -> ReadMesh:
     points = np.concatenate([np.asarray(piece.vertices, dtype=np.float64) for piece in pieces])
     if not np.isfinite(points).all():
         raise ValueError("it has points that are no numbers")
+    for piece in pieces:
+        if len(piece.faces) and not 0 <= piece.faces.min() <= piece.faces.max() < len(
+            piece.vertices
+        ):
+            raise ValueError("it has triangles with corners that are not there")
     starts = np.cumsum([0, *(len(piece.vertices) for piece in pieces)])
     corners = [
         np.asarray(piece.faces, dtype=np.int64).reshape(-1) + start

@@ -72,7 +72,10 @@ def read_trimesh_place(path: Path) -> Place:
         points = np.asarray(found.vertices, dtype=np.float64)
         place.clouds.append(Cloud(path.stem, points, _colours(found, len(points))))
     elif isinstance(found, trimesh.Trimesh) and len(found.faces):
-        place.add(_mesh(found, path.stem))
+        try:
+            place.add(_mesh(found, path.stem))
+        except ValueError as error:
+            raise InputError(path, f"is no mesh ({error})", "Export it again.") from error
     else:
         raise InputError(
             path, "has neither triangles nor points", "Check that it is the right one."
