@@ -14,7 +14,9 @@ def run(arguments: list[str]) -> int:
     from veduta.run.progress import Progress
 
     call = parse(FaunaCall, "veduta fauna", arguments)
-    record = Record(call.footage, call.masks, call.background, call.place, call.path, call.plan)
+    record = Record(
+        call.footage, call.masks, call.background, call.place, call.path, call.plan, call.joints
+    )
     progress = Progress(quiet=call.quiet)
     result = run_fauna(record, call.out, call.options(), progress, force=call.force)
     return tell_result(result, quiet=call.quiet)

@@ -70,6 +70,15 @@ OwnPlan = Annotated[
     ),
 ]
 
+Joints = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="CSV",
+        help_behavior_hint="",
+        help="where the joints of an animal with legs are, as DeepLabCut writes it; gaps may be",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class FaunaCall:
@@ -90,6 +99,7 @@ class FaunaCall:
     place: InPlace = None
     path: Way = None
     plan: OwnPlan = None
+    joints: Joints = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

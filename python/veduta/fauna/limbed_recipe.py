@@ -14,7 +14,8 @@ from veduta.fauna.limbed_pictures import chart_picture, figures_picture
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.read.drawn import drawn_figure
-from veduta.fauna.read.footage import Footage, read_footage
+from veduta.fauna.read.footage import Footage, pictures_in, read_footage
+from veduta.fauna.read.joints import read_joints
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.limbed_coat import coat_of_plane
 from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
@@ -71,10 +72,12 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
         step.rejected.extend(left_out)
     found = _fewer(found)
+    pins = _pins(work, record, footage, plan)
     with work.step("figure") as step:
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
             lambda: work.progress("figure", 0.5),
+            {name: places[found.rows] for name, places in pins.items()},
         )  # fmt: skip
         step.counts["segments"] = len(seen.fitted.figure.start)
     joints = seen.windows.in_picture(seen.fitted.joints(), seen.fitted.px_per_length)
@@ -94,6 +97,21 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         coat = _coat(footage, found, seen, plan, joints)
     _tell(work, footage, found, seen, joints, overlaps, animal)
     return ReadLimbed(animal.model_copy(update={"coat": COAT}), coat)
+
+
+def _pins(work: Work, record: Record, footage: Footage, plan: BodyPlan) -> dict[str, Floats]:
+    """The marked joints by the frames of the footage; none where no CSV is given."""
+    if record.joints is None:
+        return {}
+    files: list[str] = []
+    if record.path.is_dir():
+        files = [picture.name for picture in pictures_in(record.path)]
+    count = max(len(files), int(footage.number[-1]) + 1)
+    with work.step("joints") as step:
+        marked = read_joints(record.joints, count, figure_of(plan).names, files)
+        step.counts["joints"] = len(marked.px)
+        step.rejected.extend(f"{name}: no joint of the body plan" for name in marked.unknown)
+    return {name: places[footage.number] for name, places in marked.px.items()}
 
 
 def _fewer(found: Silhouettes) -> Silhouettes:

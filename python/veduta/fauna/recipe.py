@@ -28,7 +28,8 @@ from veduta.run.work import Work
 @dataclass(frozen=True)
 class Record:
     """What the user gives: the footage, perhaps masks and a background picture, and perhaps a place
-    for the animal to go in, with the points of its way, and a body plan of their own.
+    for the animal to go in, with the points of its way, a body plan
+    of their own, and joints that are marked already.
     """
 
     path: Path
@@ -37,11 +38,20 @@ class Record:
     place: Path | None = None
     way: Path | None = None
     plan: Path | None = None
+    joints: Path | None = None
 
     @property
     def files(self) -> tuple[Path | None, ...]:
         """All that the result depends on."""
-        return (self.path, self.masks, self.background, self.place, self.way, self.plan)
+        return (
+            self.path,
+            self.masks,
+            self.background,
+            self.place,
+            self.way,
+            self.plan,
+            self.joints,
+        )
 
 
 @dataclass(frozen=True, eq=False)

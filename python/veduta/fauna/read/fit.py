@@ -16,7 +16,7 @@ from scipy.interpolate import BSpline
 from scipy.optimize import minimize
 
 from veduta.fauna.motion.figure import Figure, Floats, Ints, back_through, posed
-from veduta.fauna.read.occupancy import cover
+from veduta.fauna.read.occupancy import Cover, cover
 from veduta.fauna.read.windows import Windows
 
 _ROOT = 0.1
@@ -39,9 +39,11 @@ class FitLooks:
     """Of the first harmonic of its motion; the k-th has it over k to the power 1.5."""
     root: float = 0.06
     """Of the root's acceleration between frames, in lengths."""
+    pin: float = 20.0
+    """The loss of a marked joint that is a length away; they pull by the square."""
     weight: float = 1e-3
     """Of all that beside the silhouettes: the loss of a deviation in one number."""
-    hanging: float = 0.3
+    hanging: float = 0.5
     """What swings by itself, as a tail, moves so much less than a leg."""
     freer: float = 0.3
     """Each segment of a leg moves so much more than the one before it."""
@@ -125,6 +127,8 @@ class Fit:
         self, figure: Figure, windows: Windows, basis: Basis, looks: FitLooks, frames: Floats
     ) -> None:
         self.frames, self.weights = frames, windows.weights()
+        self.pinned = [name for name in windows.pins if name in figure.names]
+        self.pinned_joints = [figure.names.index(name) for name in self.pinned]
         self.figure, self.windows, self.basis, self.looks = figure, windows, basis, looks
         self.far = np.array([figure.limbs[n].side == "right" for n in figure.limb])
         twin = _twins(figure)
@@ -193,6 +197,8 @@ class Fit:
             self.windows.flat(), self.weights, soft,
         )  # fmt: skip
         count = len(root)
+        if self.pinned:
+            self._pull(seen, pose.joints, px_per_length)
         by_root, by_angles, by_length, by_apart = back_through(
             self.figure, pose, seen.by_joint / count, length
         )
@@ -228,6 +234,14 @@ class Fit:
         rooted[2:] += push
         prior[place] = rooted.ravel()
         return total, gradient + prior, seen.loss
+
+    def _pull(self, seen: Cover, joints: Floats, px_per_length: float) -> None:
+        """Marked joints pull: the squared distance, in lengths, is a loss, too."""
+        marked = np.stack([self.windows.pins[name] for name in self.pinned], axis=1)
+        away = joints[:, self.pinned_joints] - self.windows.from_picture(marked, px_per_length)
+        away = np.where(np.isfinite(away), away, 0.0)
+        seen.loss[:] += self.looks.pin * (away**2).sum(axis=(1, 2))
+        seen.by_joint[:, self.pinned_joints] += 2.0 * self.looks.pin * away
 
     def _back_apart(self, gradient: Floats, by_apart: Floats) -> None:
         right = np.array([limb.side == "right" for limb in self.figure.limbs])[:, None]

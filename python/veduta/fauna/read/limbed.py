@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -54,19 +54,23 @@ class LimbedSeen:
 
 def fit_limbed(
     masks: Masks, frames: NDArray[np.int64], plan: BodyPlan, looks: LimbedLooks,
-    heard: Callable[[], None],
+    heard: Callable[[], None], pins: Mapping[str, Floats] | None = None,
 ) -> LimbedSeen:  # fmt: skip
-    """The figure of a plan in silhouettes (t, h, w) of the numbered frames."""
+    """The figure of a plan in silhouettes (t, h, w) of the numbered frames.
+
+    pins: (t, 2) px by joint, where somebody has marked it; NaN elsewhere.
+    """
     optional = {part.name for part in plan.parts if part.optional}
     number = frames.astype(np.float64)
     middle = middles_of(masks)
-    coarse = windows_of(masks, looks.coarse_cells, middle)
-    repeats = repeat_of(coarse)
+    coarse = replace(windows_of(masks, looks.coarse_cells, middle), pins=pins or {})
+    top = plan.view == "top"
+    repeats = repeat_of(coarse, top=top)
     cycle, score = None, 0.0
     if repeats is not None:
-        # Of a symmetrical gait silhouettes look the same after half a cycle.
+        # Of a symmetrical gait silhouettes look the same after half a cycle, but from above.
         step = float(np.median(np.diff(number)))
-        cycle, score = 2.0 * repeats[0] * step, repeats[1]
+        cycle, score = (1.0 if top else 2.0) * repeats[0] * step, repeats[1]
     basis = _basis(number, cycle, looks.fit, looks.start_harmonics)
     figure = figure_of(plan, optional)
     start = best_start(
@@ -74,7 +78,7 @@ def fit_limbed(
     )
     if cycle is not None:
         start, cycle = _with_cycle(start, number, cycle, looks, heard)
-    fine = windows_of(masks, looks.fine_cells, middle)
+    fine = replace(windows_of(masks, looks.fine_cells, middle), pins=pins or {})
     if start.fit.windows.faces < 0.0:
         fine = fine.mirrored()
     fit = Fit(figure, fine, start.fit.basis, looks.fit, number)

@@ -128,7 +128,8 @@ def scaled_animal(seen: LimbedSeen, plan: BodyPlan, frame_s: float) -> Scaled:
     own = _own_plan(plan, figure, points, fitted.deep / unit, seen.missing)
     root = (fitted.root - np.array([float(fitted.root[:, 0].mean()), low])) / unit
     places = (joints[:, feet] - fitted.root[:, None]) / unit
-    places[..., 1] -= fitted.deep[feet] / unit
+    if top:
+        places[..., 1] = 0.0  # how high feet are is not seen from above
     turns = fitted.angles - stand
     down = (
         _cycle_down(seen, places, frame_s)
@@ -201,6 +202,8 @@ def _gait(seen: LimbedSeen, scaled: Scaled, frame_s: float) -> LimbedGait:
     places = (seen.fitted.joints()[:, feet] - seen.fitted.root[:, None]) * (
         seen.fitted.px_per_length / scaled.unit_px
     )
+    if scaled.plan.view == "top":
+        places[..., 1] = 0.0
     mean = mean_cycle(places.reshape(len(places), -1), phase).reshape(_PHASES, -1, 2)
     down = feet_down(mean, cycle_s / _PHASES, FeetLooks(), cyclic=True)
     speed = ground_speed(mean, cycle_s / _PHASES, cyclic=True)

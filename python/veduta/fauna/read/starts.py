@@ -71,7 +71,7 @@ def best_start(
     for way in faces:
         seen = windows if way == windows.faces else windows.mirrored()
         fit = Fit(figure, seen.of(few), basis.of(few), looks, frames[few])
-        for front, hind in _phases(tries.phases, shared=basis.shared):
+        for front, hind in _phases(tries.phases, fit):
             found.append(_tried(fit, _begin(fit, front, hind, tries), scale, tries, heard))
     found.sort(key=lambda start: start.loss)
     otherwise = [
@@ -115,10 +115,11 @@ def _tails_held(fit: Fit, numbers: Floats, tries: StartLooks) -> list[Floats]:
     return held
 
 
-def _phases(count: int, *, shared: bool) -> list[tuple[float, float]]:
-    if not shared:
+def _phases(count: int, fit: Fit) -> list[tuple[float, float]]:
+    """Of front and hind legs; from the side half a cycle later looks the same."""
+    if not fit.basis.shared:
         return [(0.0, 0.0)]
-    half = np.arange(count) * 0.5 / count
+    half = np.arange(count) * (1.0 if fit.top else 0.5) / count
     return [(float(front), float(hind)) for front in half for hind in half]
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 
 import cv2
 import numpy as np
@@ -20,13 +21,15 @@ _MARGIN = 0.09
 class Windows:
     """shares: (t, h, w) how much of each cell the animal covers. middle_px: (t, 2) of the windows,
     x and y down in the picture. cell_px: the side of a cell. faces: 1 where the animal looks to the
-    right of the picture, -1 where the windows are mirrored so that it does.
+    right of the picture, -1 where the windows are mirrored so that it does. pins: (t, 2) px by
+    joint, where somebody has marked it; NaN elsewhere.
     """
 
     shares: Singles
     middle_px: Floats
     cell_px: float
     faces: float
+    pins: Mapping[str, Floats] = field(default_factory=dict)
 
     def places(self, px_per_length: float) -> Singles:
         """(h * w, 2) the middles of the cells from the window's, x right, y up, in lengths."""
@@ -61,7 +64,8 @@ class Windows:
 
     def of(self, rows: NDArray[np.int64]) -> Windows:
         """Those of some frames."""
-        return replace(self, shares=self.shares[rows], middle_px=self.middle_px[rows])
+        pins = {name: places[rows] for name, places in self.pins.items()}
+        return replace(self, shares=self.shares[rows], middle_px=self.middle_px[rows], pins=pins)
 
     def mirrored(self) -> Windows:
         """The same animal looking the other way."""
@@ -115,14 +119,15 @@ def _reach(masks: Masks, middle: Floats) -> tuple[float, float, float, float]:
     )  # fmt: skip
 
 
-def repeat_of(windows: Windows, least: int = 4) -> tuple[float, float] | None:
+def repeat_of(windows: Windows, least: int = 4, *, top: bool = False) -> tuple[float, float] | None:
     """After how many frames silhouettes look the same again, and how well (0..1); None: never.
 
-    The lower half of the windows is compared, where the legs are. Of a symmetrical gait this is
-    half a cycle: then the left legs stand where the right ones stood.
+    From the side the lower half of the windows is compared, where the legs are. Of a symmetrical
+    gait this is half a cycle: then the left legs stand where the right ones stood. From above
+    (top) it is the whole one.
     """
-    height = windows.shares.shape[1]
-    legs: NDArray[np.float32] = windows.shares[:, height // 2 :].reshape(len(windows.shares), -1)
+    from_row = 0 if top else windows.shares.shape[1] // 2
+    legs: NDArray[np.float32] = windows.shares[:, from_row:].reshape(len(windows.shares), -1)
     count = len(legs)
     lags = np.arange(1, max(2, int(count * 0.75)))
     apart = np.array([float(np.abs(legs[lag:] - legs[:-lag]).mean()) for lag in lags])

@@ -1,0 +1,7 @@
+"""Animals filmed by code, with all of it known: shape, joints, feet and cycle."""
+
+from veduta.synthetic.animals.film import Filmed
+from veduta.synthetic.animals.legged import film_lizard, film_quadruped
+from veduta.synthetic.animals.limbless import film_limbless
+
+__all__ = ["Filmed", "film_limbless", "film_lizard", "film_quadruped"]

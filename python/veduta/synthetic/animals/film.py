@@ -1,0 +1,93 @@
+"""Drawing an animal's tubes over a ground, as footage with noise and grass in front."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Floats = NDArray[np.float64]
+Frames = NDArray[np.uint8]
+_SHIFT = 4
+
+
+@dataclass(frozen=True, eq=False)
+class Tube:
+    """A chain of joints and how thick it is. joints: (t, n, 2) px, y down. half: (n,) px."""
+
+    joints: Floats
+    half: Floats
+    light: float = 1.0
+
+
+@dataclass(frozen=True, eq=False)
+class Filmed:
+    """frames: (t, h, w, 3). background: (h, w, 3), with the grass. masks: (t, h, w), without the grass. joints: (t, 2) px by name, y down.
+
+    down: (t,) by foot, whether it stands. cycle: frames of a stride. lengths: px of parts, halves:
+    half thickness (px) at joints.
+    """
+
+    frames: Frames
+    background: Frames
+    masks: NDArray[np.bool_]
+    joints: dict[str, Floats]
+    cycle: float
+    length_px: float
+    down: dict[str, NDArray[np.bool_]] = field(default_factory=dict)
+    lengths: dict[str, float] = field(default_factory=dict)
+    halves: dict[str, float] = field(default_factory=dict)
+
+
+def film(
+    tubes: list[Tube], size: tuple[int, int], random: np.random.Generator, *, grass: int = 0
+) -> tuple[Frames, Frames, NDArray[np.bool_]]:
+    """Frames of height and width `size` with tubes over each other in their order; what is behind
+    them; and the masks.
+    """
+    count = len(tubes[0].joints)
+    rough = random.normal(150.0, 55.0, (*size, 3)).astype(np.float32)
+    ground = cv2.GaussianBlur(rough, (0, 0), 4.0) + np.array([-14.0, 8.0, -22.0], np.float32)
+    coat = np.array([112.0, 84.0, 58.0]) * random.uniform(0.5, 1.1)
+    blades = _blades(size, grass, random)
+    frames = np.empty((count, *size, 3), dtype=np.uint8)
+    masks = np.zeros((count, *size), dtype=np.bool_)
+    for row in range(count):
+        picture = ground.copy()
+        whole = np.zeros(size, np.uint8)
+        for tube in tubes:
+            mask = np.zeros(size, np.uint8)
+            _discs(mask, tube.joints[row], tube.half)
+            share = cv2.GaussianBlur(mask, (0, 0), 0.7)[..., None].astype(np.float32) / 255.0
+            picture = picture * (1.0 - share) + (coat * tube.light).astype(np.float32) * share
+            whole = np.maximum(whole, mask)
+        masks[row] = whole > 127
+        noisy = np.where(blades[..., None] > 0, np.float32(70.0), picture)
+        noisy = noisy + random.normal(0.0, 4.0, picture.shape).astype(np.float32)
+        frames[row] = np.clip(noisy, 0, 255).astype(np.uint8)
+    behind = np.where(blades[..., None] > 0, np.float32(70.0), ground)
+    return frames, np.clip(behind, 0, 255).astype(np.uint8), masks
+
+
+def _discs(mask: NDArray[np.uint8], joints: Floats, half: Floats) -> None:
+    """Discs along a chain, a third of a pixel from each other at most a radius apart."""
+    for first in range(len(joints) - 1):
+        way = float(np.linalg.norm(joints[first + 1] - joints[first]))
+        steps = max(2, int(way / max(0.25 * float(half[first : first + 2].min()), 0.5)) + 1)
+        for share in np.linspace(0.0, 1.0, steps):
+            x, y = joints[first] * (1.0 - share) + joints[first + 1] * share
+            reach = float(half[first] * (1.0 - share) + half[first + 1] * share)
+            centre = (round((x - 0.5) * 2**_SHIFT), round((y - 0.5) * 2**_SHIFT))
+            cv2.circle(mask, centre, max(1, round(reach * 2**_SHIFT)), 255, -1, cv2.LINE_8, _SHIFT)
+
+
+def _blades(size: tuple[int, int], count: int, random: np.random.Generator) -> NDArray[np.uint8]:
+    found = np.zeros(size, np.uint8)
+    for _ in range(count):
+        foot = random.uniform(0.0, size[1])
+        tip = foot + random.normal(0.0, 8.0)
+        low = (round(foot), size[0] - 1)
+        cv2.line(found, low, (round(tip), round(size[0] * random.uniform(0.8, 0.92))), 255, 1)
+    return found
