@@ -53,9 +53,9 @@ def main() -> None:
     rows += cat_rows()
     notes = [
         "Drawn clips: veduta.synthetic.animals, which shares no function with the fit; silhouettes"
-        " are found in the footage against its background, grass and noise in it. Every fourth animal has proportions as"
-        " no plan has them. Which front leg goes with which hind leg silhouettes do not tell: each"
-        " pair is compared the way that fits better.",
+        " are found in the footage against its background, grass and noise in it. Every fourth"
+        " animal has proportions as no plan has them. Which front leg goes with which hind leg"
+        " silhouettes do not tell: each pair is compared the way that fits better.",
         "Cat: silhouettes from its left side alone, drawn by OpenCV from the 35 meshes; the model"
         " with its coat is judged from the front, obliquely and from above.",
     ]

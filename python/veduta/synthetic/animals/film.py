@@ -24,10 +24,10 @@ class Tube:
 
 @dataclass(frozen=True, eq=False)
 class Filmed:
-    """frames: (t, h, w, 3). background: (h, w, 3), with the grass. masks: (t, h, w), without the grass. joints: (t, 2) px by name, y down.
+    """frames: (t, h, w, 3). background: (h, w, 3), with the grass. masks: (t, h, w), without it.
 
-    down: (t,) by foot, whether it stands. cycle: frames of a stride. lengths: px of parts, halves:
-    half thickness (px) at joints.
+    joints: (t, 2) px by name, y down. down: (t,) by foot, whether it stands. cycle: frames of a
+    stride. lengths: px of parts, halves: half thickness (px) at joints.
     """
 
     frames: Frames

@@ -82,9 +82,10 @@ def film_quadruped(
     tubes.append(Tube(body, wide))
     tubes += [Tube(px(legs[n]), thick, 1.12) for n in ("hind_leg_left", "front_leg_left")]
     pictures, behind, masks = film(tubes, (360, 640), random, grass=12)
+    places = {name: px([at])[:, 0] for name, at in joints.items()}
     length = (1.0 + like.neck + like.head + 0.9 * like.deep + 0.06) * unit
     return Filmed(
-        pictures, behind, masks, {name: px([at])[:, 0] for name, at in joints.items()}, cycle, length, down,
+        pictures, behind, masks, places, cycle, length, down,
         {"trunk": unit, "front_leg": like.leg * unit, "hind_leg": like.leg * unit},
         {"back": like.deep * unit, "shoulder": like.deep * unit},
     )  # fmt: skip
