@@ -34,7 +34,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "4"
+VERSION = "5"
 POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
@@ -181,6 +181,10 @@ def _tell(
     work.measure("triangles_seen_in_no_image", round(share, 4))
     work.measure("atlas_px", sum(one.texels for one in outcomes))
     work.measure("image_px", sum(shot.width_px * shot.height_px for shot in record.shots))
+    looked = sum(one.consistency.looked for one in outcomes)
+    if looked:
+        wrong = sum(int(one.consistency.contradicted.sum()) for one in outcomes)
+        work.measure("filled_points_where_images_disagree", round(wrong / looked, 4))
     work.summary = (
         f"{len(outcomes)} facade meshes of {triangles:,} triangles; {objects} objects taken out;"
         f" {100 * share:.1f} % of the triangles are seen in no image"

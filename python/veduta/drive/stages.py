@@ -193,8 +193,11 @@ def _show(one: Textured, work: Work) -> None:
                  wide=True)  # fmt: skip
     work.picture(f"{name}: background", "Depth image after",
                  depth_picture(geometry.background.depth, geometry), wide=True)  # fmt: skip
-    work.picture(f"{name}: what is known", "Grey measured, orange filled, blue inferred",
-                 source_picture(one.background, geometry), wide=True)  # fmt: skip
+    work.picture(
+        f"{name}: what is known",
+        "Grey measured, orange filled, red filled where images disagree, blue inferred",
+        source_picture(one), wide=True,
+    )  # fmt: skip
     work.picture(f"{name}: atlas before", "Red is seen in no image",
                  atlas_picture(one, filled=False), wide=True)  # fmt: skip
     work.picture(f"{name}: atlas after", "Holes filled, and marked",

@@ -28,6 +28,7 @@ def write_facades(outcomes: Sequence[Outcome], folder: Path) -> int:
                 "name": name, "segment": outcome.segment.id,
                 "left_m": plane.left.round(4).tolist(), "right_m": plane.right.round(4).tolist(),
                 "width_m": round(plane.width_m, 4), "height_m": round(plane.height_m, 4),
+                "named": list(plane.named),
             }  # fmt: skip
             if picture is not None:
                 folder.mkdir(exist_ok=True)

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.drive.build.layers import PointClass
 from veduta.drive.build.segment import Textured
 
 Floats = NDArray[np.float64]
@@ -18,6 +19,9 @@ class PlaneParameters:
     """off_m: columns of a plane lie so near to it. narrowest_m, lowest_m: smaller ones are none.
     step_m: from one column to the next a wall goes on where its depth changes by less.
     least_seen: share of texels that images show, below which no orthophoto is made.
+    glass: share of points behind the wall, seen through it, above which it is a glass front.
+    back_m: a neighbour that stands so much farther back or forth makes a stepped front.
+    across: share of columns with a wall across the path that is named.
     """
 
     off_m: float = 0.25
@@ -25,12 +29,16 @@ class PlaneParameters:
     lowest_m: float = 2.0
     step_m: float = 0.4
     least_seen: float = 0.15
+    glass: float = 0.3
+    back_m: float = 0.5
+    across: float = 0.2
 
 
 @dataclass(frozen=True, eq=False)
 class FacadePlane:
     """A wall from column `first` up to `last` of a segment. left, right: (3,) its lower corners as
-    seen from the street (m, world); height_m: over them.
+    seen from the street (m, world); height_m: over them. named: what the paper's section 8.4 finds
+    hard: "glass front", "stepped", "wall across the path".
     """
 
     first: int
@@ -38,6 +46,7 @@ class FacadePlane:
     left: Floats
     right: Floats
     height_m: float
+    named: tuple[str, ...] = ()
 
     @property
     def width_m(self) -> float:
@@ -69,8 +78,29 @@ def facade_planes(textured: Textured, parameters: PlaneParameters | None = None)
         for begin, end in _straight(places, first, last, chosen.off_m):
             plane = _plane(textured, places, begin, end)
             if plane.width_m >= chosen.narrowest_m and plane.height_m >= chosen.lowest_m:
-                found.append(plane)
+                found.append(replace(plane, named=_names(textured, plane, main, chosen)))
     return found
+
+
+def _names(
+    textured: Textured, plane: FacadePlane, main: Floats, chosen: PlaneParameters
+) -> tuple[str, ...]:
+    layers = textured.geometry.layers
+    here = (layers.points.column >= plane.first) & (layers.points.column < plane.last)
+    glass = int((layers.kind[here] == PointClass.GLASS).sum())
+    wall = int((layers.kind[here] == PointClass.BUILDING).sum())
+    found = []
+    if glass > chosen.glass * max(glass + wall, 1):
+        found.append("glass front")
+    own = float(np.median(main[plane.first : plane.last]))
+    beside = [main[max(plane.first - 5, 0) : plane.first], main[plane.last : plane.last + 5]]
+    steps = [abs(float(np.nanmedian(one)) - own) for one in beside if np.isfinite(one).any()]
+    if any(step > chosen.back_m for step in steps):
+        found.append("stepped")
+    across = layers.depths.across[plane.first : plane.last]
+    if across.mean() > chosen.across:
+        found.append("wall across the path")
+    return tuple(found)
 
 
 def _runs(main: Floats, step_m: float) -> list[tuple[int, int]]:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.drive.build.consistency import Consistency
 from veduta.drive.build.facade_planes import (
     FacadePlane,
     Orthophoto,
@@ -47,6 +48,7 @@ class Outcome:
     unseen_share: float
     error_m: float
     texels: int
+    consistency: Consistency
     planes: tuple[tuple[str, FacadePlane, Orthophoto | None], ...]
 
 
@@ -74,7 +76,7 @@ def outcome_of(textured: Textured, seen: Sequence[Seen], texel_m: float) -> Outc
         geometry.segment, tuple(meshes), taken_out, coloured(taken_out, seen),
         geometry.layers.points.points, geometry.layers.kind, geometry.object_count,
         len(surface.triangles), textured.fine_triangles, textured.unseen_share,
-        textured.error_m, int(textured.atlas.surface.sum()), planes,
+        textured.error_m, int(textured.atlas.surface.sum()), textured.consistency, planes,
     )  # fmt: skip
 
 

@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.drive.build.fill import Background, Source
+from veduta.drive.build.fill import Source
 from veduta.drive.build.segment import Geometry, Textured
 
 _EMPTY = (24, 24, 28)
@@ -14,6 +14,7 @@ _SOURCES = {
     Source.NOTHING: _EMPTY, Source.MEASURED: (205, 200, 190),
     Source.FILLED: (230, 120, 40), Source.INFERRED: (90, 140, 220),
 }  # fmt: skip
+_CONTRADICTED = (210, 40, 50)
 _SEED = 7
 
 
@@ -35,10 +36,14 @@ def object_picture(geometry: Geometry) -> NDArray[np.uint8]:
     return _upright(table[geometry.objects], geometry)
 
 
-def source_picture(background: Background, geometry: Geometry) -> NDArray[np.uint8]:
-    """(h, w, 3) grey measured, orange filled, blue inferred."""
+def source_picture(textured: Textured) -> NDArray[np.uint8]:
+    """(h, w, 3) grey measured, orange filled, blue inferred; red filled and not borne out."""
+    background, geometry = textured.background, textured.geometry
     table = np.array([_SOURCES[Source(value)] for value in range(4)], dtype=np.uint8)
-    return _upright(table[background.source], geometry)
+    picture = table[background.source]
+    wrong = cv2.dilate(textured.consistency.contradicted.astype(np.uint8), np.ones((3, 3), np.uint8))
+    picture[(wrong > 0) & (background.source == Source.FILLED)] = _CONTRADICTED
+    return _upright(picture, geometry)
 
 
 def histogram_picture(geometry: Geometry) -> NDArray[np.uint8]:

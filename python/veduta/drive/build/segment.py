@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.drive.build.atlas import Atlas, build_atlas
+from veduta.drive.build.consistency import Consistency, check_filled
 from veduta.drive.build.fill import Background, fill_background, raise_walls
 from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_columns
 from veduta.drive.build.layers import Layers, PointClass, split_layers
@@ -77,7 +78,8 @@ class Textured:
     """A segment's mesh with its texture. invented, plain: (h, w) bool texels (see `fill_texture`).
 
     unseen_share: of the triangles that no image shows, before any were joined: fine_triangles.
-    error_m: by which joining them moved the surface.
+    error_m: by which joining them moved the surface. consistency: whether images agree where walls
+    were filled.
     """
 
     geometry: Geometry
@@ -91,6 +93,7 @@ class Textured:
     unseen_share: float
     fine_triangles: int
     error_m: float
+    consistency: Consistency
 
 
 def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> ColumnFrame:
@@ -154,7 +157,7 @@ def texture(
     surface, error_m = lighten(fine, options.mesh.error_m)
     return Textured(
         geometry, raised, surface, atlas, pixels, invented, plain, known, unseen,
-        len(fine.triangles), error_m,
+        len(fine.triangles), error_m, check_filled(background, frame, seen),
     )  # fmt: skip
 
 
