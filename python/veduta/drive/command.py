@@ -21,6 +21,7 @@ from veduta.drive.build.place import PICTURES, classified, drive_place
 from veduta.drive.document.load import DOCUMENT, load_document
 from veduta.drive.document.model import Correction, DriveDocument, DriveSegment, PathPose
 from veduta.drive.options import DriveOptions
+from veduta.drive.read.above_street import points_above_street
 from veduta.drive.read.log import log_files, read_log
 from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import DriveRecord
@@ -87,7 +88,10 @@ def _make(
         line = driven_line(record.path(), spacing, ahead_m)
         if len(line) < 2:
             raise NotFoundError("a path", "the scanner did not move", "Drive along a street.")
-        segments = cut_segments(line, spacing) if edited is None else edited[1].segments
+        if edited is None:
+            segments = cut_segments(line, spacing, points_above_street(record, line))
+        else:
+            segments = edited[1].segments
         step.counts["segments"] = len(segments)
         step.rejected += [f"{one.id}: {one.reason}" for one in segments if one.fate == "leave-out"]
     digests: JsonValue = [[path.name, file_digest(path)] for path in log_files(log)]

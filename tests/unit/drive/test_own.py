@@ -9,7 +9,9 @@ import pyarrow
 import pyarrow.parquet
 import pytest
 
+from veduta.drive.read.above_street import points_above_street
 from veduta.drive.read.own import read_own
+from veduta.drive.read.segments import driven_line
 from veduta.run.errors import InputError
 from veduta.synthetic.drives import (
     DriveScans,
@@ -189,3 +191,13 @@ def test_huge_table_is_refused_unread(folder: Path) -> None:
         file.truncate(5 << 30)
     with pytest.raises(InputError, match="more than"):
         read_own(folder)
+
+
+def test_points_above_the_street_are_few_in_gaps(folder: Path) -> None:
+    record = read_own(folder)
+    line = driven_line(record.path(), 0.2, 0.0)
+    counts = points_above_street(record, line)
+    assert counts is not None
+    assert counts.sum() == sum(
+        int((sweep.world_points()[:, 2] > 2.5).sum()) for sweep in record.sweeps
+    )

@@ -51,7 +51,7 @@ def test_long_piece_is_cut_where_fewest_points_are() -> None:
     y = np.arange(0.0, 160.0, SPACING_M)
     line = np.stack([np.zeros_like(y), y, np.full_like(y, 1.8)], axis=1)
     counts = np.full(len(y), 50)
-    counts[430] = 1
+    counts[426:435] = 1  # a gap of almost two metres
     segments = cut_segments(line, SPACING_M, counts)
     left = [one for one in segments if one.side == "left"]
     assert len(left) == 2
@@ -73,3 +73,25 @@ def test_second_pass_is_left_out() -> None:
     segments = cut_segments(driven_line(path, SPACING_M, 0.0), SPACING_M)
     again = [one for one in segments if "another pass" in one.reason]
     assert {one.side for one in again} == {"left", "right"}
+
+
+def test_driving_backwards_is_another_pass() -> None:
+    y = np.concatenate([np.arange(0.0, 60.0, 0.2), np.arange(60.0, 20.0, -0.2)])
+    path = np.stack([np.zeros_like(y), y, np.full_like(y, 1.8)], axis=1)
+    segments = cut_segments(driven_line(path, SPACING_M, 0.0), SPACING_M)
+    built = [one for one in segments if one.fate == "build"]
+    assert {one.side for one in built} == {"left", "right"}
+    for one in built:
+        assert 50.0 < len(one.line) * SPACING_M < 65.0
+    assert sum("another pass" in one.reason for one in segments) == 2
+
+
+def test_stop_and_go_is_as_a_smooth_drive() -> None:
+    y = np.concatenate([np.linspace(a, a + 10.0, 60) for a in range(0, 60, 10)])
+    y = np.insert(y, [120] * 300, y[120])
+    random = np.random.default_rng(1)
+    path = np.stack([random.normal(0, 0.02, len(y)), y, np.full_like(y, 1.8)], axis=1)
+    segments = cut_segments(driven_line(path, SPACING_M, 0.0), SPACING_M)
+    built = [one for one in segments if one.side == "left" and one.fate == "build"]
+    assert len(built) == 1
+    assert 55.0 < len(built[0].line) * SPACING_M < 65.0

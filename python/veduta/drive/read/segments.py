@@ -12,6 +12,7 @@ from scipy.spatial import cKDTree
 
 from veduta.drive.document.model import DriveSegment
 
+_GAP_COLUMNS = 9
 SIDES: tuple[Literal["left"], Literal["right"]] = ("left", "right")
 
 
@@ -116,8 +117,13 @@ def _cut_long(
     middle = (first + last) // 2
     reach = int(chosen.search_m / spacing_m)
     low, high = max(middle - reach, first + 1), min(middle + reach, last - 1)
-    cut = middle if counts is None else low + int(np.argmin(counts[low:high]))
-    why = "cut at a gap between buildings: longer than 100 m"
+    if counts is None:
+        cut, why = middle, "cut in its middle: longer than 100 m"
+    else:
+        # Single scans miss: the mean of a few metres tells a gap.
+        mean = ndimage.uniform_filter1d(counts[low:high].astype(float), _GAP_COLUMNS)
+        cut = low + int(np.argmin(mean))
+        why = "cut where the fewest points stand above the street: longer than 100 m"
     halves = _cut_long(first, cut, spacing_m, counts, chosen)
     halves += _cut_long(cut, last, spacing_m, counts, chosen)
     return [(begin, end, why) for begin, end, _ in halves]
@@ -146,32 +152,37 @@ def _segment(
 
 
 def _without_repeats(segments: list[DriveSegment], chosen: SegmentParameters) -> list[DriveSegment]:
-    """Of several passes of one street side the first is kept."""
-    kept: list[DriveSegment] = []
-    points: list[NDArray[np.float64]] = []
-    outward: list[NDArray[np.float64]] = []
-    for segment in segments:
+    """Of several passes of one street side the longest is kept; of equal ones the first."""
+    by_length = sorted(range(len(segments)), key=lambda row: -len(segments[row].line))
+    kept: list[tuple[str, NDArray[np.float64], NDArray[np.float64]]] = []
+    found = list(segments)
+    for row in by_length:
+        segment = segments[row]
+        if segment.fate != "build":
+            continue
         flat = np.array(segment.line)[:, :2]
-        along = np.gradient(flat, axis=0) if len(flat) > 1 else np.zeros_like(flat)
+        along = np.gradient(flat, axis=0)
         along /= np.maximum(np.linalg.norm(along, axis=1, keepdims=True), 1e-9)
         away = np.stack([-along[:, 1], along[:, 0]], axis=1)
         away *= 1.0 if segment.side == "left" else -1.0
-        again = None
-        if segment.fate == "build":
-            for other, place, direction in zip(kept, points, outward, strict=True):
-                distance, nearest = cKDTree(place).query(flat)
-                alike = (direction[nearest] * away).sum(axis=1) > np.cos(chosen.again_rad)
-                if ((distance < chosen.again_m) & alike).mean() > chosen.again_share:
-                    again = other.id
-                    break
-        if again is not None:
-            reason = f"another pass of {again}"
-            segment = segment.model_copy(update={"fate": "leave-out", "reason": reason})
-        elif segment.fate == "build":
-            points.append(flat)
-            outward.append(away)
-        kept.append(segment)
-        if segment.fate != "build":
-            points.append(np.full((1, 2), 1e9))
-            outward.append(np.zeros((1, 2)))
-    return kept
+        again = next((name for name, *other in kept if _passes(flat, away, other, chosen)), None)
+        if again is None:
+            kept.append((segment.id, flat, away))
+        else:
+            told = {"fate": "leave-out", "reason": f"another pass of {again}"}
+            found[row] = segment.model_copy(update=told)
+    return found
+
+
+def _passes(
+    flat: NDArray[np.float64],
+    away: NDArray[np.float64],
+    other: list[NDArray[np.float64]],
+    chosen: SegmentParameters,
+) -> bool:
+    """Whether a piece (n, 2), looked at outwards (n, 2), goes along another one."""
+    place, direction = other
+    distance, nearest = cKDTree(place).query(flat)
+    alike = (direction[nearest] * away).sum(axis=1) > np.cos(chosen.again_rad)
+    share = ((distance < chosen.again_m) & alike).mean()
+    return bool(share > chosen.again_share)
