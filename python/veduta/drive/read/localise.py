@@ -54,8 +54,8 @@ class LocaliseParameters:
     worth: float = 4.0
     draw_below: float = 0.5
     most_points: int = 90
-    slip: float = 0.03
-    slip_rad: float = 0.004
+    slip: float = 0.1
+    slip_rad: float = 0.008
     sure_m: float = 1.5
     lasting: float = 10.0
     map_m: float = 0.3
