@@ -122,7 +122,7 @@ def main() -> None:
     record("drive-localise-delft", rows, notes(rows, cell_m))
 
 
-def notes(rows: list[dict[str, str | int | float | bool | None]], cell_m: float) -> list[str]:
+def notes(rows: list[Row], cell_m: float) -> list[str]:
     """What the table comes to, and how it was made."""
     found = sum(row["right"] == "found" for row in rows)
     ends = [float(row.get("end off (m)") or 1e9) for row in rows]
