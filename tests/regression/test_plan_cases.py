@@ -1,0 +1,131 @@
+"""Plans of strangers that once failed: what is right of each is kept right.
+
+Not yet right, and therefore only in part here: of `heb_73351` the inner walls, which are paler than
+the outer ones, are not found; of `jp_madori` the storeys are parted, but the rooms within, between
+two lines of a pixel, are not; of `fr_13` the bedrooms lose what lies behind height lines, and its
+stairs; of `b3d_3` some thin inner walls are not found, so that its scale by doors is wrong.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+
+import pytest
+
+from veduta.imaging.read import read_image
+from veduta.plan.analyse import ReadPlan, read_drawings
+from veduta.plan.document import Storey
+from veduta.plan.doubts import doubts
+from veduta.plan.options import PlanOptions
+from veduta.plan.pages import find_drawings
+from veduta.plan.reading import cleaned_sheet
+from veduta.plan.several_plans import storeys_drawn
+from veduta.plan.text.orientation import find_position
+from veduta.plan.text.sheet_text import read_sheet
+from veduta.run.errors import NotFoundError
+
+pytestmark = pytest.mark.regression
+
+
+@pytest.fixture
+def cases(veduta_data: Path) -> Path:
+    folder = veduta_data / "cases" / "plan"
+    if not folder.is_dir():
+        pytest.skip(f"no cases/plan in {veduta_data}")
+    return folder
+
+
+@lru_cache(maxsize=4)
+def read(*paths: Path) -> ReadPlan:
+    drawings = find_drawings(list(paths), None)
+    return read_drawings(drawings, PlanOptions(), [], lambda *_: None)
+
+
+def areas(storey: Storey) -> dict[str, float]:
+    return {room.name.casefold() or room.use: room.area_m2 for room in storey.rooms}
+
+
+def total(storey: Storey) -> float:
+    return sum(room.area_m2 for room in storey.rooms)
+
+
+def test_hebrew_writing_mirrors_no_sheet(cases: Path) -> None:
+    assert find_position(read_image(cases / "heb_73351.jpg").pixels).is_upright
+
+
+def test_storeys_side_by_side_are_two_by_their_titles(cases: Path) -> None:
+    plan = read(cases / "tf2_123.jpg").document
+    ground, first = plan.storeys
+    assert (ground.name, first.name) == ("Ground Floor", "First Floor")
+    # Printed: 39.29 and 36.97 m2.
+    assert total(ground) == pytest.approx(39.29, rel=0.03)
+    assert total(first) == pytest.approx(36.97, rel=0.03)
+    assert len(ground.rooms) == 4
+    assert len(first.rooms) >= 6
+    assert any("2 plans lie on this sheet" in one for one in doubts(plan, None))
+
+
+def test_three_plans_apart_are_three_storeys(cases: Path) -> None:
+    sheet = read_sheet(read_image(cases / "jp_madori.png").pixels)
+    assert len(storeys_drawn(*cleaned_sheet(sheet.pixels, sheet.texts))) == 3
+    assert any("帖" in text.text for text in sheet.texts)
+
+
+def test_a_thin_outline_beside_party_walls_closes_its_rooms(cases: Path) -> None:
+    (storey,) = read(cases / "de_wohnung.png").document.storeys
+    found = areas(storey)
+    for name, area in {"wohnen": 20.96, "flur": 14.49, "küche": 8.25}.items():
+        assert found[name] == pytest.approx(area, rel=0.08), name
+    assert not any("<" in one.text for one in storey.scale.evidence)
+
+
+def test_the_wall_of_a_plot_is_a_fence(cases: Path) -> None:
+    (storey,) = read(cases / "pdf_30x50_Model_landscape.pdf").document.storeys
+    assert any("it is a fence" in note for note in storey.notes)
+    assert total(storey) < 80.0
+    assert sum(one.kind == "window" for one in storey.openings) >= 8
+    assert "living" not in areas(storey)
+
+
+def test_the_scale_of_a_sheet_with_height_lines(cases: Path) -> None:
+    (storey,) = read(cases / "fr_13.png").document.storeys
+    found = areas(storey)
+    assert found["palier"] == pytest.approx(11.93, rel=0.03)
+    assert not any("ht" in one.text for one in storey.scale.evidence)
+
+
+def test_cars_are_no_walls(cases: Path) -> None:
+    (storey,) = read(cases / "b3d_3.png").document.storeys
+    garage = next(room for room in storey.rooms if "garage" in room.name)
+    # Twice as long as deep and closed, with no wall in it.
+    assert len(garage.outline_m) <= 8
+    assert len(storey.rooms) >= 7
+
+
+def test_chimney_breasts_are_no_slanted_walls(cases: Path) -> None:
+    (storey,) = read(cases / "b3d_5.png").document.storeys
+    at = {one.id: one.at_m for one in storey.junctions}
+    party = min(point[0] for point in at.values()) + 0.6
+    on_party = {wall.id for wall in storey.walls if max(at[wall.start][0], at[wall.end][0]) < party}
+    assert on_party
+    assert not [one for one in storey.openings if one.wall in on_party and one.kind == "window"]
+
+
+def test_a_sketch_that_gives_no_house_ends_with_the_reason(cases: Path) -> None:
+    with pytest.raises(NotFoundError, match="strokes that are none of a plan"):
+        read(cases / "b3d_6_sketch.jpg")
+
+
+def test_feet_without_marks_make_a_house(cases: Path) -> None:
+    (storey,) = read(cases / "web_2d.jpg").document.storeys
+    assert 45.0 < total(storey) < 70.0
+    bedroom = max(area for name, area in areas(storey).items() if name == "bedroom")
+    # 12 x 13 feet are the largest.
+    assert bedroom == pytest.approx(12 * 13 * 0.3048**2, rel=0.15)
+
+
+def test_storeys_of_two_files_agree_in_scale(cases: Path) -> None:
+    ground, first = read(cases / "two_g.png", cases / "two_f.png").document.storeys
+    assert total(first) == pytest.approx(36.97, rel=0.03)
+    assert ground.scale.metres_per_px == pytest.approx(first.scale.metres_per_px, rel=0.05)
