@@ -11,7 +11,6 @@ from __future__ import annotations
 import bisect
 import itertools
 import math
-import re
 from array import array
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
@@ -19,9 +18,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyproj
 from numpy.typing import ArrayLike, NDArray
 
+from veduta.geometry.crs import epsg_named
 from veduta.geometry.utm import MAX_LATITUDE_DEG, MIN_LATITUDE_DEG, epsg_of, utm, zone_of
 from veduta.grammar.rings import RingFault
 from veduta.run.errors import InputError
@@ -73,27 +72,22 @@ def named_crs(path: Path, document: dict[str, Any]) -> int | None:
         name, code = properties.get("name"), properties.get("code")
     # The form of drafts before GeoJSON 1.0, which exports still have: {"type": "EPSG", "code": ...}
     text = f"EPSG:{code}"[:200] if name is None and code is not None else str(name)[:200]
-    if re.search(r"CRS:?:?(1\.3:)?84$", text):
-        return 4326
-    found = re.fullmatch(r"(?:urn:ogc:def:crs:)?EPSG:(?:[\d.]*:)?(\d{4,6})", text)
+    found = epsg_named(text)
     if found is None:
         raise InputError(
             path,
             f"has a crs that is not read: {text!r}",
             'Name it as "EPSG:25832", leave it out, or give --crs.',
         )
-    return int(found[1])
+    return found
 
 
 def given_crs(text: str) -> int:
     """The EPSG code of `--crs`; InputError where it is none."""
-    try:
-        code = pyproj.CRS.from_user_input(text.replace(" ", "")).to_epsg()
-    except pyproj.exceptions.CRSError:
-        code = None
+    code = epsg_named(text)
     if code is None:
         raise InputError(f"--crs {text}", "is no CRS with an EPSG code", "Write --crs EPSG:2154.")
-    return int(code)
+    return code
 
 
 class Survey:

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-import pyproj
 from numpy.typing import NDArray
 
+from veduta.geometry.crs import epsg_named
 from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.wkb import polygons_of_wkb
@@ -32,8 +32,6 @@ _NAMES = ("id", "osm_id", "gml_id", "fid", "name", "Name")
 _OSM = (".osm", ".pbf")
 _AREAS = ("Polygon", "MultiPolygon", "Unknown", "GeometryCollection", "CurvePolygon")
 _TAG = re.compile(r'"((?:[^"\\]|\\.)*)"=>"((?:[^"\\]|\\.)*)"')
-_SURE = 70
-"""Per cent by which a CRS without a code must agree with one that has it."""
 
 
 def vector_outlines(path: Path, layer: str | None, found: Found) -> Outlines:
@@ -127,13 +125,10 @@ def _unreadable(path: Path, error: Exception) -> InputError:
 
 def _epsg(path: Path, crs: str) -> int | None:
     """The code of a CRS; InputError where it has none and is not nearly one that has."""
-    try:
-        code = pyproj.CRS.from_user_input(crs).to_epsg(min_confidence=_SURE)
-    except pyproj.exceptions.CRSError as error:
-        raise InputError(path, f"has a CRS that is not read ({crs[:60]})", "Give --crs.") from error
+    code = epsg_named(crs)
     if code is None:
         raise InputError(path, f"has a CRS without EPSG code ({crs[:60]})", "Give --crs.")
-    return int(code)
+    return code
 
 
 def _plain(value: Any) -> Any:

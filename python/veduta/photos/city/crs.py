@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import re
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -10,6 +9,7 @@ import numpy as np
 import pyproj
 from numpy.typing import NDArray
 
+from veduta.geometry.crs import epsg_named
 from veduta.geometry.ecef import grid_of_crs
 from veduta.geometry.utm import epsg_of, zone_of
 from veduta.run.errors import InputError
@@ -39,8 +39,11 @@ class Metres:
 def agreed_crs(path: Path, named: int | None, given: str | None) -> str:
     """The CRS that the file names or the caller gives; InputError where none or two of them do."""
     own = None if named is None else f"EPSG:{named}"
-    if given is not None and re.fullmatch(r"EPSG:\d{4,6}", given) is None:
-        raise InputError(f"--crs {given}", "is no EPSG code", "Write it as EPSG:25832.")
+    if given is not None:
+        code = epsg_named(given)
+        if code is None:
+            raise InputError(f"--crs {given}", "is no EPSG code", "Write it as EPSG:25832.")
+        given = f"EPSG:{code}"
     if own is not None and given is not None and own != given:
         raise InputError(
             path,

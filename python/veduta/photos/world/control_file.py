@@ -7,16 +7,14 @@ with # are remarks. Pixels are of the upright photo, x right and y down.
 
 from __future__ import annotations
 
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
-import pyproj
 from numpy.typing import NDArray
 
-from veduta.geometry.utm import epsg_of
+from veduta.geometry.crs import epsg_named
 from veduta.photos.city.crs import metres_of
 from veduta.photos.world.control_plausible import require_plausible
 from veduta.photos.world.control_words import control_words
@@ -131,19 +129,7 @@ def _text(path: Path) -> str:
 def crs_of_head(path: Path, line: str) -> str:
     """The EPSG code that the first line names; InputError where it names none that is known."""
     line = line.partition("#")[0].strip()
-    code = re.fullmatch(r"(?i)EPSG\s*:?\s*(\d{4,6})", line)
+    code = epsg_named(line[:500])
     if code is not None:
-        return f"EPSG:{code[1]}"
-    utm = re.fullmatch(r"(?i)WGS\s?84 UTM (\d{1,2})\s?([NS])", line)
-    if utm is not None and 1 <= int(utm[1]) <= 60:
-        return f"EPSG:{epsg_of(int(utm[1]), south=utm[2].upper() == 'S')}"
-    if re.fullmatch(r"(?i)WGS\s?84", line):
-        return "EPSG:4326"
-    if "+proj" in line:
-        try:
-            named = pyproj.CRS.from_user_input(line[:500]).to_epsg(min_confidence=70)
-        except pyproj.exceptions.ProjError as error:
-            raise InputError(path, f"line 1 names no CRS: {line[:80]!r}", _HEAD) from error
-        if named is not None:
-            return f"EPSG:{named}"
+        return f"EPSG:{code}"
     raise InputError(path, f"line 1 names no CRS that is known: {line[:80]!r}", _HEAD)

@@ -1,0 +1,58 @@
+"""Names of coordinate reference systems, as people and files write them."""
+
+from __future__ import annotations
+
+import re
+
+import pyproj
+
+from veduta.geometry.utm import epsg_of
+
+LONGITUDE_LATITUDE = 4326
+"""EPSG code of degrees on WGS 84."""
+
+# A definition without a code is taken for one of the registry when it agrees so well (of 100).
+_SURE = 70
+# The longest definition that is looked at (letters).
+_LONGEST = 20_000
+_CODE = re.compile(
+    r"(?i)(?:urn:ogc:def:crs:|https?://www\.opengis\.net/(?:def/crs/|gml/srs/))?"
+    r"EPSG(?:[:/](?:[\d.]+)?(?=[:/])|\.xml)?\s*[:/#]?\s*(\d{4,6})"
+)
+_DEGREES = re.compile(r"(?i)WGS[\s_]?84|(?:urn:ogc:def:crs:)?(?:OGC:)?(?:[\d.]*:)?CRS:?84")
+_UTM = re.compile(r"(?i)WGS[\s_]?84\s*/?\s*UTM\s*(?:zone\s*)?(\d{1,2})\s?([NS])")
+
+
+def epsg_named(text: str) -> int | None:
+    """The EPSG code that a name or a definition (WKT, PROJ) means; None where it means none.
+
+    Read are `EPSG:25832`, `EPSG: 25832`, `epsg 25832`, the forms of OGC
+    (`urn:ogc:def:crs:EPSG::25832` and the addresses that mean the same), `CRS84`, `WGS84`,
+    `WGS 84 / UTM 32N`, and whatever PROJ knows to be near to a system of the registry. A code that
+    the registry does not have is no CRS.
+    """
+    text = text.strip()
+    if not text or len(text) > _LONGEST:
+        return None
+    code = _CODE.fullmatch(text)
+    if code is not None:
+        return _known(int(code[1]))
+    if _DEGREES.fullmatch(text):
+        return LONGITUDE_LATITUDE
+    utm = _UTM.fullmatch(text)
+    if utm is not None:
+        zone = int(utm[1])
+        return epsg_of(zone, south=utm[2].upper() == "S") if 1 <= zone <= 60 else None
+    try:
+        found = pyproj.CRS.from_user_input(text).to_epsg(min_confidence=_SURE)
+    except pyproj.exceptions.ProjError:
+        return None
+    return None if found is None else int(found)
+
+
+def _known(code: int) -> int | None:
+    try:
+        pyproj.CRS.from_epsg(code)
+    except pyproj.exceptions.ProjError:
+        return None
+    return code
