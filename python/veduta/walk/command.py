@@ -209,7 +209,7 @@ def _write_place(
         image = _picture(work, record, gains, number)
         write_picture(work.folder / name, image, options.play.quality)
     told = [
-        _written(work.folder, number, ends, way, pictures)
+        _written(work.folder, number, ends, way, pictures, found.stations[ends[0]].screen)
         for number, (ends, way) in enumerate(zip(found.ends, found.ways, strict=True))
     ]
     place = Place()
@@ -296,14 +296,14 @@ def _cloud(model: LocalModel) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
 
 
 def _written(
-    folder: Path, number: int, ends: tuple[int, int], way: Way, pictures: list[str]
+    folder: Path, number: int, ends: tuple[int, int], way: Way, pictures: list[str], screen: Screen
 ) -> tuple[WalkTransition, tuple[str, str] | None]:
     """The entry of the place, and the files of the models, which a fade has for a rebuild."""
     score = None if way.verdict is None else way.verdict.score_db
     start, end = ends
     models = None
     if way.forth is not None:
-        models = write_way(folder, number, way, (pictures[start], pictures[end]))
+        models = write_way(folder, number, way, (pictures[start], pictures[end]), screen)
     if way.kind != "morph" or models is None:
         return WalkTransition(start=start, end=end, kind=way.kind, score_db=score), models
     entry = WalkTransition(

@@ -8,7 +8,7 @@ import { DoubleSide, type IUniform, NoBlending, ShaderMaterial, type Texture } f
 import type { MorphLook } from "../core/morph-walk.ts";
 
 /** A surface that is behind another by less than this share may be the same. */
-const TOLERANCE = 0.15;
+const TOLERANCE = 0.3;
 /** Of what spans a break in depth: it shows where nothing else does. */
 const TORN_WEIGHT = 0.02;
 /** Share of the way over which what hides a model, and its own breaks, come to count: before, its picture is seen. */

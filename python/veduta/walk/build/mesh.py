@@ -54,7 +54,7 @@ def mesh_of(morph: Morph, settings: MeshSettings = MeshSettings()) -> MorphMesh:
     rows, columns = (_nodes(size, settings.step_px) for size in model.depth_m.shape)
     at = np.ix_(rows, columns)
     depth = model.depth_m[at].astype(np.float64)
-    right, down = _breaks(depth, settings)
+    right, down = breaks(depth, settings)
     firm_right, firm_down = np.where(right, 0.002, 1.0), np.where(down, 0.002, 1.0)
     destinations = node_destinations(morph, rows, columns, firm_right, firm_down)
     triangles, torn = _triangles(depth, settings)
@@ -80,7 +80,7 @@ def _nodes(size: int, step: int) -> NDArray[np.int64]:
     return np.append(nodes, size - 1)
 
 
-def _breaks(
+def breaks(
     depth: NDArray[np.float64], settings: MeshSettings
 ) -> tuple[NDArray[np.bool_], NDArray[np.bool_]]:
     """Whether the surface breaks towards the node on the right, and below.
@@ -104,7 +104,7 @@ def _triangles(
     depth: NDArray[np.float64], settings: MeshSettings
 ) -> tuple[NDArray[np.uint32], NDArray[np.bool_]]:
     """Two for each cell, split along the diagonal on which depth changes less."""
-    right, down = _breaks(depth, settings)
+    right, down = breaks(depth, settings)
     number = np.arange(depth.size).reshape(depth.shape)
     a, b, c, d = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
     inverse = 1.0 / depth

@@ -21,7 +21,8 @@ class PsiLimits:
     """back_px: how far forward and back may miss (in the second picture, and times the scale).
     cost: largest 1 - correlation. depth: largest difference of the depths that the two models have,
     as a share. fade_px: over which the resolution fades across the border (figure 6c).
-    piece_px: smaller pieces of Psi are chance.
+    piece_px: smaller pieces of Psi are chance. agree: by how much of its depth a point may move on
+    its way to the other model, a soft limit (chosen on `laser/kitti00`).
     """
 
     back_px: float = 1.5
@@ -29,6 +30,7 @@ class PsiLimits:
     depth: float = 0.12
     fade_px: int = 9
     piece_px: int = 200
+    agree: float = 0.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,5 +122,18 @@ def node_destinations(
     # The sky goes along with the camera: it only turns.
     turned = morph.first.points[at] @ pose[:, :3].T
     destinations = np.where(sky[..., None], turned, destinations)
-    return extend_destinations(points, destinations, known | sky, right, down)
+    extended = extend_destinations(points, destinations, known | sky, right, down)
+    return _believed(points, extended, morph.limits)
+
+
+def _believed(
+    points: NDArray[np.float64], destinations: NDArray[np.float64], limits: PsiLimits
+) -> NDArray[np.float64]:
+    """Where both models nearly agree, what the second says; where they contradict each other one of
+    them is wrong, and the place stays as it is.
+    """
+    apart = np.linalg.norm(destinations - points, axis=-1, keepdims=True)
+    share = apart / (limits.agree * np.linalg.norm(points, axis=-1, keepdims=True))
+    weight = np.exp(-np.minimum(share**2, 60.0))
+    return np.asarray(points + weight * (destinations - points))
 

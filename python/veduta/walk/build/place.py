@@ -17,6 +17,7 @@ from veduta.place.material import Material
 from veduta.place.mesh import Mesh, Morph
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.atomic import write_bytes
+from veduta.walk.build.fewer import fewer_triangles
 from veduta.walk.build.mesh import MorphMesh
 from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way
@@ -52,8 +53,11 @@ def write_picture(path: Path, image: Image, quality: int) -> None:
     write_bytes(path, file.getvalue())
 
 
-def write_way(folder: Path, number: int, way: Way, pictures: tuple[str, str]) -> tuple[str, str]:
-    """Write the models of a transition that morphs; their paths in the place."""
+def write_way(
+    folder: Path, number: int, way: Way, pictures: tuple[str, str], screen: Screen
+) -> tuple[str, str]:
+    """Write the models of a transition that morphs; their paths in the place. screen: of an end."""
+    size_px, focal_px = (screen.width_px, screen.height_px), screen.focal_px[0]
     names = []
     back = np.linalg.inv(np.vstack([way.second_from_first, [0.0, 0.0, 0.0, 1.0]]))[:3]
     ends = (("forth", way.forth, back, pictures), ("back", way.back, way.second_from_first, pictures[::-1]))
@@ -61,7 +65,8 @@ def write_way(folder: Path, number: int, way: Way, pictures: tuple[str, str]) ->
         if mesh is None:
             continue
         name = f"{FOLDER}/way-{number:04d}-{kind}.glb"
-        model = model_of(f"way-{number:04d}-{kind}", mesh, own_from_other, shown)
+        simple = fewer_triangles(mesh, size_px, focal_px)
+        model = model_of(f"way-{number:04d}-{kind}", simple, own_from_other, shown)
         write_bytes(folder / name, mesh_glb_bytes(model))
         names.append(name)
     return names[0], names[1]

@@ -31,7 +31,7 @@ class Mixing:
     alone: share of the way over which what hides a model, and its own breaks, come to count.
     """
 
-    tolerance: float = 0.15
+    tolerance: float = 0.3
     torn: float = 0.02
     floor: float = 1e-4
     alone: float = 0.12
