@@ -9,7 +9,13 @@ from typing import Annotated
 import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
-from veduta.facade.options import FacadeOptions, ModelOptions, RectifyOptions, ScaleOptions
+from veduta.facade.options import (
+    EyesOptions,
+    FacadeOptions,
+    ModelOptions,
+    RectifyOptions,
+    ScaleOptions,
+)
 
 Images = Annotated[
     tyro.conf.Positional[tuple[Path, ...]],
@@ -34,6 +40,7 @@ class FacadeCall:
 
     images: Images
     out: Out
+    eyes: EyesOptions = field(default_factory=EyesOptions)
     rectify: RectifyOptions = field(default_factory=RectifyOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     model: ModelOptions = field(default_factory=ModelOptions)
@@ -43,4 +50,6 @@ class FacadeCall:
 
     def options(self) -> FacadeOptions:
         """What changes the result."""
-        return FacadeOptions(rectify=self.rectify, scale=self.scale, model=self.model)
+        return FacadeOptions(
+            eyes=self.eyes, rectify=self.rectify, scale=self.scale, model=self.model
+        )

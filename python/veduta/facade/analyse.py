@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from veduta.facade.analyse_seen import analyse_seen
 from veduta.facade.appearance import class_scores, wall_colour
 from veduta.facade.bare_floors import doubt_railings
 from veduta.facade.between import doubt_unparted, look_between
@@ -31,6 +32,17 @@ def analyse(
     progress: StepProgress = no_progress,
 ) -> tuple[FacadeDocument, list[StepRecord]]:
     """Read a rectified facade; NotFoundError where the image shows none."""
+    read = analyse_seen if options.eyes.eyes == "learned" else analyse_plain
+    return read(rectified, source, options, progress)
+
+
+def analyse_plain(
+    rectified: Rectified,
+    source: Source,
+    options: FacadeOptions,
+    progress: StepProgress = no_progress,
+) -> tuple[FacadeDocument, list[StepRecord]]:
+    """By edges and colours alone, nothing learned; NotFoundError where the image shows none."""
     steps: list[StepRecord] = []
     with timed_step(steps, "extent") as step:
         progress("extent", 0.0)

@@ -65,7 +65,7 @@ def compose(
     rows = [round(b * k.down, 2) for b in parse.floors.boundaries]
     left, right = (round(x * k.across, 2) for x in (parse.sides.left, parse.sides.right))
     bottom = round(parse.sides.bottom * k.down, 2)
-    scale = metres(rows, bottom, options.scale)
+    scale = metres(rows, bottom, options.scale, parse.floors.storey_px * k.down)
     m = scale.metres_per_px
     facade = FacadeBox(
         x_px=left,

@@ -23,7 +23,7 @@ from veduta.facade.compare_picture import comparison_png, truth_png
 from veduta.facade.demo_street import LOTS, LOTS_FILE, derive_street, joined_place, street_lots
 from veduta.facade.document import FacadeDocument
 from veduta.facade.load import DOCUMENT, load_document
-from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
+from veduta.facade.options import EyesOptions, FacadeOptions, RectifyOptions, ScaleOptions
 from veduta.facade.pipeline import VERSION as FACADE_VERSION
 from veduta.formats.place_json import write_place
 from veduta.geometry import homography
@@ -193,7 +193,10 @@ def _publish_comparison(
 
 
 def what_the_user_knows(facade: SyntheticFacade, options: DemoOptions) -> FacadeOptions:
-    """What a person with the photo in hand would type; nothing else of the truth is used."""
+    """What a person with the photo in hand would type; nothing else of the truth is used.
+
+    The plain eyes, for the learned ones were trained on pictures of the same synthetic styles.
+    """
     rectify, scale = RectifyOptions(), ScaleOptions()
     if options.corners:
         truth = facade.truth
@@ -207,7 +210,7 @@ def what_the_user_knows(facade: SyntheticFacade, options: DemoOptions) -> Facade
         rectify = RectifyOptions.model_validate({"corners": clicked.tolist()})
     if not options.unmeasured:
         scale = ScaleOptions(height_m=round(facade.truth.height_m, 1))
-    return FacadeOptions(rectify=rectify, scale=scale)
+    return FacadeOptions(eyes=EyesOptions(eyes="plain"), rectify=rectify, scale=scale)
 
 
 def _given(options: DemoOptions) -> list[str]:

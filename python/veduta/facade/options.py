@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -69,9 +69,19 @@ class ModelOptions(Options):
         return known.model_copy(update=self.model_dump(exclude_none=True))
 
 
+class EyesOptions(Options):
+    """What looks at the rectified photo."""
+
+    eyes: Literal["learned", "plain"] = Field(
+        default="learned",
+        description="what finds windows and doors: a trained network, or edges and colours",
+    )
+
+
 class FacadeOptions(Options):
     """All options of the verb that change its result."""
 
+    eyes: EyesOptions = EyesOptions()
     rectify: RectifyOptions = RectifyOptions()
     scale: ScaleOptions = ScaleOptions()
     model: ModelOptions = ModelOptions()

@@ -18,15 +18,19 @@ _MEND_ASPECT = {
 }
 
 
-def metres(rows: list[float], bottom: float, options: ScaleOptions) -> Scale:
+def metres(
+    rows: list[float], bottom: float, options: ScaleOptions, storey_px: float | None = None
+) -> Scale:
     """Metres per rectified pixel.
 
     `rows` are the boundaries of the floors above the ground floor, eaves first, and `bottom` is
-    the street, all in rectified pixels from the top.
+    the street, all in rectified pixels from the top. `storey_px` is how high a storey would be
+    where the rows have no floor.
     """
     if options.height_m is not None:
         return Scale(metres_per_px=options.height_m / (bottom - rows[0]), basis="height")
-    storey_px = (rows[-1] - rows[0]) / (len(rows) - 1)
+    if len(rows) > 1 or not storey_px:
+        storey_px = (rows[-1] - rows[0]) / (len(rows) - 1)
     if options.storey_m is not None:
         return Scale(metres_per_px=options.storey_m / storey_px, basis="storey")
     return Scale(metres_per_px=ASSUMED_STOREY_M / storey_px, basis="assumed-storey")

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.facade.analyse import analyse
+from veduta.facade.analyse import analyse_plain
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.options import FacadeOptions, RectifyOptions, ScaleOptions
 from veduta.facade.rectify import Rectified, rectify
@@ -120,4 +120,4 @@ def analysed(pixels: NDArray[np.uint8], scale: ScaleOptions | None = None) -> Fa
     height, width = pixels.shape[:2]
     source = Source(image="drawn.png", sha256="0" * 64, width_px=width, height_px=height)
     options = FacadeOptions(rectify=RectifyOptions(rectified=True), scale=scale or ScaleOptions())
-    return analyse(rectified_of(pixels), source, options)[0]
+    return analyse_plain(rectified_of(pixels), source, options)[0]

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from drawn_facade import DrawnFacade, analysed, draw_facade, rectified_of
 
-from veduta.facade.analyse import analyse
+from veduta.facade.analyse import analyse_plain
 from veduta.facade.document import Element, FacadeDocument, Source
 from veduta.facade.options import FacadeOptions
 from veduta.run.errors import NotFoundError
@@ -54,7 +54,7 @@ def test_corners_that_were_named_are_the_facade() -> None:
     source = Source(image="a.png", sha256="0" * 64, width_px=1, height_px=1)
     for method, share in (("rectified", 2 / 3), ("corners", 1.0)):
         record = found.record.model_copy(update={"method": method})
-        document, _ = analyse(replace(found, record=record), source, FacadeOptions())
+        document, _ = analyse_plain(replace(found, record=record), source, FacadeOptions())
         taken = document.facade.width_px / record.width_px
         assert taken == pytest.approx(share, abs=0.03)
 
@@ -118,4 +118,4 @@ def test_next_to_no_photo_holds_no_facade() -> None:
     source = Source(image="drawn.png", sha256="0" * 64, width_px=width, height_px=height)
     rectified.valid[:, : round(0.95 * width)] = False
     with pytest.raises(NotFoundError, match="facade"):
-        analyse(rectified, source, FacadeOptions())
+        analyse_plain(rectified, source, FacadeOptions())

@@ -1,0 +1,171 @@
+"""From the rectified photo to the facade document by the learned eyes: the recipe."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from veduta.facade.compose import Parse, compose
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.evidence import Evidence, Float, gather
+from veduta.facade.extent import Skyline, find_skyline, row_histograms
+from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
+from veduta.facade.floors import Floors, split_floors
+from veduta.facade.options import FacadeOptions
+from veduta.facade.presence import require_building
+from veduta.facade.rectify import Rectified
+from veduta.facade.rows import gather_rows
+from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop
+from veduta.facade.seen_front import (
+    WALL,
+    FrontParameters,
+    hidden_notes,
+    require_front,
+    sides_of,
+)
+from veduta.facade.seen_rows import (
+    RowParameters,
+    WindowRow,
+    agrees,
+    are_sure,
+    floors_of_rows,
+    is_even,
+    window_rows,
+    without_roof,
+)
+from veduta.facade.sides import Sides, crop, find_sides, whole
+from veduta.run.errors import NotFoundError
+from veduta.run.progress import StepProgress, no_progress
+from veduta.run.report import StepRecord, timed_step
+
+# The chance of wall above the eaves from which on there is no roof but more of the wall. Of 26
+# pictures of three sets, those with a roof have 0.71 at most, those without 0.77 and more.
+_NO_ROOF = 0.75
+# Window heights in a storey, where no second row tells how high one is.
+_WINDOWS_IN_STOREY = 2.0
+_PLANE = "storeys: doubtful, so the front is a plane with openings and has no floors"
+_UNEVEN = "storeys: the rows of windows are not evenly apart"
+_ONE_ROW = "storeys: there is one row of windows at most"
+_UNSURE = "storeys: most windows are not sure"
+
+
+@dataclass(frozen=True)
+class _Storeys:
+    floors: Floors
+    doubts: list[str]
+
+
+def analyse_seen(
+    rectified: Rectified,
+    source: Source,
+    options: FacadeOptions,
+    progress: StepProgress = no_progress,
+) -> tuple[FacadeDocument, list[StepRecord]]:
+    """Read a rectified facade with the learned eyes; NotFoundError where the image shows none."""
+    steps: list[StepRecord] = []
+    front = FrontParameters()
+    with timed_step(steps, "eyes") as step:
+        progress("eyes", 0.0)
+        seen = look(rectified.pixels)
+        elements = seen_elements(seen)
+        for kind in seen.kinds:
+            step.counts[kind] = sum(e.kind == kind for e in elements)
+        require_front(seen, elements, front)
+    with timed_step(steps, "extent") as step:
+        progress("extent", 0.3)
+        evidence = gather(rectified.pixels, rectified.valid)
+        require_building(evidence)
+        sky = find_skyline(evidence)
+        named = rectified.record.method == "corners"
+        sides = whole(evidence) if named else _sides(evidence, sky, seen, elements, front)
+        inner, skyline = crop(evidence, sky, sides)
+        step.counts |= {"skyline_row": skyline.level, "left": sides.left, "right": sides.right}
+        if skyline.reason:
+            step.rejected.append(f"sky: {skyline.reason}")
+    with timed_step(steps, "floors") as step:
+        progress("floors", 0.5)
+        size = inner.width, inner.height
+        elements = in_crop(elements, evidence.px_per_rectified, sides.left, size)
+        wall = seen.chance_at((evidence.width, evidence.height), *WALL)
+        wall = wall[: inner.height, sides.left : sides.right]
+        storeys = _storeys(inner, skyline, elements, wall, options)
+        step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
+    with timed_step(steps, "openings") as step:
+        columns = columns_of(elements)
+        boxes = boxes_of(elements, storeys.floors.boundaries, columns)
+        for kind in seen.kinds:
+            step.counts[kind] = sum(box.kind == kind for box in boxes)
+    with timed_step(steps, "document"):
+        doubts = [*storeys.doubts]
+        parse = Parse(inner, sky, skyline, sides, storeys.floors, columns, boxes, doubts)
+        document = compose(parse, rectified, source, options)
+        notes = [*document.notes, *hidden_notes(seen, front)]
+        document = document.model_copy(update={"notes": notes})
+    progress("document", 1.0)
+    return document, steps
+
+
+def _sides(
+    evidence: Evidence,
+    skyline: Skyline,
+    seen: Seen,
+    elements: list[SeenElement],
+    parameters: FrontParameters,
+) -> Sides:
+    """NotFoundError of the plain sides is theirs alone: then all of the picture is read."""
+    try:
+        plain = find_sides(evidence, skyline)
+    except NotFoundError:
+        plain = whole(evidence)
+    size = evidence.width, evidence.height
+    moved = in_crop(elements, evidence.px_per_rectified, 0, size)
+    return sides_of(plain, evidence, seen, moved, parameters)
+
+
+def _storeys(
+    evidence: Evidence,
+    skyline: Skyline,
+    elements: list[SeenElement],
+    wall: Float,
+    options: FacadeOptions,
+) -> _Storeys:
+    """Floors by what is alike, where the rows of windows agree; else by these; else none.
+
+    `wall` (h, w) is the chance of wall: what lies above the eaves and is wall is no roof.
+    """
+    parameters = RowParameters()
+    windows = [e for e in elements if e.kind == "window"]
+    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in windows]).reshape(-1, 4)
+    rows = window_rows(boxes, parameters)
+    plain = _plain_floors(evidence, skyline, options)
+    top, bottom = float(skyline.level), evidence.height
+    eaves = float(plain.eaves) if plain is not None else None
+    if plain is not None and float(wall[skyline.level : plain.eaves].mean()) > _NO_ROOF:
+        eaves = top
+        plain = without_roof(plain, skyline.level, rows)
+    if not are_sure(windows, parameters):
+        return _Storeys(_plane(rows, skyline, elements), [_PLANE, _UNSURE])
+    if plain is not None and agrees(plain, rows):
+        return _Storeys(plain, [])
+    floors = floors_of_rows(rows, eaves, top, bottom, parameters)
+    if floors is not None and is_even(rows, eaves, parameters):
+        return _Storeys(floors, [])
+    reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
+    return _Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
+
+
+def _plain_floors(evidence: Evidence, skyline: Skyline, options: FacadeOptions) -> Floors | None:
+    lines = gather_rows(evidence, skyline, row_histograms(evidence, skyline))
+    try:
+        return split_floors(lines, options.scale.height_m)
+    except NotFoundError:
+        return None
+
+
+def _plane(rows: list[WindowRow], skyline: Skyline, elements: list[SeenElement]) -> Floors:
+    """A front without floors; the scale takes a storey from the height of its openings."""
+    heights = [e.height for e in elements if e.kind == "window"] or [e.height for e in elements]
+    storey = _WINDOWS_IN_STOREY * float(np.median(heights))
+    top = min(float(skyline.level), min((row.top for row in rows), default=np.inf))
+    return Floors([max(0, round(top))], storey, 0.0, {}, 0)

@@ -1,0 +1,89 @@
+"""What the learned eyes saw, as the boxes of a document: on floors and in columns."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from veduta.facade.boxes import Box
+from veduta.facade.columns import Columns
+from veduta.facade.eyes import SeenElement
+
+# Widths of a median window that part two columns.
+_NEXT_COLUMN = 0.5
+
+
+def in_crop(
+    elements: Sequence[SeenElement], scale: float, left: int, size: tuple[int, int]
+) -> list[SeenElement]:
+    """Elements in pixels of the analysis, of which at least half lies in the crop.
+
+    `scale`: analysis pixels per pixel that was looked at; the crop begins at column `left` and is
+    `size` (width, height) large.
+    """
+    width, height = size
+    found = []
+    for e in elements:
+        moved = replace(
+            e,
+            x0=max(0.0, e.x0 * scale - left),
+            y0=max(0.0, e.y0 * scale),
+            x1=min(float(width), e.x1 * scale - left),
+            y1=min(float(height), e.y1 * scale),
+        )
+        kept = max(0.0, moved.width) * max(0.0, moved.height)
+        if kept >= 0.5 * e.width * e.height * scale**2 and min(moved.width, moved.height) >= 2:
+            found.append(moved)
+    return found
+
+
+def boxes_of(
+    elements: Sequence[SeenElement], boundaries: Sequence[int], columns: Columns
+) -> list[Box]:
+    """Boxes in the order in which they are painted: shops, doors, windows, balconies.
+
+    `boundaries` are the floors' from the eaves down; what lies above is in the roof, what lies
+    below on the ground floor.
+    """
+    order = ("shop", "door", "window", "balcony")
+    boxes = []
+    for e in sorted(elements, key=lambda e: (order.index(e.kind), e.y0, e.x0)):
+        x, y = round(e.x0), round(e.y0)
+        size = max(1, round(e.x1) - x), max(1, round(e.y1) - y)
+        column = _column(e, columns) if e.kind == "window" else None
+        floor = 0 if e.kind in ("shop", "door") else floor_at(0.5 * (e.y0 + e.y1), boundaries)
+        boxes.append(Box(e.kind, x, y, *size, floor, column, e.score))
+    return boxes
+
+
+def floor_at(y: float, boundaries: Sequence[int]) -> int | None:
+    """The floor at a row of pixels: 0 is the ground floor, None the roof."""
+    if y < boundaries[0]:
+        return None
+    return len(boundaries) - 1 - sum(y >= b for b in boundaries[1:])
+
+
+def columns_of(elements: Sequence[SeenElement]) -> Columns:
+    """Stripes of windows that stand above each other, from left to right."""
+    windows = sorted((e for e in elements if e.kind == "window"), key=lambda e: e.x0 + e.x1)
+    if not windows:
+        return Columns([], 0.0, {}, 0)
+    middles = np.array([0.5 * (e.x0 + e.x1) for e in windows])
+    step = _NEXT_COLUMN * float(np.median([e.width for e in windows]))
+    cuts = [0, *(np.flatnonzero(np.diff(middles) > step) + 1).tolist(), len(windows)]
+    stripes = []
+    for a, b in zip(cuts, cuts[1:], strict=False):
+        part = windows[a:b]
+        left, right = (
+            round(float(np.median(v))) for v in zip(*((e.x0, e.x1) for e in part), strict=True)
+        )
+        stripes.append((left, max(1, right - left)))
+    return Columns(stripes, 0.0, {}, 0)
+
+
+def _column(element: SeenElement, columns: Columns) -> int:
+    middle = 0.5 * (element.x0 + element.x1)
+    apart = [abs(x + 0.5 * width - middle) for x, width in columns.stripes]
+    return int(np.argmin(apart))

@@ -1,0 +1,111 @@
+"""What the learned eyes say of the picture as a whole: is it a front, where, and what hides it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.evidence import Evidence
+from veduta.facade.eyes import Seen, SeenElement
+from veduta.facade.presence import REMEDY
+from veduta.facade.sides import Sides
+from veduta.run.errors import NotFoundError
+
+FRONT = (
+    "window",
+    "wall",
+    "balcony",
+    "door",
+    "shop",
+    "cornice",
+    "sill",
+    "ornament",
+    "pillar",
+    "blind",
+)
+WALL = ("wall", "cornice", "sill", "ornament", "pillar")
+BEFORE = ("tree", "hedge", "vehicle", "person", "fence", "wire")
+
+
+@dataclass(frozen=True)
+class FrontParameters:
+    """When a picture is none of a front, and where the front ends.
+
+    `openings`: the fewest windows, doors and shops. `sure`: the least sum of their scores.
+    `front`: the least share of the picture that is front. `lost`: the share of the windows from
+    which on sides that cut them off are not believed. `street`: the share of what is not hidden
+    that is ground, from which a row is the street's. `hides`: the share of the front from which on
+    it is told what stands before it.
+    """
+
+    openings: int = 2
+    sure: float = 1.6
+    front: float = 0.2
+    lost: float = 0.12
+    street: float = 0.5
+    hides: float = 0.02
+
+
+def require_front(seen: Seen, elements: Sequence[SeenElement], parameters: FrontParameters) -> None:
+    """Raise NotFoundError where next to no opening, or next to no wall, is seen."""
+    openings = [e for e in elements if e.kind != "balcony"]
+    if len(openings) < parameters.openings or sum(e.score for e in openings) < parameters.sure:
+        raise NotFoundError("a facade", f"only {len(openings)} windows and doors are seen", REMEDY)
+    share = float((seen.chance(*FRONT) > 0.5).mean())
+    if share < parameters.front:
+        raise NotFoundError(
+            "a facade", f"only {100 * share:.0f} % of the picture looks like a front", REMEDY
+        )
+
+
+def sides_of(
+    plain: Sides,
+    evidence: Evidence,
+    seen: Seen,
+    elements: Sequence[SeenElement],
+    parameters: FrontParameters,
+) -> Sides:
+    """The sides by colour and roof line, unless they cut off windows; and where the street begins.
+
+    `elements` are in pixels of the analysis, from the picture's left border.
+    """
+    windows = [e for e in elements if e.kind == "window"]
+    cut = sum(e.x0 + e.x1 < 2 * plain.left or e.x0 + e.x1 > 2 * plain.right for e in windows)
+    sides = plain
+    if cut > parameters.lost * len(windows):
+        sides = Sides(0, evidence.width, plain.bottom, ())
+    size = evidence.width, evidence.height
+    hidden = seen.chance_at(size, *BEFORE)[:, sides.left : sides.right]
+    ground = seen.chance_at(size, "ground")[:, sides.left : sides.right]
+    street = ground.mean(1) > parameters.street * np.maximum(1.0 - hidden.mean(1), 0.2)
+    bottom = _first_of_last_run(street)
+    lowest = max((e.y1 for e in elements if e.kind != "balcony"), default=0.0)
+    if bottom < evidence.height and bottom >= lowest - 0.02 * evidence.height:
+        share = 100 * bottom / evidence.height
+        reason = f"ground: the street begins {share:.0f} % down the picture, and was not read"
+        kept = tuple(r for r in sides.reasons if not r.startswith("ground:"))
+        sides = replace(sides, bottom=bottom, reasons=(*kept, reason))
+    elif sides.bottom < lowest:
+        sides = replace(sides, bottom=min(evidence.height, round(lowest)))
+    return sides
+
+
+def _first_of_last_run(rows: NDArray[np.bool_]) -> int:
+    """Where the run of rows that reaches the lower border begins."""
+    others = np.flatnonzero(~rows)
+    return int(others[-1]) + 1 if len(others) else len(rows)
+
+
+def hidden_notes(seen: Seen, parameters: FrontParameters) -> list[str]:
+    """What stands before the front, with its share of the picture."""
+    most = np.array(seen.names)[seen.classes.argmax(0)]
+    shares = {name: float((most == name).mean()) for name in BEFORE}
+    told = [
+        f"{name} {100 * share:.0f} %"
+        for name, share in sorted(shares.items(), key=lambda item: -item[1])
+        if share >= parameters.hides
+    ]
+    return [f"before the front: {', '.join(told)} of the picture"] if told else []

@@ -1,0 +1,63 @@
+"""The learned eyes on drawn facades, and on what is none."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from drawn_facade import draw_facade, rectified_of
+
+from veduta.facade.analyse import analyse
+from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.eyes import look
+from veduta.facade.eyes.look import WEIGHTS
+from veduta.facade.options import FacadeOptions
+from veduta.run.errors import NotFoundError
+
+LARGEST_WEIGHTS = 5_000_000
+
+
+def read(pixels: np.ndarray) -> FacadeDocument:
+    height, width = pixels.shape[:2]
+    source = Source(image="drawn.png", sha256="", width_px=width, height_px=height)
+    return analyse(rectified_of(pixels), source, FacadeOptions())[0]
+
+
+def test_a_drawn_facade_has_most_of_its_windows() -> None:
+    drawn = draw_facade(5)
+    document = read(drawn.pixels)
+    found = [e for e in document.elements if e.class_ == "window"]
+    near = sum(
+        any(abs(e.x_px - x) < 8 and abs(e.y_px - y) < 8 for e in found)
+        for x, y, _, _ in drawn.windows
+    )
+    assert near >= 0.7 * len(drawn.windows)
+    assert read(drawn.pixels.copy()) == document, "the same picture gives the same document"
+
+
+@pytest.mark.parametrize("kind", ["noise", "plain", "ramp"])
+def test_what_is_no_facade_is_refused(kind: str) -> None:
+    rng = np.random.default_rng(3)
+    ramp = np.linspace(0, 255, 400, dtype=np.uint8)
+    pictures = {
+        "noise": rng.integers(0, 256, (400, 400, 3), dtype=np.uint8),
+        "plain": np.full((400, 400, 3), 128, np.uint8),
+        "ramp": np.repeat(np.tile(ramp, (400, 1))[..., None], 3, axis=2),
+    }
+    with pytest.raises(NotFoundError):
+        read(pictures[kind])
+
+
+def test_a_look_is_a_distribution_over_the_whole_picture() -> None:
+    seen = look(draw_facade(3).pixels)
+    assert np.allclose(seen.classes.sum(0), 1.0, atol=1e-3)
+    assert seen.chance("window", "wall").shape == seen.classes.shape[1:]
+    assert seen.chance_at((50, 70), "sky").shape == (70, 50)
+    assert (seen.borders > 0).all()
+
+
+def test_the_weights_are_small() -> None:
+    import veduta.facade.eyes as eyes
+
+    assert Path(eyes.__file__).with_name(WEIGHTS).stat().st_size <= LARGEST_WEIGHTS

@@ -1,0 +1,105 @@
+"""Rows and floors from windows that stand at known places."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from veduta.facade.eyes import SeenElement
+from veduta.facade.floors import Floors
+from veduta.facade.seen_boxes import boxes_of, columns_of, floor_at, in_crop
+from veduta.facade.seen_rows import (
+    RowParameters,
+    agrees,
+    are_sure,
+    floors_of_rows,
+    is_even,
+    window_rows,
+    without_roof,
+)
+
+PARAMETERS = RowParameters()
+
+
+def grid(
+    tops: list[float], lefts: list[float], width: float = 20, height: float = 40
+) -> np.ndarray:
+    """Boxes (n, 4) of windows in rows and columns, mixed up."""
+    boxes = [(x, y, x + width, y + height) for y in tops for x in lefts]
+    return np.random.default_rng(1).permutation(np.array(boxes, np.float64))
+
+
+def test_rows_are_those_that_were_built() -> None:
+    rows = window_rows(grid([50, 150, 250], [10, 60, 110, 160]), PARAMETERS)
+    assert [(r.top, r.bottom, len(r.members)) for r in rows] == [
+        (50, 90, 4),
+        (150, 190, 4),
+        (250, 290, 4),
+    ]
+    assert is_even(rows, None, PARAMETERS)
+
+
+def test_a_lone_window_between_rows_is_no_row() -> None:
+    boxes = np.vstack([grid([50, 150], [10, 40, 70, 100, 130, 160]), [[30, 105, 45, 125]]])
+    assert len(window_rows(boxes, PARAMETERS)) == 2
+
+
+def test_floors_part_the_rows_and_the_lowest_row_may_be_the_ground_floor() -> None:
+    rows = window_rows(grid([50, 150, 250], [10, 60, 110]), PARAMETERS)
+    shops_below = floors_of_rows(rows, None, 0.0, 400, PARAMETERS)
+    assert shops_below is not None
+    assert len(shops_below.boundaries) == 4
+    assert agrees(shops_below, rows)
+    own = floors_of_rows(rows, None, 0.0, 330, PARAMETERS)
+    assert own is not None
+    assert len(own.boundaries) == 3
+    assert 190 < own.boundaries[-1] < 250
+
+
+def test_one_row_gives_no_floors_and_uneven_rows_are_told() -> None:
+    assert (
+        floors_of_rows(window_rows(grid([50], [10, 60]), PARAMETERS), None, 0, 300, PARAMETERS)
+        is None
+    )
+    rows = window_rows(grid([50, 100, 250], [10, 60]), PARAMETERS)
+    assert not is_even(rows, None, PARAMETERS)
+    assert is_even(rows, 95.0, PARAMETERS), "what is in the roof says nothing of the storeys"
+
+
+def test_wall_above_the_eaves_belongs_to_the_upper_floor() -> None:
+    rows = window_rows(grid([150, 250], [10, 60]), PARAMETERS)
+    floors = Floors([140, 240, 320], 100.0, 0.0, {}, 0)
+    raised = without_roof(floors, 90, rows)
+    assert raised is not None
+    assert raised.boundaries == [90, 240, 320]
+    above = window_rows(grid([50, 150, 250], [10, 60]), PARAMETERS)
+    assert without_roof(floors, 20, above) is None
+
+
+def test_most_windows_must_be_sure() -> None:
+    sure = [SeenElement("window", 0, 0, 9, 9, 0.9)] * 3
+    assert are_sure(sure, PARAMETERS)
+    assert not are_sure(sure[:2], PARAMETERS)
+    assert not are_sure([*sure, *[SeenElement("window", 0, 0, 9, 9, 0.4)] * 4], PARAMETERS)
+
+
+@pytest.mark.parametrize(("y", "floor"), [(10, None), (120, 2), (200, 1), (350, 0)])
+def test_the_floor_at_a_height(y: float, floor: int | None) -> None:
+    assert floor_at(y, [100, 180, 300]) == floor
+
+
+def test_boxes_get_floors_and_columns() -> None:
+    windows = [
+        SeenElement("window", x, y, x + 20, y + 40, 0.9) for y in (110, 210) for x in (12, 61, 108)
+    ]
+    shop = SeenElement("shop", 5, 310, 130, 390, 0.7)
+    columns = columns_of(windows)
+    boxes = boxes_of([*windows, shop], [100, 200, 300], columns)
+    assert next(b.kind for b in boxes) == "shop", "painted first"
+    assert [(b.floor, b.column) for b in boxes[1:]] == [(f, c) for f in (2, 1) for c in (0, 1, 2)]
+
+
+def test_what_lies_beside_the_crop_is_left_out() -> None:
+    inside, outside = (SeenElement("window", x, 20, x + 40, 80, 0.9) for x in (200, 20))
+    (kept,) = in_crop([inside, outside], 0.5, 50, (100, 100))
+    assert (kept.x0, kept.y0, kept.x1, kept.y1) == (50, 10, 70, 40)
