@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -54,6 +53,10 @@ def read_facade(path: Path, options: FacadeOptions = OPTIONS) -> Reading:
     return Reading(document, rasterise(document), boxes_of(document, "window"), seconds)
 
 
+def _read(argument: tuple[Path, FacadeOptions]) -> Reading:
+    return read_facade(*argument)
+
+
 def boxes_of(document: FacadeDocument, kind: FacadeClass) -> Boxes:
     """Boxes of the document's elements of one class (rectified pixels)."""
     boxes = [
@@ -68,10 +71,9 @@ def read_facades(
     paths: Sequence[Path], jobs: int = 2, options: FacadeOptions = OPTIONS
 ) -> list[Reading]:
     """Analyse photos in `jobs` spawned processes; the readings in the order of the paths."""
-    read = partial(read_facade, options=options)
-    tasks = [Task(str(path), path, _MEMORY) for path in paths]
+    tasks = [Task(str(path), (path, options), _MEMORY) for path in paths]
     done: dict[str, Reading] = {}
-    for outcome in run_tasks(read, tasks, jobs=jobs):
+    for outcome in run_tasks(_read, tasks, jobs=jobs):
         if outcome.value is None:
             raise RuntimeError(outcome.crash or outcome.traceback or str(outcome.error))
         done[outcome.task.name] = outcome.value

@@ -3,7 +3,8 @@
     python training/facade/prepare.py OUT [--renders FOLDER]
 
 Reads `facades/cmp` and `facades/street-cc0-boxes` of $VEDUTA_DATA (else ../shared/data), and
-pictures with labels that `renders.py` made. ECP and Art Deco are left alone: they are the test. OUT gets
+pictures with labels that `renders.py` made. ECP and Art Deco are left alone: they are the test.
+OUT gets
 
     NAME.jpg          the picture, its longer side at most SIDE_PX
     NAME.set.png      per pixel the place of its label in `classes.SETS`

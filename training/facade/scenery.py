@@ -1,7 +1,7 @@
 """Skies, roofs and streets, painted over the crops of the training.
 
 The sets say little of them: CMP ends at the eaves, the boxes at the pavement. So a part of the
-crops gets a sky with or without clouds, a roof of slates or tiles below it, and a street at its foot.
+crops gets a sky with or without clouds, a roof of slates or tiles below it, and a street.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ SKY, ROOF, GROUND = (CLASSES.index(name) for name in ("sky", "roof", "ground"))
 
 
 def set_scene(pixels: Tensor, allowed: Tensor) -> tuple[Tensor, Tensor, Tensor]:
-    """Pixels (n, 3, c, c), what they may be (n, classes, c, c), and which were painted (n, c, c)."""
+    """Pixels (n, 3, c, c), their classes (n, classes, c, c), and which were painted (n, c, c)."""
     count, _, height, width = pixels.shape
     device = pixels.device
     y = torch.linspace(0, 1, height, device=device)[None, :, None]

@@ -3,8 +3,9 @@
     python training/facade/sprites.py OUT     (after prepare.py OUT)
 
 Writes `sprites.npz`: `pixels` (n, 4, SIDE, SIDE) uint8 RGBA, `kinds` (n,) places in CLASSES. Drawn
-are trees in leaf and bare, hedges, cars, vans, people, fences, wires, lamps. Cut out of the training
-pictures (of CC0 and CMP, never of those held out) are the vehicles and people of `marks.json`.
+are trees in leaf and bare, hedges, cars, vans, people, fences, wires, lamps. Cut out of the
+training pictures (of CC0 and CMP, never of those held out) are the vehicles and people of
+`marks.json`.
 """
 
 from __future__ import annotations
