@@ -21,6 +21,7 @@ from veduta.fauna.read.limbed_coat import coat_of_plane
 from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.overlap import overlap
+from veduta.fauna.read.registered import CameraLooks, stilled
 from veduta.fauna.read.silhouettes import Silhouettes
 from veduta.fauna.recipe import Record
 from veduta.place.material import Texture
@@ -66,6 +67,11 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
             f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
             " assumed (--fps)"
         )
+    if record.masks is None and record.background is None:
+        with work.step("camera") as step:
+            still = stilled(footage, CameraLooks(), record.path.name)
+            step.counts["moves"] = int(still is not footage)
+            footage = still
     with work.step("silhouettes") as step:
         found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
         step.counts["good"] = len(found.rows)

@@ -18,6 +18,7 @@ from veduta.fauna.read.footage import Footage, read_footage
 from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
+from veduta.fauna.read.registered import CameraLooks, stilled
 from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
 from veduta.fauna.seen_pictures import silhouettes_picture
 from veduta.place.material import Texture
@@ -95,6 +96,11 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
             f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
             " assumed (--fps)"
         )
+    if record.masks is None and record.background is None:
+        with work.step("camera") as step:
+            still = stilled(footage, CameraLooks(), record.path.name)
+            step.counts["moves"] = int(still is not footage)
+            footage = still
     with work.step("silhouettes") as step:
         found, background = silhouettes_in(
             footage, record.masks, record.background, record.path.name
