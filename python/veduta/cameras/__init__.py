@@ -5,12 +5,15 @@ from veduta.cameras.digest import cameras_digest
 from veduta.cameras.lens import shown, straight_camera, undistorted
 from veduta.cameras.projection import Parted, part_projection
 from veduta.cameras.reading import read_cameras
+from veduta.cameras.scale import ScaleOptions, in_metres
 
 __all__ = [
     "Camera",
     "CameraSet",
     "Parted",
+    "ScaleOptions",
     "cameras_digest",
+    "in_metres",
     "part_projection",
     "read_cameras",
     "shown",

@@ -9,7 +9,7 @@ import cv2
 import numpy as np
 from pydantic import JsonValue
 
-from veduta.cameras import CameraSet, cameras_digest, read_cameras
+from veduta.cameras import CameraSet, cameras_digest, in_metres, read_cameras
 from veduta.carve.build.appearance import carved_triangles, colour_vertices
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.consistency import Consistency, carve_by_colour
@@ -18,6 +18,7 @@ from veduta.carve.build.measures import Measures, measure_mesh, overlaps
 from veduta.carve.build.place import Shape, base_of, object_mesh, photo_name, place_of
 from veduta.carve.build.texturing import textured
 from veduta.carve.build.upright import turn_upright
+from veduta.carve.catalogue import ROW, write_row
 from veduta.carve.faults import doubtful_views, refuse_silhouettes
 from veduta.carve.options import CarveOptions
 from veduta.carve.pictures import carved_picture, outlines_picture, sides_picture
@@ -44,7 +45,7 @@ def run_carve(
     if not record.exists():
         raise InputError(record, "does not exist", "Name the folder of the photos and cameras.")
     base = record if record.is_dir() else record.parent
-    cameras = read_cameras(record)
+    cameras = in_metres(read_cameras(record), options.scale)
     masks: list[JsonValue] = [
         [name, file_digest(path)] for name, path in sorted(find_masks(base, cameras).items())
     ]
@@ -202,6 +203,9 @@ def _write(
     place.save(work.folder)
     place.write(work.folder / MODEL)
     place_of(meshes[0], views, cameras, shift).write(work.folder / POINTS)
+    size = np.ptp(meshes[0].positions_m, axis=0)
+    write_row(work.folder / ROW, meshes[0].id, MODEL, size, cameras.scale == "metres")
+    work.file(ROW, "a row for a catalogue of `veduta plan --catalogue`")
     work.file(MODEL, "the object, with its texture, for any program that shows glTF")
     work.file(POINTS, "the same as PLY, closed, with a colour for each vertex")
     work.file("place.json", "the place for `veduta view`, with the cameras and their photos")

@@ -6,6 +6,7 @@ from typing import Literal
 
 from pydantic import Field
 
+from veduta.cameras import ScaleOptions
 from veduta.run.card import DeviceOptions
 from veduta.run.options import Options
 
@@ -75,4 +76,5 @@ class CarveOptions(Options):
     volume: VolumeOptions = VolumeOptions()
     colour: ColourOptions = ColourOptions()
     texture: TextureOptions = TextureOptions()
+    scale: ScaleOptions = ScaleOptions()
     device: DeviceOptions = DeviceOptions()

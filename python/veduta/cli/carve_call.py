@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from veduta.cameras import ScaleOptions
 from veduta.carve.options import (
     CarveOptions,
     ColourOptions,
@@ -44,6 +45,7 @@ class CarveCall:
     volume: VolumeOptions = field(default_factory=VolumeOptions)
     colour: ColourOptions = field(default_factory=ColourOptions)
     texture: TextureOptions = field(default_factory=TextureOptions)
+    scale: ScaleOptions = field(default_factory=ScaleOptions)
     device: DeviceOptions = field(default_factory=DeviceOptions)
     force: Force = False
     quiet: Quiet = False
@@ -55,5 +57,6 @@ class CarveCall:
             volume=self.volume,
             colour=self.colour,
             texture=self.texture,
+            scale=self.scale,
             device=self.device,
         )

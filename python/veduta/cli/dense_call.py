@@ -8,6 +8,7 @@ from typing import Annotated
 
 import tyro
 
+from veduta.cameras import ScaleOptions
 from veduta.cli.run_arguments import Force, Out, Quiet
 from veduta.dense.options import (
     DenseOptions,
@@ -53,6 +54,7 @@ class DenseCall:
     depth: DepthOptions = field(default_factory=DepthOptions)
     surface: SurfaceOptions = field(default_factory=SurfaceOptions)
     random: RandomOptions = field(default_factory=RandomOptions)
+    scale: ScaleOptions = field(default_factory=ScaleOptions)
     device: DeviceOptions = field(default_factory=DeviceOptions)
     force: Force = False
     quiet: Quiet = False
@@ -64,5 +66,6 @@ class DenseCall:
             depth=self.depth,
             surface=self.surface,
             random=self.random,
+            scale=self.scale,
             device=self.device,
         )

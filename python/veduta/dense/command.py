@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import JsonValue
 
-from veduta.cameras import Camera, CameraSet, cameras_digest, read_cameras
+from veduta.cameras import Camera, CameraSet, cameras_digest, in_metres, read_cameras
 from veduta.dense.build.cloud import DenseCloud, fuse_cloud, within_box, without_strays
 from veduta.dense.build.colouring import colour_vertices
 from veduta.dense.build.composing import compose
@@ -83,10 +83,11 @@ def run_dense(
     """
     chosen = options or DenseOptions()
     _require_shaders(chosen)
-    found = read_cameras(cameras, images)
+    found = in_metres(read_cameras(cameras, images), chosen.scale)
     usable, left = usable_cameras(found)
     name = cameras.resolve().name
-    walls = read_elevations(cameras) if cameras.is_dir() else []
+    grown = chosen.scale.metres_per_unit or 1.0
+    walls = [one.grown(grown) for one in read_elevations(cameras)] if cameras.is_dir() else []
     digests: JsonValue = [cameras_digest(found, usable)]
     if walls:
         digests = [cameras_digest(found, usable), file_digest(cameras / WALLS)]

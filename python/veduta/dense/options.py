@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from veduta.cameras import ScaleOptions
 from veduta.run.card import DeviceOptions
 from veduta.run.options import Options
 
@@ -79,4 +80,5 @@ class DenseOptions(Options):
     depth: DepthOptions = DepthOptions()
     surface: SurfaceOptions = SurfaceOptions()
     random: RandomOptions = RandomOptions()
+    scale: ScaleOptions = ScaleOptions()
     device: DeviceOptions = DeviceOptions()

@@ -10,6 +10,7 @@ import pytest
 import trimesh
 from ring_of_a_ball import RADIUS, disc, write_ring
 
+from veduta.cameras import ScaleOptions
 from veduta.carve import CarveOptions, ColourOptions, SilhouetteOptions, VolumeOptions, run_carve
 from veduta.place.place import Place
 from veduta.run.errors import InputError
@@ -146,3 +147,26 @@ def test_cameras_that_all_look_the_same_way(tmp_path: Path) -> None:
 def test_no_such_folder(tmp_path: Path) -> None:
     with pytest.raises(InputError, match="does not exist"):
         _carve(tmp_path / "nothing", tmp_path / "out")
+
+
+def test_a_known_length_gives_metres_and_a_row_of_a_catalogue(tmp_path: Path) -> None:
+    import sqlite3
+
+    from veduta.plan.furnish import catalogue
+
+    write_ring(tmp_path / "ball")
+    _carve(tmp_path / "ball", tmp_path / "before")
+    assert "no scale" in (tmp_path / "before/object.sql").read_text()
+    scale = ScaleOptions(metres_per_unit=0.1)
+    _carve(tmp_path / "ball", tmp_path / "out", OPTIONS.model_copy(update={"scale": scale}))
+    base = sqlite3.connect(":memory:")
+    base.executescript((Path(catalogue.__file__).parent / "schema.sql").read_text())
+    base.executescript((tmp_path / "out/object.sql").read_text())
+    name, file, width, height = base.execute(
+        "SELECT name, file, width_m, height_m FROM object"
+    ).fetchone()
+    assert (name, file) == ("ball", "object.glb")
+    assert width == pytest.approx(0.2 * RADIUS, rel=0.05)
+    assert height == pytest.approx(0.2 * RADIUS, rel=0.3)
+    assert b"z up, metres" in (tmp_path / "out/object.ply").read_bytes()[:200]
+    assert b"unit of length unknown" in (tmp_path / "before/object.ply").read_bytes()[:200]

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,3 +27,14 @@ class Elevation:
     pixel_m: float
     shape: tuple[int, int]
     height_m: float
+
+    def grown(self, times: float) -> Elevation:
+        """The same where the cameras' unit is so many times as long."""
+        return replace(
+            self,
+            start_m=self.start_m * times,
+            left_m=self.left_m * times,
+            upper_m=self.upper_m * times,
+            pixel_m=self.pixel_m * times,
+            height_m=self.height_m * times,
+        )
