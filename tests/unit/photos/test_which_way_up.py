@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 import pycolmap
 import pytest
-from known_structure import structure_seen
+from known_structure import known_structure, structure_seen
 from numpy.typing import NDArray
 from PIL import Image
 from pyproj import Transformer
@@ -24,7 +24,7 @@ from veduta.photos.intake.read import PhotoRecord
 from veduta.photos.structure import Structure
 from veduta.photos.world.gps_fit import gps_georeference
 from veduta.photos.world.gps_positions import gps_positions
-from veduta.photos.world.which_way_up import looks_down, which_way_up
+from veduta.photos.world.which_way_up import is_held_upright, looks_down, which_way_up
 
 HEIGHT_M, SIDE_M = 60.0, 120.0
 
@@ -176,3 +176,15 @@ def test_the_pitch_of_a_gimbal_is_read(tmp_path: Path) -> None:
         Image.new("RGB", (80, 80), "grey").save(data, "JPEG", xmp=packet % tag)
         (tmp_path / "a.jpg").write_bytes(data.getvalue())
         assert read_image(tmp_path / "a.jpg").shot.pitch_deg == expected
+
+
+def test_heights_of_gps_do_not_tilt_photos_of_people() -> None:
+    """Round a thing, held upright, GPS whose height drifts by a fifth of the way."""
+    structure = known_structure()
+    drifted = 20.0 * structure.centres()
+    drifted[:, 2] += 0.2 * drifted[:, 0]
+    before = component(structure)
+    found = which_way_up(before, records(structure, drifted, 0.3))
+    assert found is before
+    assert is_held_upright(before.structure)
+    assert not is_held_upright(component(survey(1)[0]).structure)

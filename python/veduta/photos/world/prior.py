@@ -17,6 +17,8 @@ FREE_SCALES = 2.0
 LEAST_TURN_RAD, LEAST_SCALE = np.deg2rad(12.0), 0.2
 """What is let pass at least beside a prior's turn and logarithm of scale."""
 DEVIATIONS = 4.0
+POSE_MOST_SD = 0.1
+"""Of turn (radians) and of the logarithm of scale: as much as GPS is believed with."""
 MOST_DRIFT_M = 15.0
 """GPS may be off together by as much among buildings."""
 
@@ -33,6 +35,11 @@ class PlacementPrior:
     turn_sd_rad: float
     scale_sd: float
     there_sd_m: float
+
+    @property
+    def is_pose(self) -> bool:
+        """Whether it says so much that what lies about it can be looked through."""
+        return max(self.turn_sd_rad, self.scale_sd) <= POSE_MOST_SD
 
     @property
     def reach_m(self) -> float:

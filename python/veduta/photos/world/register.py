@@ -63,7 +63,7 @@ def register(
         )
     scene = scene_of(structure, walls, FacadeIndex(facades), seed, up_sd_rad)
     found = _by_walls(scene, facades, model, prior)
-    if found.accepted or prior is None:
+    if found.accepted or prior is None or not prior.is_pose:
         return found
     by_pose = register_pose(scene, model, prior)
     return by_pose if by_pose.accepted or found.best is None else found

@@ -27,6 +27,8 @@ GIMBAL_RAD = float(np.deg2rad(1.5))
 """How well a gimbal knows its pitch, with what all photos of a flight have in common."""
 AGREE_RAD = float(np.deg2rad(10.0))
 """Up of each photo by its gimbal, from the mean of all: beyond, the tags are of something else."""
+SEVERAL_WAYS, TOPS_AGREE = 0.25, 0.85
+"""Of the rows of photos, how far they spread beside one way; length of their columns' mean."""
 GROUND_RAD = float(np.deg2rad(2.0))
 """How level ground is, where nothing else says what is."""
 
@@ -34,6 +36,17 @@ GROUND_RAD = float(np.deg2rad(2.0))
 def looks_down(structure: Structure) -> bool:
     """Whether photos of an upright structure look down, on the whole."""
     return float(structure.cam_from_world[:, 2, 2].mean()) < DOWN
+
+
+def is_held_upright(structure: Structure) -> bool:
+    """Whether photos look several ways with their tops all up, as people hold them.
+
+    Then they say up to a degree, and heights of GPS, which drift by ten metres, do not.
+    """
+    rotations = structure.cam_from_world[:, :, :3]
+    spread = np.linalg.svd(rotations[:, 0], compute_uv=False)
+    tops = float(np.linalg.norm(rotations[:, 1].mean(axis=0)))
+    return bool(spread[1] > SEVERAL_WAYS * spread[0] and tops > TOPS_AGREE)
 
 
 def which_way_up(component: Component, photos: Sequence[PhotoRecord]) -> Component:
@@ -63,7 +76,7 @@ _Known = tuple[NDArray[np.float64], float] | None
 def _by_gps(structure: Structure, photos: Sequence[PhotoRecord]) -> _Known:
     """Where photos look down, or GPS contradicts what they say."""
     positions = gps_positions(structure, photos, None, None)
-    if positions is None:
+    if positions is None or is_held_upright(structure):
         return None
     found = gps_up(structure, positions)
     if found is None or not (looks_down(structure) or overrules(found)):
