@@ -1,4 +1,9 @@
-"""Photos that people who did not build this brought: `cases/photos`, each as its INDEX says."""
+"""Photos that people who did not build this brought: `cases/photos`, each as its INDEX says.
+
+Not here: gcp/neg_px (a unit test of marks outside of their photos), gcp/swapped_latlon (one mark of
+one point: nothing contradicts it), and the drone survey, whose photos are not among the cases; a
+painted village stands for it (`benchmarks/photos_nadir.py`).
+"""
 
 from __future__ import annotations
 
