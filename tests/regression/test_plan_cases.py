@@ -120,7 +120,7 @@ def test_a_sketch_that_gives_no_house_ends_with_the_reason(cases: Path) -> None:
 def test_feet_without_marks_make_a_house(cases: Path) -> None:
     (storey,) = read(cases / "web_2d.jpg").document.storeys
     assert 45.0 < total(storey) < 70.0
-    bedroom = max(area for name, area in areas(storey).items() if name == "bedroom")
+    bedroom = max(room.area_m2 for room in storey.rooms if room.use == "bedroom")
     # 12 x 13 feet are the largest.
     assert bedroom == pytest.approx(12 * 13 * 0.3048**2, rel=0.15)
 
