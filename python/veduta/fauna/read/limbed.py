@@ -31,7 +31,7 @@ class LimbedLooks:
     """Of the cycle that was found; the best is between them."""
     gain: float = 0.004
     """An optional part is kept where the loss falls by this share."""
-    travels: float = 0.5
+    travels: float = 0.25
     """An animal that moves by so many of its silhouettes' widths looks where it goes."""
     fit: FitLooks = field(default_factory=FitLooks)
     start: StartLooks = field(default_factory=StartLooks)

@@ -139,7 +139,7 @@ def repeat_of(windows: Windows, least: int = 4, *, top: bool = False) -> tuple[f
     if not lows or usual <= 0.0:
         return None
     best = min(apart[k] for k in lows)
-    first = next(k for k in lows if apart[k] <= best + 0.4 * (usual - best))
+    first = next(k for k in lows if apart[k] <= best + 0.55 * (usual - best))
     low, here, high = apart[first - 1], apart[first], apart[first + 1]
     bend = low - 2.0 * here + high
     shift = 0.5 * (low - high) / bend if bend > 0.0 else 0.0
