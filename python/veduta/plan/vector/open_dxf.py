@@ -49,7 +49,9 @@ def open_dxf(path: Path) -> DxfDocument:
             document, _ = recover.readfile(str(path))
     except (DXFError, OSError) as error:
         raise InputError(path, f"is a damaged DXF file ({error})", _AGAIN) from error
-    except (ValueError, KeyError, IndexError, AttributeError, TypeError) as error:
+    except (
+        ValueError, KeyError, IndexError, AttributeError, TypeError, AssertionError, RecursionError,
+    ) as error:  # fmt: skip
         # What no repair of ezdxf foresees: tags of other kinds than the format has.
         raise InputError(path, f"is a damaged DXF file ({error!r})", _AGAIN) from error
     if shown_count(document) >= MOST_SHOWN:
