@@ -15,7 +15,7 @@ from veduta.run.work import Work
 Device = Literal["auto", "cpu", "gpu"]
 T = TypeVar("T")
 
-ABSENT = "Use --device auto, which goes on with the processor."
+GO_ON = "--device auto, which goes on with the processor."
 NOT_BUILT = "this Veduta was built without graphics cards"
 
 
@@ -54,7 +54,7 @@ class Engine:
             return on_card(self.card)
         except _fault() as why:
             if self.device == "gpu":
-                raise InputError("--device gpu", str(why), ABSENT) from why
+                raise InputError("--device gpu", str(why), f"Use {GO_ON}") from why
             self.card, self.lost = None, str(why)
             return on_cores()
 
@@ -69,13 +69,13 @@ def choose_engine(device: Device, *, software: bool = False) -> Engine:
     made: Any = getattr(_core, "GraphicsCard", None)
     if made is None:
         if device == "gpu":
-            raise InputError("--device gpu", NOT_BUILT, f"Run `make gpu` once. {ABSENT}")
+            raise InputError("--device gpu", NOT_BUILT, f"Run `make gpu` once, or use {GO_ON}")
         return Engine(device, None, f"the processor: {NOT_BUILT}")
     try:
         card: _core.GraphicsCard = made(software=software)
     except _fault() as why:
         if device == "gpu":
-            raise InputError("--device gpu", str(why), ABSENT) from why
+            raise InputError("--device gpu", str(why), f"Use {GO_ON}") from why
         return Engine(device, None, f"the processor: {why}")
     return Engine(device, card, f"the graphics card {card.name()}")
 
