@@ -56,8 +56,8 @@ def main() -> None:
         " are found in the footage against its background, grass and noise in it. Every fourth"
         " animal has proportions as no plan has them. Which front leg goes with which hind leg"
         " silhouettes do not tell: each pair is compared the way that fits better. Two"
-        " thresholds (repeats, travels) were set after the odd animals had been seen; clips that they"
-        " do not concern were not run again.",
+        " thresholds (repeats, travels) were set after the odd animals had been seen; clips that"
+        " they do not concern were not run again.",
         "Cat: silhouettes from its left side alone, drawn by OpenCV from the 35 meshes; the model"
         " is judged from 30, 60 and 90 degrees beside that view."
         " The fit's spreads were set with the cat's side view in sight, its other views were not.",
