@@ -42,7 +42,7 @@ from veduta.walk.record import WalkRecord, read_stereo_record
 from veduta.walk.rig import Image, Rig
 from veduta.walk.tell import document_of, tell_walk
 
-VERSION = "2"
+VERSION = "3"
 FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0
@@ -172,16 +172,17 @@ def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
 
 def _links(record: WalkRecord, links: tuple[str, ...]) -> list[tuple[int, int]]:
     """The numbers of the key positions of FROM:TO; InputError where there are no such."""
-    names = [views[0].key for views in record.keys]
+    names = {views[0].key: number for number, views in enumerate(record.keys)}
     found = []
     for link in links:
-        ends = next(((a, b) for a in names for b in names if a != b and link == f"{a}:{b}"), None)
+        parted = [(link[:at], link[at + 1 :]) for at, sign in enumerate(link) if sign == ":"]
+        ends = next(((a, b) for a, b in parted if a != b and a in names and b in names), None)
         if ends is None:
             raise InputError(
                 link, "is no link of two key positions",
-                f"Say FROM:TO with names as {names[0]} and {names[-1]}.",
+                f"Say FROM:TO with names as {next(iter(names))} and {next(reversed(names))}.",
             )  # fmt: skip
-        found.append((names.index(ends[0]), names.index(ends[1])))
+        found.append((names[ends[0]], names[ends[1]]))
     return found
 
 

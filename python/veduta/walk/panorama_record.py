@@ -5,12 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from veduta.run.digests import file_digest
 from veduta.run.work import Work
+from veduta.walk.build.key_file import arrays_of_mosaic, mosaic_of
 from veduta.walk.build.local_model import LocalModel, model_of_depth
-from veduta.walk.build.mosaic import make_mosaic
+from veduta.walk.build.mosaic import Mosaic, make_mosaic
 from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.build.place import world_from_first
 from veduta.walk.build.turns import Turns
@@ -120,19 +124,29 @@ class PanoramaRecord:
     def key(self, work: Work, number: int) -> KeyModel:
         """The mosaic of a panorama's views, whose rotations the cameras say."""
         self.path.tell(work)
+        mosaic = mosaic_of(self.panoramas[self.chosen[number]][0], self._arrays(work, number), None)
+        turns = mosaic.turns
+        return KeyModel(mosaic.model, KeyFigures(turns.front_from_view, turns.front, mosaic.gap))
+
+    def _arrays(self, work: Work, number: int) -> dict[str, NDArray[Any]]:
+        """The mosaic, kept: it is wanted again for its picture."""
+        inputs = [file_digest(path) for path in self.files_of(number)]
+        name, views = self.panoramas[self.chosen[number]]
+        inputs.append(f"{views}")
+        return work.kept_arrays(
+            f"mosaic-{name}", [*inputs, repr(self.rig)],
+            lambda: arrays_of_mosaic(self._mosaic(number)),
+        )  # fmt: skip
+
+    def _mosaic(self, number: int) -> Mosaic:
         name, views = self.panoramas[self.chosen[number]]
         order = sorted(views)
         models = [self._model(name, side, views[side]) for side in order]
         front = self._fronts[self.chosen[number]]
-        turns = np.array(
-            [
-                between(self.path.cameras[views[side]], self.path.cameras[front])[:, :3]
-                for side in order
-            ]
-        )
+        cameras = self.path.cameras
+        turns = np.array([between(cameras[views[n]], cameras[front])[:, :3] for n in order])
         known = Turns([views[side] for side in order].index(front), turns, 0, 0.0)
-        mosaic = make_mosaic(models, known)
-        return KeyModel(mosaic.model, KeyFigures(turns, known.front, mosaic.gap))
+        return make_mosaic(models, known)
 
     def _model(self, name: str, side: int, view: int) -> LocalModel:
         numbers, planes = self._sides[side]
@@ -141,7 +155,7 @@ class PanoramaRecord:
 
     def picture(self, work: Work, number: int) -> Image:
         """What the mosaic shows."""
-        return self.key(work, number).model.image
+        return np.asarray(self._arrays(work, number)["image"], dtype=np.uint8)
 
     def pose(self, first: int, second: int) -> Matrix | None:
         """From front view to front view, as the cameras say."""

@@ -31,16 +31,18 @@ def arrays_of_mosaic(mosaic: Mosaic) -> dict[str, NDArray[Any]]:
 
 
 def mosaic_of(
-    key: str, arrays: dict[str, NDArray[Any]], view: Callable[[int], LocalModel]
+    key: str, arrays: dict[str, NDArray[Any]], view: Callable[[int], LocalModel] | None
 ) -> Mosaic:
-    """The mosaic again. view: makes the local model of a view by its number."""
+    """The mosaic again. view: makes the local model of a view by its number; None: where poses are
+    known, nobody asks for it.
+    """
     told = json.loads(arrays["told"].tobytes())
     shape = told["screen"] | {
         name: tuple(told["screen"][name]) for name in ("focal_px", "centre_px")
     }
     model = LocalModel(
         key, Screen(**shape), arrays["image"], arrays["depth"], arrays["measured"], arrays["sky"],
-        front=view(told["front"]),
+        front=None if view is None else view(told["front"]),
     )  # fmt: skip
     turns = Turns(told["front"], arrays["turns"], told["matches"], told["off_rad"])
     return Mosaic(model, turns, arrays["gains"], told["gap"])
