@@ -82,6 +82,9 @@ fn statements_that_do_not_parse() {
         ("A --> split(x) { 1 : B.\nC --> NIL", &["2:1 error: expected `|` or `}` after a cell, found `C`"]),
         ("A --> [ B.\nC --> NIL", &["2:1 error: expected `]` at the end of `[ … ]`, found `C`"]),
         ("A --> inline(append)", &["1:21 error: expected a rule, an operation or `{`, found the end of the file"]),
+        // `A` is defined, where it does not parse: that it is missing would be a false follow-up.
+        ("Lot --> A\nA --> split(x) { 1 B. }",
+            &["2:20 error: expected `:` or `=` after a selector or size, found `B.`"]),
         ("import a \"b\"", &["1:10 error: expected `:` after the name of an import, found `\"b\"`"]),
         ("@Range(0, 1)", &["1:13 error: expected the statement to which the annotations belong, found the end of the file"]),
         (

@@ -92,6 +92,9 @@ impl Checker<'_> {
             return self.diagnostics.add(fault.with_hint(hint));
         }
         self.resolve(name, Target::Leaf);
+        if self.is_broken {
+            return;
+        }
         let message = format!("there is no rule `{text}`: the shape is left as it is");
         let hint = hint.unwrap_or_else(|| format!("write `{text}.` if that is meant"));
         self.diagnostics

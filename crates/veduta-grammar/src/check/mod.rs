@@ -96,17 +96,23 @@ pub fn check(program: &Program) -> Checked {
         ));
         faults.push(list);
     }
+    let is_broken = program
+        .units
+        .iter()
+        .any(|unit| unit.parse.diagnostics.iter().any(Diagnostic::is_error));
     let mut used = HashSet::new();
     let mut resolutions = Vec::new();
     for (unit, list) in faults.iter_mut().enumerate() {
         let mut checker = Checker::new(program, &definitions, unit, list);
+        checker.is_broken = is_broken;
         checker.file();
         used.extend(checker.used_rules);
         resolutions.push(Resolution {
             targets: checker.targets,
         });
     }
-    if let (Some(main), Some(list)) = (definitions.first(), faults.first_mut()) {
+    // What calls a rule, or defines it, may stand in a statement that did not parse.
+    if let (false, Some(main), Some(list)) = (is_broken, definitions.first(), faults.first_mut()) {
         main.report_unused(&program.names, &used, list);
     }
     Checked {
@@ -128,6 +134,8 @@ struct Checker<'a> {
     /// Slots of the parameters and local variables of the definition in hand.
     locals: HashMap<Symbol, usize>,
     calls: recursion::Calls,
+    /// Whether statements did not parse: what they define is not known to be missing.
+    is_broken: bool,
 }
 
 impl<'a> Checker<'a> {
@@ -146,6 +154,7 @@ impl<'a> Checker<'a> {
             used_rules: HashSet::new(),
             locals: HashMap::new(),
             calls: recursion::Calls::default(),
+            is_broken: false,
         }
     }
 
