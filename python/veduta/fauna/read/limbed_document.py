@@ -51,11 +51,16 @@ def described_limbs(
 ) -> LimbedAnimal:  # fmt: skip
     """The document; what the silhouettes do not tell is said in its doubts."""
     scaled = scaled_animal(seen, plan, frame_s)
-    doubts = [
-        "silhouettes do not tell the near legs from the far ones: the left ones may be the right"
-        " ones, half a cycle later",
-        "one view does not show how wide the animal is: the plan's roundness was taken",
-    ]
+    if plan.view == "top":
+        doubts = [
+            "from above one does not see how high the animal is: the plan's roundness was taken"
+        ]
+    else:
+        doubts = [
+            "silhouettes do not tell the near legs from the far ones: the left ones may be the right"
+            " ones, half a cycle later",
+            "one view does not show how wide the animal is: the plan's roundness was taken",
+        ]
     gaits: list[LimbedGait] = []
     if seen.cycle is None:
         doubts.append("no cycle was found in the footage: it holds no gait, only its own motion")
