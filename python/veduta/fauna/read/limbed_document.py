@@ -57,7 +57,7 @@ def described_limbs(
         ]
     else:
         doubts = [
-            "silhouettes do not tell the near legs from the far ones: the left ones may be the right"
+            "silhouettes do not tell near legs from far ones: the left ones may be the right"
             " ones, half a cycle later",
             "one view does not show how wide the animal is: the plan's roundness was taken",
         ]
