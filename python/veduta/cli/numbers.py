@@ -80,7 +80,9 @@ def _of_models(declared: Sequence[DeclaredOption]) -> list[NumberOption]:
     found = []
     for option in declared:
         taken = option.value
-        items = taken["prefixItems"][0] if taken.get("type") == "array" else taken
+        items = taken
+        if taken.get("type") == "array":  # of a fixed length, or of any
+            items = taken["prefixItems"][0] if "prefixItems" in taken else taken["items"]
         if items.get("type") not in ("integer", "number"):
             continue
         found.append(

@@ -146,3 +146,12 @@ def test_a_branch_stands_where_its_link_leads() -> None:
     assert [one[2, 3] for one in found] == pytest.approx([0.0, 2.0, 5.0, 7.0])
     alone = worlds_of(4, np.eye(4), ends[:3], ways[:3], ahead)
     assert alone[3][2, 3] == pytest.approx(5.0 + 99.0)
+
+
+def test_links_are_read_from_the_command_line() -> None:
+    from veduta.cli.arguments import parse
+    from veduta.cli.walk_call import WalkCall
+
+    call = parse(WalkCall, "veduta walk", ["a", "-o", "b", "--links", "0:1", "2:3", "--every", "2"])
+    assert call.options().take.links == ("0:1", "2:3")
+    assert call.options().take.every == 2
