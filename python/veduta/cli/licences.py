@@ -11,6 +11,7 @@ STUDIO = Path(__file__).resolve().parents[1] / "studio" / "static" / "licences.t
 NOTES = {
     "ifcopenshell": "writes the IFC files of `veduta plan`; LGPL: it is used as it is, and may be"
     " replaced by another version",
+    "pi-heif": "reads HEIC; its wheels bring libheif and libde265 (LGPL)",
     "pyogrio": "its wheels bring GDAL, GEOS, PROJ and SQLite",
     "rasterio": "its wheels bring GDAL, PROJ and others",
     "opencv-contrib-python-headless": "its wheels bring FFmpeg (LGPL) and others",

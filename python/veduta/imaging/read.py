@@ -19,7 +19,7 @@ from PIL import Image, UnidentifiedImageError
 from veduta.imaging.colour import READABLE_MODES, srgb_on_white
 from veduta.imaging.deep import stretched
 from veduta.imaging.exif import CameraTags, FocalSource, focal_px_from_mm35, read_camera_tags
-from veduta.imaging.heic import NOT_READ, heic_formats
+from veduta.imaging.heic import heic_formats
 from veduta.imaging.shot import Shot, read_shot
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
@@ -208,8 +208,8 @@ def _why_unidentified(data: bytes) -> str:
             )
     if data.startswith(b"RIFF") and data[8:12] == b"WEBP":
         return "starts like a WEBP file, but is truncated or damaged"
-    if data[4:8] == b"ftyp" and data[8:12] in _HEIC_BRANDS and not heic_formats():
-        return NOT_READ
+    if data[4:8] == b"ftyp" and data[8:12] in _HEIC_BRANDS:
+        return "starts like a HEIC file, but is truncated or damaged"
     if data[4:8] == b"ftyp":
         return "is a HEIC, AVIF or video file"
     return "is not an image that can be read"

@@ -26,7 +26,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
     noise = np.random.default_rng(0).integers(0, 256, (2, 90, 120, 3), dtype=np.uint8)
     for number in range(2):
         Image.fromarray(noise[number]).save(made / "in" / "ner" / f"view{number}.png")
-        (made / "phone" / f"{number}.HEIC").write_bytes(b"ftypheic")
+        (made / "phone" / f"{number}.CR2").write_bytes(b"II*")
     Image.fromarray(noise[0]).save(made / "one" / "a.png")
     (made / "gcp.txt").write_text(GCP)
     return made
@@ -39,7 +39,7 @@ CALLS = {
     "empty": ("{}/empty", "holds no photos. Put at least two photos"),
     "one photo": ("{}/one", "holds one photo. Put at least two photos"),
     "folders in it": ("{}/in", "in/ner, which holds some: folders in folders are not looked into"),
-    "of a telephone": ("{}/phone", "holds no photos. Save 0.HEIC and the others as JPEG"),
+    "of a telephone": ("{}/phone", "holds no photos. Save 0.CR2 and the others as JPEG"),
     "no effect": ("{}/in/ner --texel-m 0.1", "--texel-m: is about a city model, and there is no"),
     "lens": ("{}/in/ner --lens fish", '--lens: "fish" is not among its values. Give auto, pinhole'),
     "misspelt marks": (

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from veduta.imaging.heic import HEIC_SUFFIXES, NOT_READ, heic_suffixes
+from veduta.imaging.heic import HEIC_SUFFIXES
 from veduta.imaging.read import SUFFIXES
 from veduta.photos.intake.given import Given
 from veduta.run.errors import InputError
@@ -22,7 +22,7 @@ _FILMS = (".mp4", ".mov", ".avi", ".mkv", ".webm", ".mpg", ".mpeg", ".m4v")
 
 def photo_suffixes() -> tuple[str, ...]:
     """Of files that are read as photos."""
-    return (*SUFFIXES, *heic_suffixes())
+    return (*SUFFIXES, *HEIC_SUFFIXES)
 
 
 def why_unread(path: Path) -> str:
@@ -30,8 +30,6 @@ def why_unread(path: Path) -> str:
     suffix = path.suffix.lower()
     if suffix in photo_suffixes():
         return ""
-    if suffix in HEIC_SUFFIXES:
-        return NOT_READ
     if suffix in _RAW:
         return "is a raw photo, which is not read: develop it, and save it as JPEG or TIFF"
     if suffix in _OTHER:
