@@ -35,7 +35,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "5"
+VERSION = "6"
 POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
@@ -63,13 +63,18 @@ def run_drive(
         in_place = document.resolve() == (out / DOCUMENT).resolve()
     name = "drive" if edited is None else "drive (rebuild)"
     call = VerbCall(name, VERSION, log.name or str(log), options, inputs, in_place)
-    make = partial(_make, log, options, edited)
+    make = partial(_make, log, options, edited, inputs)
     return run_verb(call, out, make, progress, force=force)
 
 
 def _make(
-    log: Path, options: DriveOptions, edited: tuple[Path, DriveDocument] | None, work: Work
+    log: Path,
+    options: DriveOptions,
+    edited: tuple[Path, DriveDocument] | None,
+    inputs: JsonValue,
+    work: Work,
 ) -> None:
+    """inputs: digests of all that it is made of; what a killed run has kept depends on them."""
     with work.step("read") as step:
         spacing_m = options.columns.column_spacing_m
         record = read_log(
@@ -94,9 +99,8 @@ def _make(
             segments = edited[1].segments
         step.counts["segments"] = len(segments)
         step.rejected += [f"{one.id}: {one.reason}" for one in segments if one.fate == "leave-out"]
-    digests: JsonValue = [[path.name, file_digest(path)] for path in log_files(log)]
-    layered = layer_segments(record, segments, options, road_m, digests, work)
-    outcomes = texture_segments(record, layered, options, digests, work)
+    layered = layer_segments(record, segments, options, road_m, inputs, work)
+    outcomes = texture_segments(record, layered, options, inputs, work)
     with work.step("place"):
         told = {one.segment.id: one.segment for one in layered}
         known = [told.get(one.id, one) for one in segments]

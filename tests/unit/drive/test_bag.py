@@ -9,12 +9,15 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
+from rosbags.highlevel import AnyReader
 from rosbags.rosbag1 import Writer as Writer1
 from rosbags.rosbag2 import StoragePlugin
 from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_typestore
 
-from veduta.drive.read.own import read_own
+from veduta.drive.read.bag import unpack_bag
+from veduta.drive.read.bag_mend import mend_bag
+from veduta.drive.read.own import read_own, read_toml
 from veduta.run.errors import InputError
 from veduta.synthetic.drives import (
     DriveScans,
@@ -155,6 +158,66 @@ def test_other_beams_than_described_are_refused(folder: tuple[Path, Path], tmp_p
     toml.write_text(text.replace("first_beam_rad = -1.57", "first_beam_rad = -1.27"))
     with pytest.raises(InputError, match=r"has beams from -1.5708.*first_beam_rad = -1.570796"):
         read_own(log, scratch=tmp_path / "scratch")
+
+
+def test_topics_that_make_no_tables_are_told(folder: tuple[Path, Path], tmp_path: Path) -> None:
+    log, _ = folder
+    toml = log / "drive.toml"
+    text = toml.read_text()
+    toml.write_text(text + '"more.parquet" = "/up"\n')
+    with pytest.raises(InputError, match=r"one topic to two tables.*Give each"):
+        read_own(log, scratch=tmp_path / "scratch")
+
+
+def test_a_message_that_is_none_of_its_type_is_left_out_and_said(
+    folder: tuple[Path, Path], scans: DriveScans, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    log, _ = folder
+    whole, count = AnyReader.deserialize, 0
+
+    def broken(self: AnyReader, raw: bytes, kind: str) -> object:
+        nonlocal count
+        count += 1
+        return whole(self, raw[: len(raw) // 2] if count == 9 else raw, kind)
+
+    monkeypatch.setattr(AnyReader, "deserialize", broken)
+    record = read_own(log, scratch=tmp_path / "scratch")
+    assert len(record.sweeps) >= len(scans.times_s) - 1
+    assert any(note.startswith("1 messages of drive.") for note in record.notes)
+    monkeypatch.setattr(AnyReader, "deserialize", lambda self, raw, kind: whole(self, b"", kind))
+    with pytest.raises(InputError, match=r"no message in .* that can be read.*drive.toml"):
+        read_own(log, scratch=tmp_path / "again")
+
+
+def test_mutated_bags_give_tables_or_a_reason(folder: tuple[Path, Path], tmp_path: Path) -> None:
+    log, bag = folder
+    sound = bag.read_bytes()
+    description = read_toml(log / "drive.toml")
+    assert description.bag is not None
+    random = np.random.default_rng(11)
+    told = []
+    for number in range(40):
+        data = bytearray(sound)
+        for at in random.integers(0, len(data), 1 + number % 4).tolist():
+            data[at : at + 9] = random.bytes(9)
+        bag.write_bytes(bytes(data[: len(data) - number * 37]))
+        try:
+            unpack_bag(log, description, description.bag, tmp_path / f"{number}", lambda _: None)
+        except InputError as error:
+            told.append(str(error))
+    assert told
+    assert [text for text in told if bag.name not in text] == []
+
+
+def test_chunks_are_unpacked_to_a_bound(
+    folder: tuple[Path, Path], tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    _, bag = folder
+    if bag.suffix == ".mcap":
+        pytest.skip("its chunks are copied as they are")
+    monkeypatch.setattr("veduta.drive.read.bag_mend._MOST_CHUNK", 1000)
+    with pytest.raises(InputError, match="larger than 1,000 bytes"):
+        mend_bag(bag, tmp_path)
 
 
 def test_what_is_no_bag_is_told(folder: tuple[Path, Path], tmp_path: Path) -> None:

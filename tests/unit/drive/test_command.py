@@ -10,7 +10,7 @@ import laspy
 import numpy as np
 import pytest
 
-from veduta.drive import DriveOptions, run_drive
+from veduta.drive import DriveOptions, run_drive, stages
 from veduta.drive.document.model import DriveDocument
 from veduta.drive.options import TextureOptions
 from veduta.place.place import Place
@@ -148,8 +148,6 @@ def test_killed_run_goes_on_from_what_was_made(
         with pytest.raises(KeyboardInterrupt):
             run_drive(log, tmp_path / "out", DriveOptions(), Progress(quiet=True))
     made: list[str] = []
-    from veduta.drive import stages
-
     whole = stages.reconstruct
     monkeypatch.setattr(
         "veduta.drive.stages.reconstruct", lambda *given: made.append("again") or whole(*given)
@@ -158,6 +156,38 @@ def test_killed_run_goes_on_from_what_was_made(
     assert made == []
     for name in ("drive.json", "parts/left-001.glb", "place.json"):
         assert (tmp_path / "out" / name).read_bytes() == (out / name).read_bytes()
+
+
+def test_killed_rebuild_is_not_continued_with_another_path(
+    log: Path, out: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    document = DriveDocument.model_validate_json((out / "drive.json").read_text())
+    path = tmp_path / "edited.json"
+    made: list[str] = []
+    path.write_text(document.model_dump_json(by_alias=True))
+    whole = stages.reconstruct
+    monkeypatch.setattr(
+        "veduta.drive.stages.reconstruct", lambda *given: made.append("made") or whole(*given)
+    )
+
+    def killed(*_: object, **__: object) -> None:
+        raise KeyboardInterrupt
+
+    quiet = Progress(quiet=True)
+    with monkeypatch.context() as patch:
+        patch.setattr("veduta.drive.stages.texture", killed)
+        with pytest.raises(KeyboardInterrupt):
+            run_drive(log, tmp_path / "out", DriveOptions(), quiet, document=path)
+    before = len(made)
+    assert before > 0
+    north = np.array([0, 0, 0, 0, 0, 0, 0, 1.0, 0, 0, 0, 0])
+    moved = [
+        pose.model_copy(update={"matrix": tuple((np.array(pose.matrix) + north).tolist())})
+        for pose in document.path
+    ]
+    path.write_text(document.model_copy(update={"path": moved}).model_dump_json(by_alias=True))
+    run_drive(log, tmp_path / "out", DriveOptions(), quiet, document=path)
+    assert len(made) == 2 * before
 
 
 def test_street_without_houses_is_no_success(tmp_path: Path) -> None:

@@ -63,6 +63,15 @@ def test_only_a_wall_out_of_its_place_is_contradicted(
     assert found.contradicted.any() == (found.share > 0.0)
 
 
+def test_without_a_measured_wall_nothing_is_told() -> None:
+    """How much colours differ on a true surface is then not known."""
+    background = _background(7.0)
+    background.source[background.source == Source.MEASURED] = Source.INFERRED
+    found = check_filled(background, _frame(), [_seen(y) for y in (3.0, 5.0, 7.0, 9.0)])
+    assert found.looked == 0
+    assert not found.contradicted.any()
+
+
 def test_without_enough_images_nothing_is_told() -> None:
     found = check_filled(_background(7.0), _frame(), [_seen(5.0)])
     assert found.looked == 0

@@ -10,6 +10,7 @@ import pyarrow.parquet
 import pytest
 
 from veduta.drive.read.above_street import points_above_street
+from veduta.drive.read.log import log_files
 from veduta.drive.read.own import read_own
 from veduta.drive.read.segments import driven_line
 from veduta.run.errors import InputError
@@ -191,6 +192,22 @@ def test_huge_table_is_refused_unread(folder: Path) -> None:
         file.truncate(5 << 30)
     with pytest.raises(InputError, match="more than"):
         read_own(folder)
+
+
+def test_files_that_lie_elsewhere_count(scans: DriveScans, tmp_path: Path) -> None:
+    log = tmp_path / "log"
+    write_drive(scans, log)
+    own = log_files(log)
+    bag = tmp_path / "bags" / "drive"
+    bag.mkdir(parents=True)
+    (bag / "metadata.yaml").write_text("x")
+    (tmp_path / "surface.tif").write_text("x")
+    toml = log / "drive.toml"
+    text = '\n[surface]\nfile = "../surface.tif"\n[bag]\nfile = "../bags/drive"\n'
+    toml.write_text(toml.read_text() + text + '[bag.topics]\n"vertical.parquet" = "/up"\n')
+    found = log_files(log)
+    assert found[:-2] == own
+    assert [path.name for path in found[-2:]] == ["metadata.yaml", "surface.tif"]
 
 
 def test_points_above_the_street_are_few_in_gaps(folder: Path) -> None:

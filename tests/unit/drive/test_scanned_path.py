@@ -10,12 +10,16 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 import pytest
+import rasterio
 from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
+from rasterio.transform import from_origin
 
 from veduta.drive.read.clocks import clock_apart
+from veduta.drive.read.localise import Localised
 from veduta.drive.read.own import read_own
+from veduta.drive.read.scan_chain import ScanChain
 from veduta.drive.read.spacing import equally_spaced
 from veduta.run.errors import InputError, NotFoundError
 from veduta.synthetic.drives import (
@@ -138,8 +142,52 @@ def test_scans_of_nothing_give_no_path(folder: Path) -> None:
         read_own(folder)
 
 
-def test_surface_model_without_a_start_is_refused(folder: Path) -> None:
+EAST_M, NORTH_M = 155_000.0, 463_000.0
+
+
+def _aerial_photo(path: Path) -> None:
+    """Three bands of bytes, 200 m wide."""
+    place = from_origin(EAST_M - 100.0, NORTH_M + 100.0, 1.0, 1.0)
+    with rasterio.open(
+        path, "w", driver="GTiff", width=200, height=200, count=3, dtype="uint8",
+        crs="EPSG:28992", transform=place,
+    ) as file:  # fmt: skip
+        file.write(np.random.default_rng(1).integers(0, 255, (3, 200, 200), dtype=np.uint8))
+
+
+def test_surface_model_that_is_missing_or_has_no_start_is_refused(folder: Path) -> None:
     toml = folder / "drive.toml"
-    toml.write_text(toml.read_text() + '\n[surface]\nfile = "model.tif"\n')
+    toml.write_text(toml.read_text() + '\n[surface]\nfile = "photo.tif"\n')
     with pytest.raises(InputError, match="no such file"):
         read_own(folder)
+    _aerial_photo(folder / "photo.tif")
+    with pytest.raises(InputError, match=r"says not where the drive begins.*Give `start`"):
+        read_own(folder)
+
+
+def test_over_an_aerial_photo_the_road_is_level(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A photo tells no heights; what was corrected is told in metres, not in coordinates."""
+    _aerial_photo(folder / "photo.tif")
+    toml = folder / "drive.toml"
+    start = f"\n[surface]\nfile = 'photo.tif'\nstart = [{EAST_M}, {NORTH_M}]\n"
+    toml.write_text(toml.read_text() + start)
+
+    def found(chain: ScanChain, *_: object) -> Localised:
+        poses = chain.poses + np.array([EAST_M, NORTH_M, 0.0])
+        count = len(poses)
+        moved = np.zeros((count, 2))
+        moved[-1] = 0.3, -0.4
+        sure = np.ones(count, dtype=bool)
+        return Localised(poses, moved, np.ones(count), np.zeros(count), sure, np.zeros(count))
+
+    monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
+    record = read_own(folder)
+    assert record.origin_m == (EAST_M, NORTH_M, 0.0)
+    heights = [sweep.world_from_sensor[2, 3] for sweep in record.sweeps]
+    np.testing.assert_allclose(heights, record.height_m, atol=1e-9)
+    ((_, moved_m, why),) = record.corrections
+    np.testing.assert_allclose(moved_m, [0.3, -0.4, 0.0])
+    assert "localised" in why
+    assert any("taken for level" in note for note in record.notes)

@@ -35,7 +35,8 @@ class ConsistencyParameters:
 @dataclass(frozen=True, eq=False)
 class Consistency:
     """contradicted: (r, c) bool, filled pixels where images disagree. looked: how many were seen by
-    enough images; share: of those that are contradicted, NaN where none was.
+    enough images, and could be held against measured ones; share: of those that are contradicted,
+    NaN where none was.
     """
 
     contradicted: NDArray[np.bool_]
@@ -64,7 +65,7 @@ def check_filled(
     measured = (source == Source.MEASURED) & np.isfinite(spread)
     filled = (source == Source.FILLED) & np.isfinite(spread)
     if not measured.any() or not filled.any():
-        return Consistency(empty, int(filled.sum()), float("nan"))
+        return Consistency(empty, 0, float("nan"))
     usual = float(np.median(spread[measured]))
     bad = filled & (spread > max(chosen.times * usual, chosen.least))
     empty[rows[bad], columns[bad]] = True

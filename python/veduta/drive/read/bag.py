@@ -5,6 +5,9 @@ A bag is read once, message by message; what comes out has the layout that `read
 
 from __future__ import annotations
 
+import sqlite3
+import struct
+import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
@@ -14,17 +17,32 @@ import numpy as np
 import pyarrow
 import pyarrow.parquet
 from numpy.typing import NDArray
+from rosbags import rosbag1, rosbag2
 from rosbags.highlevel import AnyReader, AnyReaderError
+from rosbags.interfaces import Connection
 from rosbags.typesys import Stores, get_typestore
 
 from veduta.drive.document.log import Bag, DriveLog, Scanner
 from veduta.drive.read.bag_mend import mend_bag
 from veduta.run.errors import InputError
 
+if sys.version_info >= (3, 14):
+    from compression import zstd
+else:
+    from backports import zstd
+
 _ROWS = 2048
 """Of a table that are in memory at once."""
 _ANGLE_RAD = 2e-3
 """How far the beams of messages may be from those of drive.toml."""
+_FAULTS = (
+    AnyReaderError, rosbag1.ReaderError, rosbag2.ReaderError, AssertionError, LookupError, OSError,
+    ArithmeticError, EOFError, RuntimeError, TypeError, ValueError, sqlite3.Error, struct.error,
+    zstd.ZstdError,
+)  # fmt: skip
+"""What readers of bags raise at bytes that are none of a bag."""
+_BROKEN = (AnyReaderError, ArithmeticError, AssertionError, LookupError, TypeError)
+"""And at a message that is none of its type."""
 Row = dict[str, Any]
 
 
@@ -42,6 +60,9 @@ def unpack_bag(
     notes: list[str] = []
     with _opened(path, scratch, notes) as reader:
         wanted = {topic: table for table, topic in bag.topics.items()}
+        if len(wanted) < len(bag.topics):
+            fault = "bag.topics: gives one topic to two tables"
+            raise InputError(folder / "drive.toml", fault, "Give each table a topic of its own.")
         found = [one for one in reader.connections if one.topic in wanted]
         missing = sorted(set(wanted) - {one.topic for one in found})
         if missing:
@@ -51,22 +72,36 @@ def unpack_bag(
         rows = _rows_of(log, bag, path, scratch)
         total = max(sum(one.msgcount for one in found), 1)
         broken = 0
-        for number, (connection, stamp, raw) in enumerate(reader.messages(found)):
+        for number, (connection, stamp, raw) in enumerate(_messages(reader, found, path)):
             told(number / total)
             table = wanted[connection.topic]
             try:
                 message = reader.deserialize(raw, connection.msgtype)
-            except AnyReaderError:
+            except _BROKEN:
                 broken += 1
                 continue
             row = rows(table, connection.msgtype, message, stamp * 1e-9)
             if row is not None:
                 writers[table].add(row)
-        for one in writers.values():
+        for table, one in writers.items():
             one.close()
+            if not one.written:
+                fault = f"has no message in {bag.topics[table]} that can be read"
+                remedy = f"Record it again, or take {table} out of drive.toml."
+                raise InputError(path, fault, remedy)
     if broken:
         notes.append(f"{broken} messages of {bag.file} cannot be read and are left out")
     return notes
+
+
+def _messages(
+    reader: AnyReader, found: list[Connection], path: Path
+) -> Iterator[tuple[Connection, int, bytes]]:
+    try:
+        yield from reader.messages(found)
+    except _FAULTS as error:
+        fault = f"cannot be read to its end ({type(error).__name__}: {error})"
+        raise InputError(path, fault, "Copy the bag again.") from error
 
 
 @contextmanager
@@ -76,7 +111,7 @@ def _opened(path: Path, scratch: Path, notes: list[str]) -> Iterator[AnyReader]:
     reader = AnyReader([path], default_typestore=store)
     try:
         reader.open()
-    except (AnyReaderError, AssertionError, OSError, ValueError, TypeError) as error:
+    except _FAULTS as error:
         if path.is_dir():
             raise InputError(path, f"cannot be read ({error})", "Copy the bag again.") from error
         mended, share = mend_bag(path, scratch)
@@ -84,7 +119,7 @@ def _opened(path: Path, scratch: Path, notes: list[str]) -> Iterator[AnyReader]:
         reader = AnyReader([mended], default_typestore=store)
         try:
             reader.open()
-        except (AnyReaderError, AssertionError, OSError, ValueError, TypeError) as again:
+        except _FAULTS as again:
             raise InputError(path, f"cannot be read ({again})", "Copy the bag again.") from again
     try:
         yield reader
@@ -99,6 +134,11 @@ class _Table:
         self._path = path
         self._rows: list[Row] = []
         self._writer: pyarrow.parquet.ParquetWriter | None = None
+
+    @property
+    def written(self) -> bool:
+        """Whether it has any row on disk."""
+        return self._writer is not None
 
     def add(self, row: Row) -> None:
         self._rows.append(row)

@@ -22,6 +22,7 @@ _MCAP, _ROS1 = b"\x89MCAP0\r\n", b"#ROSBAG V2.0\n"
 _FOOTER = b"\x02" + struct.pack("<Q", 20) + bytes(20)
 _DATA_END = b"\x0f" + struct.pack("<Q", 4) + bytes(4)
 _MOST_RECORD = 1 << 30
+_MOST_CHUNK = 1 << 30
 _CHUNK, _CONNECTION, _MESSAGE = 5, 7, 2
 
 
@@ -70,7 +71,7 @@ def _mended_ros1(path: Path, target: Path) -> tuple[Path, float]:
                     for inner, data in _records_of(_unpacked(header, body, path)):
                         _copy(inner, data, writer, connections)
                     whole = file.tell()
-    except WriterError as error:
+    except (WriterError, struct.error, IndexError) as error:
         raise InputError(
             path, f"has messages that contradict each other ({error})", "Copy it again."
         ) from error
@@ -106,9 +107,22 @@ def _unpacked(header: dict[str, bytes], body: bytes, path: Path) -> bytes:
     if how == b"none":
         return body
     if how == b"bz2":
-        return bz2.decompress(body)
+        return _unpacked_bz2(body, path)
     fault = f"was cut off, and its chunks are packed by {how.decode('ascii', 'replace')}"
     raise InputError(path, fault, "Mend it with `rosbag reindex`.")
+
+
+def _unpacked_bz2(body: bytes, path: Path) -> bytes:
+    packed = bz2.BZ2Decompressor()
+    try:
+        data = packed.decompress(body, _MOST_CHUNK)
+    except (OSError, ValueError) as error:
+        fault = f"has a chunk that cannot be unpacked ({error})"
+        raise InputError(path, fault, "Copy it again.") from error
+    if not packed.eof:
+        fault = f"has a chunk that is not whole, or larger than {_MOST_CHUNK:,} bytes"
+        raise InputError(path, fault, "Record it again with smaller chunks.")
+    return data
 
 
 def _records(file: BinaryIO) -> Iterator[tuple[dict[str, bytes], bytes]]:

@@ -75,10 +75,10 @@ class LocaliseParameters:
 
 @dataclass(frozen=True, eq=False)
 class Localised:
-    """poses: (k, 3) of the key scans in the model's CRS. moved_m: (k,) how far each was corrected,
-    after the best rigid place of the whole path. share: (k,) of the points of each on edges.
-    through: (k,) of the beams of each through what stands there. sure: (k,) whether the particles
-    agreed. spread_m: (k,) theirs.
+    """poses: (k, 3) of the key scans in the model's CRS. moved_m: (k, 2) by which each was
+    corrected there, after the best rigid place of the whole path. share: (k,) of the points of each
+    on edges. through: (k,) of the beams of each through what stands there. sure: (k,) whether the
+    particles agreed. spread_m: (k,) theirs.
     """
 
     poses: Floats
@@ -136,8 +136,7 @@ def localise(
     ]
     placed = _placed(chain.poses, poses, sure)
     found = spread_corrections(placed, [*steps, *(loops or [])], fixes)
-    moved = np.linalg.norm(found[:, :2] - placed[:, :2], axis=1)
-    return Localised(found, moved, share, through, sure, spread)
+    return Localised(found, found[:, :2] - placed[:, :2], share, through, sure, spread)
 
 
 @dataclass(frozen=True, eq=False)

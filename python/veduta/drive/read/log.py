@@ -8,7 +8,7 @@ from pathlib import Path
 from veduta.drive.read.clouds import is_clouds, read_clouds
 from veduta.drive.read.kitti import is_kitti, read_kitti
 from veduta.drive.read.kitti_raw import calibration_files, is_kitti_raw, read_kitti_raw
-from veduta.drive.read.own import is_own, read_own
+from veduta.drive.read.own import files_elsewhere, is_own, read_own
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import InputError
 from veduta.run.record import PRIVATE
@@ -58,7 +58,9 @@ def log_files(folder: Path) -> list[Path]:
         and TRUTH not in path.relative_to(folder).parts
         and not any((parent / PRIVATE).is_dir() for parent in _between(path, folder))
     )
-    if is_kitti_raw(folder):
+    if is_own(folder):
+        found += files_elsewhere(folder)
+    elif is_kitti_raw(folder):
         found += [
             path for path in calibration_files(folder) if path.parent != folder and path.is_file()
         ]

@@ -35,6 +35,19 @@ def is_own(folder: Path) -> bool:
     return (folder / LOG).is_file()
 
 
+def files_elsewhere(folder: Path) -> list[Path]:
+    """The files that its `drive.toml` names and that do not lie in it: a bag, a surface model."""
+    log = read_toml(folder / LOG)
+    named = [folder / one.file for one in (log.bag, log.surface) if one is not None]
+    outside = [one for one in named if not one.resolve().is_relative_to(folder.resolve())]
+    return sorted(
+        path
+        for one in outside
+        for path in (one.iterdir() if one.is_dir() else [one])
+        if path.is_file()
+    )
+
+
 def read_own(
     folder: Path,
     seed: int = 1,

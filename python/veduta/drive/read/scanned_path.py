@@ -73,9 +73,9 @@ def find_path(
     how = f"matching {len(times)} horizontal scans"
     how += f", {len(loops)} closed loops" if loops else ""
     if log.surface is None:
-        moved = np.linalg.norm(closed[:, :2] - chain.poses[:, :2], axis=1)
         poses = chain.all_poses(closed)
-        corrected = _corrections(chain, closed - chain.poses, moved, "a loop was closed")
+        moved = closed[:, :2] - chain.poses[:, :2]
+        corrected = _corrections(chain, moved, "a loop was closed")
         flat = np.zeros(len(poses))
         return ScannedPath(
             times, _matrices(poses, flat, flat), log.origin, log.crs,
@@ -87,20 +87,17 @@ def find_path(
     start, reach = _start(folder, source, log, log.surface, model, crs, float(times[0]))
     placed = localise(chain, model, start, reach, seed, loops)
     poses = chain.all_poses(placed.poses)
-    origin = log.origin
     ground, slope = _ground_along(model, poses)
-    if origin == (0.0, 0.0, 0.0):
-        origin = (
-            float(np.floor(poses[0, 0])),
-            float(np.floor(poses[0, 1])),
-            float(np.floor(ground[0])),
-        )
     if not np.isfinite(ground).any():
         notes.append("the surface model tells no heights: the road is taken for level")
-        ground, slope = np.full(len(poses), origin[2]), np.zeros(len(poses))
+        ground, slope = np.full(len(poses), log.origin[2]), np.zeros(len(poses))
+    origin = log.origin
+    if origin == (0.0, 0.0, 0.0):
+        x, y, z = np.floor([poses[0, 0], poses[0, 1], ground[0]]).tolist()
+        origin = (x, y, z)
     local = poses - [origin[0], origin[1], 0.0]
     why = "localised in the surface model"
-    corrected = _corrections(chain, placed.poses - chain.poses, placed.moved_m, why)
+    corrected = _corrections(chain, placed.moved_m, why)
     fit = 100 * float(placed.share[placed.sure].mean())
     how += f"; localised in {log.surface.file}, where {fit:.0f} % of the points lie on edges"
     return ScannedPath(
@@ -132,12 +129,12 @@ def _points(
 
 
 def _corrections(
-    chain: ScanChain, change: Floats, moved: Floats, why: str
+    chain: ScanChain, moved_m: Floats, why: str
 ) -> tuple[tuple[int, Floats, str], ...]:
-    """Key scans that were moved by more than a beam's noise."""
+    """Key scans that were moved, (k, 2) in the world, by more than a beam's noise."""
     return tuple(
-        (int(chain.keys[row]), np.array([change[row, 0], change[row, 1], 0.0]), why)
-        for row in np.flatnonzero(moved > 0.05).tolist()
+        (int(chain.keys[row]), np.array([*moved_m[row], 0.0]), why)
+        for row in np.flatnonzero(np.linalg.norm(moved_m, axis=1) > 0.05).tolist()
     )
 
 
@@ -167,7 +164,7 @@ def _ground_along(model: SurfaceModel, poses: Floats) -> tuple[Floats, Floats]:
     if station[-1] < 1.0:
         return np.full(len(raw), np.median(filled)), np.zeros(len(raw))
     at = np.arange(0.0, station[-1] + 0.5, 0.5)
-    # Cars and people in the model stand on the road: the lower envelope is the road.
+    # Cars and people in the model stand on the road: a median passes them by.
     line = ndimage.median_filter(np.interp(at, station, filled), size=9, mode="nearest")
     smooth = ndimage.gaussian_filter1d(line, _SLOPE_M / 2 / 0.5, mode="nearest")
     slope = np.gradient(smooth, 0.5)
