@@ -192,13 +192,21 @@ def _faces(element: Any, scene: _Scene) -> _Faces | None:
         (one.get("semantic"), int(one.get("offset", "0")), _reference(one))
         for one in _children(element, "input")
     ]
-    stride = max(offset for _, offset, _ in inputs) + 1
-    offset, vertices = next((offset, to) for what, offset, to in inputs if what == "VERTEX")
+    stride = max((offset for _, offset, _ in inputs), default=0) + 1
+    corner = next(((offset, to) for what, offset, to in inputs if what == "VERTEX"), None)
+    if corner is None:
+        raise ValueError("its faces name no vertices")
+    offset, vertices = corner
     position = next(
-        _reference(one)
-        for one in _children(scene.by_id[vertices], "input")
-        if one.get("semantic") == "POSITION"
+        (
+            _reference(one)
+            for one in _children(scene.by_id[vertices], "input")
+            if one.get("semantic") == "POSITION"
+        ),
+        None,
     )
+    if position is None:
+        raise ValueError("its vertices have no positions")
     points = _points(scene.by_id[position], scene)
     lists = [_numbers(one, np.int64) for one in _children(element, "p")]
     rows = [one.reshape(-1, stride)[:, offset] for one in lists if len(one)]
@@ -220,7 +228,9 @@ def _faces(element: Any, scene: _Scene) -> _Faces | None:
 
 
 def _points(source: Any, scene: _Scene) -> NDArray[np.float64]:
-    accessor = next(one for one in source.iter() if _tag(one) == "accessor")
+    accessor = _first(source, "accessor")
+    if accessor is None:
+        raise ValueError("its points have no accessor")
     values = _numbers(scene.by_id[_reference(accessor, "source")])
     stride, first = int(accessor.get("stride", "1")), int(accessor.get("offset", "0"))
     count = int(accessor.get("count", "0"))

@@ -146,6 +146,9 @@ def test_what_is_no_mesh_is_told(tmp_path: Path, text: str, fault: str) -> None:
         (POLYLIST.replace("<vcount>4", "<vcount>5"), "do not fit their corners"),
         (POLYLIST.replace("#v", "other.dae#v"), "refers to another file"),
         (POLYLIST.replace("#v", "#nothing"), "nothing"),
+        (POLYLIST.replace('"VERTEX"', '"VORTEX"'), "name no vertices"),
+        (POLYLIST.replace("<input", "<output"), "name no vertices"),
+        (POLYLIST.replace("#v", "#s"), "have no positions"),
     ],
 )
 def test_faces_that_cannot_be_are_told(tmp_path: Path, faces: str, fault: str) -> None:

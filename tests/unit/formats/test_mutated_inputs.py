@@ -26,6 +26,7 @@ from veduta.drive.read.pcd import read_pcd
 from veduta.facade.document import FacadeDocument, Split
 from veduta.facade.load import load_document as load_facade
 from veduta.fauna.read.midlines import read_midlines
+from veduta.formats.dae_read import read_dae_mesh
 from veduta.formats.ply import read_points, write_points
 from veduta.grammar.lots import read_lots
 from veduta.imaging.read import read_image
@@ -151,6 +152,7 @@ CLASSES: dict[str, tuple[Callable[[Path], Path], Callable[[Path], object]]] = {
     "glTF": (_place_file(".glb"), veduta.load),
     "OBJ": (_place_file(".obj"), veduta.load),
     "STL": (_place_file(".stl"), veduta.load),
+    "COLLADA": (_place_file(".dae"), read_dae_mesh),
     "PLY mesh": (_place_file(".ply"), veduta.load),
     "CityGML": (_place_file(".gml"), veduta.load),
     "CityJSON": (_place_file(".city.json"), veduta.load),
