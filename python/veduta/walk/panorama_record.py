@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
@@ -11,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.run.digests import file_digest
+from veduta.run.errors import InputError
 from veduta.run.work import Work
 from veduta.walk.build.key_file import arrays_of_mosaic, mosaic_of
 from veduta.walk.build.local_model import LocalModel, model_of_depth
@@ -29,13 +31,15 @@ from veduta.walk.rig import Image, PairFiles, Rig
 class PanoramaRecord:
     """path: all views. panoramas: of each key position its views' numbers, by direction.
 
-    chosen: those of the panoramas that are key positions; all of them give depth.
+    chosen: those of the panoramas that are key positions; all of them give depth. alone: names of
+    views to a side to which no other panorama has one: they are left out, for they have no depth.
     """
 
     path: PhotoPath
     panoramas: list[tuple[str, dict[int, int]]]
     chosen: list[int]
     sources: tuple[Path, ...]
+    alone: tuple[str, ...] = ()
 
     @cached_property
     def rig(self) -> Rig:
@@ -124,6 +128,8 @@ class PanoramaRecord:
     def key(self, work: Work, number: int) -> KeyModel:
         """The mosaic of a panorama's views, whose rotations the cameras say."""
         self.path.tell(work)
+        if self.alone and (note := self._left_out()) not in work.notes:
+            work.note(note)
         mosaic = mosaic_of(self.panoramas[self.chosen[number]][0], self._arrays(work, number), None)
         turns = mosaic.turns
         return KeyModel(mosaic.model, KeyFigures(turns.front_from_view, turns.front, mosaic.gap))
@@ -131,10 +137,9 @@ class PanoramaRecord:
     def _arrays(self, work: Work, number: int) -> dict[str, NDArray[Any]]:
         """The mosaic, kept: it is wanted again for its picture."""
         inputs = [file_digest(path) for path in self.files_of(number)]
-        name, views = self.panoramas[self.chosen[number]]
-        inputs.append(f"{views}")
+        inputs.append(f"{self.panoramas[self.chosen[number]]}")
         return work.kept_arrays(
-            f"mosaic-{name}", [*inputs, repr(self.rig)],
+            f"mosaic-{number:04d}", [*inputs, repr(self.rig)],
             lambda: arrays_of_mosaic(self._mosaic(number)),
         )  # fmt: skip
 
@@ -147,6 +152,9 @@ class PanoramaRecord:
         turns = np.array([between(cameras[views[n]], cameras[front])[:, :3] for n in order])
         known = Turns([views[side] for side in order].index(front), turns, 0, 0.0)
         return make_mosaic(models, known)
+
+    def _left_out(self) -> str:
+        return f"left out, for no other panorama has a view to that side: {', '.join(self.alone)}"
 
     def _model(self, name: str, side: int, view: int) -> LocalModel:
         numbers, planes = self._sides[side]
@@ -167,9 +175,21 @@ def panorama_record(
     path: PhotoPath, views: dict[str, dict[int, int]], take: TakeOptions, folder: Path,
     sources: tuple[Path, ...],
 ) -> PanoramaRecord:  # fmt: skip
-    """The panoramas that the options take."""
-    panoramas = list(views.items())
-    whole = PanoramaRecord(path, panoramas, list(range(len(panoramas))), sources)
+    """The panoramas that the options take; InputError where no two have views to one side."""
+    often = Counter(side for sides in views.values() for side in sides)
+    panoramas, alone = [], []
+    for name, sides in views.items():
+        shared = {side: n for side, n in sides.items() if often[side] > 1}
+        alone += [path.given[n].name for side, n in sides.items() if often[side] == 1]
+        if shared:
+            panoramas.append((name, shared))
+    if len(panoramas) < 2:
+        raise InputError(
+            path.source, "has no two panoramas with views to the same side",
+            "Take them nearer to each other, and run `veduta photos` over them again.",
+        )  # fmt: skip
+    left = tuple(alone)
+    whole = PanoramaRecord(path, panoramas, list(range(len(panoramas))), sources, left)
     names = [views[0].key for views in taken(whole.keys, take, folder)]
     chosen = [number for number, (name, _) in enumerate(panoramas) if name in set(names)]
-    return PanoramaRecord(path, panoramas, chosen, sources)
+    return PanoramaRecord(path, panoramas, chosen, sources, left)

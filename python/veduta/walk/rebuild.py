@@ -34,7 +34,8 @@ def run_rebuild(
     place = Place.load(folder)
     if not place.walks:
         raise InputError(folder / PLACE, "holds no walk", "Make it again with `veduta walk`.")
-    walk = rebuilt(document, said, place.walks[0])
+    before = place.walks[0]
+    walk = rebuilt(document, said, before)
     in_place = out.resolve() == folder
     inputs = [file_digest(document)]
     if not in_place:
@@ -48,6 +49,8 @@ def run_rebuild(
             (work.folder / DOCUMENT).write_bytes(document.read_bytes())
             step.counts["key positions"] = len(walk.keys)
             step.counts["transitions"] = len(walk.transitions)
+        if _is_moved(before, walk):
+            work.doubt("key positions were moved, but not the points seen from outside")
         _tell(work, walk, film=(folder / FILM).is_file())
 
     return run_verb(call, out, make, progress, force=force)
@@ -69,6 +72,11 @@ def rebuilt(path: Path, said: WalkDocument, before: Walk) -> Walk:
         raise InputError(path, "names a key position twice", "Name each once.")
     transitions = [_transition(path, one, numbers, _models(said)) for one in said.transitions]
     return before.model_copy(update={"keys": keys, "transitions": transitions})
+
+
+def _is_moved(before: Walk, walk: Walk) -> bool:
+    places = {key.id: key.transform for key in before.keys}
+    return any(key.transform != places[key.id] for key in walk.keys)
 
 
 def _models(said: WalkDocument) -> dict[tuple[str, str], Models]:

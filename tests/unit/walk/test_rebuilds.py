@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from veduta.cli.main import main
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 from veduta.synthetic.walks.record import GorgeWalk, write_walk
@@ -85,6 +86,25 @@ def test_cuts_and_order_are_those_of_the_edited_document(walked: Path, tmp_path:
     names = [morph["forth"], morph["back"], *(key["picture"] for key in walk["keys"])]
     assert all((tmp_path / "out" / name).is_file() for name in names)
     assert run_rebuild(document, tmp_path / "out", QUIET).up_to_date
+
+
+def test_key_positions_that_were_moved_leave_a_doubt(walked: Path, tmp_path: Path) -> None:
+    keys = _document(walked)["keys"]
+    keys[1]["transform"][12] += 0.5
+    document = _edited(walked, tmp_path / "out", keys=keys)
+    result = run_rebuild(document, tmp_path / "out", QUIET)
+    assert any("points seen from outside" in doubt for doubt in result.doubts)
+    (walk,) = json.loads((tmp_path / "out" / "place.json").read_text())["walks"]
+    assert walk["keys"][1]["transform"] == keys[1]["transform"]
+
+
+def test_options_of_a_rebuild_are_refused(
+    walked: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    document = str(walked / "out" / "walk.json")
+    assert main(["walk", document, "-o", str(tmp_path / "new"), "--every", "2"]) == 2
+    assert "no other option changes it" in capsys.readouterr().err
+    assert not (tmp_path / "new").exists()
 
 
 def test_a_rebuild_into_another_folder_is_whole(walked: Path, tmp_path: Path) -> None:

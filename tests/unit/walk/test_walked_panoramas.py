@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from PIL import Image
 from scipy.spatial.transform import Rotation
 
+from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 from veduta.synthetic.walks.gorge import make_gorge
 from veduta.synthetic.walks.record import GorgeWalk, cameras_of
@@ -77,6 +79,26 @@ def test_a_walk_of_panoramas_looks_all_around(panoramas: Path, tmp_path: Path) -
     assert key["projection"] == "cylinder"
     assert key["width_px"] == pytest.approx(2.0 * 3.1 * FOCAL_PX, abs=2)
     assert result.measures["largest_gap_share"] == pytest.approx(0.0, abs=0.01)
+
+
+def test_views_to_a_side_that_one_panorama_has_are_left_out(
+    panoramas: Path, tmp_path: Path
+) -> None:
+    cameras = tmp_path / "cameras"
+    shutil.copytree(panoramas / "cameras", cameras)
+    for name in ("pano0_view3.png", "pano2_view3.png"):
+        (cameras / f"{name}.camera").unlink()
+    record = read_photo_record(panoramas / "photos", cameras, TakeOptions(), 500)
+    assert isinstance(record, PanoramaRecord)
+    assert record.alone == ("pano1_view3.png",)
+    assert [len(views) for _, views in record.panoramas] == [SIDES - 1] * 3
+    # Most of the views that follow each other stand in one place.
+    assert record.path.rig.baseline_m == pytest.approx(0.8, rel=0.05)
+    for path in cameras.glob("pano[12]_*"):
+        path.unlink()
+    shutil.copy(panoramas / "cameras" / "pano1_view3.png.camera", cameras)
+    with pytest.raises(InputError, match=r"no two panoramas.*Take them nearer"):
+        read_photo_record(panoramas / "photos", cameras, TakeOptions(), 500)
 
 
 def test_the_front_looks_along_the_path(panoramas: Path) -> None:

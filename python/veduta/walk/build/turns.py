@@ -171,5 +171,3 @@ def _adjusted(
     found = least_squares(residuals, start_at, loss="huber", f_scale=limits.huber_rad)
     turns = turns_of(found.x)
     return np.array([turns[n] for n in known]), errors_of(found.x)
-
-

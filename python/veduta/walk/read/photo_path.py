@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from pathlib import Path
@@ -71,12 +72,8 @@ class PhotoPath:
     def rig(self) -> Rig:
         """What stands for the two cameras: the usual step between frames is their baseline."""
         one = self.cameras[0]
-        steps = np.linalg.norm(
-            np.diff([camera.centre() for camera in self.cameras], axis=0), axis=1
-        )
-        return Rig(
-            one.width_px, one.height_px, one.focal_px, one.centre_px, float(np.median(steps))
-        )
+        step = _step(self.cameras, self.source)
+        return Rig(one.width_px, one.height_px, one.focal_px, one.centre_px, step)
 
     def picture(self, number: int) -> Image:
         """(h, w, 3) of a frame, without its lens, of the size of all."""
@@ -147,7 +144,8 @@ def read_photo_path(folder: Path, cameras: Path, largest_px: int) -> PhotoPath:
     given = tuple(found.cameras[n] for n in order)
     _require_alike(given, cameras)
     known = found.scale == "metres"
-    factor = 1.0 if known else NEIGHBOURS / _step(given, cameras)
+    step = _step(given, cameras)
+    factor = 1.0 if known else NEIGHBOURS / step
     largest = max(given[0].width_px, given[0].height_px)
     share = min(1.0, largest_px / largest)
     prepared = [_scaled(straight_camera(one), given[0], share, factor) for one in given]
@@ -161,8 +159,8 @@ def _pictured(found: CameraSet) -> list[int]:
     return sorted(numbers, key=lambda n: _natural(found.cameras[n].name))
 
 
-def _step(given: tuple[Camera, ...], source: Path) -> float:
-    """The usual distance of neighbours."""
+def _step(given: Sequence[Camera], source: Path) -> float:
+    """The usual distance of neighbours that do not stand in one place."""
     steps = np.linalg.norm(np.diff([one.centre() for one in given], axis=0), axis=1)
     moved = steps[steps > STILL * steps.max(initial=0.0)]
     middle = float(np.median(moved)) if len(moved) else 0.0
