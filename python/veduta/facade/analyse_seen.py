@@ -13,7 +13,7 @@ from veduta.facade.extent import Skyline, find_skyline, row_histograms
 from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
 from veduta.facade.options import FacadeOptions
-from veduta.facade.presence import require_building
+from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
 from veduta.facade.rows import gather_rows
 from veduta.facade.seen_boxes import boxes_of, columns_of, in_crop
@@ -87,6 +87,8 @@ def analyse_seen(
         progress("floors", 0.5)
         size = inner.width, inner.height
         elements = in_crop(elements, evidence.px_per_rectified, sides.left, size)
+        if not elements:
+            raise NotFoundError("a facade", "no window or door lies between its sides", REMEDY)
         wall = seen.chance_at((evidence.width, evidence.height), *WALL)
         wall = wall[: inner.height, sides.left : sides.right]
         storeys = _storeys(inner, skyline, elements, wall, options)

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from drawn_facade import draw_facade, rectified_of
 
+from veduta.facade import analyse_seen
 from veduta.facade.analyse import analyse
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.eyes import look
@@ -47,6 +48,14 @@ def test_what_is_no_facade_is_refused(kind: str) -> None:
     }
     with pytest.raises(NotFoundError):
         read(pictures[kind])
+
+
+def test_a_front_without_openings_between_its_sides_is_refused(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(analyse_seen, "in_crop", lambda *_: [])
+    with pytest.raises(NotFoundError, match="no window or door lies between its sides"):
+        read(draw_facade(5).pixels)
 
 
 def test_a_look_is_a_distribution_over_the_whole_picture() -> None:
