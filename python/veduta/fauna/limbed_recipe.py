@@ -71,6 +71,9 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         with work.step("camera") as step:
             still = stilled(footage, CameraLooks(), record.path.name)
             step.counts["moves"] = int(still is not footage)
+            if record.joints is not None and still is not footage:
+                fault = "are places in the pictures, and the camera of these moves"
+                raise InputError(record.joints, fault, "Give masks (--masks), too.")
             footage = still
     with work.step("silhouettes") as step:
         found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)

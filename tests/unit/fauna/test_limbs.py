@@ -170,6 +170,18 @@ def test_planted_feet_neither_slide_nor_sink() -> None:
         assert np.abs(at[inner, toe, 1] - figure.deep[toe]).max() < 2e-3
 
 
+def test_a_foot_that_stands_for_no_key_swings_as_it_did() -> None:
+    figure = figure_of(load_plan("quadruped"))
+    turns, root = _walk(48, 48.0)
+    whole = np.zeros((48, len(figure.start)))
+    whole[:, : turns.shape[1]] = turns
+    name = figure.feet()[0].name
+    never = (0.5 / 48, 0.6 / 48)
+    planted = planted_cycle(figure, whole, root, 0.5, {name: never}, side=True)
+    np.testing.assert_array_equal(planted.turns, whole)
+    assert planted.worst == 0.0
+
+
 def small_limbed() -> LimbedAnimal:
     """A quadruped as its plan has it, in a slow walk."""
     plan = load_plan("quadruped")

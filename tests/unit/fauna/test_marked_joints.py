@@ -43,6 +43,7 @@ def test_rows_are_told_by_the_names_of_pictures(tmp_path: Path) -> None:
     ("text", "fault"),
     [
         ("a,b,c\n1,2,3\n", "has no rows `bodyparts`"),
+        ("individuals,a,a,a,b,b,b\n" + HEAD + "0,10,20,1,30,40,1\n", "of several animals"),
         (HEAD.replace("snout", "antenna").replace("left front paw", "wing"), "names no joint"),
         (HEAD + "9,10,20,1,30,40,1\n", "has a row of frame '9'"),
         (HEAD + "0,ten,20,1,30,40,1\n", "has no number in column 2"),

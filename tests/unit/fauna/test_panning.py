@@ -2,15 +2,20 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import cv2
 import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from veduta.fauna import Record, run_fauna
+from veduta.fauna.options import AnimalOptions, FaunaOptions
 from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.registered import CameraLooks, stilled
-from veduta.run.errors import NotFoundError
+from veduta.run.errors import InputError, NotFoundError
+from veduta.run.progress import Progress
 
 
 def _footage(frames: NDArray[np.uint8]) -> Footage:
@@ -45,6 +50,19 @@ def test_a_panning_camera_is_stilled_and_the_animal_found_where_it_went() -> Non
     wanted = np.array([places[int(row)] for row in found.rows])
     offset = (middles - wanted).mean(axis=0)
     assert np.abs(middles - wanted - offset).max() < 3.0
+
+
+def test_joints_in_the_pictures_of_a_moving_camera_are_refused(tmp_path: Path) -> None:
+    footage, _ = _pan(12.0)
+    (tmp_path / "frames").mkdir()
+    for row, frame in enumerate(footage.frames):
+        cv2.imwrite(str(tmp_path / "frames" / f"{row:02d}.png"), frame[..., ::-1])
+    joints = tmp_path / "joints.csv"
+    joints.write_text("bodyparts,nose,nose\ncoords,x,y\n0,10,20\n")
+    record = Record(tmp_path / "frames", joints=joints)
+    options = FaunaOptions(animal=AnimalOptions(kind="quadruped"))
+    with pytest.raises(InputError, match=r"the camera of these moves.*--masks"):
+        run_fauna(record, tmp_path / "out", options, Progress(quiet=True))
 
 
 def test_a_camera_that_stands_still_is_left_alone() -> None:

@@ -19,8 +19,6 @@ from veduta.place.mesh import Mesh
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.place.skin import Clip
 
-SLOWEST = 0.02
-
 
 @dataclass(frozen=True, eq=False)
 class BuiltLimbed:

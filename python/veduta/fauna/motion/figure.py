@@ -40,7 +40,6 @@ class Figure:
     names: of the joints. start, end: (s,) joints of each segment. hangs: (s,) the segment that it
     turns with, -1 for the first. turns: (s, s) 1 where the row's angle turns the column's segment.
     reaches: (s, j) 1 where the row's segment lies on the way from the root to the joint.
-    begins: (j,) the limb whose start it is, or -1: it may lie apart from the joint it hangs on.
     moved: (m, j) 1 where a limb's start shifts the joint; limb: (s,) the limb of each segment.
     rest: (s,) angles, length: (s,), deep: (j,), and apart: (m, 2) of the limbs' starts, in lengths.
     """

@@ -34,6 +34,10 @@ def phases_down(down: float, up: float, phase: Floats) -> NDArray[np.bool_]:
     return np.asarray((phase - down) % 1.0 <= (up - down) % 1.0)
 
 
+def _stands(step: tuple[float, float], count: int) -> bool:
+    return bool(phases_down(*step, np.arange(count) / count).any())
+
+
 def planted_cycle(
     figure: Figure, turns: Floats, root: Floats, stride: float,
     steps: dict[str, tuple[float, float]], *, side: bool,
@@ -43,7 +47,9 @@ def planted_cycle(
     turns: (t, s) of equal steps of a cycle, from how it stands. root: (t, 2), in lengths, without
     the way forwards. steps: the phases of each foot's coming down and going up. side: whether the
     plane's y goes up; else it goes to the left. The body comes down a little if its feet need it.
+    A foot that stands at none of the steps is left to swing.
     """
+    steps = {name: step for name, step in steps.items() if _stands(step, len(turns))}
     lowered, now, worst = root.copy(), turns.copy(), 0.0
     for _ in range(4):
         now, offs = turns.copy(), [0.0]

@@ -72,8 +72,8 @@ class Basis:
 class Fitted:
     """A figure in its frames; lengths are those of the plan times px_per_length pixels.
 
-    root: (t, 2). angles: (t, s). length: (s,). deep: (j,). apart: (m, 2). shares: (g, m) of the
-    basis. loss: (t,).
+    root: (t, 2). angles: (t, s). length: (s,). deep: (j,). apart: (m, 2). numbers: all that the fit
+    chose, as `Fit.fitted` takes it. loss: (t,).
     """
 
     figure: Figure

@@ -49,6 +49,8 @@ def read_joints(
     heads = {row[0].strip().lower(): row[1:] for row in rows[:5] if row}
     if "bodyparts" not in heads or "coords" not in heads:
         raise InputError(path, "has no rows `bodyparts` and `coords`", _REMEDY)
+    if len({name.strip() for name in heads.get("individuals", [])} - {""}) > 1:
+        raise InputError(path, "has joints of several animals", "Give those of one alone.")
     first = next(k for k, row in enumerate(rows) if row and row[0].strip().lower() == "coords") + 1
     known = {_words(name): name for name in names}
     places: dict[str, Floats] = {}

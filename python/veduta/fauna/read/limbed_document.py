@@ -32,9 +32,8 @@ _OTHER_M = 0.5
 class Scaled:
     """A fitted animal in its own lengths, on its own ground.
 
-    plan: its own. stand: (s,) mean turns of the plan's rest. turns: (t, s) from how it stands.
-    root: (t, 2) forwards from its mean and up from the ground. feet: (t, f, 2) from the root.
-    down: (t, f). unit_px: pixels in a length.
+    plan: its own. turns: (t, s) from how it stands. root: (t, 2) forwards from its mean and up from
+    the ground. down: (t, f) whether each foot stands. unit_px: pixels in a length.
     """
 
     figure: Figure

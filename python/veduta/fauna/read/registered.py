@@ -13,6 +13,8 @@ from veduta.run.errors import NotFoundError
 
 Floats = NDArray[np.float64]
 _MOST_BYTES = 3_000_000_000
+_FOR_MEDIAN, _BAND = 21, 64
+"""Frames that the median is taken of, and rows of the canvas at a time."""
 
 
 @dataclass(frozen=True)
@@ -131,9 +133,14 @@ def _on_canvas(
     for row, (frame, matrix) in enumerate(zip(frames, matrices, strict=True)):
         warped[row] = cv2.warpPerspective(frame, matrix, size, flags=cv2.INTER_LINEAR)
         seen[row] = cv2.warpPerspective(full, matrix, size, flags=cv2.INTER_LINEAR) > 250
-    few = np.linspace(0, len(frames) - 1, min(len(frames), 21)).round().astype(int)
-    values = np.where(seen[few][..., None], warped[few].astype(np.float32), np.nan)
-    known = seen[few].any(axis=0)
+    few = np.linspace(0, len(frames) - 1, min(len(frames), _FOR_MEDIAN)).round().astype(int)
     median = np.zeros(warped.shape[1:], dtype=np.uint8)
-    median[known] = np.nanmedian(values[:, known], axis=0).astype(np.uint8)
-    return np.where(seen[..., None], warped, median)
+    for top in range(0, size[1], _BAND):
+        band = slice(top, top + _BAND)
+        shown = seen[few, band]
+        values = np.where(shown[..., None], warped[few, band].astype(np.float32), np.nan)
+        known = shown.any(axis=0)
+        median[band][known] = np.nanmedian(values[:, known], axis=0).astype(np.uint8)
+    for frame, shown in zip(warped, seen, strict=True):
+        np.copyto(frame, median, where=~shown[..., None])
+    return warped

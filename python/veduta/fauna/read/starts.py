@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from veduta.fauna.motion.figure import Figure, Floats, posed
+from veduta.fauna.read.drawn import drawn_figure
 from veduta.fauna.read.fit import Basis, Fit, FitLooks
 from veduta.fauna.read.windows import Windows
 
@@ -44,8 +45,6 @@ class Start:
 
 def scale_of(figure: Figure, windows: Windows) -> float:
     """Pixels in a length: the figure at rest covers as much as the silhouettes do."""
-    from veduta.fauna.read.drawn import drawn_figure
-
     joints = posed(figure, np.zeros((1, 2)), figure.rest[None], figure.length, figure.apart).joints[
         0
     ]
