@@ -57,7 +57,9 @@ impl PairRule {
             && (1..=MOST_DIFFERENCE).contains(&self.most)
             && self.gamma_colour > 0.0
             && self.gamma_px > 0.0
-            && self.path.is_none_or(|path| path.jump < 1 << 14);
+            && self
+                .path
+                .is_none_or(|path| path.step <= path.jump && path.jump < 1 << 14);
         good.then_some(()).ok_or(StereoError::Pair)
     }
 

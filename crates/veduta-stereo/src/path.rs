@@ -1,6 +1,6 @@
 //! The best path of disparities along a row: dynamic programming.
 
-/// What a step of one disparity to the next pixel costs, and one of more.
+/// What a step of one disparity to the next pixel costs, and one of more, which costs no less.
 #[derive(Clone, Copy, Debug)]
 pub struct Path {
     pub step: u16,
