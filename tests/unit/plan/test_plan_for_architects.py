@@ -66,10 +66,20 @@ def test_walls_have_quantities_axes_and_connections(model: ifcopenshell.file) ->
     assert external.count(False) == 2
 
 
-def test_rooms_are_bounded_by_their_walls_and_openings(model: ifcopenshell.file) -> None:
-    for space in model.by_type("IfcSpace"):
+def test_rooms_are_bounded_by_their_walls_and_openings() -> None:
+    around = {
+        "living": ["south-1", "west", "north-1", "middle"],
+        "bath": ["south-2", "east", "north-2", "middle"],
+    }
+    storey = sample_storey()
+    rooms = [one.model_copy(update={"walls": around[one.id]}) for one in storey.rooms]
+    house = build_house(sample_plan(storey.model_copy(update={"rooms": rooms})), HouseOptions())
+    model = ifcopenshell.file.from_string(house_ifc(house, HouseOptions()).decode())
+    spaces = model.by_type("IfcSpace")
+    assert len(spaces) == 2
+    for space in spaces:
         kinds = [one.RelatedBuildingElement.is_a() for one in space.BoundedBy]
-        assert kinds.count("IfcWall") >= 0
+        assert kinds.count("IfcWall") == 4
         assert "IfcDoor" in kinds
         assert "IfcWindow" in kinds
 

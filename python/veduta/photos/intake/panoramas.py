@@ -19,7 +19,8 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.imaging.exif import focal_px_from_mm35
-from veduta.imaging.read import read_image
+from veduta.imaging.heic import heic_formats
+from veduta.imaging.read import FORMATS, read_image
 from veduta.photos.intake.call import Call
 from veduta.photos.intake.source import Source
 from veduta.photos.stages import Stages
@@ -48,10 +49,11 @@ class Panorama:
 
 def panoramas_among(sources: Sequence[Source], *, asked: bool) -> list[Panorama]:
     """Those that say so in their XMP, or are twice as wide as high where that is asked for."""
+    known = (*FORMATS, *heic_formats())
     found = []
     for source in sources:
         try:
-            with Image.open(source.path) as image:
+            with Image.open(source.path, formats=known) as image:
                 (width, height), packet = image.size, image.info.get("xmp")
         except (OSError, ValueError, SyntaxError, Image.DecompressionBombError):
             continue
@@ -90,7 +92,7 @@ def with_panoramas(call: Call, stages: Stages, progress: StepProgress = no_progr
 def _write_views(panorama: Panorama, folder: Path) -> None:
     photo = read_image(panorama.source.path)
     side = min(LARGEST_PX, panorama.width_px // 4)
-    with Image.open(panorama.source.path) as image:
+    with Image.open(panorama.source.path, formats=(*FORMATS, *heic_formats())) as image:
         tags = image.getexif()
     exif = Image.Exif()
     if 0x8825 in tags:

@@ -11,7 +11,6 @@ from dataclasses import dataclass
 
 from shapely import unary_union
 from shapely.geometry import LineString
-from shapely.geometry.base import BaseGeometry
 
 from veduta.plan.walls.pieces import Piece
 
@@ -42,13 +41,13 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
     lines = [LineString([one.start, one.end]) for one in pieces]
     if len(lines) < 5:
         return set()
-    border = unary_union(lines).convex_hull.boundary
+    border = unary_union(lines).convex_hull.boundary.buffer(rule.along * thin_px)
     groups = _groups(pieces, lines, rule.joined * thin_px)
     fence = {
         index
         for group in groups
+        if all(border.contains(lines[other]) for other in group)
         for index in group
-        if all(_along(lines[other], border, rule.along * thin_px) for other in group)
     }
     house = [index for index in range(len(lines)) if index not in fence]
     if not fence or not house:
@@ -63,10 +62,6 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
     beside = walls.buffer(rule.along * thin_px).intersection(hull.boundary).length
     sized = sized and beside >= rule.closed * hull.boundary.length
     return fence if enough and sized and free >= rule.free * thin_px else set()
-
-
-def _along(line: LineString, border: BaseGeometry, reach_px: float) -> bool:
-    return bool(border.buffer(reach_px).contains(line))
 
 
 def _groups(
