@@ -13,9 +13,8 @@ from veduta.dense.document import Elevation
 
 @dataclass(frozen=True)
 class ElevationParameters:
-    """reach: depth before and behind the plane that belongs to a wall, times its height. spread:
-    points farther from the median of what is seen there, in cells of the cloud's spacing, are
-    another surface. gap_cells: a hole so many cells wide is filled from around it.
+    """reach: depth before and behind the plane that belongs to a wall, times its height.
+    gap_cells: a hole so many cells wide is filled from around it.
     """
 
     reach: float = 0.25

@@ -20,7 +20,6 @@ from veduta.photos.structure import Structure
 class SurveyParameters:
     """alike: least length of the mean of the ways that photos look. turned: most length of the
     mean of the ways that their columns run: people hold cameras upright, whose columns agree.
-    neighbours: points of a neighbourhood whose highest is asked for the plane of the ground.
     rounds, cut: of the robust fit, in deviations.
     """
 

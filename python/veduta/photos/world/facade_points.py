@@ -19,7 +19,8 @@ from veduta.photos.world.gauss_newton import Pose
 
 @dataclass(frozen=True)
 class FacadePointParameters:
-    """near_m: points so near to a plane are looked at. inside_m: from the facade's own edges.
+    """near_m: points so near to a plane are looked at. inside_m: from the facade's own edges;
+    foot_m: from its foot, where the street and what stands there begin.
 
     cell_m: the points of such a square of a facade count as one. fewest_cells: of a facade that
     says anything. exact_sd_m, rough_sd_m: of points on a facade, half of them each. on: share of

@@ -26,8 +26,8 @@ class ViewRule:
     near_m: a wall nearer than this is one before one's eyes; 1 m is asked for, the rest is for the
     calm of the head. blocked: cost of each metre that is missing to that, a second, beside the
     square of the angle (rad) to the wish. turning: cost of the square of a turn between two
-    samples. step_rad, reach: directions, and by how many of them one turns in a sample. cell_m,
-    outdoors_m: of the map of walls; who is farther from the house than that sees far.
+    samples. step_rad, reach: directions, and by how many of them one turns in a sample. cell_m: of
+    the map of walls. margin_m: by which it goes beyond them; who is farther away sees far.
     """
 
     near_m: float = 1.5
