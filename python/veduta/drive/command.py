@@ -86,6 +86,8 @@ def _make(
         step.counts["sweeps"], step.counts["images"] = len(record.sweeps), len(record.shots)
         for note in record.notes:
             work.note(note)
+        for doubt in record.doubts:
+            work.doubt(doubt)
     road_m = record.height_m
     with work.step("segments") as step:
         spacing = column_spacing(record, options)

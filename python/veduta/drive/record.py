@@ -62,7 +62,8 @@ class Shot:
 class DriveRecord:
     """All of a drive. World: z up, z = 0 at the road under the first sweep; metres.
 
-    given_poses: whether the path came with the record. notes: what was assumed while reading.
+    given_poses: whether the path came with the record. notes: what was assumed while reading;
+    doubts: why the path may be wrong.
     height_m: of the scanner over the road. full: whether a sweep goes all around, else it is one
     vertical scan.
     """
@@ -78,6 +79,7 @@ class DriveRecord:
     notes: tuple[str, ...] = ()
     path_from: str = "poses of the log"
     corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
+    doubts: tuple[str, ...] = ()
     """What was changed of the path: time (s), by how much (3,) m, why."""
 
     def path(self) -> NDArray[np.float64]:

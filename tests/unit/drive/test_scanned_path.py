@@ -165,10 +165,13 @@ def test_surface_model_that_is_missing_or_has_no_start_is_refused(folder: Path) 
         read_own(folder)
 
 
+@pytest.mark.parametrize(("share", "doubted"), [(0.95, False), (0.6, True)])
 def test_over_an_aerial_photo_the_road_is_level(
-    folder: Path, monkeypatch: pytest.MonkeyPatch
+    folder: Path, monkeypatch: pytest.MonkeyPatch, share: float, doubted: bool
 ) -> None:
-    """A photo tells no heights; what was corrected is told in metres, not in coordinates."""
+    """A photo tells no heights; what was corrected is told in metres, not in coordinates. A place
+    where few points lie on edges is doubted.
+    """
     _aerial_photo(folder / "photo.tif")
     toml = folder / "drive.toml"
     start = f"\n[surface]\nfile = 'photo.tif'\nstart = [{EAST_M}, {NORTH_M}]\n"
@@ -180,7 +183,8 @@ def test_over_an_aerial_photo_the_road_is_level(
         moved = np.zeros((count, 2))
         moved[-1] = 0.3, -0.4
         sure = np.ones(count, dtype=bool)
-        return Localised(poses, moved, np.ones(count), np.zeros(count), sure, np.zeros(count))
+        fit = np.full(count, share)
+        return Localised(poses, moved, fit, np.zeros(count), sure, np.zeros(count))
 
     monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
     record = read_own(folder)
@@ -191,3 +195,4 @@ def test_over_an_aerial_photo_the_road_is_level(
     np.testing.assert_allclose(moved_m, [0.3, -0.4, 0.0])
     assert "localised" in why
     assert any("taken for level" in note for note in record.notes)
+    assert [doubt[:4] for doubt in record.doubts] == (["60 %"] if doubted else [])

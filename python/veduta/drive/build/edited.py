@@ -36,5 +36,5 @@ def with_document(record: DriveRecord, document: DriveDocument, path: Path) -> D
         shots.append(replace(shot, world_from_cam=move @ shot.world_from_cam))
     return replace(
         record, sweeps=tuple(sweeps), shots=tuple(shots), corrections=(), notes=(*document.notes,),
-        path_from=document.path_from,
+        path_from=document.path_from, doubts=(),
     )  # fmt: skip

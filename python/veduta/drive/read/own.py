@@ -73,6 +73,7 @@ def read_own(
     vertical = SpooledScans(source / log.vertical.table)
     scanner = log.vertical
     corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
+    doubts: tuple[str, ...] = ()
     origin, crs = log.origin, log.crs
     if log.path is not None:
         times, poses = _poses(source / log.path.table)
@@ -82,7 +83,7 @@ def read_own(
         scanner = _on_one_clock(vertical, level, log.vertical, log.horizontal, notes)
         found = find_path(folder, source, log, level, log.horizontal, seed, told)
         times, poses, path_from = found.times_s, found.poses, found.told
-        origin, crs = found.origin_m, found.crs
+        origin, crs, doubts = found.origin_m, found.crs, found.doubts
         corrections = tuple((float(times[row]), move, why) for row, move, why in found.corrected)
         notes += [f"the path comes from {path_from}", *found.notes]
     else:
@@ -95,7 +96,7 @@ def read_own(
     height_m = float(scanner.vehicle_from_scanner[11])
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
-        path_from, corrections,
+        path_from, corrections, doubts,
     )  # fmt: skip
 
 

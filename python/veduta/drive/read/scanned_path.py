@@ -29,6 +29,9 @@ Floats = NDArray[np.float64]
 _SLOPE_M = 10.0
 """Heights of the ground along the path are those of a stretch so long."""
 _FEWEST_MATCHED = 0.5
+_SURE_FIT = 0.8
+"""Share of points on edges: five of the six wrong places that were followed in the Delft tile had
+less (`benchmarks/results/drive-localise-delft.md`)."""
 _GPS_M = 15.0
 """How far off a GPS may be between buildings."""
 
@@ -37,7 +40,8 @@ _GPS_M = 15.0
 class ScannedPath:
     """times_s: (p,). poses: (p, 3, 4) world_from_vehicle. origin_m: of the world in `crs`.
 
-    corrected: (row of `times_s`, metres moved (3,), why). told: how it was found; notes: of faults.
+    corrected: (row of `times_s`, metres moved (3,), why). told: how it was found; notes: of faults;
+    doubts: why it may be wrong.
     """
 
     times_s: Floats
@@ -47,6 +51,7 @@ class ScannedPath:
     corrected: tuple[tuple[int, Floats, str], ...]
     told: str
     notes: tuple[str, ...]
+    doubts: tuple[str, ...] = ()
 
 
 def find_path(
@@ -98,8 +103,12 @@ def find_path(
     local = poses - [origin[0], origin[1], 0.0]
     why = "localised in the surface model"
     corrected = _corrections(chain, placed.moved_m, why)
-    fit = 100 * float(placed.share[placed.sure].mean())
-    how += f"; localised in {log.surface.file}, where {fit:.0f} % of the points lie on edges"
+    fit = float(placed.share[placed.sure].mean())
+    how += f"; localised in {log.surface.file}, where {100 * fit:.0f} % of the points lie on edges"
+    doubts = () if fit >= _SURE_FIT else (
+        f"{100 * fit:.0f} % of the scans' points lie on edges of {log.surface.file}: the drive may"
+        " have been in a street that looks alike; the report shows the path from above",
+    )  # fmt: skip
     return ScannedPath(
         times,
         _matrices(local, ground - origin[2], slope),
@@ -108,6 +117,7 @@ def find_path(
         corrected,
         how,
         tuple(notes),
+        doubts,
     )
 
 
