@@ -72,6 +72,8 @@ def link_inputs(data: Path) -> Arrays:
             if isinstance(pair, str):
                 raise SystemExit(pair)
             tried = pair_range(sparse, views, two, pair, rule)
+            if isinstance(tried, str):
+                raise SystemExit(tried)
             pairs[two] = MatchedPair(two, pair, *match_views(views, two, pair, tried, rule, engine))
             found[f"p{number}t"] = np.array(tried)
             for place, name in enumerate("ab"):

@@ -86,7 +86,11 @@ def _pairs(work: Work, linking: Linking, order: list[int]) -> dict[tuple[int, in
             if isinstance(pair, str):
                 step.rejected.append(f"{names}: {pair}")
                 continue
-            low, count = pair_range(linking.sparse, views, two, pair, rule)
+            span = pair_range(linking.sparse, views, two, pair, rule)
+            if isinstance(span, str):
+                step.rejected.append(f"{names}: {span}")
+                continue
+            low, count = span
             if count > MOST_DISPARITIES:
                 step.rejected.append(f"{names}: {count} disparities are too many to try")
                 continue

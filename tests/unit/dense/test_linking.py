@@ -96,9 +96,18 @@ def _matched(views: Views) -> dict[tuple[int, int], MatchedPair]:
         pair = rectify_pair(views.cameras[two[0]], views.cameras[two[1]], RULE.rectify)
         assert not isinstance(pair, str)
         tried = pair_range(_known(views), views, two, pair, RULE)
+        assert not isinstance(tried, str)
         there, back = match_views(views, two, pair, tried, RULE, engine)
         found[two] = MatchedPair(two, pair, there, back)
     return found
+
+
+def test_points_behind_a_pair_give_no_disparities(views: Views) -> None:
+    pair = rectify_pair(views.cameras[1], views.cameras[2], RULE.rectify)
+    assert not isinstance(pair, str)
+    known = _known(views)
+    behind = replace(known, points_m=2.0 * views.cameras[1].centre() - known.points_m)
+    assert "no point" in str(pair_range(behind, views, (1, 2), pair, RULE))
 
 
 def test_links_find_the_depths_and_end_where_a_pair_is_missing(views: Views) -> None:

@@ -93,11 +93,14 @@ def pair_range(
     two: tuple[int, int],
     pair: RectifiedPair,
     rule: LinkParameters,
-) -> tuple[int, int]:
-    """The least disparity of what both views may show (px), and how many there are."""
+) -> tuple[int, int] | str:
+    """The least disparity of what both views may show (px), and how many there are; or why not."""
     index = np.union1d(sparse.visible[two[0]], sparse.visible[two[1]])
     ahead = (sparse.points_m[index] - views.cameras[two[0]].centre()) @ pair.turn[2]
-    near, far = np.quantile(ahead[ahead > 0.0], [0.005, 0.995])
+    ahead = ahead[ahead > 0.0]
+    if not len(ahead):
+        return "no point that they show lies before them"
+    near, far = np.quantile(ahead, [0.005, 0.995])
     return pair.disparities(float(near) * rule.near, float(far) * rule.far)
 
 
