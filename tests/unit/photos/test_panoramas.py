@@ -19,6 +19,7 @@ from veduta.photos.intake.panoramas import VIEWS, panoramas_among, views_of, wit
 from veduta.photos.intake.read import PhotoRecord, read_photos
 from veduta.photos.options import CameraOptions, PhotosOptions
 from veduta.photos.stages import Stages
+from veduta.run.errors import InputError
 
 XMP = b'<x:xmpmeta><rdf:Description GPano:ProjectionType="equirectangular"/></x:xmpmeta>'
 
@@ -78,6 +79,19 @@ def test_a_panorama_is_eight_photos_of_a_known_lens(folder: Path, tmp_path: Path
     assert photos[0].time is not None
     assert read_image(cut.sources[2].path).pixels.shape == (160, 160, 3)
     assert with_panoramas(plan_call(folder), stages).sources == cut.sources
+
+
+def test_two_panoramas_that_differ_by_their_ending_are_refused(
+    folder: Path, tmp_path: Path
+) -> None:
+    with Image.open(folder / "p0.jpg") as image:
+        image.save(folder / "p0.webp", xmp=XMP)
+    call = plan_call(folder)
+    (tmp_path / "out").mkdir()
+    stages = Stages(tmp_path / "out", call, PhotosOptions())
+    stages.open()
+    with pytest.raises(InputError, match=r"p0\.webp.*as those of p0\.jpg.*Rename"):
+        with_panoramas(call, stages)
 
 
 def test_a_fisheye_is_found_by_its_own_model() -> None:

@@ -66,11 +66,12 @@ def panoramas_among(sources: Sequence[Source], *, asked: bool) -> list[Panorama]
 def with_panoramas(call: Call, stages: Stages, progress: StepProgress = no_progress) -> Call:
     """The call with views in place of its panoramas; as it is where it has none.
 
-    A killed run's views are taken over.
+    A killed run's views are taken over. InputError where views of two would have the same names.
     """
     found = panoramas_among(call.sources, asked=stages.options.camera.panoramas)
     if not found:
         return call
+    _require_names(found)
     if call.models:
         remedy = "Give the views that the model was made of as DIR."
         raise InputError("--from-colmap", "has no use for panoramas", remedy)
@@ -87,6 +88,16 @@ def with_panoramas(call: Call, stages: Stages, progress: StepProgress = no_progr
     taken = [source for source in call.sources if source.name not in names]
     note = f"{len(found)} panoramas were cut into {VIEWS} level views each"
     return replace(call, sources=(*taken, *views), notes=(*call.notes, note))
+
+
+def _require_names(panoramas: Sequence[Panorama]) -> None:
+    known: dict[str, str] = {}
+    for panorama in panoramas:
+        name = panorama.source.name
+        other = known.setdefault(Path(name).stem, name)
+        if other != name:
+            fault = f"is a panorama whose views would be called as those of {other}"
+            raise InputError(panorama.source.path, fault, "Rename one of them.")
 
 
 def _write_views(panorama: Panorama, folder: Path) -> None:
