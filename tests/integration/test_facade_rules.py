@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 from closed_shells import assert_closed
 from command_line import read_json, veduta
+from PIL import Image, ImageOps
 from test_validators import validate_gltf
 
 from veduta.formats.gltf import read_glb
@@ -75,8 +76,9 @@ def test_an_edited_size_makes_another_building(house: Path, tmp_path: Path) -> N
 def test_another_picture_is_another_building(house: Path, tmp_path: Path) -> None:
     out = tmp_path / "again"
     before = derive(house, out).read_bytes()
-    textures = house / "textures"
-    shutil.copy(textures / "wall.jpg", textures / "front.jpg")
+    for picture in (house / "textures").glob("*.jpg"):
+        with Image.open(picture) as seen:
+            ImageOps.mirror(seen).save(picture)
     rules, lot = house / "rules.cga", house / "lot.geojson"
     refused = veduta("grammar", "derive", rules, "--lots", lot, "-o", out)
     assert refused.returncode == 2

@@ -26,7 +26,8 @@ def test_a_module_touches_the_tests_of_all_that_import_it(script: ModuleType) ->
     assert any("tests/unit/walk/" in name for name in chosen)
     assert "tests/unit/carve/test_background.py" not in chosen
     low = script.touched_tests(["python/veduta/run/errors.py"])
-    assert set(chosen) < set(low)
+    # Those of the package itself are run for whatever in it has changed.
+    assert {name for name in chosen if "tests/unit/walk/" not in name} < set(low)
 
 
 def test_the_studio_and_the_benchmarks_touch_none(script: ModuleType) -> None:

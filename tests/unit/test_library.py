@@ -18,6 +18,7 @@ from veduta.grammar import parse
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 from veduta.run.flat import options_of
+from veduta.walk.command import Sources
 
 CACHE = Path(__file__).resolve().parents[2] / ".mypy_cache" / "script"
 """Kept, as all that numpy and pydantic declare is read."""
@@ -152,7 +153,7 @@ class _Reached(Exception):
 @pytest.mark.parametrize(
     ("function", "run", "given", "reached"),
     [
-        ("read_walk", "walk.door:run_walk", {"calibration": "c"}, {"calibration": Path("c")}),
+        ("read_walk", "walk.door:run_walk", {"calibration": "c"}, {"sources": Sources(Path("c"))}),
         ("measure_photos", "dense.door:run_dense", {"images": "i"}, {"images": Path("i")}),
         (
             "derive",

@@ -46,7 +46,7 @@ def plan_for(record: Record, options: FaunaOptions) -> BodyPlan:
     """The body plan that a record is read by; InputError where its view is another one."""
     plan = load_plan(options.animal.kind, record.plan)
     view = options.animal.view
-    if view is not None and view != plan.view:
+    if view not in ("auto", plan.view):
         raise InputError(
             record.path,
             f"is to be seen from the {view}, but the body plan {plan.name} is one from the"

@@ -10,7 +10,7 @@ from veduta.run.options import Options
 
 Limbless = Literal["snake", "worm", "fish"]
 Kind = Literal["snake", "worm", "fish", "lizard", "quadruped"]
-View = Literal["top", "side"]
+View = Literal["auto", "top", "side"]
 
 
 class AnimalOptions(Options):
@@ -24,9 +24,9 @@ class AnimalOptions(Options):
             " its silhouettes"
         ),
     )
-    view: View | None = Field(
-        default=None,
-        description="from where it is seen; else a quadruped from the side, all others from above",
+    view: View = Field(
+        default="auto",
+        description="from where it is seen; auto: a quadruped from the side, all others from above",
     )
     length_m: float | None = Field(
         default=None,

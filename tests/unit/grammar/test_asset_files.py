@@ -140,7 +140,7 @@ def test_names_that_there_are_not(tmp_path: Path) -> None:
     library = Library(tmp_path)
     with pytest.raises(InputError, match="window-casement"):
         library["builtin/window-casment"]
-    with pytest.raises(InputError, match="OBJ or GLB"):
+    with pytest.raises(InputError, match="OBJ, GLB or COLLADA"):
         library["window"]
 
 

@@ -108,7 +108,9 @@ def test_ifc_has_the_paint_as_a_covering_of_the_space() -> None:
     assert (covering.PredefinedType, covering.ObjectType) == ("CLADDING", "paint #c9a25a")
     (relation,) = covering.CoversSpaces
     assert relation.RelatingSpace.LongName == "Living"
-    (colour,) = model.by_type("IfcColourRgb")
+    (item,) = covering.Representation.Representations[0].Items
+    (style,) = item.StyledByItem[0].Styles
+    colour = style.Styles[0].SurfaceColour
     found = [round(255 * part) for part in (colour.Red, colour.Green, colour.Blue)]
     assert tuple(found) == OCHRE
     (faces,) = covering.Representation.Representations[0].Items
