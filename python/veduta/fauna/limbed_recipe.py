@@ -14,16 +14,15 @@ from veduta.fauna.limbed_pictures import chart_picture, figures_picture
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.read.drawn import drawn_figure
-from veduta.fauna.read.footage import Footage, pictures_in, read_footage
+from veduta.fauna.read.footage import Footage, pictures_in
 from veduta.fauna.read.joints import read_joints
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.limbed_coat import coat_of_plane
 from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.overlap import overlap
-from veduta.fauna.read.registered import CameraLooks, stilled
 from veduta.fauna.read.silhouettes import Silhouettes
-from veduta.fauna.recipe import Record
+from veduta.fauna.recipe import Record, still_footage
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
@@ -59,22 +58,10 @@ def plan_for(record: Record, options: FaunaOptions) -> BodyPlan:
 def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed:
     """The document of the animal in footage, and its coat."""
     plan = plan_for(record, options)
-    with work.step("frames") as step:
-        footage = read_footage(record.path, options.footage.fps)
-        step.counts["frames"] = len(footage.frames)
-    if footage.assumed:
-        work.doubt(
-            f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
-            " assumed (--fps)"
-        )
-    if record.masks is None and record.background is None:
-        with work.step("camera") as step:
-            still = stilled(footage, CameraLooks(), record.path.name)
-            step.counts["moves"] = int(still is not footage)
-            if record.joints is not None and still is not footage:
-                fault = "are places in the pictures, and the camera of these moves"
-                raise InputError(record.joints, fault, "Give masks (--masks), too.")
-            footage = still
+    footage, moved = still_footage(work, record, options)
+    if record.joints is not None and moved:
+        fault = "are places in the pictures, and the camera of these moves"
+        raise InputError(record.joints, fault, "Give masks (--masks), too.")
     with work.step("silhouettes") as step:
         found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
         step.counts["good"] = len(found.rows)

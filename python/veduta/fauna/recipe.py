@@ -87,7 +87,8 @@ def _described(record: Record, tracked: Tracked, options: FaunaOptions) -> Descr
     return describe(tracked, path.stem, source, options)
 
 
-def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
+def still_footage(work: Work, record: Record, options: FaunaOptions) -> tuple[Footage, bool]:
+    """The frames as of a camera that stands still, and whether it moved."""
     with work.step("frames") as step:
         footage = read_footage(record.path, options.footage.fps)
         step.counts["frames"] = len(footage.frames)
@@ -99,8 +100,14 @@ def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
     if record.masks is None and record.background is None:
         with work.step("camera") as step:
             still = stilled(footage, CameraLooks(), record.path.name)
-            step.counts["moves"] = int(still is not footage)
-            footage = still
+            moved = still is not footage
+            step.counts["moves"] = int(moved)
+        return still, moved
+    return footage, False
+
+
+def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
+    footage, _ = still_footage(work, record, options)
     with work.step("silhouettes") as step:
         found, background = silhouettes_in(
             footage, record.masks, record.background, record.path.name

@@ -29,7 +29,8 @@ from veduta.photos.world.weighing import (
     Scene,
     differ,
     explained,
-    fit_of,
+    laid,
+    next_other,
     scene_of,
     spread,
     weighed,
@@ -104,7 +105,7 @@ def _by_walls(
     ran_away = differ(first, found[0], scene.middle)
     if ran_away:
         first = found[0]
-    second = next((one for one in found[1:] if differ(first, one, scene.middle)), None)
+    second = next_other(first, found[1:], scene)
     standing = Standing(
         evidence=first.score,
         second=None if second is None else second.score,
@@ -115,17 +116,8 @@ def _by_walls(
         inside=first.against.inside_share,
         covariance=first.refined.covariance,
     )
-    accepted, why = believed(standing)
-    return Georeference(
-        method="model",
-        accepted=accepted,
-        why=why,
-        crs=model.crs,
-        origin_m=model.origin_m,
-        best=fit_of(first, scene),
-        second=None if second is None else fit_of(second, scene),
-        notes=(_RAN_AWAY,) if ran_away else (),
-    )
+    notes = (_RAN_AWAY,) if ran_away else ()
+    return laid(model, scene, first, second, believed(standing), notes)
 
 
 def _refused(model: CityModel, why: str) -> Georeference:

@@ -8,6 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.photos.city.model import CityModel
 from veduta.photos.structure import Structure
 from veduta.photos.walls.wall import Wall
 from veduta.photos.world.columns import Placements, WallColumns, wall_columns
@@ -16,7 +17,7 @@ from veduta.photos.world.cut_ends import cut_ends
 from veduta.photos.world.evidence import FacadeIndex, Matches, match_walls
 from veduta.photos.world.eye_height import eye_height_nats
 from veduta.photos.world.free_space import SightLines, Violations, sight_lines, violations
-from veduta.photos.world.georeference import Fit, Residual
+from veduta.photos.world.georeference import Fit, Georeference, Residual
 from veduta.photos.world.refine import PLANE, Refined
 
 REFINED = 30
@@ -161,6 +162,33 @@ def fit_of(found: Found, scene: Scene) -> Fit:
         rms_m=rms,
         score=found.score,
         residuals=residuals_of(refined, found.matches, scene.walls, scene.index.facades.names),
+    )
+
+
+def next_other(first: Found, others: Sequence[Found], scene: Scene) -> Found | None:
+    """The first of these that is another placement."""
+    return next((one for one in others if differ(first, one, scene.middle)), None)
+
+
+def laid(
+    model: CityModel,
+    scene: Scene,
+    first: Found,
+    second: Found | None,
+    verdict: tuple[bool, str],
+    notes: tuple[str, ...] = (),
+) -> Georeference:
+    """The best placement with whether it is believed, and why, beside the next that is another."""
+    accepted, why = verdict
+    return Georeference(
+        method="model",
+        accepted=accepted,
+        why=why,
+        crs=model.crs,
+        origin_m=model.origin_m,
+        best=fit_of(first, scene),
+        second=None if second is None else fit_of(second, scene),
+        notes=notes,
     )
 
 
