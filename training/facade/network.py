@@ -1,6 +1,6 @@
 """The network: an encoder of depthwise blocks, a decoder to half of the picture's size, two heads.
 
-About 2.2 million weights, so that they fit into 5 MB at half precision. Everything is convolution
+About 2.4 million weights, so that they fit into 5 MB at half precision. Everything is convolution
 but one mean over the picture, so any size of picture will do.
 """
 

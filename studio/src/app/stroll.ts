@@ -37,12 +37,11 @@ export function nextLook(store: Shown): void {
   if (morph !== null) changeStroll(store, { look: NEXT_LOOK[morph.look] });
 }
 
-export function wheelOn(event: WheelEvent, session: Session | null, store: Shown): void {
-  const { morph } = store.value;
+export function wheelOn(event: WheelEvent, session: Session | null, morph: MorphState | null, commands: Commands | null): void {
   const walk = session?.place.walks[morph?.which ?? 0];
   if (morph === null || walk === undefined) return;
   event.preventDefault();
-  changeStroll(store, { at: walkedOn(walk, morph.at, -event.deltaY / WHEEL_PX_M), playing: false });
+  commands?.do("seek-walk", { at: walkedOn(walk, morph.at, -event.deltaY / WHEEL_PX_M), playing: false });
 }
 
 export function strollPanel({ place: { walks } }: Session, morph: MorphState | null, commands: Commands | null): TemplateResult | typeof nothing {

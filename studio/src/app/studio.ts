@@ -174,7 +174,7 @@ export class Studio extends LitElement {
   override render(): TemplateResult {
     return html`<main>
       <canvas aria-label="The place in 3D" tabindex="0" ?inert=${this.fault !== null}
-        @wheel=${(event: WheelEvent) => wheelOn(event, this.session, this.#store)}></canvas>
+        @wheel=${(event: WheelEvent) => wheelOn(event, this.session, this.#store.value.morph, this.#commands)}></canvas>
       ${this.session !== null && this.fault === null ? this.#panels(this.session) : nothing}
       ${this.plain === null ? nothing : html`<veduta-plain-walk .plain=${this.plain}></veduta-plain-walk>`}
       ${this.session === null && this.fault === null && this.plain === null
