@@ -31,6 +31,7 @@ FILES = {
     "rectified.jpg",
     "overlay.png",
     "rules.cga",
+    "cells.cga",
     "lot.geojson",
     "textures",
     "model.glb",

@@ -24,14 +24,14 @@ def house(tmp_path: Path, one_house: Path) -> Path:
 
 def derive(house: Path, out: Path, *more: object) -> Path:
     """Derive the rules on their lot; the model."""
-    rules, lot = house / "rules.cga", house / "lot.geojson"
+    rules, lot = house / "cells.cga", house / "lot.geojson"
     done = veduta("grammar", "derive", rules, "--lots", lot, "-o", out, *more)
     assert (done.returncode, done.stderr.count("error")) == (0, 0), done.stderr
     return out / "parts" / "00" / "house0.glb"
 
 
 def test_the_rules_are_clean_and_laid_out(house: Path) -> None:
-    rules = house / "rules.cga"
+    rules = house / "cells.cga"
     done = veduta("grammar", "check", rules)
     assert done.stdout == f"{rules}: 0 errors, 0 warnings\n"
     assert veduta("grammar", "format", rules).stdout == rules.read_text()
@@ -60,7 +60,7 @@ def test_the_rules_alone_make_the_same_building(house: Path, tmp_path: Path) -> 
 
 
 def test_an_edited_size_makes_another_building(house: Path, tmp_path: Path) -> None:
-    rules = house / "rules.cga"
+    rules = house / "cells.cga"
     text = rules.read_text()
     lines = [line for line in text.splitlines() if line.startswith("attr floor1 = ")]
     (line,) = lines
@@ -79,7 +79,7 @@ def test_another_picture_is_another_building(house: Path, tmp_path: Path) -> Non
     for picture in (house / "textures").glob("*.jpg"):
         with Image.open(picture) as seen:
             ImageOps.mirror(seen).save(picture)
-    rules, lot = house / "rules.cga", house / "lot.geojson"
+    rules, lot = house / "cells.cga", house / "lot.geojson"
     refused = veduta("grammar", "derive", rules, "--lots", lot, "-o", out)
     assert refused.returncode == 2
     assert derive(house, out, "--force").read_bytes() != before
@@ -88,7 +88,7 @@ def test_another_picture_is_another_building(house: Path, tmp_path: Path) -> Non
 def test_edited_rules_are_kept_and_told(one_house: Path, tmp_path: Path) -> None:
     """The document is what the verb rebuilds from; rules that somebody edited are theirs."""
     out = Path(shutil.copytree(one_house, tmp_path / "out"))
-    rules, document = out / "house0" / "rules.cga", out / "house0" / "facade.json"
+    rules, document = out / "house0" / "cells.cga", out / "house0" / "facade.json"
     rules.write_text(rules.read_text() + "// mine\n")
     content = read_json(document)
     content["model"]["setback_m"] = 0.35

@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.plan import Plan, plan_building
+from veduta.facade.repeat import repeating_rules
 from veduta.facade.rule_file import Known, write_rules
-from veduta.facade.rule_head import PHOTO_TEXTURE, RULES, WALL_TEXTURE
+from veduta.facade.rule_head import CELLS, PHOTO_TEXTURE, WALL_TEXTURE
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.textures import make_textures
 from veduta.grammar.building import build_part as part_of
@@ -34,10 +35,12 @@ _NO_RECT: Rect = (np.nan, np.nan, np.nan, np.nan)
 class Model:
     """A building as rules, the textures that these name, and the part that they derive to.
 
-    size_m: width and depth of the lot that the rules are made for.
+    size_m: width and depth of the lot that the rules are made for. repeating: the same as rules
+    for a lot of any size; those above where nothing in the front repeats.
     """
 
     rules: str
+    repeating: str
     textures: Mapping[str, Texture]
     size_m: tuple[float, float]
     part: Part
@@ -55,6 +58,10 @@ def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id:
     plan = plan_building(document)
     textures = make_textures(document, rectified, plan.top_m)
     rules = write_rules(plan, textures, _roof_provenance(document), document.source.image)
+    repeating, left_out = repeating_rules(plan, textures.colours, document.source.image) or (
+        rules.text,
+        (),
+    )
     images = {PHOTO_TEXTURE: textures.front, WALL_TEXTURE: textures.wall}
     part = _derived(rules.text, plan, images, part_id)
     facade = document.facade
@@ -67,9 +74,9 @@ def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id:
             "eavesHeight_m": plan.eaves_m,
             "scale_basis": document.scale.basis,
         },
-        notes=(*plan.notes, *part.notes),
+        notes=(*plan.notes, *left_out, *part.notes),
     )
-    return Model(rules.text, images, (plan.width_m, plan.depth_m), part)
+    return Model(rules.text, repeating, images, (plan.width_m, plan.depth_m), part)
 
 
 def build_part(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: str) -> Part:
@@ -81,7 +88,7 @@ def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str)
     """The part on a lot of the plan's size."""
     x, y = plan.width_m, plan.depth_m
     lot = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (x, y, 0.0), (0.0, y, 0.0)]
-    (derived,) = _core.GrammarRules([(RULES, text)]).derive([[lot]], [0])
+    (derived,) = _core.GrammarRules([(CELLS, text)]).derive([[lot]], [0])
     if not isinstance(derived, _core.DerivedLot):
         raise ValueError(f"the rules of {part_id} do not derive: {derived}")
     part = part_of(derived, part_id, textures=images)

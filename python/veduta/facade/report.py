@@ -34,10 +34,8 @@ FILES = (
     ("rectified.jpg", "the fronto-parallel photo"),
     ("labels.png", "a class per pixel, drawn from facade.json"),
     ("overlay.png", "what was found, over the photo, with the numbers of the elements"),
-    (
-        "rules.cga",
-        "the building as rules, from which the models are derived; edit it and derive it",
-    ),
+    ("rules.cga", "the building as rules that repeat: derive it on a wider or higher lot"),
+    ("cells.cga", "the building as it was read, from which the models are derived"),
     ("lot.geojson", "the lot that the rules stand on"),
     ("textures/", "the pictures that the rules name"),
     ("model.glb", "the building as glTF 2.0"),

@@ -1,4 +1,4 @@
-"""The rule file of a building: `rules.cga`, which the model is derived from and which people edit.
+"""The rule file of a building as it was read: `cells.cga`, which the model is derived from.
 
 Attributes first, then the rules of this building (its floors, shop fronts and roof), then those
 that its parts need, from `parts/*.cga`.
@@ -22,8 +22,8 @@ from veduta.facade.layout import Opening
 from veduta.facade.plan import Band, Plan
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import (
+    CELLS,
     DEEP_M,
-    RULES,
     SHALLOW_M,
     WIDE_M,
     floor_attribute,
@@ -70,7 +70,7 @@ def write_rules(
     writer.parts |= {part for word, part in _COLUMNS.items() if word in "".join([*front, slope])}
     parts = [_part(name) for name in _ORDER if name in writer.parts]
     text = "\n".join([head, building, *front, slope, *parts])
-    return RuleFile(_core.grammar_format(RULES, text), writer.known)
+    return RuleFile(_core.grammar_format(CELLS, text), writer.known)
 
 
 def provenance(opening: Opening) -> Provenance:

@@ -12,7 +12,7 @@ from veduta.facade.plan import Band, Plan
 from veduta.facade.textures import Colours, FacadeTextures
 from veduta.place.material import Colour
 
-RULES, LOT = "rules.cga", "lot.geojson"
+CELLS, RULES, LOT = "cells.cga", "rules.cga", "lot.geojson"
 PHOTO_TEXTURE, WALL_TEXTURE = "textures/front.jpg", "textures/wall.jpg"
 # How far a balcony juts out (m): one before a single window, and one that people stand on.
 SHALLOW_M, DEEP_M = 0.30, 0.60
@@ -40,7 +40,7 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
     text = _HEAD.format(
         photo=photo.replace("*/", "* /"),
         lot=LOT,
-        rules=RULES,
+        rules=CELLS,
         width=metres(plan.width_m),
         depth=metres(plan.depth_m),
         floors="".join(
@@ -95,10 +95,11 @@ def _colours(colours: Colours, parts: Set[str]) -> str:
         named["railingColor"] = colours.balcony
     if "chimney" in parts:
         named["chimneyColor"] = colours.chimney
-    return "".join(f'attr {name} = "{_hex(colour)}"\n' for name, colour in named.items())
+    return "".join(f'attr {name} = "{hex_colour(colour)}"\n' for name, colour in named.items())
 
 
-def _hex(colour: Colour) -> str:
+def hex_colour(colour: Colour) -> str:
+    """An sRGB colour (0 to 1) as rule files have it."""
     return "#" + "".join(f"{round(255 * channel):02x}" for channel in colour)
 
 

@@ -1,4 +1,4 @@
-"""What `rules.cga` needs beside it to be derived alone: its lot, and the textures that it names.
+"""The rule files of a building, and what derives them alone: their lot, and the textures they name.
 
 A texture has a mask beside it, `NAME.invented.png`: what is white there is no pixel of the photo.
 """
@@ -9,7 +9,7 @@ import json
 from pathlib import Path
 
 from veduta.facade.model import Model
-from veduta.facade.rule_head import LOT, RULES
+from veduta.facade.rule_head import CELLS, LOT, RULES
 from veduta.grammar.textures import mask_name
 from veduta.imaging.encode import jpeg_bytes, mask_bytes
 from veduta.place.material import Texture
@@ -19,7 +19,8 @@ JPEG_QUALITY = 90
 
 def write_rule_files(model: Model, folder: Path) -> None:
     """Write the rules of a building, its lot and its textures."""
-    (folder / RULES).write_text(model.rules, encoding="utf-8")
+    (folder / CELLS).write_text(model.rules, encoding="utf-8")
+    (folder / RULES).write_text(model.repeating, encoding="utf-8")
     (folder / LOT).write_text(_lot(model), encoding="utf-8")
     for name, texture in model.textures.items():
         path = folder / name

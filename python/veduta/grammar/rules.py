@@ -11,6 +11,7 @@ import difflib
 import os
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 
 from veduta import _core
@@ -112,10 +113,13 @@ def _imported(importer: str, written: str, search: SearchPath) -> str | None:
     """The file that an import statement names, as a name of it; None where there is none."""
     plain = written.replace("\\", "/")
     own = Path(importer).parent / plain
-    for path in (own, *search.candidates(plain)):
-        if search.holds(path):
-            return os.path.normpath(path).replace(os.sep, "/")
-    return None
+    brought = [STYLES.parent / plain] if plain.startswith(f"{STYLES.name}/") else []
+    if _is_of_styles(Path(importer)):
+        brought.append(own)
+    found = (path for path in (own, *search.candidates(plain)) if search.holds(path))
+    of_styles = (path for path in brought if _is_of_styles(path))
+    path = next(chain(found, of_styles), None)
+    return None if path is None else os.path.normpath(path).replace(os.sep, "/")
 
 
 def check_rules(rules: RuleFiles) -> Verdict:
@@ -164,3 +168,9 @@ def _read(path: Path) -> tuple[str, str | None]:
         line = content[: content.index(0)].count(b"\n") + 1
         raise InputError(path, f"is no text (line {line})", "Name a rule file (.cga).")
     return decoded(content)
+
+
+def _is_of_styles(path: Path) -> bool:
+    """Whether it is a file of the styles that Veduta brings along."""
+    real = os.path.realpath(path)
+    return os.path.isfile(real) and real.startswith(os.path.realpath(STYLES) + os.sep)

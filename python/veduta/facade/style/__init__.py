@@ -1,0 +1,1 @@
+"""Styles: what their rules derive to, compared with what a front shows."""

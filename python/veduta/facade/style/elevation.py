@@ -1,0 +1,75 @@
+"""What stands in a front that rules derive to, as seen from straight ahead: boxes with classes.
+
+The frame is that of facades: metres, x right along the wall, z up from the ground, the wall's plane
+at y = 0, what stands before it at y < 0.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta import _core
+from veduta.grammar.assets.asset import Asset
+
+DEEPEST_M = 2.0
+"""What lies further behind the wall is another wall's: arcades are the deepest recesses."""
+_CORNERS = np.array(list(product((0, 1), repeat=3)))
+
+
+@dataclass(frozen=True)
+class Elevation:
+    """`classes` and `said` (n) name class and provenance of each box; `boxes` (n, 4) are x0, z0,
+    x1, z1 in metres; `near` (n) is the y of what is nearest to the viewer.
+    """
+
+    classes: tuple[str, ...]
+    said: tuple[str, ...]
+    boxes: NDArray[np.float64]
+    near: NDArray[np.float64]
+
+    def of(self, *names: str) -> NDArray[np.float64]:
+        """The boxes (k, 4) of these classes, from left to right and from below."""
+        rows = np.array([name in names for name in self.classes], dtype=np.bool_)
+        found = self.boxes[rows]
+        return found[np.lexsort((found[:, 1], found[:, 0]))]
+
+
+def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevation:
+    """The boxes of all surfaces that belong to the wall along the lot's first edge."""
+    count = len(derived.feature_class)
+    low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
+    starts = derived.ring_offsets[derived.polygon_offsets[:-1]]
+    if len(starts):
+        feature = derived.polygon_feature
+        np.minimum.at(low, feature, np.minimum.reduceat(derived.positions_m, starts))
+        np.maximum.at(high, feature, np.maximum.reduceat(derived.positions_m, starts))
+    if len(derived.instance_feature):
+        bottom, top = _instances(derived, assets)
+        np.minimum.at(low, derived.instance_feature, bottom)
+        np.maximum.at(high, derived.instance_feature, top)
+    front = np.isfinite(low[:, 0]) & (high[:, 1] < DEEPEST_M)
+    rows = np.flatnonzero(front)
+    return Elevation(
+        classes=tuple(derived.feature_class[row] for row in rows.tolist()),
+        said=tuple(derived.feature_provenance[row] for row in rows.tolist()),
+        boxes=np.column_stack([low[rows][:, [0, 2]], high[rows][:, [0, 2]]]),
+        near=low[rows, 1],
+    )
+
+
+def _instances(
+    derived: _core.DerivedLot, assets: Mapping[str, Asset]
+) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+    """The lower and upper corner (i, 3) of each instance."""
+    boxes = np.array([assets[name].box_m for name in derived.asset_names])  # (a, 2, 3)
+    corners = boxes[:, _CORNERS, [0, 1, 2]]  # (a, 8, 3), y up
+    corners = np.stack([corners[..., 0], -corners[..., 2], corners[..., 1]], axis=-1)
+    place = derived.instance_transform.reshape(-1, 3, 4)
+    own = corners[derived.instance_asset]
+    points = np.einsum("nij,ncj->nci", place[:, :, :3], own) + place[:, None, :, 3]
+    return points.min(axis=1), points.max(axis=1)
