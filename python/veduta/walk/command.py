@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 
 import numpy as np
@@ -22,6 +22,7 @@ from veduta.walk.build.graph import worlds_of
 from veduta.walk.build.judge import JudgeLimits
 from veduta.walk.build.level import Compared, Gains, level_gains, levelled
 from veduta.walk.build.local_model import FARTHEST_M, LocalModel
+from veduta.walk.build.marks import BLUE, GREEN, painted
 from veduta.walk.build.mesh import MeshSettings
 from veduta.walk.build.place import (
     Station,
@@ -34,15 +35,15 @@ from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way, WaySettings, find_way
 from veduta.walk.build.way_file import arrays_of, way_of
 from veduta.walk.document.load import DOCUMENT, write_document
-from veduta.walk.keys import KeyFigures
+from veduta.walk.keys import KeyFigures, KeyModel
 from veduta.walk.options import WalkOptions
 from veduta.walk.photo_record import read_photo_record
 from veduta.walk.read.board import calibrate_rig
 from veduta.walk.record import WalkRecord, read_stereo_record
 from veduta.walk.rig import Image, Rig
-from veduta.walk.tell import document_of, tell_walk
+from veduta.walk.tell import document_of, tell_marks, tell_walk
 
-VERSION = "3"
+VERSION = "4"
 FILM = "walk.mp4"
 CLOUD_STEP_PX = 6
 CLOUD_FARTHEST_M = 60.0
@@ -50,13 +51,16 @@ CLOUD_FARTHEST_M = 60.0
 
 @dataclass(eq=False)
 class Found:
-    """What is known of a walk so far. ends: the key positions of each way."""
+    """What is known of a walk so far. ends: the key positions of each way. marked: of the view with
+    most water and grass their share, its name, and it with them painted.
+    """
 
     stations: list[Station] = field(default_factory=list)
     figures: list[KeyFigures] = field(default_factory=list)
     ways: list[Way] = field(default_factory=list)
     ends: list[tuple[int, int]] = field(default_factory=list)
     clouds: list[tuple[NDArray[np.float64], NDArray[np.uint8]]] = field(default_factory=list)
+    marked: tuple[float, str, Image] | None = None
 
     def add(self, found: tuple[Way, tuple[int, int]]) -> None:
         """A transition."""
@@ -141,6 +145,7 @@ def _make(work: Work, record: WalkRecord, options: WalkOptions) -> None:
             step.counts["frames"] = _film(work, record, found, gains, options)
         work.file(FILM, "the walk as a film")
     tell_walk(work, found.stations, found.ends, found.ways)
+    tell_marks(work, found.figures, found.stations, found.marked)
 
 
 def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
@@ -156,7 +161,7 @@ def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
         if before is not None:
             found.add(_way(work, before, key.model, record, settings, (number - 1, number)))
         shapes.append(key.model.screen)
-        found.figures.append(key.figures)
+        found.figures.append(_marked(found, key, record.keys[number][0].key))
         found.clouds.append(_cloud(key.model))
         before = key.model
     for ends in links:
@@ -168,6 +173,17 @@ def _find(work: Work, record: WalkRecord, options: WalkOptions) -> Found:
     if any(len(views) > 1 for views in record.keys):
         work.measure("largest_gap_share", max(one.gap for one in found.figures))
     return found
+
+
+def _marked(found: Found, key: KeyModel, name: str) -> KeyFigures:
+    """Its figures with the shares of water and grass; the view with most of them is kept."""
+    marks = key.model.marks
+    figures = replace(key.figures, water=float(marks.water.mean()), grass=float(marks.grass.mean()))
+    share = figures.water + figures.grass
+    if share > (0.0 if found.marked is None else found.marked[0]):
+        shown = painted(key.model.image, ((marks.water, BLUE), (marks.grass, GREEN)))
+        found.marked = (share, name, shown)
+    return figures
 
 
 def _links(record: WalkRecord, links: tuple[str, ...]) -> list[tuple[int, int]]:
@@ -209,8 +225,9 @@ def _write_place(
     for number, name in enumerate(pictures):
         image = _picture(work, record, gains, number)
         write_picture(work.folder / name, image, options.play.quality)
+    made = _settings(options).mesh
     told = [
-        _written(work.folder, number, ends, way, pictures, found.stations[ends[0]].screen)
+        _written(work.folder, number, ends, way, pictures, found.stations[ends[0]].screen, made)
         for number, (ends, way) in enumerate(zip(found.ends, found.ways, strict=True))
     ]
     place = Place()
@@ -297,14 +314,15 @@ def _cloud(model: LocalModel) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
 
 
 def _written(
-    folder: Path, number: int, ends: tuple[int, int], way: Way, pictures: list[str], screen: Screen
-) -> tuple[WalkTransition, tuple[str, str] | None]:
+    folder: Path, number: int, ends: tuple[int, int], way: Way, pictures: list[str], screen: Screen,
+    made: MeshSettings,
+) -> tuple[WalkTransition, tuple[str, str] | None]:  # fmt: skip
     """The entry of the place, and the files of the models, which a fade has for a rebuild."""
     score = None if way.verdict is None else way.verdict.score_db
     start, end = ends
     models = None
     if way.forth is not None:
-        models = write_way(folder, number, way, (pictures[start], pictures[end]), screen)
+        models = write_way(folder, number, way, (pictures[start], pictures[end]), screen, made)
     if way.kind != "morph" or models is None:
         return WalkTransition(start=start, end=end, kind=way.kind, score_db=score), models
     entry = WalkTransition(

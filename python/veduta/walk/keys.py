@@ -24,12 +24,15 @@ class KeyFigures:
     """Where the views of a key position are.
 
     turns: (n, 3, 3) model_from_view, NaN for a view that was left out; gap: share of a mosaic that
-    no view shows. front: number of the view in whose frame the model is.
+    no view shows. front: number of the view in whose frame the model is. water, grass: share of the
+    picture that shows it.
     """
 
     turns: NDArray[np.float64]
     front: int = 0
     gap: float = 0.0
+    water: float = 0.0
+    grass: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)

@@ -17,7 +17,7 @@ from veduta.walk.document.schema import (
     WalkDocument,
 )
 from veduta.walk.keys import KeyFigures
-from veduta.walk.rig import PairFiles, Rig
+from veduta.walk.rig import Image, PairFiles, Rig
 
 Cell = float | int | str | None
 COLUMNS = (
@@ -64,7 +64,7 @@ def _key(views: tuple[PairFiles, ...], key: KeyFigures, station: Station, gain: 
         id=station.id, left=front.left.name, right=front.right.name,
         transform=tuple(station.world_from_camera.T.ravel().tolist()),
         gain=(float(gain[0]), float(gain[1]), float(gain[2])),
-        views=tuple(shown) if len(views) > 1 else (),
+        views=tuple(shown) if len(views) > 1 else (), water=key.water, grass=key.grass,
     )  # fmt: skip
 
 
@@ -77,7 +77,7 @@ def _transition(way: Way, start: str, end: str, models: tuple[str, str] | None) 
         distance_m=None if verdict is None else way.distance_m,
         residual_px=way.residual_px, psi=None if verdict is None else verdict.psi,
         score_db=None if verdict is None else verdict.score_db,
-        unmoved_db=None if verdict is None else verdict.unmoved_db,
+        unmoved_db=None if verdict is None else verdict.unmoved_db, moving=way.moving[0],
         energy=energies[0], energy_icm=energies[1], energy_bound=energies[2],
         forth=forth, back=back,
     )  # fmt: skip
@@ -100,6 +100,8 @@ def tell_walk(
             work.doubt(f"{names}: {'a cut' if way.kind == 'cut' else 'cross-faded'}: {way.why}")
         if way.predicted is not None and way.kind != "morph":
             work.picture(names, f"the view of {stations[end].id} as predicted", way.predicted)
+        if max(way.moving) > 0.0:
+            _tell_moving(work, names, way)
         rows.append([names, way.kind, *_figures(way)])
     work.table(Table("Transitions", list(COLUMNS), rows, note=NOTE))
     _best_picture(work, ways)
@@ -113,6 +115,35 @@ def tell_walk(
         f"{len(stations)} key positions, {sum(steps):.1f} m: {kinds.count('morph')} transitions"
         f" morph, {kinds.count('fade')} cross-fade, {kinds.count('cut')} are cut"
     )
+
+
+def _tell_moving(work: Work, names: str, way: Way) -> None:
+    there, gone = way.moving
+    work.doubt(
+        f"{names}: something moves, in {there:.1%} of the one view and {gone:.1%} of the other:"
+        " it is shown where each took it, and left out between"
+    )
+    if way.shown is not None:
+        work.picture(f"What moves, {names}", "red: not there any more in the next view", way.shown)
+
+
+def tell_marks(
+    work: Work, figures: list[KeyFigures], stations: list[Station],
+    marked: tuple[float, str, Image] | None,
+) -> None:  # fmt: skip
+    """Where water and grass are seen. marked: the view with most of them, their share and name."""
+    for name in ("water", "grass"):
+        shares = {one.id: getattr(key, name) for one, key in zip(stations, figures, strict=True)}
+        seen = {key: share for key, share in shares.items() if share > 0.0}
+        work.measure(f"largest_{name}_share", max(shares.values()))
+        if seen:
+            most = max(seen, key=lambda key: seen[key])
+            work.note(
+                f"{name} is seen from {len(seen)} of {len(shares)} key positions, most of it from"
+                f" {most} ({seen[most]:.0%} of the view)"
+            )
+    if marked is not None:
+        work.picture(f"Water and grass, {marked[1]}", "blue: still water; green: grass", marked[2])
 
 
 def _figures(way: Way) -> list[Cell]:

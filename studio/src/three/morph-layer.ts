@@ -28,32 +28,39 @@ export class MorphLayer {
   readonly #uniforms = layerUniforms();
   readonly #seen: Mesh;
   readonly #torn: Mesh;
+  readonly #moving: Mesh;
   readonly #sheet: Mesh;
   #sheetOf: Station | null = null;
 
   constructor() {
     this.target = new WebGLRenderTarget(1, 1, { minFilter: NearestFilter, magFilter: NearestFilter });
     this.target.depthTexture = new DepthTexture(1, 1, UnsignedIntType);
-    this.#seen = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, false));
-    this.#torn = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, true));
-    this.#sheet = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, false));
-    for (const mesh of [this.#seen, this.#torn, this.#sheet]) {
+    this.#seen = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, "seen"));
+    this.#torn = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, "torn"));
+    this.#moving = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, "moving"));
+    this.#sheet = new Mesh(new BufferGeometry(), layerMaterial(this.#uniforms, "seen"));
+    for (const mesh of this.#all) {
       mesh.frustumCulled = false;
       mesh.matrixAutoUpdate = false;
       this.#scene.add(mesh);
     }
   }
 
+  get #all(): readonly Mesh[] {
+    return [this.#seen, this.#torn, this.#moving, this.#sheet];
+  }
+
   /** What stands at a station: its model on the way to another, or its picture alone. */
   show(station: Station, model: EndModel | null, own: Texture | null, other: Texture | null, m: number, look: MorphLook): void {
     const matrix = drawnFromCamera(axesOf({ ...station, name: station.id }));
-    for (const mesh of [this.#seen, this.#torn, this.#sheet]) mesh.matrix.fromArray(matrix);
-    this.#seen.visible = this.#torn.visible = model !== null && own !== null;
+    for (const mesh of this.#all) mesh.matrix.fromArray(matrix);
+    this.#seen.visible = this.#torn.visible = this.#moving.visible = model !== null && own !== null;
     this.#sheet.visible = model === null && own !== null;
     if (model !== null) {
       this.#seen.geometry = model.seen;
       this.#torn.geometry = model.torn;
-      this.#torn.visible &&= model.torn.hasAttribute("position");
+      this.#moving.geometry = model.moving;
+      for (const mesh of [this.#torn, this.#moving]) mesh.visible &&= mesh.geometry.hasAttribute("position");
     } else if (this.#sheetOf !== station) {
       this.#sheet.geometry.dispose();
       this.#sheet.geometry = sheet(station);

@@ -9,10 +9,11 @@ import { fetchBytes } from "./fetch.ts";
 const REMEDY = "Write the walk again with `veduta walk`.";
 const ANISOTROPY = 8;
 
-/** One end's model: what was seen there, and what spans breaks in depth. */
+/** One end's model: what was seen there, what spans breaks in depth, and what is elsewhere in the other view. */
 export interface EndModel {
   readonly seen: BufferGeometry;
   readonly torn: BufferGeometry;
+  readonly moving: BufferGeometry;
 }
 
 /** Both models of a transition; null while they are on their way, or where it does not morph. */
@@ -60,7 +61,7 @@ export class MorphFiles {
   get bytes(): number {
     let sum = 0;
     for (const way of this.#ways.values()) {
-      for (const end of way === null ? [] : [way.forth, way.back]) sum += bytesOf(end.seen) + bytesOf(end.torn);
+      for (const end of way === null ? [] : [way.forth, way.back]) sum += bytesOf(end.seen) + bytesOf(end.torn) + bytesOf(end.moving);
     }
     for (const picture of this.#pictures.values()) {
       const { width, height } = (picture?.image ?? { width: 0, height: 0 }) as ImageBitmap;
@@ -166,7 +167,9 @@ export class MorphFiles {
     });
     const seen = geometries.get("seen");
     if (seen === undefined) throw new Fault(file, "it holds no surface that was seen", REMEDY);
-    return { seen, torn: geometries.get("between") ?? new BufferGeometry() };
+    const others = ["between", "moving"].map((name) => geometries.get(name) ?? new BufferGeometry());
+    const [torn = new BufferGeometry(), moving = new BufferGeometry()] = others;
+    return { seen, torn, moving };
   }
 }
 
@@ -194,7 +197,6 @@ function bytesOf(geometry: BufferGeometry): number {
   return columns.reduce((sum, column) => sum + column.array.byteLength, 0);
 }
 
-function dispose({ seen, torn }: EndModel): void {
-  seen.dispose();
-  torn.dispose();
+function dispose({ seen, torn, moving }: EndModel): void {
+  for (const geometry of [seen, torn, moving]) geometry.dispose();
 }

@@ -13,6 +13,16 @@ const TOLERANCE = 0.3;
 const TORN_WEIGHT = 0.02;
 /** Share of the way over which what hides a model, and its own breaks, come to count: before, its picture is seen. */
 const ALONE = 0.12;
+/** Of what is elsewhere in the other view, and the share of the way over which it is left behind. */
+const MOVING_WEIGHT = 0.004;
+const LEAVE = 0.3;
+/** What a triangle is of a model: a thing that was seen, a break in depth, or what moves. */
+export type LayerKind = "seen" | "torn" | "moving";
+const WEIGHTS: Readonly<Record<LayerKind, string>> = {
+  seen: "1.0",
+  torn: `mix(1.0, ${TORN_WEIGHT.toFixed(3)}, smoothstep(0.0, ${ALONE.toFixed(2)}, m))`,
+  moving: `pow(${MOVING_WEIGHT.toFixed(3)}, smoothstep(0.0, ${LEAVE.toFixed(2)}, m))`,
+};
 const LOOKS: Readonly<Record<MorphLook, number>> = { picture: 0, geometry: 1, psi: 2 };
 
 export interface LayerUniforms {
@@ -32,11 +42,11 @@ export function setLook(uniforms: LayerUniforms, look: MorphLook): void {
   uniforms.look.value = LOOKS[look];
 }
 
-export function layerMaterial(uniforms: LayerUniforms, torn: boolean): ShaderMaterial {
+export function layerMaterial(uniforms: LayerUniforms, kind: LayerKind): ShaderMaterial {
   return new ShaderMaterial({
     name: "walk-layer",
     uniforms,
-    defines: { WEIGHT: torn ? TORN_WEIGHT.toFixed(3) : "1.0" },
+    defines: kind === "moving" ? { MOVING: "" } : {},
     side: DoubleSide,
     blending: NoBlending,
     toneMapped: false,
@@ -73,13 +83,16 @@ export function layerMaterial(uniforms: LayerUniforms, torn: boolean): ShaderMat
         vec3 colour = mix(texture2D(own, vOwn.xy / vOwn.z).rgb, texture2D(other, vThere).rgb, m * vPsi);
         if (look > 1.5) {
           colour = mix(colour * 0.45, mix(vec3(0.95, 0.55, 0.25), vec3(0.2, 0.75, 0.65), vPsi), 0.45);
+          #ifdef MOVING
+          colour = mix(colour, vec3(0.9, 0.1, 0.1), 0.6);
+          #endif
         } else if (look > 0.5) {
           vec3 normal = normalize(cross(dFdx(vSeen), dFdy(vSeen)));
           float light = 0.25 + 0.7 * abs(normal.z);
           float near = clamp(8.0 / -vSeen.z, 0.0, 1.0);
           colour = light * mix(vec3(0.45, 0.55, 0.7), vec3(0.95, 0.85, 0.7), near);
         }
-        gl_FragColor = vec4(colour, mix(1.0, WEIGHT, smoothstep(0.0, ${ALONE.toFixed(2)}, m)));
+        gl_FragColor = vec4(colour, ${WEIGHTS[kind]});
       }`,
   });
 }
@@ -142,8 +155,10 @@ export function mixMaterial(uniforms: MixUniforms): ShaderMaterial {
         otherZ = other.a > 0.0 ? otherZ : 1e6;
         float first = min(ownZ, otherZ);
         vec2 behind = vec2(ownZ - first, otherZ - first) / (first * ${TOLERANCE.toFixed(3)});
+        // What spans a break in depth, or is left behind, hides nothing.
+        vec2 solid = vec2(other.a, own.a);
         vec2 weight = vec2(own.a, other.a) * max(vec2(1.0 - m, m), vec2(1e-4))
-          * exp(-min(behind * behind * smoothstep(vec2(0.0), vec2(${ALONE.toFixed(2)}), vec2(m, 1.0 - m)), 60.0));
+          * exp(-min(behind * behind * solid * smoothstep(vec2(0.0), vec2(${ALONE.toFixed(2)}), vec2(m, 1.0 - m)), 60.0));
         return vec4(own.rgb * weight.x + other.rgb * weight.y, weight.x + weight.y);
       }
 

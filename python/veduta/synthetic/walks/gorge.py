@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from veduta.synthetic.noise import fractal_noise
 
 Floats = NDArray[np.float64]
-ROCK, LEAF, BARK = 0, 1, 2
+ROCK, LEAF, BARK, WATER, MOVER = 0, 1, 2, 3, 4
 _CELL_M = 0.35
 _HALF_M = 22.0
 _BEFORE_M, _AFTER_M = 8.0, 70.0
@@ -22,11 +22,15 @@ _FLOOR_M, _SLOPE_M, _WALL_M = 3.0, 5.0, 16.0
 
 @dataclass(frozen=True, eq=False)
 class Gorge:
-    """vertices: (v, 3). triangles: (t, 3) int32. kind: (t,) `ROCK`, `LEAF` or `BARK`."""
+    """vertices: (v, 3). triangles: (t, 3) int32. kind: (t,) `ROCK` and the others.
+
+    mover_m: (3,) how far what moves has gone.
+    """
 
     vertices: Floats
     triangles: NDArray[np.int32]
     kind: NDArray[np.int32]
+    mover_m: Floats | None = None
 
 
 def make_gorge(length_m: float, seed: int = 0, trees: int = 40) -> Gorge:
@@ -86,18 +90,18 @@ def _tree(
 ) -> list[tuple[Floats, NDArray[np.int64], NDArray[np.int64]]]:
     """A trunk, and a few balls of leaves with dents."""
     parts = []
-    trunk, faces = _ball(rng, 6, 8, 0.0)
+    trunk, faces = dented_ball(rng, 6, 8, 0.0)
     trunk = trunk * np.array([0.12, 0.12, 0.5 * height_m]) + np.array([0.0, 0.0, 0.45 * height_m])
     parts.append((trunk + foot, faces, np.full(len(faces), BARK)))
     for _ in range(4):
-        ball, faces = _ball(rng, 14, 18, 0.25)
+        ball, faces = dented_ball(rng, 14, 18, 0.25)
         radius = rng.uniform(0.18, 0.3) * height_m
         middle = rng.normal(scale=[0.15, 0.15, 0.1]) * height_m + [0.0, 0.0, 0.75 * height_m]
         parts.append((ball * radius + middle + foot, faces, np.full(len(faces), LEAF)))
     return parts
 
 
-def _ball(
+def dented_ball(
     rng: np.random.Generator, rings: int, sides: int, dents: float
 ) -> tuple[Floats, NDArray[np.int64]]:
     """A ball of radius 1 about the origin, its vertices moved in and out."""

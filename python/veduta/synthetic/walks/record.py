@@ -11,10 +11,13 @@ from PIL import Image
 from scipy.spatial.transform import Rotation
 
 from veduta.synthetic.walks.gorge import Gorge, ground_m, make_gorge
+from veduta.synthetic.walks.more import with_mover, with_pool
 from veduta.synthetic.walks.shoot import GorgeScene, WalkCamera, WalkShot
 
 Floats = NDArray[np.float64]
 _EYE_M = 1.6
+_POOL_AHEAD_M, _POOL_M = 4.0, 0.35
+_BOULDER_AHEAD_M = 7.0
 
 
 @dataclass(frozen=True)
@@ -22,7 +25,9 @@ class GorgeWalk:
     """step_m: between key positions. turning_rad, rolling_rad: how much the camera turns aside and
     rolls from key position to key position, at most. drift: by which factor the exposure changes
     with each. fov_rad: the horizontal angle of view. views: at each key position, turned by
-    view_turn_rad from one to the next about the left camera, the middle one ahead.
+    view_turn_rad from one to the next about the left camera, the middle one ahead. pool: still
+    water on the floor, from 4 m ahead of the first key position on. mover: a boulder that rolls
+    across the path, elsewhere at each key position.
     """
 
     keys: int = 5
@@ -37,6 +42,8 @@ class GorgeWalk:
     seed: int = 0
     views: int = 1
     view_turn_rad: float = 0.7
+    pool: bool = False
+    mover: bool = False
 
     @property
     def focal_px(self) -> float:
@@ -84,16 +91,28 @@ def beside(camera: WalkCamera, baseline_m: float) -> WalkCamera:
 def shoot_walk(walk: GorgeWalk) -> tuple[list[WalkCamera], list[tuple[WalkShot, WalkShot]]]:
     """All pairs, and the left cameras; the exposure drifts from view to view."""
     gorge = make_gorge(walk.keys * walk.step_m, walk.seed)
+    if walk.pool:
+        gorge = with_pool(gorge, _POOL_AHEAD_M, walk.keys * walk.step_m + 40.0, _POOL_M)
     scene = GorgeScene(gorge)
-    cameras = [view for camera in cameras_of(walk, gorge) for view in views_of(walk, camera)]
-    pairs = [
-        (
-            scene.shoot(camera, walk.drift**number),
-            scene.shoot(beside(camera, walk.baseline_m), walk.drift**number),
-        )
-        for number, camera in enumerate(cameras)
-    ]
+    cameras: list[WalkCamera] = []
+    pairs: list[tuple[WalkShot, WalkShot]] = []
+    for number, camera in enumerate(cameras_of(walk, gorge)):
+        if walk.mover:
+            scene = GorgeScene(_with_boulder(walk, gorge, number))
+        for view in views_of(walk, camera):
+            shown = (view, beside(view, walk.baseline_m))
+            left, right = (scene.shoot(one, walk.drift ** len(cameras)) for one in shown)
+            cameras.append(view)
+            pairs.append((left, right))
     return cameras, pairs
+
+
+def _with_boulder(walk: GorgeWalk, gorge: Gorge, number: int) -> Gorge:
+    """The boulder rolls from the left wall to the right one, as far from the walker each time."""
+    across = -2.2 + 4.4 * number / max(1, walk.keys - 1)
+    home = np.array([-2.2, _BOULDER_AHEAD_M, 0.9])
+    place = np.array([across, number * walk.step_m + _BOULDER_AHEAD_M, 0.9])
+    return with_mover(gorge, place, 0.9, home)
 
 
 def write_walk(folder: Path, walk: GorgeWalk) -> list[WalkCamera]:

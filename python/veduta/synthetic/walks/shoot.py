@@ -9,14 +9,19 @@ from embreex.mesh_construction import TriangleMesh
 from embreex.rtcore_scene import EmbreeScene
 from numpy.typing import NDArray
 
-from veduta.synthetic.walks.gorge import BARK, LEAF, Gorge
+from veduta.synthetic.walks.gorge import BARK, LEAF, MOVER, WATER, Gorge
 
 Floats = NDArray[np.float64]
 _SUN = np.array([0.45, -0.35, 0.82]) / np.linalg.norm([0.45, -0.35, 0.82])
-_TINTS = {0: (0.62, 0.55, 0.46), LEAF: (0.30, 0.42, 0.17), BARK: (0.34, 0.26, 0.19)}
+_TINTS = {
+    0: (0.62, 0.55, 0.46), LEAF: (0.30, 0.42, 0.17), BARK: (0.34, 0.26, 0.19),
+    WATER: (0.16, 0.22, 0.20), MOVER: (0.66, 0.36, 0.28),
+}  # fmt: skip
 _SKY = (0.62, 0.74, 0.90)
 _CELLS = ((1.7, 0.25), (0.45, 0.3), (0.12, 0.27), (0.04, 0.18))
 """The grain of the texture: how large (m), and how strong."""
+_MIRRORED, _RIPPLE = 0.75, 0.004
+"""Share of the light that water mirrors, and how far ripples turn what is mirrored."""
 
 
 @dataclass(frozen=True)
@@ -31,10 +36,14 @@ class WalkCamera:
 
 @dataclass(frozen=True, eq=False)
 class WalkShot:
-    """image: (h, w, 3) uint8. depth_m: (h, w) along the axis, NaN in the sky."""
+    """image: (h, w, 3) uint8. depth_m: (h, w) along the axis, NaN in the sky.
+
+    kind: (h, w) what is seen, as `Gorge.kind`; -1 in the sky.
+    """
 
     image: NDArray[np.uint8]
     depth_m: Floats
+    kind: NDArray[np.int32]
 
 
 class GorgeScene:
@@ -56,11 +65,11 @@ class GorgeScene:
             for column in range(samples):
                 offset = (np.array([column, row]) + 0.5) / samples
                 light += self._seen(camera, offset)[0] / samples**2
-        depth = self._seen(camera, np.array([0.5, 0.5]))[1]
+        _, depth, kind = self._seen(camera, np.array([0.5, 0.5]))
         display = np.clip(light * exposure, 0.0, 1.0) ** (1.0 / 2.2)
-        return WalkShot(np.round(255.0 * display).astype(np.uint8), depth)
+        return WalkShot(np.round(255.0 * display).astype(np.uint8), depth, kind)
 
-    def _seen(self, camera: WalkCamera, offset: Floats) -> tuple[Floats, Floats]:
+    def _seen(self, camera: WalkCamera, offset: Floats) -> tuple[Floats, Floats, NDArray[np.int32]]:
         shape = (camera.height_px, camera.width_px)
         x, y = np.meshgrid(np.arange(shape[1]) + offset[0], np.arange(shape[0]) + offset[1])
         middle = np.array([shape[1] / 2.0, shape[0] / 2.0])
@@ -69,26 +78,55 @@ class GorgeScene:
         length = np.linalg.norm(local, axis=1)
         rays = local @ camera.world_from_camera[:3, :3].T / length[:, None]
         origins = np.broadcast_to(camera.world_from_camera[:3, 3], rays.shape)
+        which, distance = self._hits(origins, rays)
+        colour = self._light(origins, rays, which, distance)
+        mirrored = (which >= 0) & (self._gorge.kind[which] == WATER)
+        if mirrored.any():
+            points = origins[mirrored] + rays[mirrored] * distance[mirrored, None]
+            colour[mirrored] = self._water(points, rays[mirrored], colour[mirrored])
+        depth = np.where(which >= 0, distance / length, np.nan)
+        kind = np.where(which >= 0, self._gorge.kind[which], -1).astype(np.int32)
+        return colour.reshape(*shape, 3), depth.reshape(shape), kind.reshape(shape)
+
+    def _hits(self, origins: Floats, rays: Floats) -> tuple[NDArray[np.integer], Floats]:
+        """(n,) the triangle that each ray meets, -1 for none, and how far away it is."""
         found = self._scene.run(
             np.ascontiguousarray(origins, dtype=np.float32), rays.astype(np.float32), output=True
         )
-        which, distance = found["primID"], found["tfar"].astype(np.float64)
-        hit = which >= 0
+        return found["primID"], found["tfar"].astype(np.float64)
+
+    def _light(
+        self, origins: Floats, rays: Floats, which: NDArray[np.integer], distance: Floats
+    ) -> Floats:
+        """(n, 3) what comes along each ray."""
         colour = np.tile(np.array(_SKY), (len(rays), 1))
+        hit = which >= 0
         points = origins[hit] + rays[hit] * distance[hit, None]
         colour[hit] = self._colour(points, which[hit], rays[hit])
-        depth = np.where(hit, distance / length, np.nan)
-        return colour.reshape(*shape, 3), depth.reshape(shape)
+        return colour
+
+    def _water(self, points: Floats, rays: Floats, own: Floats) -> Floats:
+        """What level water mirrors, a little turned by ripples, over its own colour."""
+        turned = rays * np.array([1.0, 1.0, -1.0])
+        for axis, seed in ((0, 20), (1, 21)):
+            turned[:, axis] += _RIPPLE * (_noise_3d(points / 0.25, seed) - 0.5)
+        turned /= np.linalg.norm(turned, axis=1, keepdims=True)
+        above = points + np.array([0.0, 0.0, 1e-3])
+        which, distance = self._hits(above, turned)
+        seen = self._light(above, turned, which, distance)
+        return np.asarray(_MIRRORED * seen + (1.0 - _MIRRORED) * own)
 
     def _colour(self, points: Floats, which: NDArray[np.integer], rays: Floats) -> Floats:
         """Rock and leaves by noise in space, lit by the sun and the sky."""
         normals = self._normals[which]
         normals = normals * np.where((normals * rays).sum(axis=1) > 0.0, -1.0, 1.0)[:, None]
         light = 0.35 + 0.65 * np.maximum(normals @ _SUN, 0.0)
+        kinds = self._gorge.kind[which]
+        if self._gorge.mover_m is not None:
+            points = points - np.where((kinds == MOVER)[:, None], self._gorge.mover_m, 0.0)
         pattern = np.zeros(len(points))
         for number, (cell, strength) in enumerate(_CELLS):
             pattern += strength * _noise_3d(points / cell, number)
-        kinds = self._gorge.kind[which]
         tints = np.array([_TINTS[kind] for kind in sorted(_TINTS)])
         contrast = np.clip(0.8 + 3.2 * (pattern - 0.5), 0.08, 2.2)
         linear = (tints[kinds] ** 2.2) * contrast[:, None]

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.walk.build.mesh import MeshSettings, MorphMesh, breaks
+from veduta.walk.build.mesh import GRASS, MOVING, WATER, MeshSettings, MorphMesh, breaks
 
 Numbers = NDArray[np.int64]
 
@@ -20,21 +20,25 @@ Numbers = NDArray[np.int64]
 @dataclass(frozen=True)
 class FewerSettings:
     """error_px: of anything that is drawn, at its worst on the way. tile: side of the largest
-    triangles (cells, a power of two). psi_px: what a whole step of psi counts. walk_m: how far one
-    goes at most: what a depth that is off moves by then.
+    triangles (cells, a power of two). psi_px: what a whole step of psi counts, and mark_px the
+    border of what is marked. walk_m: how far one goes at most: what a depth that is off moves by then.
     """
 
     error_px: float = 1.0
     tile: int = 16
     psi_px: float = 8.0
+    mark_px: float = 4.0
     walk_m: float = 2.0
 
 
 def fewer_triangles(
     mesh: MorphMesh, size_px: tuple[int, int], focal_px: float,
-    settings: FewerSettings = FewerSettings(),
+    settings: FewerSettings = FewerSettings(), made: MeshSettings = MeshSettings(),
 ) -> MorphMesh:  # fmt: skip
-    """The same surface of fewer triangles. size_px: of the pictures. What is torn is left as it is."""
+    """The same surface of fewer triangles. size_px: of the pictures. What is torn is left as it is.
+
+    made: the settings that the mesh was made with.
+    """
     shape = grid_shape(mesh)
     if min(shape) < 3:
         return mesh
@@ -44,7 +48,8 @@ def fewer_triangles(
     triangles = numbers.reshape(kept.shape)[:, ::-1].astype(np.uint32)
     return MorphMesh(
         mesh.points[used], mesh.destinations[used], mesh.uv[used], mesh.uv_second[used],
-        mesh.psi[used], triangles, _is_torn(kept, mesh, shape), mesh.round,
+        mesh.psi[used], triangles, _is_torn(kept, mesh, shape, made), mesh.round,
+        None if mesh.marks is None else mesh.marks[used],
     )  # fmt: skip
 
 
@@ -67,8 +72,17 @@ def _measures(
             *(reach / np.maximum(one, 0.05) for one in far),
             mesh.uv_second.astype(np.float64) * np.array(size_px),
             mesh.psi.astype(np.float64) * settings.psi_px,
+            *_marked(mesh, settings),
         ]
     )
+
+
+def _marked(mesh: MorphMesh, settings: FewerSettings) -> list[NDArray[np.float64]]:
+    """(v,) of each mark, so that its border is kept; none where nothing is marked."""
+    if mesh.marks is None or not mesh.marks.any():
+        return []
+    marks = [(mesh.marks & bit) > 0 for bit in (WATER, GRASS, MOVING)]
+    return [mark.astype(np.float64) * settings.mark_px for mark in marks]
 
 
 def _torn_nodes(mesh: MorphMesh) -> NDArray[np.bool_]:
@@ -149,9 +163,11 @@ def _split(
     return np.asarray(found[..., 0] * shape[1] + found[..., 1])
 
 
-def _is_torn(kept: Numbers, mesh: MorphMesh, shape: tuple[int, int]) -> NDArray[np.bool_]:
+def _is_torn(
+    kept: Numbers, mesh: MorphMesh, shape: tuple[int, int], made: MeshSettings
+) -> NDArray[np.bool_]:
     """(t,) whether a side at the right angle crosses a break in depth; only the smallest do."""
-    right, down = breaks(mesh.depth_m.reshape(shape).astype(np.float64), MeshSettings())
+    right, down = breaks(mesh.depth_m.reshape(shape).astype(np.float64), made)
     torn = np.zeros(len(kept), dtype=bool)
     row, column = kept // shape[1], kept % shape[1]
     for end in (0, 1):

@@ -71,7 +71,7 @@ def _own_colours(mesh: MorphMesh, pose: Matrix, screen: Screen, first: Image) ->
     """The mesh where it arrives, in the colours of its own picture alone."""
     alone = MorphMesh(
         mesh.points, mesh.destinations, mesh.uv, mesh.uv_second,
-        np.zeros_like(mesh.psi), mesh.triangles, mesh.torn, mesh.round,
+        np.zeros_like(mesh.psi), mesh.triangles, mesh.torn, mesh.round, mesh.marks,
     )  # fmt: skip
     return draw_mesh(alone, 1.0, inverse(pose), pose, screen, first, first)
 

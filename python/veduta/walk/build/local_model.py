@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.walk.build.marks import Marks, find_marks
 from veduta.walk.build.screen import Points, Screen
 from veduta.walk.build.sky import find_sky
 from veduta.walk.build.stereo import StereoSettings, carried_over, match_stereo, smoothed
@@ -50,6 +51,11 @@ class LocalModel:
     def grey(self) -> NDArray[np.float32]:
         """(h, w) light, 0..255."""
         return cv2.cvtColor(self.image, cv2.COLOR_RGB2GRAY).astype(np.float32)
+
+    @cached_property
+    def marks(self) -> Marks:
+        """Where water and grass are seen."""
+        return find_marks(self.image, self.points, self.measured, self.sky, self.screen)
 
 
 def build_local_model(

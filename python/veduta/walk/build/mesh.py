@@ -9,6 +9,9 @@ from numpy.typing import NDArray
 
 from veduta.walk.build.morph import Morph, node_destinations
 
+WATER, GRASS, MOVING = 1, 2, 4
+"""Bits of a vertex's marks."""
+
 
 @dataclass(frozen=True)
 class MeshSettings:
@@ -28,7 +31,8 @@ class MorphMesh:
     points: (v, 3) float32 in the first camera's frame. destinations: (v, 3) float32 in the second
     camera's. uv, uv_second: (v, 2) of the two pictures, origin upper left. psi: (v,). triangles:
     (t, 3) uint32, clockwise on the screen. torn: (t,) whether a triangle spans a break in depth:
-    what it shows was never seen. round: whether the first picture is on a cylinder.
+    what it shows was never seen. round: whether the first picture is on a cylinder. marks: (v,)
+    uint8 of `WATER`, `GRASS`, `MOVING`; None: nothing is marked.
     """
 
     points: NDArray[np.float32]
@@ -39,6 +43,13 @@ class MorphMesh:
     triangles: NDArray[np.uint32]
     torn: NDArray[np.bool_]
     round: bool = False
+    marks: NDArray[np.uint8] | None = None
+
+    def marked(self, mark: int) -> NDArray[np.bool_]:
+        """(t,) the triangles of which a corner has the mark."""
+        if self.marks is None:
+            return np.zeros(len(self.triangles), dtype=np.bool_)
+        return np.asarray((self.marks[self.triangles] & mark).any(axis=1))
 
     @property
     def depth_m(self) -> NDArray[np.float32]:
@@ -70,8 +81,15 @@ def mesh_of(morph: Morph, settings: MeshSettings = MeshSettings()) -> MorphMesh:
         (pixels / size).reshape(-1, 2).astype(np.float32),
         (np.clip(target, -4096, 8192) / size_second).reshape(-1, 2).astype(np.float32),
         morph.psi[at].reshape(-1).astype(np.float32),
-        triangles, torn, model.screen.round,
+        triangles, torn, model.screen.round, _marks(morph)[at].reshape(-1),
     )  # fmt: skip
+
+
+def _marks(morph: Morph) -> NDArray[np.uint8]:
+    """(h, w) of the first view."""
+    seen = morph.first.marks
+    shown = ((seen.water, WATER), (seen.grass, GRASS), (morph.moving, MOVING))
+    return np.asarray(sum(mask.astype(np.uint8) * bit for mask, bit in shown), dtype=np.uint8)
 
 
 def _nodes(size: int, step: int) -> NDArray[np.int64]:

@@ -14,6 +14,7 @@ from veduta.walk.build.poisson import extend_destinations
 from veduta.walk.build.sampling import sampled
 
 Matrix = NDArray[np.float64]
+Mask = NDArray[np.bool_]
 
 
 @dataclass(frozen=True)
@@ -39,7 +40,8 @@ class Morph:
 
     target: (h, w, 2) px in the second picture. psi: (h, w) 0..1, 1 inside the region. points and
     destinations: (h, w, 3) in the frame of the first and of the second camera: equation (1) is
-    between `second_from_first` of the former and the latter.
+    between `second_from_first` of the former and the latter. moving: (h, w) what is elsewhere in
+    the second view; it has no part in Psi.
     """
 
     first: LocalModel
@@ -48,6 +50,7 @@ class Morph:
     target: Flow
     psi: NDArray[np.float32]
     region: NDArray[np.bool_]
+    moving: NDArray[np.bool_]
     flow: FoundFlow
     limits: PsiLimits
 
@@ -55,14 +58,19 @@ class Morph:
 def find_morphs(
     first: LocalModel, second: LocalModel, second_from_first: Matrix,
     settings: FlowSettings = FlowSettings(), limits: PsiLimits = PsiLimits(),
+    moving: tuple[Mask, Mask] | None = None,
 ) -> tuple[Morph, Morph]:  # fmt: skip
-    """From the first to the second and back; each checks the other."""
+    """From the first to the second and back; each checks the other.
+
+    moving: what moves in the first view and in the second; None: nothing does.
+    """
+    still = (np.zeros_like(first.sky), np.zeros_like(second.sky)) if moving is None else moving
     back_pose = inverse(second_from_first)
     forth = find_flow(first, second, second_from_first, settings)
     back = find_flow(second, first, back_pose, settings)
     return (
-        _morph(first, second, second_from_first, forth, back, limits),
-        _morph(second, first, back_pose, back, forth, limits),
+        _morph(first, second, second_from_first, forth, back, still[0], limits),
+        _morph(second, first, back_pose, back, forth, still[1], limits),
     )
 
 
@@ -73,13 +81,14 @@ def inverse(pose: Matrix) -> Matrix:
 
 
 def _morph(
-    first: LocalModel, second: LocalModel, pose: Matrix, forth: FoundFlow, back: FoundFlow, limits: PsiLimits
-) -> Morph:
-    region = _psi(first, second, forth, back, limits)
+    first: LocalModel, second: LocalModel, pose: Matrix, forth: FoundFlow, back: FoundFlow,
+    moving: Mask, limits: PsiLimits,
+) -> Morph:  # fmt: skip
+    region = _psi(first, second, forth, back, limits) & ~moving
     inner = cv2.erode(region.astype(np.uint8), np.ones((3, 3), np.uint8)).astype(np.float32)
     size = 2 * (limits.fade_px // 2) + 1
     psi = np.minimum(cv2.GaussianBlur(inner, (size, size), 0), region.astype(np.float32))
-    return Morph(first, second, pose, forth.target, psi, region, forth, limits)
+    return Morph(first, second, pose, forth.target, psi, region, moving, forth, limits)
 
 
 def _psi(

@@ -18,7 +18,7 @@ from veduta.place.mesh import Mesh, Morph
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.run.atomic import write_bytes
 from veduta.walk.build.fewer import fewer_triangles
-from veduta.walk.build.mesh import MorphMesh
+from veduta.walk.build.mesh import GRASS, MOVING, WATER, MeshSettings, MorphMesh
 from veduta.walk.build.screen import Screen
 from veduta.walk.build.way import Way
 from veduta.walk.rig import Image
@@ -27,8 +27,9 @@ Matrix = NDArray[np.float64]
 FOLDER = "walk"
 Z_UP = np.array([[1.0, 0.0, 0.0], [0.0, 0.0, 1.0], [0.0, -1.0, 0.0]])
 """A frame with z up (x right, y ahead) from the camera's (x right, y down, z ahead)."""
-SEEN, TORN = 0, 1
-"""Materials: what was seen, and what spans a break in depth."""
+SEEN, TORN, MOVES = 0, 1, 2
+"""Materials: what was seen, what spans a break in depth, and what is elsewhere in the other view."""
+MATERIALS = ("seen", "between", "moving")
 
 
 @dataclass(frozen=True, eq=False)
@@ -54,9 +55,13 @@ def write_picture(path: Path, image: Image, quality: int) -> None:
 
 
 def write_way(
-    folder: Path, number: int, way: Way, pictures: tuple[str, str], screen: Screen
-) -> tuple[str, str]:
-    """Write the models of a transition that morphs; their paths in the place. screen: of an end."""
+    folder: Path, number: int, way: Way, pictures: tuple[str, str], screen: Screen,
+    made: MeshSettings = MeshSettings(),
+) -> tuple[str, str]:  # fmt: skip
+    """Write the models of a transition that morphs; their paths in the place. screen: of an end.
+
+    made: the settings of the meshes.
+    """
     size_px, focal_px = (screen.width_px, screen.height_px), screen.focal_px[0]
     names = []
     back = np.linalg.inv(np.vstack([way.second_from_first, [0.0, 0.0, 0.0, 1.0]]))[:3]
@@ -65,7 +70,7 @@ def write_way(
         if mesh is None:
             continue
         name = f"{FOLDER}/way-{number:04d}-{kind}.glb"
-        simple = fewer_triangles(mesh, size_px, focal_px)
+        simple = fewer_triangles(mesh, size_px, focal_px, made=made)
         model = model_of(f"way-{number:04d}-{kind}", simple, own_from_other, shown)
         write_bytes(folder / name, mesh_glb_bytes(model))
         names.append(name)
@@ -76,28 +81,35 @@ def model_of(name: str, mesh: MorphMesh, own_from_other: Matrix, pictures: tuple
     """One end's model as a mesh with a morph target, in its camera's frame with z up.
 
     `extras.walk.pictures`: what the first and the second set of texture coordinates are of.
-    `_PSI`: how far a vertex takes part in the photometric morph.
+    `_PSI`: how far a vertex takes part in the photometric morph. Water and grass are features.
     """
     arrived = mesh.destinations @ own_from_other[:, :3].T + own_from_other[:, 3]
     rows = [
         (SemanticClass.OTHER, Provenance.MEASURED, "seen"),
         (SemanticClass.OTHER, Provenance.INVENTED, "between"),
+        *((SemanticClass.OTHER, Provenance.MEASURED, name) for name in ("moving", "water", "grass")),
     ]
     kinds = mesh.torn.astype(np.int32)
+    moves = mesh.marked(MOVING)
+    kinds[moves] = MOVES
+    materials = MATERIALS if moves.any() else MATERIALS[:MOVES]
+    marks = kinds.copy()
+    for number, bit in ((3, WATER), (4, GRASS)):
+        marks[(kinds == SEEN) & mesh.marked(bit)] = number
     return Mesh(
         id=name,
         positions_m=(mesh.points @ Z_UP.T).astype(np.float32),
         triangles=mesh.triangles[:, ::-1].copy(),
         features=feature_table(name, rows),
-        materials=(Material("seen", unlit=True), Material("between", unlit=True)),
-        triangle_feature=kinds,
+        materials=tuple(Material(material, unlit=True) for material in materials),
+        triangle_feature=marks,
         triangle_material=kinds,
         uv=mesh.uv,
         uv_second=mesh.uv_second,
         morphs=(Morph("next", (arrived @ Z_UP.T).astype(np.float32)),),
         extras={"walk": {"pictures": list(pictures)}},
         values={"psi": mesh.psi},
-        pictures={name: Path(pictures[0]).name for name in ("seen", "between")},
+        pictures={material: Path(pictures[0]).name for material in materials},
     )
 
 

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta._core import walk_rasterise
-from veduta.walk.build.mesh import MorphMesh
+from veduta.walk.build.mesh import MOVING, MorphMesh
 from veduta.walk.build.morph import inverse
 from veduta.walk.build.sampling import sampled
 from veduta.walk.build.screen import Screen
@@ -29,12 +29,17 @@ class Mixing:
     """tolerance: by how much (a share) a surface may lie behind another to be the same. torn: the
     weight of what spans a break in depth. floor: the least weight of a mesh at its own far end.
     alone: share of the way over which what hides a model, and its own breaks, come to count.
+    moving: the weight of what moves, and leave: share of the way over which it is left behind.
+    solid: the weight from which a surface hides what is behind it.
     """
 
     tolerance: float = 0.3
     torn: float = 0.02
     floor: float = 1e-4
     alone: float = 0.12
+    moving: float = 0.004
+    leave: float = 0.3
+    solid: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -103,14 +108,23 @@ def draw_mesh(
     torn = np.where(seen_there, mesh.torn[np.maximum(which, 0)], False)
     away = left_behind(m, mixing)
     weight = np.where(torn, 1.0 - away * (1.0 - mixing.torn), 1.0) * seen_there
+    if mesh.marks is not None:
+        moving = seen_there & mesh.marked(MOVING)[np.maximum(which, 0)]
+        gone = _eased(m, mixing.leave)
+        weight = np.where(moving, mixing.moving**gone, weight)
     return Layer((1.0 - share) * own + share * other, weight.astype(np.float32), drawn)
 
 
 def left_behind(m: float, mixing: Mixing = Mixing()) -> float:
     """0 at a model's own key position, where its picture is what is seen, and 1 from `alone` on."""
-    if mixing.alone <= 0.0:
+    return _eased(m, mixing.alone)
+
+
+def _eased(m: float, until: float) -> float:
+    """From 0 at m = 0 to 1 from `until` on."""
+    if until <= 0.0:
         return 1.0
-    share = min(1.0, max(0.0, m / mixing.alone))
+    share = min(1.0, max(0.0, m / until))
     return share * share * (3.0 - 2.0 * share)
 
 
@@ -121,13 +135,13 @@ def _sampled(image: Image, uv: NDArray[np.floating]) -> NDArray[np.float32]:
 
 def mixed(own: Layer, other: Layer, m: float, mixing: Mixing = Mixing()) -> tuple[Image, NDArray[np.bool_]]:
     """Both layers as one picture."""
-    nearest = np.minimum(own.depth, other.depth)
     total = np.zeros(own.weight.shape, dtype=np.float32)
     colour = np.zeros_like(own.colour)
-    for layer, share in ((own, 1.0 - m), (other, m)):
+    for layer, before, share in ((own, other, 1.0 - m), (other, own, m)):
         with np.errstate(invalid="ignore"):
-            behind = np.nan_to_num((layer.depth - nearest) / nearest, nan=0.0, posinf=1e3)
-        hidden = left_behind(1.0 - share, mixing) * (behind / mixing.tolerance) ** 2
+            behind = np.nan_to_num(layer.depth / before.depth - 1.0, nan=0.0, posinf=1e3)
+        solid = np.minimum(before.weight / mixing.solid, 1.0)
+        hidden = left_behind(1.0 - share, mixing) * solid * (np.maximum(behind, 0.0) / mixing.tolerance) ** 2
         weight = layer.weight * max(share, mixing.floor) * np.exp(-np.minimum(hidden, 60.0))
         colour += weight[..., None] * layer.colour
         total += weight

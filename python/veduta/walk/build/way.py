@@ -13,9 +13,11 @@ from veduta.walk.build.flow import FlowSettings
 from veduta.walk.build.judge import JudgeLimits, Verdict, judge
 from veduta.walk.build.level import compare_colours, levelled
 from veduta.walk.build.local_model import LocalModel
+from veduta.walk.build.marks import RED, painted
 from veduta.walk.build.matches import match_features
 from veduta.walk.build.mesh import MeshSettings, MorphMesh, mesh_of
 from veduta.walk.build.morph import find_morphs, inverse
+from veduta.walk.build.moving import find_moving
 from veduta.walk.build.pose import Pose, relative_pose
 from veduta.walk.build.sampling import sampled
 from veduta.walk.rig import Image, Rig
@@ -37,7 +39,9 @@ class Way:
     """A transition. forth, back: None where the two key positions have nothing in common.
 
     predicted: the end's view from the start's colours, levelled. ratio: by how much brighter the
-    second picture is in each channel; None where too little is in common to say.
+    second picture is in each channel; None where too little is in common to say. moving: share of
+    the start's and of the end's view that shows what moved, and shown: the start's view with that
+    painted, where there is any.
     """
 
     second_from_first: Matrix
@@ -50,6 +54,8 @@ class Way:
     energies: tuple[float, float, float] | None = None
     why: str = ""
     ratio: tuple[float, float, float] | None = None
+    moving: tuple[float, float] = (0.0, 0.0)
+    shown: Image | None = None
 
     @property
     def distance_m(self) -> float:
@@ -81,7 +87,12 @@ def find_way(
         except NotFoundError as error:
             return Way(np.eye(4)[:3], why=error.evidence)
         pose = found.second_from_first
-    forth, back = find_morphs(first, second, pose, settings.flow)
+    stereo_px_m = rig.focal_px[0] * rig.baseline_m
+    moving = (
+        find_moving(first, second, pose, stereo_px_m),
+        find_moving(second, first, inverse(pose), stereo_px_m),
+    )
+    forth, back = find_morphs(first, second, pose, settings.flow, moving=moving)
     meshes = mesh_of(forth, settings.mesh), mesh_of(back, settings.mesh)
     psi = float(forth.region.mean()), float(back.region.mean())
     shared = forth.region & ~first.sky
@@ -100,4 +111,6 @@ def find_way(
         pose, *meshes, there, picture, 0 if found is None else int(found.inliers.sum()),
         None if found is None else found.residual_px,
         (labelling.energy, labelling.energy_icm, labelling.bound), there.why or here.why, ratio,
+        (float(moving[0].mean()), float(moving[1].mean())),
+        painted(first.image, ((moving[0], RED),)) if moving[0].any() else None,
     )  # fmt: skip

@@ -21,6 +21,7 @@ def arrays_of(way: Way) -> dict[str, NDArray[Any]]:
     told = {
         "matches": way.matches, "residual_px": way.residual_px, "energies": way.energies,
         "why": way.why, "ratio": way.ratio,
+        "moving": way.moving,
         "round": [mesh is not None and mesh.round for mesh in (way.forth, way.back)],
         "verdict": None if way.verdict is None else asdict(way.verdict),
     }  # fmt: skip
@@ -30,9 +31,13 @@ def arrays_of(way: Way) -> dict[str, NDArray[Any]]:
     }
     if way.predicted is not None:
         arrays["predicted"] = way.predicted
+    if way.shown is not None:
+        arrays["shown"] = way.shown
     for name, mesh in (("forth", way.forth), ("back", way.back)):
         if mesh is not None:
             arrays |= {f"{name}_{column}": getattr(mesh, column) for column in _COLUMNS}
+            if mesh.marks is not None:
+                arrays[f"{name}_marks"] = mesh.marks
     return arrays
 
 
@@ -40,9 +45,7 @@ def way_of(arrays: dict[str, NDArray[Any]]) -> Way:
     """The transition again."""
     told = json.loads(arrays["told"].tobytes())
     forth, back = (
-        MorphMesh(**{column: arrays[f"{name}_{column}"] for column in _COLUMNS}, round=is_round)
-        if f"{name}_points" in arrays
-        else None
+        _mesh(arrays, name, is_round) if f"{name}_points" in arrays else None
         for name, is_round in zip(("forth", "back"), told["round"], strict=True)
     )
     return Way(
@@ -50,5 +53,11 @@ def way_of(arrays: dict[str, NDArray[Any]]) -> Way:
         None if told["verdict"] is None else Verdict(**told["verdict"]),
         arrays.get("predicted"), told["matches"], told["residual_px"],
         None if told["energies"] is None else tuple(told["energies"]), told["why"],
-        None if told["ratio"] is None else tuple(told["ratio"]),
+        None if told["ratio"] is None else tuple(told["ratio"]), tuple(told["moving"]),
+        arrays.get("shown"),
     )  # fmt: skip
+
+
+def _mesh(arrays: dict[str, NDArray[Any]], name: str, is_round: bool) -> MorphMesh:
+    columns = {column: arrays[f"{name}_{column}"] for column in _COLUMNS}
+    return MorphMesh(**columns, round=is_round, marks=arrays.get(f"{name}_marks"))

@@ -51,6 +51,8 @@ class KeyRecord(_Record):
         default=(1.0, 1.0, 1.0), description="by which the picture's channels were levelled"
     )
     views: tuple[ViewRecord, ...] = ()
+    water: Finite = Field(default=0.0, description="share of the picture that shows still water")
+    grass: Finite = Field(default=0.0, description="share of the picture that shows grass")
 
 
 class TransitionRecord(_Record):
@@ -66,6 +68,9 @@ class TransitionRecord(_Record):
     psi: Finite | None = Field(default=None, description="share of the start's picture in Psi")
     score_db: Finite | None = Field(default=None, description="of the end's view as predicted")
     unmoved_db: Finite | None = Field(default=None, description="of the start's picture as it is")
+    moving: Finite = Field(
+        default=0.0, description="share of the start's picture that is elsewhere in the end's"
+    )
     energy: Finite | None = None
     energy_icm: Finite | None = None
     energy_bound: Finite | None = None
