@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pytest
 import trimesh
 
@@ -12,6 +13,7 @@ from veduta.carve import SilhouetteOptions
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.hull import carve_hull, root_of
 from veduta.carve.build.measures import overlaps
+from veduta.carve.read.turntable import Focal, find_turns
 from veduta.carve.read.views import read_views
 
 
@@ -27,3 +29,17 @@ def test_the_oxford_dinosaur_from_every_second_view(veduta_data: Path) -> None:
     assert mesh.is_watertight
     assert mesh.is_winding_consistent
     assert 0.95 < overlaps(unseen, positions, triangles).mean() < 0.995
+
+
+@pytest.mark.regression
+@pytest.mark.slow
+def test_the_turns_of_a_ring_that_nothing_was_tuned_by(veduta_data: Path) -> None:
+    folder = veduta_data / "silhouettes" / "dinoSparseRing"
+    cameras = read_cameras(folder)
+    views = read_views(folder, cameras, SilhouetteOptions()).views
+    found = find_turns([view.mask for view in views], Focal(1.3 * 640, 0.4))
+    turned = np.degrees(np.abs(found.table.angles))
+    error = turned - 23.48 * np.arange(16)  # as its cameras' rotations say
+    error -= np.median(error)
+    assert 0.05 < np.sqrt(np.square(error).mean()) < 1.0
+    assert found.table.focal_px == pytest.approx(cameras.cameras[0].focal_px[0], rel=0.06)

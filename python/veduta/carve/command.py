@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -10,6 +11,7 @@ import numpy as np
 from pydantic import JsonValue
 
 from veduta.cameras import CameraSet, cameras_digest, in_metres, read_cameras
+from veduta.carve.boarded import board_of, placed_by_board
 from veduta.carve.build.appearance import carved_triangles, colour_vertices
 from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.consistency import Consistency, carve_by_colour
@@ -23,7 +25,9 @@ from veduta.carve.faults import doubtful_views, refuse_silhouettes
 from veduta.carve.options import CarveOptions
 from veduta.carve.pictures import carved_picture, outlines_picture, sides_picture
 from veduta.carve.read.masks import find_masks
+from veduta.carve.read.unposed import bare_cameras
 from veduta.carve.read.views import Record, read_views
+from veduta.carve.turned import turn_views
 from veduta.carve.views import View
 from veduta.place.mesh import Mesh
 from veduta.run.card import choose_engine, tell_engine
@@ -45,7 +49,11 @@ def run_carve(
     if not record.exists():
         raise InputError(record, "does not exist", "Name the folder of the photos and cameras.")
     base = record if record.is_dir() else record.parent
-    cameras = in_metres(read_cameras(record), options.scale)
+    board_of(options.poses)
+    if options.poses.unposed:
+        cameras = bare_cameras(base)
+    else:
+        cameras = in_metres(read_cameras(record), options.scale)
     masks: list[JsonValue] = [
         [name, file_digest(path)] for name, path in sorted(find_masks(base, cameras).items())
     ]
@@ -98,14 +106,19 @@ def _make(work: Work, cameras: CameraSet, folder: Path, name: str, options: Carv
 def _read(
     work: Work, cameras: CameraSet, folder: Path, options: CarveOptions
 ) -> tuple[CameraSet, tuple[View, ...]]:
+    board = board_of(options.poses)
+    if board is not None:
+        cameras = in_metres(placed_by_board(work, cameras, board), options.scale)
     with work.step("cameras") as step:
         for note in cameras.notes:
             work.note(note)
-        if options.volume.up == "auto" and cameras.crs is None:
+        if options.volume.up == "auto" and cameras.crs is None and not options.poses.turntable:
             cameras = turn_upright(cameras)
         step.counts["cameras"] = len(cameras)
     with work.step("silhouettes") as step:
-        found: Record = read_views(folder, cameras, options.silhouettes, progress=work.progress)
+        found: Record = read_views(
+            folder, cameras, options.silhouettes, progress=work.progress, board=board
+        )
         step.counts["views"] = len(found.views)
         step.rejected.extend(found.left_out)
         views = refuse_silhouettes(folder, found.views)
@@ -118,6 +131,13 @@ def _read(
                 f" {found.threshold:.1f} deviations is the object."
             )
     work.picture("Silhouettes", "what was taken for the object", outlines_picture(views), wide=True)
+    if options.poses.turntable:
+        cameras, views = turn_views(work, views, folder, options.poses)
+        cameras = in_metres(cameras, options.scale)
+        views = tuple(
+            replace(view, camera=camera)
+            for view, camera in zip(views, cameras.cameras, strict=True)
+        )
     return cameras, views
 
 

@@ -11,6 +11,49 @@ from veduta.run.card import DeviceOptions
 from veduta.run.options import Options
 
 
+class PoseOptions(Options):
+    """Where the photos were taken, when nothing beside them says it."""
+
+    turntable: bool = Field(
+        False,
+        description=(
+            "the photos have no cameras: one stood still and the object turned, from each photo to"
+            " the next, once round; how far is found from the silhouettes"
+        ),
+    )
+    board: Literal["no", "a4", "a3", "letter"] = Field(
+        "no",
+        description=(
+            "the photos have no cameras, but show a printed board of markers under the object, on"
+            " a sheet of this size: poses and metres come from it (--print-board makes one)"
+        ),
+    )
+    ruler_mm: float = Field(
+        100.0,
+        ge=10.0,
+        le=1000.0,
+        description="with --board: the length (mm) of its line of 100 mm as it was printed",
+    )
+    even_turns: bool = Field(
+        False,
+        description="with --turntable: all turns are the same, and together once round",
+    )
+    focal_px: float | None = Field(
+        None,
+        gt=0.0,
+        le=1e6,
+        description=(
+            "with --turntable: the camera's focal length in pixels of the photos; found from EXIF"
+            " and the silhouettes where it is not given"
+        ),
+    )
+
+    @property
+    def unposed(self) -> bool:
+        """Whether the photos come without cameras."""
+        return self.turntable or self.board != "no"
+
+
 class SilhouetteOptions(Options):
     """Where the object is in the photos."""
 
@@ -72,6 +115,7 @@ class TextureOptions(Options):
 class CarveOptions(Options):
     """All that changes the result."""
 
+    poses: PoseOptions = PoseOptions()
     silhouettes: SilhouetteOptions = SilhouetteOptions()
     volume: VolumeOptions = VolumeOptions()
     colour: ColourOptions = ColourOptions()

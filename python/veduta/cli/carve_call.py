@@ -8,10 +8,11 @@ from typing import Annotated
 
 import tyro
 
-from veduta.cameras import ScaleOptions
+from veduta.cameras import ScaleOptions, SheetName
 from veduta.carve.options import (
     CarveOptions,
     ColourOptions,
+    PoseOptions,
     SilhouetteOptions,
     TextureOptions,
     VolumeOptions,
@@ -30,17 +31,33 @@ Record = Annotated[
 
 
 @dataclass(frozen=True)
+class BoardCall:
+    """Print a board of markers, to lay under an object that is photographed.
+
+    It is a PDF at its true size. `veduta carve DIR -o OUT --board a4` takes photos that show it.
+    """
+
+    print_board: Annotated[
+        Path, tyro.conf.arg(metavar="FILE.pdf", help_behavior_hint="", help="where it is written")
+    ]
+    board: Annotated[SheetName, tyro.conf.arg(help="the sheet's size")] = "a4"
+
+
+@dataclass(frozen=True)
 class CarveCall:
     """Carve an object out of photos with its silhouettes.
 
     The object is in OUT/object.glb and OUT/object.ply, closed and coloured, and OUT/place.json has
     it with the cameras around it, for `veduta view`.
 
+    `veduta carve --print-board board.pdf` prints a board of markers that gives photos cameras.
+
     Exit codes: 0 done, 2 bad use or input, 3 there is no object, 1 a bug.
     """
 
     record: Record
     out: Out
+    poses: PoseOptions = field(default_factory=PoseOptions)
     silhouettes: SilhouetteOptions = field(default_factory=SilhouetteOptions)
     volume: VolumeOptions = field(default_factory=VolumeOptions)
     colour: ColourOptions = field(default_factory=ColourOptions)
@@ -53,6 +70,7 @@ class CarveCall:
     def options(self) -> CarveOptions:
         """What changes the result."""
         return CarveOptions(
+            poses=self.poses,
             silhouettes=self.silhouettes,
             volume=self.volume,
             colour=self.colour,

@@ -206,6 +206,11 @@ def _silhouette(
         side = 2 * round(rule.grey_close * max(mask.shape)) + 1
         disc = cv2.getStructuringElement(cv2.MORPH_ELLIPSE, (side, side))
         mask = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_CLOSE, disc), dtype=np.uint8)
+    return cleaned(mask, rule)
+
+
+def cleaned(mask: NDArray[np.uint8], rule: BackgroundRule) -> Mask:
+    """A silhouette (1 on the object) without specks and small holes."""
     mask = np.asarray(cv2.morphologyEx(mask, cv2.MORPH_OPEN, np.ones((2, 2), np.uint8)), np.uint8)
     _, labels, stats, _ = cv2.connectedComponentsWithStats(mask, connectivity=8)
     areas = stats[1:, cv2.CC_STAT_AREA]

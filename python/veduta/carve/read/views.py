@@ -8,9 +8,10 @@ from pathlib import Path
 
 import numpy as np
 
-from veduta.cameras import Camera, CameraSet, undistorted
+from veduta.cameras import Board, Camera, CameraSet, undistorted
 from veduta.carve.options import SilhouetteOptions
 from veduta.carve.read.background import masks_of_background
+from veduta.carve.read.board_masks import without_print
 from veduta.carve.read.masks import find_masks, read_mask
 from veduta.carve.views import Pixels, View
 from veduta.imaging.read import read_image
@@ -47,11 +48,12 @@ def read_views(
     options: SilhouetteOptions,
     rule: ViewRule | None = None,
     progress: StepProgress = no_progress,
+    board: Board | None = None,
 ) -> Record:
     """The views of all cameras with a photo, as cameras without distortion.
 
-    InputError where too few have one, a photo has not its camera's size, or masks are asked for and
-    missing.
+    board: a printed one, about the origin, on which the object stands. InputError where too few
+    have a photo, one has not its camera's size, or masks are asked for and missing.
     """
     rule = rule or ViewRule()
     shown = [camera for camera in cameras.cameras if camera.picture is not None]
@@ -75,6 +77,11 @@ def read_views(
         seeds = SEEDS.get(options.background, ())
         drawn, threshold = masks_of_background(pixels, seeds, progress=progress)
         found = [*drawn]
+        if board is not None:
+            found = [
+                without_print(camera, photo, mask, board)
+                for camera, photo, mask in zip(straight, pixels, drawn, strict=True)
+            ]
     views = []
     for camera, photo, mask in zip(straight, pixels, found, strict=True):
         if mask is None:
