@@ -20,7 +20,7 @@ from veduta.place import manifest
 from veduta.place.files import Source, copies, drawn_files, files_beside
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
-from veduta.place.place import Cloud, Place, PlacedPart, Standing
+from veduta.place.place import UNMOVED, Cloud, Place, PlacedPart
 from veduta.run.errors import InputError
 
 MANIFEST = "place.json"
@@ -34,39 +34,105 @@ CORE_SHARE = 0.7
 def save_place(place: Place, folder: Path) -> None:
     """Write all of it into a folder, with the files that it names from where it was loaded.
 
-    Files that a place made in memory names must lie in the folder already.
+    Files that a place made in memory names must lie in the folder already, or come there later, as
+    must models that are said to lie there.
 
     InputError, before anything is written, for what no manifest can say (two things of one id, a
     part too far away), for a part without a surface, and for files that are not there.
     """
-    names = _FileNames(place.names())
-    models = [names.free(f"{PARTS}/", one.id, ".glb") for one in place.parts.values()]
+    names = _FileNames([*place.names(), *_given_names(place)])
+    models = [
+        _given_name(one) or names.free(f"{PARTS}/", one.id, ".glb") for one in place.parts.values()
+    ]
     clouds = [names.free("", one.id, ".ply") for one in place.clouds]
     described = _described(place, models, clouds)
     brought = copies(place.sources(), folder)
-    (folder / PARTS if models else folder).mkdir(parents=True, exist_ok=True)
+    folder.mkdir(parents=True, exist_ok=True)
     for source, target in brought:
         target.parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source, target)
     for placed, name in zip(place.parts.values(), models, strict=True):
-        content = placed.content
-        if isinstance(content, Mesh):
-            write_mesh_glb(content, folder / name)
-        else:
-            write_glb(content, folder / name)
+        if not placed.lies:
+            _write_model(placed, folder / name)
     for cloud, name in zip(place.clouds, clouds, strict=True):
         write_points(cloud.points_m, cloud.colours, folder / name)
     write_place(described, folder / MANIFEST)
 
 
+def save_part(placed: PlacedPart, folder: Path) -> manifest.PlacePart:
+    """Write the model of a part alone, for a place that does not hold it; its row in the manifest.
+
+    InputError where it is a part that no place can have, or nothing says how its file is called.
+    """
+    if placed.file is None:
+        raise InputError(placed.id, "is a part whose model has no name", "Say which file it gets.")
+    _require_surface(placed)
+    try:
+        row = _part_row(placed, placed.file.name)
+    except ValidationError as error:
+        raise _no_place(placed.id, error) from error
+    _write_model(placed, folder / row.model)
+    return row
+
+
+def _write_model(placed: PlacedPart, path: Path) -> None:
+    path.parent.mkdir(parents=True, exist_ok=True)
+    content, file = placed.content, placed.file
+    if isinstance(content, Mesh):
+        write_mesh_glb(content, path)
+    elif file is None:
+        write_glb(content, path)
+    else:
+        write_glb(content, path, file.paths, file.sunlight)
+
+
+def _given_name(placed: PlacedPart) -> str | None:
+    """The file of a part's model, where that is said."""
+    if placed.lies and placed.row is not None:
+        return placed.row.model
+    return None if placed.file is None else placed.file.name
+
+
+def _given_names(place: Place) -> list[str]:
+    """All of them; InputError where two parts would be written into one file."""
+    written: set[str] = set()
+    given = []
+    for placed in place.parts.values():
+        name = _given_name(placed)
+        if name is None:
+            continue
+        given.append(name)
+        if placed.lies:  # one model may stand several times
+            continue
+        if name.casefold() in written:
+            raise InputError(
+                placed.id, f"has its model in {name}, as another part has", "Name one."
+            )
+        written.add(name.casefold())
+    return given
+
+
+def _require_surface(placed: PlacedPart) -> None:
+    content = placed.content
+    instances = None if isinstance(content, Mesh) else content.instances
+    if not len(content.positions_m) and instances is None:
+        fault = "is a part without a surface, which no model can hold"
+        raise InputError(placed.id, fault, "Leave it out of the place.")
+
+
+def _no_place(title: str, error: ValidationError) -> InputError:
+    """What of a place no manifest can say."""
+    first = error.errors()[0]
+    where = ".".join(str(step) for step in first["loc"])
+    fault = f"cannot be written as a place ({f'{where}: ' if where else ''}{first['msg']})"
+    return InputError(title, fault, "Change that in the place.")
+
+
 def _described(place: Place, models: list[str], clouds: list[str]) -> manifest.Place:
     """What the manifest says; InputError where that is no place."""
     for placed in place.parts.values():
-        content = placed.content
-        instances = None if isinstance(content, Mesh) else content.instances
-        if not len(content.positions_m) and instances is None:
-            fault = "is a part without a surface, which no model can hold"
-            raise InputError(placed.id, fault, "Leave it out of the place.")
+        if not placed.lies:
+            _require_surface(placed)
     try:
         return manifest.Place(
             title=place.title,
@@ -76,6 +142,7 @@ def _described(place: Place, models: list[str], clouds: list[str]) -> manifest.P
             languages=list(place.languages),
             crs=place.crs,
             origin=place.origin_m,
+            tileset=place.tileset if any(one.lies for one in place.parts.values()) else None,
             parts=[_part_row(*one) for one in zip(place.parts.values(), models, strict=True)],
             points=[_cloud_row(*one) for one in zip(place.clouds, clouds, strict=True)],
             cameras=place.cameras,
@@ -88,10 +155,7 @@ def _described(place: Place, models: list[str], clouds: list[str]) -> manifest.P
             start=place.start or chosen_start(place),
         )
     except ValidationError as error:
-        first = error.errors()[0]
-        where = ".".join(str(step) for step in first["loc"])
-        fault = f"cannot be written as a place ({f'{where}: ' if where else ''}{first['msg']})"
-        raise InputError(place.title or "the place", fault, "Change that in the place.") from error
+        raise _no_place(place.title or "the place", error) from error
 
 
 def load_place(folder: Path) -> Place:
@@ -159,22 +223,32 @@ class _FileNames:
 
 
 def _part_row(placed: PlacedPart, model: str) -> manifest.PlacePart:
-    low, high = placed.content.bounds_m
-    standing = placed.standing
-    return manifest.PlacePart(
+    standing, row = placed.standing, placed.row
+    if row is not None and placed.lies:
+        bounds, core = row.bounds, row.core
+    else:
+        low, high = placed.content.bounds_m
+        bounds, core = manifest.Bounds(min=low, max=high), _core_of(placed.content)
+    moved: dict[str, manifest.Matrix] = {}
+    if standing.transform is not UNMOVED:
+        moved["transform"] = tuple(standing.transform.T.ravel().tolist())
+    found = manifest.PlacePart(
         id=placed.id,
         name=standing.name or placed.id,
         model=model,
         city_model=standing.city_model,
         document=standing.document,
         photo=standing.photo,
-        transform=tuple(standing.transform.T.ravel().tolist()),
         arrangement=standing.arrangement,
-        bounds=manifest.Bounds(min=low, max=high),
-        core=_core_of(placed.content),
+        bounds=bounds,
+        core=core,
         ground=standing.ground,
         backdrop=standing.backdrop,
+        **moved,
     )
+    if placed.lies and row is not None and row.transform == found.transform:
+        return found.model_copy(update={"transform": row.transform})  # spelt as it was
+    return found
 
 
 def _core_of(content: Part | Mesh) -> manifest.Bounds | None:
@@ -194,18 +268,16 @@ def _core_of(content: Part | Mesh) -> manifest.Bounds | None:
 def _cloud_row(cloud: Cloud, name: str) -> manifest.PlacePoints:
     """The bounds are around nearly all points: few strays would make the place look empty."""
     seen = np.zeros((2, 3))
-    if len(cloud.points_m):
+    if cloud.seen_m is not None:
+        seen = np.array(cloud.seen_m)
+    elif len(cloud.points_m):
         seen = np.quantile(cloud.points_m, CORE_QUANTILES, axis=0)
     bounds = manifest.Bounds(min=_vector(seen[0]), max=_vector(seen[1]))
     return manifest.PlacePoints(id=cloud.id, file=name, count=len(cloud.points_m), bounds=bounds)
 
 
 def _placed(row: manifest.PlacePart, folder: Path) -> PlacedPart:
-    standing = Standing(
-        row.name, np.array(row.transform).reshape(4, 4).T, row.arrangement, row.ground,
-        row.backdrop, row.document, row.photo, row.city_model,
-    )  # fmt: skip
-    return PlacedPart(row.id, standing, lambda: read_model(folder / row.model), row)
+    return PlacedPart.standing_as(row, lambda: read_model(folder / row.model))
 
 
 def _vector(values: NDArray[np.float64]) -> manifest.Vector:

@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from veduta.formats.mesh_glb_read import read_model
-from veduta.formats.place_folder import load_place, save_place
+from veduta.formats.place_folder import load_place, save_part, save_place
 from veduta.place.holding import (
     ANIMALS,
     CAMERAS,
@@ -103,7 +103,9 @@ def _late_read(name: str | None) -> Callable[[Path], Place] | None:
     return read
 
 
-register_folders(PlaceFolders(save=save_place, load=load_place, read_model=read_model))
+register_folders(
+    PlaceFolders(save=save_place, save_part=save_part, load=load_place, read_model=read_model)
+)
 for _suffix, _name, _title, _target, _left_out in ROWS:
     _read = _late_read(READERS.get(_suffix))
     register_format(

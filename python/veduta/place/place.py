@@ -15,6 +15,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.place.camera_path import CameraPath
 from veduta.place.files import Source, drawn_files, files_beside, names_apart, renamed
 from veduta.place.holding import require_held
 from veduta.place.manifest import (
@@ -31,9 +32,15 @@ from veduta.place.mesh import Mesh
 from veduta.place.part import Part
 from veduta.place.registry import folders, format_of
 from veduta.place.same import same
+from veduta.place.sunlight import Sunlight
 from veduta.run.errors import InputError
 
 Vector = tuple[float, float, float]
+
+
+UNMOVED: NDArray[np.float64] = np.eye(4)
+"""The transform of a part that was made in the frame of the place: the manifest need not say it."""
+UNMOVED.setflags(write=False)
 
 
 def _identity() -> NDArray[np.float64]:
@@ -58,6 +65,19 @@ class Standing:
     city_model: str | None = None
 
 
+@dataclass(frozen=True, eq=False)
+class ModelFile:
+    """The file of a part's model, where that is not left to those who save the place.
+
+    name: below the place's folder. paths: tours that the model shows by itself, in the part's
+    frame. sunlight: the sun that shines on it.
+    """
+
+    name: str
+    paths: tuple[CameraPath, ...] = ()
+    sunlight: Sunlight | None = None
+
+
 @dataclass(eq=False)
 class PlacedPart:
     """A part and where it stands. read: brings its content where that is not in memory yet."""
@@ -66,8 +86,21 @@ class PlacedPart:
     standing: Standing
     read: Callable[[], Part | Mesh]
     row: PlacePart | None = None
-    """What a loaded manifest says of it; None where the part was made in memory."""
+    """What a manifest says of it; None where the part was made in memory."""
+    file: ModelFile | None = None
+    """How its model is written; None: as those like who save the place."""
+    lies: bool = False
+    """Whether the model of its row lies where the place will be saved: it is not written again."""
     _content: Part | Mesh | None = None
+
+    @staticmethod
+    def standing_as(row: PlacePart, read: Callable[[], Part | Mesh]) -> PlacedPart:
+        """As a row of a manifest says; read: brings the content of its model."""
+        standing = Standing(
+            row.name, np.array(row.transform).reshape(4, 4).T, row.arrangement, row.ground,
+            row.backdrop, row.document, row.photo, row.city_model,
+        )  # fmt: skip
+        return PlacedPart(row.id, standing, read, row)
 
     @property
     def content(self) -> Part | Mesh:
@@ -79,6 +112,14 @@ class PlacedPart:
     def passing(self) -> Part | Mesh:
         """The content for those who look at one part after another: what is read is not kept."""
         return self.read() if self._content is None else self._content
+
+    def save(self, folder: str | Path) -> PlacePart:
+        """Write its model into the folder of a place; the row for `Place.lay`.
+
+        So parts of a town are written one by one, and no place holds them all in memory. Its
+        `file` says where; InputError where it has none, or is a part that no place can have.
+        """
+        return folders().save_part(self, Path(folder))
 
     def triangles(self) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
         """Vertices (v, 3) in the world (m), and triangles (m, 3), counter-clockwise from outside.
@@ -95,13 +136,15 @@ class PlacedPart:
 class Cloud:
     """Points of the place. points_m: (n, 3) float64, world. colours: (n, 3) uint8 sRGB.
 
-    classes: (n,) uint8, ASPRS's numbers; None where nothing is known.
+    classes: (n,) uint8, ASPRS's numbers; None where nothing is known. seen_m: lower and upper
+    corner around what is to be looked at; None: around nearly all points.
     """
 
     id: str
     points_m: NDArray[np.float64]
     colours: NDArray[np.uint8]
     classes: NDArray[np.uint8] | None = None
+    seen_m: tuple[Vector, Vector] | None = None
 
 
 @dataclass(eq=False)
@@ -136,9 +179,31 @@ class Place:
     held: list[object] = field(default_factory=list)
     """What is to live as long as the place, such as a folder that it is read from."""
 
-    def add(self, part: Part | Mesh, standing: Standing | None = None) -> PlacedPart:
-        """Put a part into the place; InputError where another has its id."""
-        placed = PlacedPart(part.id, standing or Standing(), lambda: part)
+    def add(
+        self,
+        part: Part | Mesh,
+        standing: Standing | None = None,
+        file: ModelFile | None = None,
+        *,
+        part_id: str | None = None,
+    ) -> PlacedPart:
+        """Put a part into the place; InputError where another has its id.
+
+        file: how its model is written. part_id: what it is called here, if not by its own id.
+        """
+        placed = PlacedPart(part_id or part.id, standing or Standing(), lambda: part, file=file)
+        self._add(placed)
+        return placed
+
+    def lay(self, row: PlacePart, folder: str | Path) -> PlacedPart:
+        """Put a part into the place whose model is written already (`PlacedPart.save`).
+
+        folder: where the model lies now. Where the place is saved it must lie, too: only the
+        manifest is written of it. InputError where another part has its id.
+        """
+        model = Path(folder) / row.model
+        placed = PlacedPart.standing_as(row, lambda: folders().read_model(model))
+        placed.lies = True
         self._add(placed)
         return placed
 

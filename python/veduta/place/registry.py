@@ -15,9 +15,10 @@ from typing import TYPE_CHECKING
 from veduta.run.errors import InputError
 
 if TYPE_CHECKING:
+    from veduta.place.manifest import PlacePart
     from veduta.place.mesh import Mesh
     from veduta.place.part import Part
-    from veduta.place.place import Place
+    from veduta.place.place import Place, PlacedPart
 
 _TABLE = "veduta.formats.table"
 
@@ -46,6 +47,7 @@ class PlaceFolders:
     """Places as folders with a `place.json`, and the models in them."""
 
     save: Callable[[Place, Path], None]
+    save_part: Callable[[PlacedPart, Path], PlacePart]
     load: Callable[[Path], Place]
     read_model: Callable[[Path], Part | Mesh]
 
