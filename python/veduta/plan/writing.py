@@ -10,16 +10,14 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.formats.gltf import write_glb
-from veduta.formats.place_json import write_place
 from veduta.imaging.encode import png_bytes
-from veduta.place.manifest import Place
 from veduta.place.part import Part
+from veduta.place.place import Place
 from veduta.plan.building import CITY_MODEL, Building, BuildingFiles, Visit
 from veduta.plan.document import PlanDocument
 from veduta.plan.drawing import Drawing, draw
 from veduta.plan.house.build import House
-from veduta.plan.house.placing import place_of, raised_m
+from veduta.plan.house.placing import place_of, raised_m, visitor_start
 from veduta.plan.house.room_looks import TilePictures
 from veduta.plan.load import DOCUMENT
 from veduta.plan.options import HouseOptions
@@ -29,8 +27,8 @@ from veduta.plan.outputs.tour_picture import tour_picture
 from veduta.plan.photos.finish import Finished
 from veduta.plan.photos.look import Look
 from veduta.plan.sheets import sheet_name
-from veduta.plan.surroundings.backdrop import PANORAMA, backdrop_part, build_backdrop
-from veduta.plan.surroundings.build import Surroundings, build_surroundings, with_surroundings
+from veduta.plan.surroundings.backdrop import PANORAMA, add_backdrop, build_backdrop
+from veduta.plan.surroundings.build import Surroundings, add_surroundings, build_surroundings
 from veduta.plan.surroundings.daylight import daylight_of, sunlight_of
 from veduta.plan.surroundings.panorama import Pictures
 from veduta.plan.surroundings.site import Site
@@ -101,45 +99,39 @@ def write_result(
     around, backdrop = _surroundings(result, options), _backdrop(result, options)
     up_m = raised_m(result.house, options)
     tours = [] if result.tour is None else [placed_tour(result.tour, up_m)]
-    place = place_of(result.house, MODEL, DOCUMENT, options, tours, CITY_MODEL)
-    whole = Building(result.house, options, result.site)
+    paths = () if result.tour is None else (result.tour.path,)
+    house, sun = result.house, sunlight_of(result.site)
+    place = place_of(house, MODEL, DOCUMENT, options, tours, CITY_MODEL, paths, sun)
+    whole = Building(house, options, result.site)
     made = [beside.take()]
     others = [] if around is None else around.parts
-    beside.give(Visit(whole, place.start, tours, others, backdrop))
+    beside.give(Visit(whole, visitor_start(house), tours, others, backdrop))
     _write_sheets(result, folder)
-    place = _write_models(result, place, around, backdrop, folder)
-    write_place(place, folder / "place.json")
-    write_tiles(result.house, np.array(place.parts[0].transform).reshape(4, 4).T, folder)
+    place = _whole_place(result, place, around, backdrop)
+    place.save(folder)
+    write_tiles(house, place.parts[house.part.id].standing.transform, folder)
     made.append(beside.take())
     for name, content in chain.from_iterable(one.contents.items() for one in made):
         (folder / name).write_bytes(content)
     return [note for one in made for note in one.notes]
 
 
-def _write_models(
-    result: Result, place: Place, around: Surroundings | None, backdrop: Part | None, folder: Path
+def _whole_place(
+    result: Result, place: Place, around: Surroundings | None, backdrop: Part | None
 ) -> Place:
-    """The house and what lies around it, as glTF; the place with all of this in it."""
-    tour, sun = result.tour, sunlight_of(result.site)
-    write_glb(result.house.part, folder / MODEL, [] if tour is None else [tour.path], sun)
+    """The place with what lies around the house, and turned by the compass."""
     if around is not None:
-        models = {part.id: f"{part.id}.glb" for part in around.parts}
-        for part in around.parts:
-            write_glb(part, folder / models[part.id])
-        place = with_surroundings(place, around, models)
-    if result.panorama is not None and backdrop is not None:
-        for name, content in result.panorama.files.items():
-            (folder / name).write_bytes(content)
-        write_glb(backdrop, folder / BACKDROP)
-        place = place.model_copy(
-            update={"parts": [*place.parts, backdrop_part(backdrop, BACKDROP)]}
-        )
-    place = place.model_copy(update={"sun": result.site.for_place()})
+        add_surroundings(place, around)
+    if backdrop is not None:
+        add_backdrop(place, backdrop, BACKDROP)
+    place.sun = result.site.for_place()
     return turned_north(place, result.site.turn_deg)
 
 
 def _write_sheets(result: Result, folder: Path) -> None:
-    """The document, and all pictures but the panorama."""
+    """The document, and all pictures."""
+    for name, content in ({} if result.panorama is None else result.panorama.files).items():
+        (folder / name).write_bytes(content)
     text = result.document.model_dump_json(by_alias=True, indent=1) + "\n"
     (folder / DOCUMENT).write_text(text, encoding="utf-8")
     for index, pixels in enumerate(result.sheets):

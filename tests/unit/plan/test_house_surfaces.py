@@ -15,7 +15,7 @@ from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.document import Junction, Opening
 from veduta.plan.house.build import House, build_house
 from veduta.plan.house.eaves import UNDER_M
-from veduta.plan.house.placing import place_of
+from veduta.plan.house.placing import place_of, visitor_start
 from veduta.plan.options import HouseOptions
 
 SLAB_M = 0.25
@@ -184,10 +184,11 @@ def test_roofs_that_cannot_be_built_are_flat_and_said() -> None:
 def test_the_visitor_stands_before_the_front_door() -> None:
     house = built()
     place = place_of(house, "house.glb", "plan.json", HouseOptions(plinth=0.1))
+    assert place.start is not None
     assert place.start.eye[1] < -4.0
     assert 0.6 <= place.start.eye[0] <= 1.6
     assert place.start.target[1] == pytest.approx(0.0)
-    assert place.parts[0].transform[14] == pytest.approx(0.1)
+    assert place.parts["house"].standing.transform[2, 3] == pytest.approx(0.1)
 
 
 def test_the_visitor_comes_nearer_where_a_part_of_the_house_is_in_the_way() -> None:
@@ -200,25 +201,25 @@ def test_the_visitor_comes_nearer_where_a_part_of_the_house_is_in_the_way() -> N
     walls = [wall(f"shed-{i}", f"s{i}", f"s{(i + 1) % 4}") for i in range(4)]
     shaded = sample_storey(junctions=[*storey.junctions, *junctions], walls=[*storey.walls, *walls])
     house = build_house(sample_plan(shaded), HouseOptions())
-    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    start = visitor_start(house)
     # 3 m from the middle of the door's wall; the shed begins at 3.15 m.
-    assert place.start.eye[1] == pytest.approx(-3.0)
+    assert start.eye[1] == pytest.approx(-3.0)
 
 
 def test_without_a_door_the_visitor_sees_the_whole_house() -> None:
     house = build_house(sample_plan(sample_storey(openings=[], rooms=[])), HouseOptions())
-    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    start = visitor_start(house)
     # Its front is 8.3 m wide, between outer faces, and lies at y = -0.15.
-    assert place.start.eye == pytest.approx((4.0, -0.15 - 0.7 * 8.3, 1.7))
-    assert place.start.target[0] == pytest.approx(4.0)
+    assert start.eye == pytest.approx((4.0, -0.15 - 0.7 * 8.3, 1.7))
+    assert start.target[0] == pytest.approx(4.0)
 
 
 def test_a_gap_is_a_way_in_where_there_is_no_door() -> None:
     gap = opening("gap", "west", 1.0, 1.0, kind="gap", type="plain", score=0.4)
     house = build_house(sample_plan(sample_storey(openings=[gap], rooms=[])), HouseOptions())
-    place = place_of(house, "house.glb", "plan.json", HouseOptions())
+    start = visitor_start(house)
     # The western wall runs south from (0, 5): its middle of the gap is at y = 3.5.
-    assert place.start.eye == pytest.approx((-5.0, 3.5, 1.7))
+    assert start.eye == pytest.approx((-5.0, 3.5, 1.7))
 
 
 def test_the_same_plan_gives_the_same_house() -> None:

@@ -13,10 +13,11 @@ from sample_plan import sample_plan, sample_storey
 
 from veduta.formats.gltf import read_glb, write_glb
 from veduta.place.part import Part
+from veduta.place.place import Place
 from veduta.place.semantics import Provenance
 from veduta.plan.house.space import space_of
 from veduta.plan.surroundings import panorama
-from veduta.plan.surroundings.backdrop import EYE_M, backdrop_part, build_backdrop
+from veduta.plan.surroundings.backdrop import EYE_M, add_backdrop, build_backdrop
 from veduta.plan.surroundings.panorama import FILES, Pictures, given_pictures, kept_pictures
 from veduta.plan.surroundings.sky_picture import LOWEST_DEG, SkyPicture, sky_picture
 from veduta.plan.surroundings.terrain import terrain_of
@@ -120,7 +121,9 @@ def test_backdrop_shows_directions_where_they_are(turn_deg: float) -> None:
     part = build_backdrop(sky, TERRAIN, turn_deg)
     seen_from_the_middle(part, sky, turn_deg)
     assert {part.features.provenance(row) for row in range(2)} == {Provenance.INVENTED}
-    assert backdrop_part(part, "panorama.glb").backdrop
+    place = Place()
+    add_backdrop(place, part, "panorama.glb")
+    assert place.parts[part.id].standing.backdrop
 
 
 def test_backdrop_is_seen_from_inside_and_joins_the_garden() -> None:

@@ -14,7 +14,7 @@ from x3d_classes import X3DTypeError, typed_scene
 from veduta.formats.x3d import look_from, place_of
 from veduta.place.manifest import Tour
 from veduta.plan.house.build import House, build_house
-from veduta.plan.house.placing import place_of as house_place
+from veduta.plan.house.placing import visitor_start
 from veduta.plan.house.space import pieces_of
 from veduta.plan.lights.lighting import light_house
 from veduta.plan.options import HouseOptions
@@ -31,7 +31,7 @@ def house() -> House:
 
 @pytest.fixture(scope="module")
 def content(house: House) -> bytes:
-    start = house_place(house, "house.glb", None, OPTIONS).start
+    start = visitor_start(house)
     view = View("Stop <1> & more", (1.0, 2.0, 1.7), (3.0, 2.0, 1.7))
     return house_x3d(house, OPTIONS, start, [view])
 
@@ -60,7 +60,7 @@ def test_a_tour_is_a_viewpoint_that_walks(house: House) -> None:
     eyes = [(0.0, -5.0 + time, 1.7) for time in times]
     ways = [(0.0, 1.0, 0.0)] * 3 + [(1.0, 0.0, 0.0)] * 2
     tour = Tour(id="tour", name="All rooms", times_s=times, eyes=eyes, directions=ways)
-    start = house_place(house, "house.glb", None, OPTIONS).start
+    start = visitor_start(house)
     content = house_x3d(house, OPTIONS, start, tours=[tour])
     typed_scene(content)
     root = ElementTree.fromstring(content)
@@ -142,7 +142,7 @@ def test_viewpoints_look_at_their_target_upright(target: tuple[float, float, flo
 
 
 def test_the_same_house_gives_the_same_file(house: House, content: bytes) -> None:
-    start = house_place(house, "house.glb", None, OPTIONS).start
+    start = visitor_start(house)
     view = View("Stop <1> & more", (1.0, 2.0, 1.7), (3.0, 2.0, 1.7))
     assert house_x3d(house, OPTIONS, start, [view]) == content
 
@@ -161,7 +161,7 @@ def test_a_room_in_two_pieces_has_its_lamps_once() -> None:
     ]
     parted = sample_storey(junctions=junctions, walls=walls)
     house = build_house(light_house(sample_plan(parted), OPTIONS).document, OPTIONS)
-    start = house_place(house, "house.glb", None, OPTIONS).start
+    start = visitor_start(house)
     root = ElementTree.fromstring(house_x3d(house, OPTIONS, start))
     lights = [node.get("DEF") for node in root.iter("PointLight")]
     assert len(lights) == len(house.part.lamps)

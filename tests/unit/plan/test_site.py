@@ -23,7 +23,7 @@ from veduta.place.manifest import Tour
 from veduta.place.sunlight import Sunlight
 from veduta.plan.document import PlanDocument
 from veduta.plan.house.build import House, build_house
-from veduta.plan.house.placing import place_of
+from veduta.plan.house.placing import place_of, visitor_start
 from veduta.plan.options import HouseOptions, SiteOptions
 from veduta.plan.outputs.ifc import compound_angle, house_ifc
 from veduta.plan.outputs.x3d import house_x3d
@@ -112,9 +112,11 @@ def test_north_comes_to_y_in_the_place(house: House, north_deg: float) -> None:
     turned = turned_north(place, north_deg)
     angle = math.radians(north_deg)
     north = np.array([math.sin(angle), math.cos(angle), 0.0, 0.0])
-    world_from_part = np.array(turned.parts[0].transform).reshape(4, 4).T
+    world_from_part = turned.parts["house"].standing.transform
     assert world_from_part @ north == pytest.approx([0.0, 1.0, 0.0, 0.0], abs=1e-12)
-    part = np.array(place.parts[0].transform).reshape(4, 4).T
+    part = place.parts["house"].standing.transform
+    assert place.start is not None
+    assert turned.start is not None
     moved = world_from_part @ np.linalg.inv(part) @ [*place.start.eye, 1.0]
     assert moved[:3] == pytest.approx(turned.start.eye)
     step = np.array(turned.tours[0].eyes[1]) - turned.tours[0].eyes[0]
@@ -172,7 +174,7 @@ def test_gltf_light_shines_from_the_sun(house: House, toward: tuple[float, float
 )
 def test_x3d_light_shines_from_the_sun_or_the_moon(house: House, time: str, is_day: bool) -> None:
     site = site_of(sited(north=90.0, place=SYDNEY, time=time))
-    start = place_of(house, "house.glb", None, OPTIONS).start
+    start = visitor_start(house)
     content = house_x3d(house, OPTIONS, start, site=site, backdrop=house.part)
     made = typed_scene(content)
     assert made["Collision"] == 1

@@ -14,7 +14,7 @@ from veduta.plan.house.build import House, build_house
 from veduta.plan.house.placing import place_of
 from veduta.plan.house.space import Space, space_of
 from veduta.plan.options import HouseOptions
-from veduta.plan.surroundings.build import GROUND, build_surroundings, with_surroundings
+from veduta.plan.surroundings.build import GROUND, add_surroundings, build_surroundings
 from veduta.plan.surroundings.plants import body, resting_height
 from veduta.plan.surroundings.terrain import DRIVE_M, LEVEL_M, terrain_of
 
@@ -118,11 +118,12 @@ def test_the_place_has_ground_to_walk_on() -> None:
     house: House = build_house(sample_plan(), HouseOptions())
     around = build_surroundings(house.spaces[0], HouseOptions())
     place = place_of(house, "house.glb", None, HouseOptions())
-    whole = with_surroundings(place, around, {"ground": "ground.glb", "garden": "garden.glb"})
-    assert [(part.id, part.ground) for part in whole.parts] == [
+    add_surroundings(place, around)
+    assert [(part.id, part.standing.ground) for part in place.parts.values()] == [
         ("house", False), (GROUND, True), ("garden", False)
     ]  # fmt: skip
     plot = Polygon(around.terrain.plot.exterior)
+    assert place.start is not None
     assert plot.covers(Point(place.start.eye[:2]))
 
 

@@ -220,6 +220,6 @@ def test_a_house_over_a_basement_is_entered_above_it() -> None:
     assert eyes[:, 2].min() == pytest.approx(EYE_M - 2.8)
     place = place_of(house, "house.glb", None, HouseOptions())
     # The floor at ground level lies on the plinth, and one begins before its door.
-    assert place.parts[0].transform[14] == pytest.approx(HouseOptions().plinth)
+    assert place.parts["house"].standing.transform[2, 3] == pytest.approx(HouseOptions().plinth)
     assert place.start is not None
     assert place.start.target[:2] == pytest.approx(entrances(house.spaces[1])[0].middle)

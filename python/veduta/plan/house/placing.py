@@ -6,10 +6,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start, Tour, Vector
+from veduta.place.camera_path import CameraPath
+from veduta.place.manifest import Start, Tour, Vector
+from veduta.place.place import ModelFile, Place, Standing
+from veduta.place.sunlight import Sunlight
 from veduta.plan.house.build import House
 from veduta.plan.house.entrance import AWAY_M, entrances, free_before
-from veduta.plan.house.space import Space
 from veduta.plan.options import HouseOptions
 
 EYE_M = 1.7
@@ -29,33 +31,28 @@ def place_of(
     options: HouseOptions,
     tours: Sequence[Tour] = (),
     city_model: str | None = None,
+    paths: Sequence[CameraPath] = (),
+    sunlight: Sunlight | None = None,
 ) -> Place:
-    """The manifest; x and y are those of the plan, as no plan says where the house stands.
+    """The house in a place; x and y are those of the plan, as no plan says where it stands.
 
-    tours: in the world frame.
+    model, document, city_model: its files. tours: in the world frame. paths, sunlight: what its
+    model shows by itself.
     """
-    low, high = house.part.bounds_m
-    transform = (*IDENTITY[:14], raised_m(house, options), IDENTITY[15])
-    return Place(
-        parts=[
-            PlacePart(
-                id=house.part.id,
-                name="House",
-                model=model,
-                city_model=city_model,
-                document=document,
-                transform=transform,
-                arrangement="single",
-                bounds=Bounds(min=low, max=high),
-            )
-        ],
-        tours=list(tours),
-        start=_start(house.spaces[house.ground]),
+    transform = np.eye(4)
+    transform[2, 3] = raised_m(house, options)
+    place = Place(tours=list(tours), start=visitor_start(house))
+    place.add(
+        house.part,
+        Standing("House", transform, document=document, city_model=city_model),
+        ModelFile(model, tuple(paths), sunlight),
     )
+    return place
 
 
-def _start(space: Space) -> Start:
+def visitor_start(house: House) -> Start:
     """Before the front door, or a gap that leads in; else before the whole house."""
+    space = house.spaces[house.ground]
     ways = entrances(space)
     if ways:
         eye = free_before(ways[0], space)

@@ -20,9 +20,9 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 
 from veduta.place.builder import PartBuilder, UvMap
-from veduta.place.manifest import Bounds, PlacePart
 from veduta.place.material import Colour, Material, Texture
 from veduta.place.part import Part
+from veduta.place.place import UNMOVED, ModelFile, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.space import pieces_of
 from veduta.plan.surroundings.sky_picture import LOWEST_DEG, SkyPicture
@@ -70,17 +70,10 @@ def build_backdrop(
     return builder.build()
 
 
-def backdrop_part(part: Part, model: str) -> PlacePart:
-    """What the place says of it."""
-    low, high = part.bounds_m
-    return PlacePart(
-        id=part.id,
-        name="Panorama",
-        model=model,
-        arrangement="invented",
-        bounds=Bounds(min=low, max=high),
-        backdrop=True,
-    )
+def add_backdrop(place: Place, part: Part, model: str) -> None:
+    """Put it around all that is in the place. model: its file."""
+    standing = Standing("Panorama", UNMOVED, arrangement="invented", backdrop=True)
+    place.add(part, standing, ModelFile(model))
 
 
 class _Shape:

@@ -9,8 +9,8 @@ from shapely.geometry.polygon import orient
 from shapely.ops import unary_union
 
 from veduta.place.builder import PartBuilder
-from veduta.place.manifest import Bounds, Place, PlacePart
 from veduta.place.part import Part
+from veduta.place.place import UNMOVED, ModelFile, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 from veduta.plan.house.frame import Sculptor, Surface, level
 from veduta.plan.house.looks import Looks
@@ -45,22 +45,11 @@ def build_surroundings(space: Space, options: HouseOptions) -> Surroundings:
     return Surroundings(terrain, plants, _ground(terrain), _garden(plants))
 
 
-def with_surroundings(place: Place, around: Surroundings, models: dict[str, str]) -> Place:
-    """The place with the surroundings as further parts. models: the file of each, by its id."""
-    added = []
+def add_surroundings(place: Place, around: Surroundings) -> None:
+    """Put them into the place as further parts, each with a file of its own name."""
     for part, name in zip(around.parts, ("Ground", "Garden"), strict=False):
-        low, high = part.bounds_m
-        added.append(
-            PlacePart(
-                id=part.id,
-                name=name,
-                model=models[part.id],
-                arrangement="invented",
-                bounds=Bounds(min=low, max=high),
-                ground=part.id == GROUND,
-            )
-        )
-    return place.model_copy(update={"parts": [*place.parts, *added]})
+        standing = Standing(name, UNMOVED, arrangement="invented", ground=part.id == GROUND)
+        place.add(part, standing, ModelFile(f"{part.id}.glb"))
 
 
 def _ground(terrain: Terrain) -> Part:

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
-from veduta.place.manifest import Place, Vector
+from veduta.place.manifest import Vector
+from veduta.place.place import Place
 
 
 def turned_north(place: Place, north_deg: float) -> Place:
@@ -24,20 +26,16 @@ def turned_north(place: Place, north_deg: float) -> Place:
     def moved(points: Sequence[Vector]) -> list[Vector]:
         return [tuple(row) for row in (np.array(points) @ turn[:3, :3].T).tolist()]
 
-    parts = [
-        part.model_copy(
-            update={"transform": tuple((turn @ _matrix(part.transform)).T.reshape(-1).tolist())}
-        )
-        for part in place.parts
-    ]
+    parts = {}
+    for placed in place.parts.values():
+        standing = replace(placed.standing, transform=turn @ placed.standing.transform)
+        parts[placed.id] = replace(placed, standing=standing)
     tours = [
         tour.model_copy(update={"eyes": moved(tour.eyes), "directions": moved(tour.directions)})
         for tour in place.tours
     ]
-    eye, target = moved([place.start.eye, place.start.target])
-    start = place.start.model_copy(update={"eye": eye, "target": target})
-    return place.model_copy(update={"parts": parts, "tours": tours, "start": start})
-
-
-def _matrix(column_major: Sequence[float]) -> np.ndarray:
-    return np.array(column_major, dtype=np.float64).reshape(4, 4).T
+    start = place.start
+    if start is not None:
+        eye, target = moved([start.eye, start.target])
+        start = start.model_copy(update={"eye": eye, "target": target})
+    return replace(place, parts=parts, tours=tours, start=start)
