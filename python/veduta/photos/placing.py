@@ -10,10 +10,13 @@ from veduta.photos.pictures import picture_name
 from veduta.photos.straight import Pinhole
 from veduta.photos.structure import Structure
 from veduta.photos.texture.step import Textured
+from veduta.photos.walls.part import add_walls
 from veduta.photos.world.georeference import Georeference
-from veduta.place.manifest import Bounds, Place, PlaceCamera, PlacePart, PlacePoints, Start, Vector
+from veduta.place.manifest import PlaceCamera, Start, Vector
+from veduta.place.part import Part
+from veduta.place.place import Cloud, Place
 
-POINTS = "points.ply"
+POINTS = "points"
 CLOUD = "points.laz"
 PICTURES = "pictures"
 
@@ -21,45 +24,34 @@ PICTURES = "pictures"
 def place_of(
     structure: Structure,
     cameras: Sequence[Pinhole],
-    walls: PlacePart | None = None,
+    walls: Part | None = None,
     world: Georeference | None = None,
     textured: Textured | None = None,
 ) -> Place:
-    """The manifest of one component, with the city model's buildings and its walls as parts.
+    """The place of one component, with the city model's buildings and its walls as parts.
 
-    The unit of length is known where the component lies in the world.
+    The unit of length is known where the component lies in the world. The models of buildings are
+    written already, as `textured` says.
     """
     low, high = structure.seen_box()
     centres = structure.centres()
     middle = structure.cam_from_world[len(centres) // 2]
     eye = centres[len(centres) // 2]
-    return Place(
-        parts=_parts(walls, textured),
-        points=[
-            PlacePoints(
-                id="points",
-                file=POINTS,
-                count=len(structure.points),
-                bounds=Bounds(min=_vector(low), max=_vector(high)),
-            )
-        ],
+    seen = (_vector(low), _vector(high))
+    place = Place(
+        clouds=[Cloud(POINTS, structure.points, structure.colours, seen_m=seen)],
         cameras=[_camera(structure, row, camera) for row, camera in enumerate(cameras)],
         crs=None if world is None else world.crs,
-        origin=(0.0, 0.0, 0.0) if world is None else world.origin_m,
+        origin_m=(0.0, 0.0, 0.0) if world is None else world.origin_m,
         scale="unknown" if world is None else "metres",
         start=Start(eye=_vector(eye), target=_vector(eye + middle[2, :3])),
     )
-
-
-def _parts(walls: PlacePart | None, textured: Textured | None) -> list[PlacePart]:
-    buildings = () if textured is None else textured.parts
-    if walls is None:
-        return list(buildings)
-    taken = {building.id for building in buildings}
-    name = walls.id
-    while name in taken:  # a city model may call a building so
-        name = f"{name}-found"
-    return [*buildings, walls.model_copy(update={"id": name})]
+    if textured is not None:
+        for building in textured.parts:
+            place.lay(building, textured.folder)
+    if walls is not None:
+        add_walls(place, walls)
+    return place
 
 
 def _camera(structure: Structure, row: int, pinhole: Pinhole) -> PlaceCamera:

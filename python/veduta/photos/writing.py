@@ -7,13 +7,11 @@ from dataclasses import replace
 from pathlib import Path
 
 from veduta.formats.laz import write_laz
-from veduta.formats.place_json import write_place
-from veduta.formats.ply import write_points
 from veduta.photos.cameras.component import Component
 from veduta.photos.decoded import DecodedPhotos
 from veduta.photos.laying import Laid
 from veduta.photos.pictures import write_pictures
-from veduta.photos.placing import CLOUD, PICTURES, POINTS, place_of
+from veduta.photos.placing import CLOUD, PICTURES, place_of
 from veduta.photos.report import Told, failure_report, photos_report
 from veduta.photos.structure import Structure, model_of
 from veduta.photos.texture.files import PARTS, TEXTURES
@@ -56,20 +54,20 @@ def write_results(
     with timed_step(told.steps, "pictures of walls") as step:
         told.walls = picture_walls(structure, first.walls, read_photo, told.options.walls, progress)
         step.counts["pictures"] = len(told.walls.pictures)
-    sparse, walls = opened.work_folder(SPARSE), opened.work_folder(WALLS)
-    work = opened.work_folder(CALL)
+    sparse, work = opened.work_folder(SPARSE), opened.work_folder(CALL)
+    walls = work / WALLS
+    walls.mkdir()
     world = first.georef.accepted
     with writing_to(opened.path):
         _texture(structure, read_photo, world, references, told, work, progress)
     with timed_step(told.steps, "write"), writing_to(opened.path):
         _write_models(told.components, sparse)
         crs, origin = (None, (0.0, 0.0, 0.0)) if world is None else (world.crs, world.origin_m)
-        write_points(structure.points, structure.colours, work / POINTS)
         write_laz(structure.points, structure.colours, work / CLOUD, crs=crs, origin_m=origin)
         write_georef(georef_document([one.georef for one in told.laid]), work / GEOREF)
         unit: Unit = "unknown" if world is None else "metres"
         part = write_walls(told.walls, structure, unit, work, walls)
-        write_place(place_of(structure, cameras, part, world, told.textured), work / "place.json")
+        place_of(structure, cameras, part, world, told.textured).save(work)
     report, page = photos_report(told)
     _write_report(report, page, opened, work)
     opened.publish(SPARSE, key, sparse)

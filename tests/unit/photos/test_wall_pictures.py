@@ -17,10 +17,11 @@ from veduta.formats.gltf import read_glb
 from veduta.photos.levelling import photo_gains
 from veduta.photos.structure import Structure
 from veduta.photos.walls.document import WallsDocument
-from veduta.photos.walls.part import walls_part
+from veduta.photos.walls.part import MODEL, add_walls, walls_part
 from veduta.photos.walls.pictures import WallPicture, wall_pictures
 from veduta.photos.walls.step import FoundWalls, write_walls
 from veduta.photos.walls.wall import Wall
+from veduta.place.place import Place
 from veduta.place.semantics import Provenance, SemanticClass
 
 RELIEF = 0.1
@@ -179,7 +180,10 @@ def test_document_pictures_and_model_agree(tmp_path: Path) -> None:
     corner_uv = part.uv[3] * [told.width_px, told.height_px]
     margin_px = -told.left / told.units_per_px
     assert corner_uv == pytest.approx([margin_px, margin_px], abs=0.6)
-    assert len(read_glb(tmp_path / placed.model).features) == 1
+    place = Place()
+    add_walls(place, placed)
+    place.save(tmp_path)
+    assert len(read_glb(tmp_path / MODEL).features) == 1
 
 
 def test_no_walls_are_written_as_none(tmp_path: Path) -> None:

@@ -20,15 +20,15 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.formats.cityjson_textured import TexturedPart, write_textured
-from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Box, Tile, union, write_tileset
 from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
 from veduta.photos.city.model import CityModel
 from veduta.photos.texture.part import TexturedBuilding
 from veduta.photos.texture.recipe import TexturedModel
 from veduta.photos.texture.surroundings import surroundings_of
-from veduta.place.manifest import IDENTITY, Bounds, PlacePart
+from veduta.place.manifest import PlacePart
 from veduta.place.part import Part
+from veduta.place.place import ModelFile, Place, Standing
 from veduta.run.atomic import write_bytes
 from veduta.run.progress import StepProgress, no_progress
 
@@ -43,7 +43,7 @@ _LONGEST_NAME = 60
 class TextureFiles:
     """What lies in the folder.
 
-    parts: for `place.json`, the textured buildings in the model's order, then the surroundings.
+    parts: for the place, the textured buildings in the model's order, then the surroundings.
     pictures: the atlases. plain: how many buildings no photo shows.
     """
 
@@ -139,20 +139,14 @@ def _encoded(pixels: NDArray[np.uint8], kind: str) -> bytes:
 
 
 def _write_part(part: Part, offset_m: tuple[float, float, float], name: str, folder: Path) -> _Leaf:
-    model = f"{PARTS}/{name}.glb"
-    write_glb(part, folder / model)
-    transform = list(IDENTITY)
-    transform[12:15] = offset_m
-    low, high = part.bounds_m
-    place = PlacePart(
-        id=part.id[:256],
-        name=part.id[:256],
-        model=model,
-        transform=tuple(transform),
-        arrangement="single",
-        bounds=Bounds(min=low, max=high),
+    """Write the part alone: a city has too many to be held together."""
+    transform = np.eye(4)
+    transform[:3, 3] = offset_m
+    told = part.id[:256]
+    placed = Place().add(
+        part, Standing(told, transform), ModelFile(f"{PARTS}/{name}.glb"), part_id=told
     )
-    return _Leaf(place, offset_m, (low, high))
+    return _Leaf(placed.save(folder), offset_m, part.bounds_m)
 
 
 def _tile_tree(city: CityModel, written: Sequence[_Leaf]) -> Tile:

@@ -21,9 +21,10 @@ from veduta.run.progress import StepProgress
 
 @dataclass(frozen=True)
 class Textured:
-    """What was made, for `place.json` and the report."""
+    """What was made, for the place and the report. folder: where the models of `parts` lie."""
 
     parts: tuple[PlacePart, ...] = ()
+    folder: Path = Path()
     measures: dict[str, Any] = field(default_factory=dict)
     line: str = ""
     tables: tuple[Table, ...] = ()
@@ -66,5 +67,10 @@ def texture_step(
     files = write_texture_files(model, folder, progress, told.take)
     measures = told.measures(files.plain)
     return Textured(
-        files.parts, measures, texture_line(measures), tuple(told.tables()), (told.picture(),)
+        files.parts,
+        folder,
+        measures,
+        texture_line(measures),
+        tuple(told.tables()),
+        (told.picture(),),
     )

@@ -13,14 +13,15 @@ from veduta.photos.walls.grid import WallGrid
 from veduta.photos.walls.pictures import WallPicture
 from veduta.photos.walls.wall import Wall
 from veduta.place.builder import PartBuilder, UvMap
-from veduta.place.manifest import Bounds, PlacePart
 from veduta.place.material import Material, Texture
 from veduta.place.part import Part
+from veduta.place.place import UNMOVED, ModelFile, Place, Standing
 from veduta.place.semantics import Provenance, SemanticClass
 
 LONGEST_PX = 1024
 """Longest side of a texture: the pictures themselves are finer."""
 MODEL = f"{WALLS}/walls.glb"
+DOCUMENT = "walls.json"
 _UNSEEN = (0.62, 0.6, 0.57)
 
 
@@ -46,17 +47,13 @@ def walls_part(pictures: Sequence[WallPicture]) -> Part | None:
     return builder.build()
 
 
-def place_part(part: Part) -> PlacePart:
-    """How the place names the part."""
-    low, high = part.bounds_m
-    return PlacePart(
-        id=WALLS,
-        name="walls",
-        model=MODEL,
-        document="walls.json",
-        arrangement="single",
-        bounds=Bounds(min=low, max=high),
-    )
+def add_walls(place: Place, part: Part) -> None:
+    """Put them into the place, under a name that none of its parts has."""
+    name = part.id
+    while name in place.parts:  # a city model may call a building so
+        name = f"{name}-found"
+    standing = Standing("walls", UNMOVED, document=DOCUMENT)
+    place.add(part, standing, ModelFile(MODEL), part_id=name)
 
 
 def _corners(wall: Wall) -> NDArray[np.float64]:

@@ -8,7 +8,6 @@ from pathlib import Path
 
 import numpy as np
 
-from veduta.formats.gltf import write_glb
 from veduta.imaging.encode import png_bytes
 from veduta.photos.cameras.component import Component
 from veduta.photos.cameras.upright import upright
@@ -17,14 +16,12 @@ from veduta.photos.options import WallOptions
 from veduta.photos.structure import Structure
 from veduta.photos.walls.document import Unit, picture_file, walls_document
 from veduta.photos.walls.find_walls import relief_depth
-from veduta.photos.walls.part import MODEL, place_part, walls_part
+from veduta.photos.walls.part import DOCUMENT, walls_part
 from veduta.photos.walls.pictures import ReadPhoto, WallPicture, wall_pictures
 from veduta.photos.walls.wall import Wall
-from veduta.place.manifest import PlacePart
+from veduta.place.part import Part
 from veduta.run.atomic import write_bytes
 from veduta.run.progress import StepProgress, no_progress
-
-DOCUMENT = "walls.json"
 
 
 @dataclass(frozen=True)
@@ -71,8 +68,8 @@ def picture_walls(
 
 def write_walls(
     found: FoundWalls, structure: Structure, unit: Unit, out: Path, walls: Path
-) -> PlacePart | None:
-    """Write `walls.json` into `out`, pictures and model into `walls`; the part of the place.
+) -> Part | None:
+    """Write `walls.json` into `out` and pictures into `walls`; the part of the place.
 
     `walls` is published as the folder of that name beside `walls.json`.
     """
@@ -80,8 +77,4 @@ def write_walls(
     write_bytes(out / DOCUMENT, (document.model_dump_json(by_alias=True, indent=2) + "\n").encode())
     for picture in found.pictures:
         write_bytes(walls / Path(picture_file(picture.grid.wall)).name, png_bytes(picture.pixels))
-    part = walls_part(found.pictures)
-    if part is None:
-        return None
-    write_glb(part, walls / Path(MODEL).name)
-    return place_part(part)
+    return walls_part(found.pictures)
