@@ -13,7 +13,6 @@ import numpy as np
 
 from veduta import _core
 from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, forms_of
-from veduta.formats.gltf import write_glb
 from veduta.formats.tiles import Tile
 from veduta.grammar.building import NothingBuiltError, build_part
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
@@ -28,6 +27,7 @@ from veduta.grammar.textures import read_textures, with_builtin
 from veduta.grammar.tile_pictures import tile_pictures
 from veduta.grammar.town import Built, Town, built_of, prisms
 from veduta.place.part import Part
+from veduta.place.place import ModelFile, Place
 from veduta.run.atomic import sync_file, write_bytes
 from veduta.run.outputs import writing_to
 from veduta.run.report import Failure, StepRecord, timed_step
@@ -282,7 +282,7 @@ def _models(
                 _fail(job, one.lot, str(fault), result)
                 continue
             with writing_to(job.out):
-                write_glb(part, job.work / f"{one.lot.id}.glb")
+                Place().add(part, file=ModelFile(f"{one.lot.id}.glb")).save(job.work)
             result.rows.append(_summary(one.lot, part, job.block.name))
             made.append(one)
     return made

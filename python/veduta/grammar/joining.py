@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from veduta.formats.cityjson_text import relief_line
-from veduta.formats.gltf import write_glb
 from veduta.formats.ground_glb import ground_glb
 from veduta.formats.tile_glb import BuildingRow
 from veduta.formats.tiles import Box
@@ -19,6 +18,7 @@ from veduta.grammar.reported import FILE as REPORTS
 from veduta.grammar.squares import Squares
 from veduta.grammar.textures import with_builtin
 from veduta.grammar.tile_pictures import picture_files
+from veduta.place.place import ModelFile, Place
 from veduta.run.atomic import write_bytes
 
 GROUND = "ground"
@@ -66,11 +66,13 @@ def write_ground(
         row = BuildingRow(GROUND, NAME)
         tile, model = f"{GROUND}/{number}.glb", f"{GROUND}/{number}-model.glb"
         write_bytes(work / tile, ground_glb(points, ground.triangles, row, COLOUR))
-        if separate:
-            write_glb(ground_part(part_id(name), points, ground.triangles), work / model)
+        part = ground_part(part_id(name), points, ground.triangles)
+        has_model = separate and len(part.positions_m) > 0
+        if has_model:
+            Place().add(part, file=ModelFile(model)).save(work)
         low, high = points.min(axis=0).tolist(), points.max(axis=0).tolist()
         box = (low[0], low[1], low[2]), (high[0], high[1], high[2])
-        found[name] = GroundFiles(ground, box, tile, model if separate else None)
+        found[name] = GroundFiles(ground, box, tile, model if has_model else None)
     return found
 
 

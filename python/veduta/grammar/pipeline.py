@@ -14,7 +14,6 @@ from typing import Any
 from pydantic import JsonValue
 
 from veduta.formats.cityjson_text import header, write_joined, write_sequence
-from veduta.formats.place_json import write_place
 from veduta.formats.tiles import write_tileset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.block import MEMORY, Job, run_block
@@ -375,8 +374,8 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     separate = is_separate(call.options, lots)
     grounds = write_ground(work, call.squares, done, separate=separate)
     write_tileset(town_of(lots, squares, whole, grounds), work / TILESET)
-    place = place_of(lots, whole, grounds, tileset=TILESET if streamed else None)
-    write_place(place, work / "place.json")
+    tileset = TILESET if streamed else None
+    place_of(lots, whole, grounds, folder.path, tileset=tileset).save(work)
     if not call.options.output.city:
         return
     pieces = [_city_path(folder.path, one) for one in squares if one.name in done]

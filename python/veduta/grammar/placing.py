@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -18,31 +19,31 @@ from veduta.grammar.levels import BOXES_ERROR_M
 from veduta.grammar.lots import Lots
 from veduta.grammar.report import Whole
 from veduta.grammar.squares import Square
-from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start
+from veduta.place.manifest import IDENTITY, Bounds, PlacePart, Start
+from veduta.place.place import Place
 
 EYE_M = 1.7
 MIN_DISTANCE_M, MAX_DISTANCE_M = 15.0, 60.0
 
 
 def place_of(
-    lots: Lots, whole: Whole, grounds: Mapping[str, GroundFiles], *, tileset: str | None
+    lots: Lots, whole: Whole, grounds: Mapping[str, GroundFiles], out: Path, *, tileset: str | None
 ) -> Place:
     """The place of what was built: a part for each building, or else for each near tile.
 
-    The ground between them follows, a part for each block that has some.
+    The ground between them follows, a part for each block that has some. All models lie in OUT
+    already: the blocks have written them, one after another.
     """
     parts = [_part(lot) for lot in whole.rows] if whole.rows else _tiles(whole)
     origins = {name: summary["origin_m"] for name, summary in whole.blocks}
     fronts = [summary["front"] for _, summary in whole.blocks if summary["front"]]
-    return Place(
-        crs=lots.crs,
-        origin=lots.origin_m,
-        parts=parts + [_ground(name, origins[name], files) for name, files in grounds.items()],
-        tileset=tileset,
-        start=_start(fronts, grounds)
-        if lots.look is None
-        else Start(eye=lots.look[0], target=lots.look[1]),
-    )
+    parts += [_ground(name, origins[name], files) for name, files in grounds.items()]
+    look = lots.look
+    start = _start(fronts, grounds) if look is None else Start(eye=look[0], target=look[1])
+    place = Place(crs=lots.crs, origin_m=lots.origin_m, tileset=tileset, start=start)
+    for row in parts:
+        place.lay(row, out)
+    return place
 
 
 def town_of(
