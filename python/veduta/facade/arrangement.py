@@ -8,8 +8,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from pathlib import Path
 
-from veduta.place.manifest import IDENTITY, Bounds, Place, PlacePart, Start
+from veduta.place.manifest import IDENTITY, Bounds, PlacePart, Start
+from veduta.place.place import Place
 
 GAP_M = 3.0
 """Between neighbours: wide enough to see the sides, too narrow to lose the street."""
@@ -28,15 +30,19 @@ class Placed:
     high: Vector
 
 
-def arrange(buildings: Sequence[Placed]) -> Place:
-    """The place of these buildings, from left to right in the order given."""
-    parts: list[PlacePart] = []
+def arrange(buildings: Sequence[Placed], out: Path) -> Place:
+    """The place of these buildings, from left to right in the order given.
+
+    Their models lie in OUT already, each written when its photo was done.
+    """
+    place = Place()
     at_m = 0.0
     for building in buildings:
-        shift_m = at_m - building.low[0] if parts else 0.0
-        parts.append(_part(building, shift_m, alone=len(buildings) == 1))
+        shift_m = at_m - building.low[0] if place.parts else 0.0
+        place.lay(_part(building, shift_m, alone=len(buildings) == 1), out)
         at_m = building.high[0] + shift_m + GAP_M
-    return Place(parts=parts, start=_start(buildings, at_m - GAP_M))
+    place.start = _start(buildings, at_m - GAP_M)
+    return place
 
 
 def _part(building: Placed, shift_m: float, alone: bool) -> PlacePart:

@@ -18,7 +18,6 @@ from veduta.facade.load import DOCUMENT, load_document, load_photo
 from veduta.facade.options import FacadeOptions
 from veduta.facade.pipeline import VERSION
 from veduta.facade.report import call_report
-from veduta.formats.place_json import write_place
 from veduta.run.digests import file_digest, result_key
 from veduta.run.errors import InputError
 from veduta.run.options import Options, flag
@@ -322,7 +321,7 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
     report, page = call_report(folder.path, effective, result.summaries, failures, notes)
     with writing_to(folder.path):
         if placed:
-            write_place(arrange(placed), work / "place.json")
+            arrange(placed, folder.path).save(work)
         (work / "report.json").write_bytes(report.to_json())
         (work / "report.html").write_bytes(page)
     folder.publish(CALL, key, work)

@@ -23,10 +23,10 @@ from veduta.facade.overlay import overlay, png
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.formats.cityjson import write_cityjson
-from veduta.formats.gltf import write_glb
 from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import Photo, read_image
 from veduta.place.part import Part
+from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
@@ -108,7 +108,7 @@ def write_building(
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
         write_rule_files(building.model, folder)
-        write_glb(building.part, folder / "model.glb")
+        Place().add(building.part, file=ModelFile("model.glb")).save(folder)
         write_cityjson(building.part, folder / "model.city.json")
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
 
