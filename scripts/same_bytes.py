@@ -34,7 +34,7 @@ RUST = ("crates", "Cargo.toml", "Cargo.lock")
 TIMES = {
     "report.json": rb'"seconds": [0-9.e+-]+',
     "report.html": rb'<td class="number">[0-9]+\.[0-9]{3}</td>'
-    rb'|<td class="number">[0-9.]+</td>\s*</tr>'
+    rb'|<td class="number">[0-9.]+</td>\s*</tr>|<td[^>]*>[0-9.]+ s</td>'
     rb'|(<rect class="bar"[^>]*/>\s*)?<text class="value"[^>]*>[0-9.]+ s</text>',
     ".veduta/run.json": rb'"seconds": [0-9.e+-]+|"[^"]*report\.(json|html)": "[0-9a-f]{64}"',
 }
