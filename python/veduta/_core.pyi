@@ -499,6 +499,25 @@ def derive_lots(
     it, and how far their frames lie from its own (m, z up).
     """
 
+# foreground.rs
+def flood_foreground(
+    pixels: _Array3[np.uint8],
+    misfit: _Array2[np.float32],
+    seeds: _Array2[np.int64],
+    depth_m: _Array1[np.float32],
+    *,
+    reach: int,
+    colour: int,
+    slack: float,
+    least: float,
+) -> _Array2[np.float32]:
+    """(h, w) the depth of the nearest foreground whose flood reaches a pixel (m), infinity where none
+    does. pixels: (h, w, 3). misfit: (h, w) correspondence error to the background (px), NaN where none
+    is. seeds: (n, 2) columns and rows of foreground points, depth_m: (n,) how far each is. A flood keeps
+    within `reach` pixels of its seed, to colours within `colour` of the seed's, and to pixels that fit
+    the background at most `slack` better than the seed, and no better than `least`.
+    """
+
 # grammar.rs
 class GrammarFault(ValueError): ...
 class AssetWanted(GrammarFault): ...

@@ -14,6 +14,7 @@ mod derivation;
 mod derived_lot;
 mod derived_lots;
 mod flat;
+mod foreground;
 mod given;
 mod grammar;
 mod interruptible;
@@ -42,6 +43,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     carve::register(m)?;
     chain::register(m)?;
     compress::register(m)?;
+    foreground::register(m)?;
     grammar::register(m)?;
     limits::register(m)?;
     localise::register(m)?;

@@ -13,6 +13,8 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.drive.build.beside import column_spacing
+from veduta.drive.build.bodies import bodies_of
+from veduta.drive.build.body_file import BUILDINGS, write_bodies
 from veduta.drive.build.edited import with_document
 from veduta.drive.build.facade_files import FACADES, write_facades
 from veduta.drive.build.outcome import Outcome
@@ -35,7 +37,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "6"
+VERSION = "7"
 POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
@@ -148,10 +150,11 @@ def _write(
               origin_m=record.origin_m, classes=cloud.classes)  # fmt: skip
     drive_place(record, outcomes, line, road_m).save(folder)
     planes = write_facades(outcomes, folder / FACADES)
+    bodies = _bodies(record, outcomes, folder / BUILDINGS, work)
     files = [
         ("place.json", "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
-        (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass"),
+        (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass, 66 filled"),
         (DOCUMENT, "the path and its segments"),
     ]
     files += (
@@ -159,10 +162,33 @@ def _write(
     )
     if planes:
         files.append((f"{FACADES}/", "each facade plane straight on, and where it stands"))
+    if bodies:
+        files.append((BUILDINGS, "the houses behind the facades, closed, with roofs (LoD2)"))
     work.measure("facade_planes", planes)
     files += [(f"{PICTURES}/", "the images")] if record.shots else []
     for name, meaning in files:
         work.file(name, meaning)
+
+
+def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: Work) -> int:
+    """How many houses are closed by the roofs of the surface model; says why where none is."""
+    grid = None if record.roofs is None else record.roofs()
+    if grid is None:
+        work.note(f"no {BUILDINGS}: the log names no surface model, so that roofs are unknown")
+        return 0
+    bodies = [
+        body
+        for one in outcomes
+        for name, plane, _ in one.planes
+        for body in bodies_of(name, plane, grid)
+    ]
+    left_out = write_bodies(bodies, path, record.name, record.crs, record.origin_m)
+    if left_out:
+        work.doubt(f"{len(left_out)} houses do not close and are left out: {', '.join(left_out)}")
+    if not bodies:
+        work.note(f"no {BUILDINGS}: the surface model has no roofs behind the facades")
+    work.measure("buildings_closed", len(bodies) - len(left_out))
+    return len(bodies) - len(left_out)
 
 
 def _corrections(record: DriveRecord) -> list[Correction]:
@@ -208,19 +234,20 @@ def _tell(
     points = np.concatenate([one.points for one in outcomes])
     kinds = np.concatenate([one.kinds for one in outcomes])
     work.picture(
-        "From above", "Building yellow, foreground green, ground brown, glass blue, path white",
+        "From above",
+        "Building yellow, foreground green, ground brown, glass blue, filled orange, path white",
         plan_picture(points, kinds, line),
     )  # fmt: skip
     rows: list[list[Count | None]] = []
     for one in outcomes:
-        count = np.bincount(one.kinds, minlength=66)
+        count = np.bincount(one.kinds, minlength=67)
         rows.append([
-            one.segment.id, int(count[6]), int(count[2]), int(count[64]), int(count[65]),
-            one.objects, round(one.unseen_share, 3), one.segment.reason,
+            one.segment.id, *(int(count[kind]) for kind in (6, 2, 64, 65, 66)), one.objects,
+            round(one.unseen_share, 3), one.segment.reason,
         ])  # fmt: skip
     work.table(Table(
         "Segments",
-        ["segment", "building points", "ground", "foreground", "glass", "objects",
+        ["segment", "building points", "ground", "foreground", "glass", "filled", "objects",
          "triangles seen in no image", "why it is so cut"],
         rows,
     ))  # fmt: skip

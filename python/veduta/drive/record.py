@@ -59,6 +59,25 @@ class Shot:
 
 
 @dataclass(frozen=True, eq=False)
+class HeightGrid:
+    """What stands around, from above. heights_m: (rows from the south, columns), NaN where nothing
+    is known; cells of cell_m, the outer corner of the first at low (m). All in the world's frame.
+    """
+
+    heights_m: NDArray[np.float32]
+    low: tuple[float, float]
+    cell_m: float
+
+    def at(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """(n,) heights of the cells in which (n, 2) places lie (m); NaN outside."""
+        at = np.floor((places - np.array(self.low)) / self.cell_m).astype(np.int64)
+        rows, columns = self.heights_m.shape
+        inside = (at >= 0).all(axis=1) & (at[:, 0] < columns) & (at[:, 1] < rows)
+        at = np.where(inside[:, None], at, 0)
+        return np.where(inside, self.heights_m[at[:, 1], at[:, 0]], np.nan).astype(np.float64)
+
+
+@dataclass(frozen=True, eq=False)
 class DriveRecord:
     """All of a drive. World: z up, z = 0 at the road under the first sweep; metres.
 
@@ -79,8 +98,10 @@ class DriveRecord:
     notes: tuple[str, ...] = ()
     path_from: str = "poses of the log"
     corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
-    doubts: tuple[str, ...] = ()
     """What was changed of the path: time (s), by how much (3,) m, why."""
+    doubts: tuple[str, ...] = ()
+    roofs: Callable[[], HeightGrid | None] | None = None
+    """Reads the surface model, where the record has one; None of one that is a photo."""
 
     def path(self) -> NDArray[np.float64]:
         """(s, 3) where the scanner was at each sweep (m)."""

@@ -5,16 +5,14 @@ What is made of a segment is on disk as soon as it is made, so that a killed run
 
 from __future__ import annotations
 
-from collections import OrderedDict
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-import numpy as np
-from numpy.typing import NDArray
 from pydantic import JsonValue
-from scipy.spatial import cKDTree
 
+from veduta.drive.build.backdrop import backdrop_of
 from veduta.drive.build.beside import points_beside
+from veduta.drive.build.near_images import NearImages
 from veduta.drive.build.outcome import Outcome, outcome_of
 from veduta.drive.build.pictures import (
     atlas_picture,
@@ -23,33 +21,26 @@ from veduta.drive.build.pictures import (
     object_picture,
     source_picture,
 )
-from veduta.drive.build.pictures_of import Seen, look
+from veduta.drive.build.pictures_of import Around, Seen
 from veduta.drive.build.segment import Geometry, Textured, frame_of, reconstruct, texture
 from veduta.drive.document.model import DriveSegment
 from veduta.drive.kept import load_result, save_result
 from veduta.drive.options import DriveOptions
-from veduta.drive.record import DriveRecord, Shot
+from veduta.drive.record import DriveRecord
 from veduta.run.errors import NotFoundError
 from veduta.run.work import Work
 
 FEWEST_COLUMNS = 10
 """Columns with a facade that a segment needs."""
-NEAR_M = 45.0
-"""Images taken farther away add nothing to a facade, and nothing farther hides one."""
-HELD_IMAGES = 24
-"""Images in memory at once."""
 
 
 @dataclass(frozen=True, eq=False)
 class Layered:
-    """A segment with a facade. hidden: (n, 3) float32 what may hide facades, crowns included (m).
-
-    load: its geometry, from disk.
-    """
+    """A segment with a facade. load: its geometry, from disk. around: what images near it show."""
 
     segment: DriveSegment
-    hidden: NDArray[np.float32]
     load: Callable[[], Geometry]
+    around: Callable[[], Around]
 
 
 def layer_segments(
@@ -76,8 +67,11 @@ def layer_segments(
             if geometry.segment.fate == "build" and geometry.measured_walls() < FEWEST_COLUMNS:
                 step.rejected.append(f"{segment.id}: no facade stands along it")
                 continue
-            hidden = [geometry.foreground(), geometry.crowns(options.seed)]
-            found.append(Layered(geometry.segment, np.concatenate(hidden).astype(np.float32), load))
+
+            def around(load: Callable[[], Geometry] = load) -> Around:
+                return _around(load(), options)
+
+            found.append(Layered(geometry.segment, load, around))
             step.counts[f"{segment.id}: objects"] = geometry.object_count
     if not found:
         raise NotFoundError(
@@ -105,6 +99,12 @@ def _kept_geometry(
     return kept
 
 
+def _around(geometry: Geometry, options: DriveOptions) -> Around:
+    """What stands before a segment's facades, and the facades as the images should show them."""
+    backdrop = backdrop_of(geometry.background, geometry.frame, options.texture.wall_top_m)
+    return Around(geometry.foreground(), geometry.crowns(options.seed), (backdrop,))
+
+
 def texture_segments(
     record: DriveRecord,
     layered: Sequence[Layered],
@@ -114,7 +114,7 @@ def texture_segments(
 ) -> list[Outcome]:
     """Section 7 for all segments, and what the report shows of each."""
     found = []
-    images = _Images(record, layered)
+    images = NearImages(record.shots, [(one.segment, one.around) for one in layered])
     with work.step("texture") as step:
         for number, one in enumerate(layered):
 
@@ -144,43 +144,6 @@ def texture_segments(
 
 def _inputs(segment: DriveSegment, options: DriveOptions, digests: JsonValue) -> JsonValue:
     return [digests, segment.model_dump(mode="json"), options.model_dump(mode="json")]
-
-
-class _Images:
-    """The images of a drive with what hides facades in each, a few in memory at a time."""
-
-    def __init__(self, record: DriveRecord, layered: Sequence[Layered]) -> None:
-        self._shots = record.shots
-        self._places = np.array([shot.world_from_cam[:3, 3] for shot in record.shots])
-        self._hidden = [one.hidden for one in layered]
-        self._held: OrderedDict[int, Seen] = OrderedDict()
-        self.looked = 0
-
-    def near(self, segment: DriveSegment) -> list[Seen]:
-        """Those taken near a segment, in their order."""
-        if not len(self._shots):
-            return []
-        line = np.array(segment.line)
-        distance, _ = cKDTree(line[:, :2]).query(self._places[:, :2])
-        return [self._seen(row) for row in np.flatnonzero(distance < NEAR_M).tolist()]
-
-    def _seen(self, row: int) -> Seen:
-        if row not in self._held:
-            self._held[row] = look(self._shots[row], self._around(self._shots[row]))
-            self.looked += 1
-        self._held.move_to_end(row)
-        while len(self._held) > HELD_IMAGES:
-            self._held.popitem(last=False)
-        return self._held[row]
-
-    def _around(self, shot: Shot) -> NDArray[np.float64]:
-        """(n, 3) what may hide facades in an image."""
-        eye = shot.world_from_cam[:2, 3]
-        near = [
-            points[((points[:, :2] - eye) ** 2).sum(axis=1) < (2 * NEAR_M) ** 2]
-            for points in self._hidden
-        ]
-        return np.concatenate(near).astype(np.float64)
 
 
 def _show(one: Textured, work: Work) -> None:

@@ -42,9 +42,14 @@ class CityFace:
 class CityDocument:
     """A CityJSON object as it grows."""
 
-    def __init__(self, title: str, origin_m: NDArray[np.float64]) -> None:
-        """origin_m: (3,) where vertices count from, such as the lower corner of all."""
-        self._title = title
+    def __init__(
+        self, title: str, origin_m: NDArray[np.float64], *, lod: str = LOD, crs: str | None = None
+    ) -> None:
+        """origin_m: (3,) where vertices count from, such as the lower corner of all.
+
+        crs: such as "EPSG:25832".
+        """
+        self._title, self._lod, self._crs = title, lod, crs
         self._origin = np.floor(origin_m)
         self._vertices: dict[Vertex, int] = {}
         self._template_vertices: dict[tuple[float, float, float], int] = {}
@@ -109,7 +114,7 @@ class CityDocument:
         else:
             shape = {"type": "MultiSolid", "boundaries": [[shell] for shell in boundaries]}
             numbers = [[shell] for shell in values]
-        return shape | {"lod": LOD, "semantics": {"surfaces": told, "values": numbers}}
+        return shape | {"lod": self._lod, "semantics": {"surfaces": told, "values": numbers}}
 
     def template(self, faces: Sequence[Rings]) -> int:
         """The number of a shape in a frame of its own."""
@@ -152,6 +157,10 @@ class CityDocument:
             "CityObjects": self.objects,
             "vertices": [list(vertex) for vertex in self._vertices],
         }
+        if self._crs is not None:
+            authority, _, code = self._crs.partition(":")
+            system = f"https://www.opengis.net/def/crs/{authority}/0/{code}"
+            document["metadata"]["referenceSystem"] = system
         if self._templates:
             document["geometry-templates"] = {
                 "templates": self._templates,

@@ -39,7 +39,8 @@ def _seen(y: float) -> Seen:
     )
     hidden = np.full((240, 320), np.inf, dtype=np.float32)
     none = np.zeros((240, 320), dtype=bool)
-    return Seen(shot, patches[at], hidden, none, none)
+    fits = np.zeros((240, 320), dtype=np.float32)
+    return Seen(shot, patches[at], hidden, none, none, fits)
 
 
 def _background(filled_m: float) -> Background:

@@ -27,6 +27,7 @@ CLASS_COLOURS: dict[int, tuple[int, int, int]] = {
     PointClass.BUILDING: (225, 190, 110),
     PointClass.FOREGROUND: (60, 150, 80),
     PointClass.GLASS: (90, 180, 230),
+    PointClass.FILLED: (235, 150, 60),
 }
 
 

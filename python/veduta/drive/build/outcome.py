@@ -15,10 +15,11 @@ from veduta.drive.build.facade_planes import (
     facade_planes,
     orthophoto,
 )
+from veduta.drive.build.fill import Source
 from veduta.drive.build.layers import PointClass
 from veduta.drive.build.meshes import CLASS_COLOURS, segment_mesh
 from veduta.drive.build.pictures_of import Seen
-from veduta.drive.build.segment import Textured
+from veduta.drive.build.segment import Geometry, Textured
 from veduta.drive.document.model import DriveSegment
 from veduta.place.mesh import Mesh
 from veduta.place.place import Standing
@@ -31,7 +32,8 @@ _HIDDEN_M = 1.0
 class Outcome:
     """meshes: its walls and ground with their places. taken_out: (n, 3) m, with (n, 3) colours.
 
-    points: (m, 3) all scan points (m), kinds: (m,) their `PointClass`. triangles: of the meshes;
+    points: (m, 3) all scan points (m), and those of filled holes, kinds: (m,) their `PointClass`.
+    triangles: of the meshes;
     fine: before any were joined; unseen_share: of those, error_m: by which that moved the surface.
     texels: of the atlas. planes: (name, plane, its orthophoto where images show enough of it).
     """
@@ -72,12 +74,22 @@ def outcome_of(textured: Textured, seen: Sequence[Seen], texel_m: float) -> Outc
         for number, plane in enumerate(facade_planes(textured), 1)
     )
     taken_out = geometry.foreground()
+    points, kinds = _with_filled(geometry)
     return Outcome(
         geometry.segment, tuple(meshes), taken_out, coloured(taken_out, seen),
-        geometry.layers.points.points, geometry.layers.kind, geometry.object_count,
+        points, kinds, geometry.object_count,
         len(surface.triangles), textured.fine_triangles, textured.unseen_share,
         textured.error_m, int(textured.atlas.surface.sum()), textured.consistency, planes,
     )  # fmt: skip
+
+
+def _with_filled(geometry: Geometry) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+    """The scan points and their classes, and after them a point for each beam that was filled."""
+    background, layers = geometry.background, geometry.layers
+    filled = (background.source == Source.FILLED) & np.isfinite(background.depth)
+    added = geometry.frame.vertices(background.depth)[filled]
+    kinds = np.full(len(added), PointClass.FILLED, dtype=np.uint8)
+    return np.concatenate([layers.points.points, added]), np.concatenate([layers.kind, kinds])
 
 
 def coloured(points: NDArray[np.float64], seen: Sequence[Seen]) -> NDArray[np.uint8]:

@@ -80,7 +80,7 @@ def plan_picture(
     scale = min(1000.0 / max(float((high - low).max()), 1.0), 20.0)
     size = np.ceil((high - low) * scale).astype(int) + 1
     picture = np.full((size[1], size[0], 3), 18, dtype=np.uint8)
-    colours = {2: (95, 85, 75), 6: (240, 200, 110), 64: (70, 190, 100), 65: (90, 180, 240)}
+    colours = {66: (150, 85, 45), 2: (95, 85, 75), 6: (240, 200, 110), 64: (70, 190, 100), 65: (90, 180, 240)}
     for kind, colour in colours.items():
         _dots(picture, points[kinds == kind], low, scale, colour)
     _dots(picture, line[:, :2], low, scale, (255, 255, 255))

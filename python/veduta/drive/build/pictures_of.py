@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.drive.build.backdrop import Backdrop, draw_backdrops
+from veduta.drive.build.flood import flood_foreground
+from veduta.drive.build.misfit import Frame, correspondence_error
 from veduta.drive.record import Shot
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
+
+_FARTHEST_M = 1e6
 
 
 @dataclass(frozen=True)
@@ -37,7 +43,7 @@ class Seen:
 
     hidden_m: (h, w) float32 depth of the nearest foreground there, inf where there is none.
     sky: (h, w) bool. leaves: (h, w) bool, plants by their colour: scanners that look level do not
-    see the crowns of trees.
+    see the crowns of trees. misfit: (h, w) float32 correspondence error (px), NaN where none is.
     """
 
     shot: Shot
@@ -45,20 +51,51 @@ class Seen:
     hidden_m: NDArray[np.float32]
     sky: NDArray[np.bool_]
     leaves: NDArray[np.bool_]
+    misfit: NDArray[np.float32]
 
 
-def look(
-    shot: Shot, foreground: NDArray[np.float64], parameters: MaskParameters | None = None
-) -> Seen:
-    """foreground: (n, 3) points in the world (m)."""
-    chosen = parameters or MaskParameters()
+@dataclass(frozen=True, eq=False)
+class Around:
+    """What is near an image. foreground: (n, 3) scan points (m, world). crowns: (k, 3) where trees
+    may go on above what the scanner saw. backdrops: the surfaces behind, without holes.
+    """
+
+    foreground: NDArray[np.float64]
+    crowns: NDArray[np.float64]
+    backdrops: tuple[Backdrop, ...] = ()
+
+
+def read_shot(shot: Shot) -> Frame:
+    """InputError where the image is not as large as its calibration says."""
     pixels = read_image(shot.path).pixels
     if pixels.shape[:2] != (shot.height_px, shot.width_px):
         fault = f"is {pixels.shape[1]} x {pixels.shape[0]} pixels, not as its calibration says"
         raise InputError(shot.path, fault, "Give the image that the camera took.")
-    hidden = _hidden(shot, foreground, chosen)
-    sky = _sky(pixels, chosen)
-    return Seen(shot, pixels, hidden, sky, _leaves(pixels, sky, chosen))
+    return Frame(shot, pixels)
+
+
+def look(
+    one: Frame,
+    around: Around,
+    beside: Sequence[Frame] = (),
+    parameters: MaskParameters | None = None,
+) -> Seen:
+    """beside: the images taken before and after. Where they tell what does not fit the background,
+    crowns are taken from them; elsewhere all is hidden where crowns may be.
+    """
+    chosen = parameters or MaskParameters()
+    sky = _sky(one.pixels, chosen)
+    leaves = _leaves(one.pixels, sky, chosen)
+    hidden = _hidden(one.shot, around.foreground, chosen)
+    crowns = _hidden(one.shot, around.crowns, chosen)
+    drawn = draw_backdrops(one.shot, around.backdrops)
+    misfit = correspondence_error(one, drawn.depth, beside)
+    told = np.isfinite(misfit)
+    if told.any():
+        flooded = flood_foreground(one, misfit, drawn, around.foreground, sky)
+        crowns[told] = np.inf
+        hidden = np.minimum(hidden, flooded)
+    return Seen(one.shot, one.pixels, np.minimum(hidden, crowns), sky, leaves, misfit)
 
 
 def _hidden(
@@ -79,7 +116,9 @@ def _hidden(
         block = np.ones((2 * int(size) + 1,) * 2, dtype=np.uint8)
         np.minimum(hidden, cv2.erode(layer, block), out=hidden)
     close = np.ones((chosen.closed_px, chosen.closed_px), dtype=np.uint8)
-    return np.asarray(-cv2.morphologyEx(-hidden, cv2.MORPH_CLOSE, close), dtype=np.float32)
+    closed = -cv2.morphologyEx(-hidden, cv2.MORPH_CLOSE, close)
+    # OpenCV takes the greatest number for what is outside of the image.
+    return np.where(closed < _FARTHEST_M, closed, np.inf).astype(np.float32)
 
 
 def _sky(pixels: NDArray[np.uint8], chosen: MaskParameters) -> NDArray[np.bool_]:

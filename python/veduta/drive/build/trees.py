@@ -60,12 +60,13 @@ def direction_changes(
 def as_scanned(layers: Layers, main: NDArray[np.float64]) -> Background:
     """The nearest points as they are: nothing is taken out, nothing filled.
 
-    Beams between two of the scanner's that met the same thing are joined: scans are coarser than
-    the depth image.
+    Beams between two of the scanner's that met the same thing are joined, and told as filled: scans
+    are coarser than the depth image.
     """
     depth = _between_beams(_between_beams(layers.first, 0), 1)
     known = np.isfinite(depth)
-    source = np.where(known, Source.MEASURED, Source.NOTHING).astype(np.uint8)
+    source = np.where(known, Source.FILLED, Source.NOTHING).astype(np.uint8)
+    source[np.isfinite(layers.first)] = Source.MEASURED
     ground = np.isfinite(layers.background) & ~layers.wall & (np.abs(depth - layers.background) < _ALIKE_M)
     foot = np.argmax(known & ~ground, axis=0)
     return Background(depth, source, known & ~ground, main, foot)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import tomllib
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +17,7 @@ from veduta.drive.read.clocks import clock_apart, shared_beams
 from veduta.drive.read.scanned_path import find_path
 from veduta.drive.read.spacing import equally_spaced
 from veduta.drive.read.spool import SpooledScans
+from veduta.drive.read.surface_model import read_heights
 from veduta.drive.read.tables import list_column, read_table, time_column
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
@@ -97,6 +99,7 @@ def read_own(
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
         path_from, corrections, doubts,
+        None if log.surface is None else partial(read_heights, folder / log.surface.file, origin),
     )  # fmt: skip
 
 

@@ -18,6 +18,7 @@ from numpy.typing import NDArray
 from rasterio.errors import RasterioError, RasterioIOError
 from scipy import ndimage
 
+from veduta.drive.record import HeightGrid
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -103,6 +104,15 @@ def read_surface_model(
     distance = _to_edges(edge > 0, cell_m, chosen)
     near = float((distance < 1.0).mean())
     return SurfaceModel(distance, low, cell_m, None, 1, crs, near)
+
+
+def read_heights(path: Path, origin_m: tuple[float, float, float]) -> HeightGrid | None:
+    """The surface itself in a frame about an origin; None of a photo. InputError as above."""
+    bands, low, cell_m, _ = _read(path)
+    if len(bands) != 1:
+        return None
+    heights = (bands[0] - origin_m[2]).astype(np.float32)
+    return HeightGrid(heights, (low[0] - origin_m[0], low[1] - origin_m[1]), cell_m)
 
 
 def _read(path: Path) -> tuple[NDArray[np.float32], tuple[float, float], float, str | None]:

@@ -1,0 +1,89 @@
+"""The images of a drive with what hides facades in each, a few in memory at a time."""
+
+from __future__ import annotations
+
+from collections import OrderedDict
+from collections.abc import Callable, Sequence
+from typing import TypeVar
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from veduta.drive.build.backdrop import Backdrop
+from veduta.drive.build.misfit import Frame
+from veduta.drive.build.pictures_of import Around, Seen, look, read_shot
+from veduta.drive.document.model import DriveSegment
+from veduta.drive.record import Shot
+
+NEAR_M = 45.0
+"""Images taken farther away add nothing to a facade, and nothing farther hides one."""
+HELD_IMAGES, HELD_SEGMENTS = 24, 6
+"""In memory at once."""
+MOVED_M = (0.05, 5.0)
+"""Images taken so far apart are compared: from nearer ones nothing moves, farther ones differ."""
+T = TypeVar("T")
+
+
+class NearImages:
+    """segments: each with what loads its surroundings. looked: how many images were looked at."""
+
+    def __init__(
+        self, shots: Sequence[Shot], segments: Sequence[tuple[DriveSegment, Callable[[], Around]]]
+    ) -> None:
+        self._shots = shots
+        self._places = np.array([shot.world_from_cam[:3, 3] for shot in shots]).reshape(-1, 3)
+        self._segments = segments
+        self._lines = [np.array(segment.line)[:, :2] for segment, _ in segments]
+        self._seen: OrderedDict[int, Seen] = OrderedDict()
+        self._frames: OrderedDict[int, Frame] = OrderedDict()
+        self._around: OrderedDict[int, Around] = OrderedDict()
+        self.looked = 0
+
+    def near(self, segment: DriveSegment) -> list[Seen]:
+        """Those taken near a segment, in their order."""
+        if not len(self._shots):
+            return []
+        distance, _ = cKDTree(np.array(segment.line)[:, :2]).query(self._places[:, :2])
+        return [self._one(row) for row in np.flatnonzero(distance < NEAR_M).tolist()]
+
+    def _one(self, row: int) -> Seen:
+        def made() -> Seen:
+            self.looked += 1
+            beside = [self._frame(other) for other in self._beside(row)]
+            return look(self._frame(row), self._surroundings(row), beside)
+
+        return _held(self._seen, row, made, HELD_IMAGES)
+
+    def _frame(self, row: int) -> Frame:
+        return _held(self._frames, row, lambda: read_shot(self._shots[row]), HELD_IMAGES)
+
+    def _beside(self, row: int) -> list[int]:
+        """The last image before and the first one after it from which things move."""
+        away = np.linalg.norm(self._places - self._places[row], axis=1)
+        usable = (away >= MOVED_M[0]) & (away <= MOVED_M[1])
+        before, after = np.flatnonzero(usable[:row]), np.flatnonzero(usable[row + 1 :])
+        return [int(one) for one in (*before[-1:], *(after[:1] + row + 1))]
+
+    def _surroundings(self, row: int) -> Around:
+        """Of all segments that an image can show."""
+        eye = self._places[row]
+        foreground, crowns = [np.zeros((0, 3))], [np.zeros((0, 3))]
+        backdrops: list[Backdrop] = []
+        for number, line in enumerate(self._lines):
+            if np.linalg.norm(line - eye[:2], axis=1).min() > 2 * NEAR_M:
+                continue
+            own = _held(self._around, number, self._segments[number][1], HELD_SEGMENTS)
+            for kept, points in ((foreground, own.foreground), (crowns, own.crowns)):
+                kept.append(points[np.linalg.norm(points[:, :2] - eye[:2], axis=1) < 2 * NEAR_M])
+            backdrops += own.backdrops
+        return Around(np.concatenate(foreground), np.concatenate(crowns), tuple(backdrops))
+
+
+def _held(held: OrderedDict[int, T], key: int, made: Callable[[], T], most: int) -> T:
+    """What is kept under a key, made where it is not there; the longest unused goes first."""
+    if key not in held:
+        held[key] = made()
+    held.move_to_end(key)
+    while len(held) > most:
+        held.popitem(last=False)
+    return held[key]
