@@ -15,6 +15,7 @@ from veduta.facade.options import (
     ModelOptions,
     RectifyOptions,
     ScaleOptions,
+    StyleOptions,
 )
 
 Images = Annotated[
@@ -44,12 +45,20 @@ class FacadeCall:
     rectify: RectifyOptions = field(default_factory=RectifyOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     model: ModelOptions = field(default_factory=ModelOptions)
+    style: StyleOptions = field(default_factory=StyleOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False
 
     def options(self) -> FacadeOptions:
-        """What changes the result."""
+        """What changes the result; InputError where there is no such style."""
+        from veduta.facade.style import require_style  # what it needs is slow to load
+
+        require_style(self.style.style)
         return FacadeOptions(
-            eyes=self.eyes, rectify=self.rectify, scale=self.scale, model=self.model
+            eyes=self.eyes,
+            rectify=self.rectify,
+            scale=self.scale,
+            model=self.model,
+            style=self.style,
         )

@@ -155,7 +155,12 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
     """Edited documents are checked before anything is written because of them."""
     mend_scale = "Leave it out and edit scale.metres_per_px there; or name the photo."
     mend = "Leave it out, or name the photo."
-    remedies = (options.eyes, mend), (options.rectify, mend), (options.scale, mend_scale)
+    remedies = (
+        (options.eyes, mend),
+        (options.rectify, mend),
+        (options.scale, mend_scale),
+        (options.style, mend),
+    )
     for given, remedy in remedies:
         for name in type(given).model_fields:
             if getattr(given, name) != getattr(type(given)(), name):

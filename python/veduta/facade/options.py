@@ -78,6 +78,21 @@ class EyesOptions(Options):
     )
 
 
+class StyleOptions(Options):
+    """The style whose rules explain the front."""
+
+    style: str | None = Field(
+        default=None,
+        description=(
+            "a style of `veduta grammar`, or auto for the likeliest of all: its structure is"
+            " searched and told in the report"
+        ),
+    )
+    style_steps: Annotated[int, Field(ge=3, le=10_000_000)] = Field(
+        default=600, description="steps of the search for the structure of the style"
+    )
+
+
 class FacadeOptions(Options):
     """All options of the verb that change its result."""
 
@@ -85,6 +100,7 @@ class FacadeOptions(Options):
     rectify: RectifyOptions = RectifyOptions()
     scale: ScaleOptions = ScaleOptions()
     model: ModelOptions = ModelOptions()
+    style: StyleOptions = StyleOptions()
 
     def of_photo(self) -> FacadeOptions:
         """The effective options of a photo: nothing is known of its model but what is asked."""

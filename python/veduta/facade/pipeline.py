@@ -22,6 +22,7 @@ from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
+from veduta.facade.style import StyleFound, find_style, write_style
 from veduta.formats.cityjson import write_cityjson
 from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import Photo, read_image
@@ -30,7 +31,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "10"
+VERSION = "11"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -43,6 +44,7 @@ class Building:
     photo_jpeg: bytes
     pixels: NDArray[np.uint8]
     model: Model
+    style: StyleFound | None = None
 
     @property
     def part(self) -> Part:
@@ -71,8 +73,9 @@ def reconstruct(
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
+    document, style = find_style(document, pixels, options.style, steps, progress)
     model = _model(document, pixels, part_id, steps, progress)
-    return Building(document, jpeg, pixels, model)
+    return Building(document, jpeg, pixels, model, style)
 
 
 def rebuild(
@@ -108,6 +111,8 @@ def write_building(
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
         write_rule_files(building.model, folder)
+        if building.style is not None:
+            write_style(folder, building.style, document.source.image)
         Place().add(building.part, file=ModelFile("model.glb")).save(folder)
         write_cityjson(building.part, folder / "model.city.json")
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))

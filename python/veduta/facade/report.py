@@ -19,6 +19,7 @@ from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.rectify import are_corners_doubtful
+from veduta.facade.style import style_pictures, style_tables
 from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
@@ -74,8 +75,13 @@ def image_report(
         title=document.source.image,
         summary=summary_line(measures(document)),
         facts=_facts(document),
-        pictures=_pictures(building),
-        tables=[_elements(document), _provenance(building), *_energy(document)],
+        pictures=[*_pictures(building), *style_pictures(building.style)],
+        tables=[
+            _elements(document),
+            *style_tables(building.style),
+            _provenance(building),
+            *_energy(document),
+        ],
         bars=[_times(steps)],
         files=FILES,
     )

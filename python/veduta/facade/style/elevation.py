@@ -24,13 +24,15 @@ _CORNERS = np.array(list(product((0, 1), repeat=3)))
 @dataclass(frozen=True)
 class Elevation:
     """`classes` and `said` (n) name class and provenance of each box; `boxes` (n, 4) are x0, z0,
-    x1, z1 in metres; `near` (n) is the y of what is nearest to the viewer.
+    x1, z1 in metres; `near` (n) is the y of what is nearest to the viewer. `roof_top_m` is the
+    highest point of all roofs, wherever they are; 0 without any.
     """
 
     classes: tuple[str, ...]
     said: tuple[str, ...]
     boxes: NDArray[np.float64]
     near: NDArray[np.float64]
+    roof_top_m: float
 
     def of(self, *names: str) -> NDArray[np.float64]:
         """The boxes (k, 4) of these classes, from left to right and from below."""
@@ -41,7 +43,8 @@ class Elevation:
 
 def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevation:
     """The boxes of all surfaces that belong to the wall along the lot's first edge."""
-    count = len(derived.feature_class)
+    classes, said = derived.feature_class, derived.feature_provenance
+    count = len(classes)
     low, high = np.full((count, 3), np.inf), np.full((count, 3), -np.inf)
     starts = derived.ring_offsets[derived.polygon_offsets[:-1]]
     if len(starts):
@@ -52,13 +55,16 @@ def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevati
         bottom, top = _instances(derived, assets)
         np.minimum.at(low, derived.instance_feature, bottom)
         np.maximum.at(high, derived.instance_feature, top)
+    is_roof = np.array([name == "roof" for name in classes], dtype=np.bool_)
+    is_roof &= np.isfinite(high[:, 2])
     front = np.isfinite(low[:, 0]) & (high[:, 1] < DEEPEST_M)
     rows = np.flatnonzero(front)
     return Elevation(
-        classes=tuple(derived.feature_class[row] for row in rows.tolist()),
-        said=tuple(derived.feature_provenance[row] for row in rows.tolist()),
+        classes=tuple(classes[row] for row in rows.tolist()),
+        said=tuple(said[row] for row in rows.tolist()),
         boxes=np.column_stack([low[rows][:, [0, 2]], high[rows][:, [0, 2]]]),
         near=low[rows, 1],
+        roof_top_m=float(max([0.0, *high[is_roof, 2].tolist()])),
     )
 
 

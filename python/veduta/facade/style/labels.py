@@ -1,0 +1,76 @@
+"""A derived front as a picture of labels, on the cells of what was observed."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.style.elevation import Elevation
+from veduta.facade.style.observed import KINDS, LABELS
+
+_PLACE = {name: place for place, name in enumerate(LABELS)}
+# A roof that is lower is not seen from the street (m).
+_LEAST_ROOF_M = 0.4
+# Balconies that are lower are their slabs alone (m); their railings have boxes of their own.
+_LEAST_BALCONY_M = 0.5
+# A railing hides what is behind it where it is before so much of an opening's width.
+_HIDES_SHARE = 0.6
+Float = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Front:
+    """A derived front in metres of a document: boxes (k, 4) of each kind, eaves, roof's top."""
+
+    width_m: float
+    eaves_m: float
+    top_m: float
+    boxes: dict[str, Float]
+
+
+def front_of(found: Elevation, width_m: float, scale: float) -> Front:
+    """The front of an elevation. width_m: of the lot. scale: its metres in the document's one."""
+    walls, roof_top_m = found.of("wall"), found.roof_top_m
+    eaves = float(walls[:, 3].max()) if len(walls) else roof_top_m
+    boxes = {kind: found.of(kind) / scale for kind in KINDS}
+    boxes["balcony"] = _railings(boxes["balcony"])
+    boxes["window"] = _above_railings(boxes["window"], boxes["balcony"])
+    return Front(width_m / scale, eaves / scale, max(eaves, roof_top_m) / scale, boxes)
+
+
+def painted(front: Front, shape: tuple[int, int], cell_m: float) -> NDArray[np.intp]:
+    """(rows, columns) the label of each cell, row 0 the lowest."""
+    rows, columns = shape
+    labels = np.full(shape, _PLACE["sky"], dtype=np.intp)
+    eaves, top = round(front.eaves_m / cell_m), round(front.top_m / cell_m)
+    if front.top_m - front.eaves_m >= _LEAST_ROOF_M:
+        labels[:top] = _PLACE["roof"]
+    labels[:eaves] = _PLACE["wall"]
+    for kind in ("shop", "door", "window", "balcony"):
+        cells = np.rint(front.boxes[kind] / cell_m).astype(np.intp)
+        cells = np.clip(cells, 0, [columns, rows, columns, rows])
+        for x0, z0, x1, z1 in cells.tolist():
+            labels[z0:z1, x0:x1] = _PLACE[kind]
+    return labels
+
+
+def _railings(boxes: Float) -> Float:
+    """One box for each balcony: those of railings, each once."""
+    high = boxes[boxes[:, 3] - boxes[:, 1] >= _LEAST_BALCONY_M]
+    return np.unique(high.round(1), axis=0)
+
+
+def _above_railings(windows: Float, railings: Float) -> Float:
+    """What railings leave to be seen of windows that begin behind them."""
+    if not len(windows) or not len(railings):
+        return windows
+    beside = np.minimum(windows[:, None, 2], railings[:, 2])
+    beside -= np.maximum(windows[:, None, 0], railings[:, 0])
+    before = beside > _HIDES_SHARE * (windows[:, 2] - windows[:, 0])[:, None]
+    before &= (railings[:, 1] < windows[:, None, 1] + 0.5) & (railings[:, 3] > windows[:, None, 1])
+    foot = np.where(before, railings[:, 3], -np.inf).max(axis=1)
+    clipped = windows.copy()
+    clipped[:, 1] = np.minimum(np.maximum(windows[:, 1], foot), windows[:, 3])
+    return clipped

@@ -1,0 +1,125 @@
+"""Where searches begin: the front that the first half read, in the attributes of a style."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from veduta.facade.document import FacadeDocument
+from veduta.facade.style.grammar import StyleGrammar
+from veduta.facade.style.posterior import Posterior, Scored
+from veduta.facade.style.prior import Choice, Real, Value
+from veduta.facade.style.state import SCALE, State
+
+PITCHES = {"bayWidth": 1.0, "moduleWidth": 2.0, "houseWidth": 2.0}
+"""Attributes that have the width of so many columns."""
+_ANGLES = 3
+"""Halvings of the step in which an attribute is moved up and down."""
+
+
+def read_attributes(document: FacadeDocument) -> dict[str, float]:
+    """Numbers of the front as it was read, in metres of the document."""
+    sizes = document.rules.facade.sizes_m
+    found = {"storeys": float(max(1, len(sizes) - 1))}
+    if len(sizes) > 1:
+        found["groundHeight"] = sizes[0]
+        found["storeyHeight"] = float(np.mean(sizes[1:]))
+    else:
+        found["storeyHeight"] = sizes[0] / 2.0
+    pitch = _pitch(document)
+    if pitch is not None:
+        found["bayWidth"] = pitch
+    return found
+
+
+def _pitch(document: FacadeDocument) -> float | None:
+    """The median distance from window to window on a floor."""
+    floors: dict[int, list[float]] = {}
+    for element in document.elements:
+        if element.class_ == "window" and element.floor is not None:
+            floors.setdefault(element.floor, []).append(element.x_m + 0.5 * element.width_m)
+    apart = [np.diff(sorted(middles)) for middles in floors.values() if len(middles) > 1]
+    return float(np.median(np.concatenate(apart))) if apart else None
+
+
+def read_state(grammar: StyleGrammar, read: dict[str, float]) -> State:
+    """The state with the attributes of a front that was read, as far as the style has them."""
+    state = grammar.start()
+    known = grammar.distributions
+    usual = known.get("storeyHeight")
+    scale = known[SCALE]
+    factor = float(scale.middle)
+    if isinstance(usual, Real) and isinstance(scale, Real):
+        factor = float(np.clip(usual.middle / read["storeyHeight"], scale.least, scale.most))
+    values: dict[str, Value] = {SCALE: factor}
+    for name, distribution in known.items():
+        if isinstance(distribution, Choice) and name == "storeys":
+            nearest = min(distribution.values, key=lambda v: abs(float(v) - read["storeys"]))
+            values[name] = nearest
+        elif isinstance(distribution, Real) and name != SCALE:
+            own = read.get(name)
+            if name in PITCHES and "bayWidth" in read:
+                own = PITCHES[name] * read["bayWidth"]
+            if own is not None:
+                values[name] = float(np.clip(own * factor, distribution.least, distribution.most))
+    return state.with_attributes(**values)
+
+
+def climbed(posterior: Posterior, start: State, rng: np.random.Generator) -> Scored | None:
+    """The greedy search of the thesis: what is best for one choice or attribute after the other.
+
+    Two rounds; None where the start makes no building.
+    """
+    at = posterior.score(start, rng)
+    if at is None:
+        return None
+    for _ in range(2):
+        before = at.log_posterior
+        at = _best_attributes(posterior, at, rng)
+        at = _best_choices(posterior, at, rng)
+        if at.log_posterior <= before + 0.1:
+            break
+    return at
+
+
+def _best_choices(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Scored:
+    for path in sorted(at.state.choices):
+        taken = at.state.choices.get(path)
+        if taken is None:
+            continue
+        for other in posterior.grammar.alternatives(path, taken):
+            if other.alternatives != taken.alternatives:
+                at = _better(posterior, at, at.state.with_choice(path, other), rng)
+    return at
+
+
+def _best_attributes(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Scored:
+    for name, distribution in posterior.grammar.distributions.items():
+        if isinstance(distribution, Choice):
+            for value in _near(distribution, at.state.attributes[name]):
+                at = _better(posterior, at, at.state.with_attributes(**{name: value}), rng)
+            continue
+        step = distribution.step
+        for _ in range(_ANGLES):
+            for sign in (1.0, -1.0):
+                value = float(at.state.attributes[name]) + sign * step
+                if distribution.least <= value <= distribution.most:
+                    at = _better(posterior, at, at.state.with_attributes(**{name: value}), rng)
+            step *= 0.5
+    return at
+
+
+def _near(distribution: Choice, value: Value) -> list[Value]:
+    """The values beside it where they are in order, else all."""
+    if not distribution.ordered:
+        return list(distribution.values)
+    place = distribution.values.index(value)
+    return [
+        distribution.values[k] for k in (place - 1, place + 1) if 0 <= k < len(distribution.values)
+    ]
+
+
+def _better(posterior: Posterior, at: Scored, state: State, rng: np.random.Generator) -> Scored:
+    found = posterior.score(state, rng)
+    if found is None or found.log_posterior <= at.log_posterior:
+        return at
+    return found
