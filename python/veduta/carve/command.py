@@ -27,6 +27,7 @@ from veduta.carve.pictures import carved_picture, outlines_picture, sides_pictur
 from veduta.carve.read.masks import find_masks
 from veduta.carve.read.unposed import bare_cameras
 from veduta.carve.read.views import Record, read_views
+from veduta.carve.stages import Stages
 from veduta.carve.turned import turn_views
 from veduta.carve.views import View
 from veduta.place.mesh import Mesh
@@ -66,14 +67,15 @@ def run_carve(
     )
 
     def make(work: Work) -> None:
-        _make(work, cameras, base, call.subject, options)
+        _make(work, cameras, base, call.subject, Stages(work, call.inputs, options))
 
     return run_verb(call, out, make, progress, force=force)
 
 
-def _make(work: Work, cameras: CameraSet, folder: Path, name: str, options: CarveOptions) -> None:
+def _make(work: Work, cameras: CameraSet, folder: Path, name: str, stages: Stages) -> None:
+    options = stages.options
     engine = choose_engine(options.device.device)
-    cameras, views = _read(work, cameras, folder, options)
+    cameras, views = _read(work, cameras, folder, stages)
     with work.step("bounds"):
         root = root_of(find_bounds(views), options.volume.levels)
     with work.step("hull") as step:
@@ -104,8 +106,9 @@ def _make(work: Work, cameras: CameraSet, folder: Path, name: str, options: Carv
 
 
 def _read(
-    work: Work, cameras: CameraSet, folder: Path, options: CarveOptions
+    work: Work, cameras: CameraSet, folder: Path, stages: Stages
 ) -> tuple[CameraSet, tuple[View, ...]]:
+    options = stages.options
     board = board_of(options.poses)
     if board is not None:
         cameras = in_metres(placed_by_board(work, cameras, board), options.scale)
@@ -117,7 +120,12 @@ def _read(
         step.counts["cameras"] = len(cameras)
     with work.step("silhouettes") as step:
         found: Record = read_views(
-            folder, cameras, options.silhouettes, progress=work.progress, board=board
+            folder,
+            cameras,
+            options.silhouettes,
+            progress=work.progress,
+            board=board,
+            keep=stages.silhouettes,
         )
         step.counts["views"] = len(found.views)
         step.rejected.extend(found.left_out)
@@ -132,7 +140,7 @@ def _read(
             )
     work.picture("Silhouettes", "what was taken for the object", outlines_picture(views), wide=True)
     if options.poses.turntable:
-        cameras, views = turn_views(work, views, folder, options.poses)
+        cameras, views = turn_views(work, views, folder, options.poses, stages.turns)
         cameras = in_metres(cameras, options.scale)
         views = tuple(
             replace(view, camera=camera)

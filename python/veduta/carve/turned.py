@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
 
@@ -22,15 +22,21 @@ EXIF_SHARE, GIVEN_SHARE = 0.1, 1e-3
 
 
 def turn_views(
-    work: Work, views: Sequence[View], folder: Path, options: PoseOptions
+    work: Work,
+    views: Sequence[View],
+    folder: Path,
+    options: PoseOptions,
+    keep: Callable[[Callable[[], Found]], Found] = lambda make: make(),
 ) -> tuple[CameraSet, tuple[View, ...]]:
     """The views with the cameras that a turntable gives them; their unit is the camera's distance
-    from its axis.
+    from its axis. keep: gives the turns of a run that was killed.
     """
     focal = _focal(views[0], folder, options)
     with work.step("turntable") as step:
         masks = [view.mask for view in views]
-        found = find_turns(masks, focal, even=options.even_turns, progress=work.progress)
+        found = keep(
+            lambda: find_turns(masks, focal, even=options.even_turns, progress=work.progress)
+        )
         step.counts["photos"] = len(views)
     turned = tuple(
         replace(view, camera=_camera(view.camera, found, pose))

@@ -218,7 +218,7 @@ def look(
     x = x * scale + np.float32(lines.middle[0] - 0.5)
     y = y * scale + np.float32(lines.middle[1] - 0.5)
     found = cv2.remap(field, x, y, cv2.INTER_LINEAR, borderMode=cv2.BORDER_REPLICATE)
-    # Beyond the photo's border the distance goes on growing.
+    # Beyond the photo's border the distance goes on growing, and a silhouette that it cuts goes on.
     height, width = field.shape
     beyond = np.maximum(np.maximum(-x, x - (width - 1)), np.maximum(-y, y - (height - 1)))
-    return np.asarray(found + np.maximum(beyond, 0.0), dtype=np.float32)
+    return np.asarray(np.where(found < 0.0, found, found + np.maximum(beyond, 0.0)), np.float32)

@@ -50,7 +50,7 @@ class TurntableRule:
     rounds: int = 40
     robust_px: float = 2.0
     still: float = 0.01
-    most_cut: float = 0.2
+    most_cut: float = 0.34
     unsure_deg: float = 10.0
     poor_px: float = 4.0
 
@@ -216,7 +216,10 @@ class _Fit:
         """(n,) rad of the angles, the first of which is 0 by choice."""
         if self.free == GLOBALS:
             return np.zeros(len(self.table.angles))
-        normal, _ = self._normal()
+        # A ray that comes just within would miss if its photo turned: it holds the angle, too.
+        near = self.found.miss_px > -1.0
+        slopes = self._slopes()
+        normal = slopes.T @ (slopes * (0.5 * near)[:, None])
         spread = np.linalg.pinv(normal, hermitian=True)
         noise = max(self.miss_px(), 0.3)
         own = np.sqrt(np.maximum(np.diag(spread)[GLOBALS:], 0.0)) * noise

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -13,11 +13,15 @@ from veduta.carve.options import SilhouetteOptions
 from veduta.carve.read.background import masks_of_background
 from veduta.carve.read.board_masks import without_print
 from veduta.carve.read.masks import find_masks, read_mask
-from veduta.carve.views import Pixels, View
+from veduta.carve.views import Mask, Pixels, View
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
 from veduta.run.progress import StepProgress, no_progress
 
+Silhouettes = tuple[list[Mask], float]
+"""Of each photo, and the threshold that parted them from the background (deviations)."""
+Keep = Callable[[Callable[[], Silhouettes]], Silhouettes]
+"""Gives what was made before, or makes it."""
 SEEDS = {"dark": ((0, 0, 0),), "bright": ((255, 255, 255),)}
 
 
@@ -49,10 +53,12 @@ def read_views(
     rule: ViewRule | None = None,
     progress: StepProgress = no_progress,
     board: Board | None = None,
+    keep: Keep = lambda make: make(),
 ) -> Record:
     """The views of all cameras with a photo, as cameras without distortion.
 
-    board: a printed one, about the origin, on which the object stands. InputError where too few
+    board: a printed one, about the origin, on which the object stands. keep: of silhouettes that
+    are found from the background, those of a run that was killed. InputError where too few
     have a photo, one has not its camera's size, or masks are asked for and missing.
     """
     rule = rule or ViewRule()
@@ -75,13 +81,10 @@ def read_views(
         found = [read_mask(masks, camera, to) for camera, to in zip(shown, straight, strict=True)]
     else:
         seeds = SEEDS.get(options.background, ())
-        drawn, threshold = masks_of_background(pixels, seeds, progress=progress)
+        drawn, threshold = keep(
+            lambda: _before_background(straight, pixels, seeds, board, progress)
+        )
         found = [*drawn]
-        if board is not None:
-            found = [
-                without_print(camera, photo, mask, board)
-                for camera, photo, mask in zip(straight, pixels, drawn, strict=True)
-            ]
     views = []
     for camera, photo, mask in zip(straight, pixels, found, strict=True):
         if mask is None:
@@ -89,6 +92,20 @@ def read_views(
             continue
         views.append(View(camera, photo, mask, "mask" if wanted else "background"))
     return Record(tuple(views), tuple(left_out), threshold)
+
+
+def _before_background(
+    cameras: Sequence[Camera],
+    photos: Sequence[Pixels],
+    seeds: Sequence[tuple[int, int, int]],
+    board: Board | None,
+    progress: StepProgress,
+) -> Silhouettes:
+    masks, threshold = masks_of_background(photos, seeds, progress=progress)
+    if board is None:
+        return masks, threshold
+    of_each = zip(cameras, photos, masks, strict=True)
+    return [without_print(camera, photo, mask, board) for camera, photo, mask in of_each], threshold
 
 
 def _read_photos(
