@@ -6,7 +6,7 @@ use std::sync::Arc;
 use numpy::{PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::prelude::*;
 use veduta_geometry::solid::Mesh;
-use veduta_grammar::shape::{Asset, Slot};
+use veduta_grammar::shape::{Asset, Labels, Slot};
 
 pub type Assets = HashMap<Arc<str>, Arc<Asset>>;
 /// The metres that textures of a known size cover to the right and up.
@@ -15,6 +15,18 @@ pub type Textures = HashMap<Arc<str>, [f64; 2]>;
 /// and the texture with the metres that it covers to the right and up.
 pub type GivenSlots = Vec<(Option<[f32; 3]>, [f32; 3], Option<GivenTexture>)>;
 pub type GivenTexture = (String, [f64; 2]);
+/// The name of each slot's material, the group of each face, and the names of the groups.
+pub type GivenLabels = (Vec<String>, Vec<u32>, Vec<String>);
+
+/// The names of an asset's parts as the engine has them.
+pub fn labels_of((materials, face_group, groups): GivenLabels) -> Labels {
+    let shared = |names: Vec<String>| names.into_iter().map(Into::into).collect();
+    Labels {
+        materials: shared(materials),
+        face_group,
+        groups: shared(groups),
+    }
+}
 
 /// An asset of these columns; None where they do not fit together.
 pub fn asset_of(

@@ -13,7 +13,9 @@ use veduta_grammar::engine::{
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
-use crate::assets::{asset_of, Assets, GivenSlots, MissingAsset, Textures};
+use crate::assets::{
+    asset_of, labels_of, Assets, GivenLabels, GivenSlots, MissingAsset, Textures,
+};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};
@@ -150,7 +152,8 @@ impl GrammarRules {
     /// `box_m`: (2, 3) the corners of the box that fills a scope. `face_slot`: (f,) the slot of each
     /// face. `slots`: the colour of each (sRGB) or None for that of the shape, and the colour where
     /// the shape is white, and the texture with its size in metres, or None.
-    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None))]
+    /// `labels`: the name of each slot's material, the group of each face, and the names of the groups.
+    #[pyo3(signature = (name, points, corners, offsets, box_m, face_slot=None, slots=None, labels=None))]
     #[allow(clippy::too_many_arguments)] // columns
     fn add_asset(
         &self,
@@ -161,11 +164,16 @@ impl GrammarRules {
         box_m: PyReadonlyArray2<'_, f64>,
         face_slot: Option<PyReadonlyArray1<'_, i32>>,
         slots: Option<GivenSlots>,
+        labels: Option<GivenLabels>,
     ) -> PyResult<()> {
         let fault = || PyValueError::new_err(format!("asset {name}: no faces of points"));
         let (corners, offsets) = (corners.as_slice()?, offsets.as_slice()?);
         let looks = face_slot.zip(slots);
         let asset = asset_of(name, &points, corners, offsets, &box_m, looks).ok_or_else(fault)?;
+        let asset = match labels {
+            Some(labels) => asset.with_labels(labels_of(labels)).ok_or_else(fault)?,
+            None => asset,
+        };
         let mut known = self.assets.write().map_err(|_| fault())?;
         Arc::make_mut(&mut known).insert(asset.name.clone(), Arc::new(asset));
         Ok(())

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import re
 
+import numpy as np
 import pyproj
+from numpy.typing import NDArray
 
 from veduta.geometry.utm import epsg_of
 
@@ -56,3 +58,10 @@ def _known(code: int) -> int | None:
     except pyproj.exceptions.ProjError:
         return None
     return code
+
+
+def moved(points: NDArray[np.float64], own: int, wanted: int) -> NDArray[np.float64]:
+    """(n, 2) x and y, or longitude and latitude, from one CRS to another; infinite beyond it."""
+    between = pyproj.Transformer.from_crs(own, wanted, always_xy=True)
+    x, y = between.transform(points[:, 0], points[:, 1])
+    return np.column_stack([x, y]).astype(np.float64)

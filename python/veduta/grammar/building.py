@@ -174,14 +174,17 @@ def _materials(
     """The materials with their numbers, and (looks,) the material of each look."""
     number_of: dict[Material, int] = {}
     rows = []
-    for red, green, blue, _, image, name in looks:
+    for red, green, blue, seen, image, name in looks:
         semantic = _KNOWN.get(name, SemanticClass.OTHER)
         colour = (round(red, 4), round(green, 4), round(blue, 4))
         texture = None if image is None else textures.get(image)
+        opacity = round(seen, 4)
         if texture is None:
-            material = Material(semantic.value, colour, _ROUGHNESS.get(semantic, 0.9))
+            roughness = _ROUGHNESS.get(semantic, 0.9)
+            material = Material(semantic.value, colour, roughness, opacity=opacity)
         else:
-            material = Material(PurePath(str(image)).stem, colour, texture=texture)
+            name_told = PurePath(str(image)).stem
+            material = Material(name_told, colour, texture=texture, opacity=opacity)
         rows.append(number_of.setdefault(material, len(number_of)))
     return number_of, np.array(rows, dtype=np.int32)
 
@@ -200,6 +203,4 @@ def _notes(
     missing = sorted({look[4] for look in derived.looks if look[4] and look[4] not in textures})
     if missing:
         notes.append(f"textures that are not there, or that no text names: {', '.join(missing)}")
-    if any(look[3] < 1.0 for look in derived.looks):
-        notes.append("opacity of rule files is not shown yet")
     return tuple(notes)

@@ -9,6 +9,7 @@ from typing import Any
 from veduta.grammar.json_stream import Broken
 from veduta.grammar.outline import Attribute, Found, Outlines, outlines_of, plain_attributes
 from veduta.grammar.rings import RingFault, numbers_of
+from veduta.grammar.roads import lines_of, road_of
 from veduta.run.errors import InputError
 
 _MAX_ID = 200
@@ -41,7 +42,8 @@ def feature_outlines(path: Path, features: Iterable[Any], found: Found) -> Outli
         try:
             polygons, kind = _polygons(feature)
             if polygons is None:
-                found.pass_over(kind)
+                if not _add_roads(feature, found):
+                    found.pass_over(kind)
                 continue
             attributes = plain_attributes(feature.get("properties"))
             name = _name(feature, attributes, number)
@@ -49,6 +51,17 @@ def feature_outlines(path: Path, features: Iterable[Any], found: Found) -> Outli
             yield from outlines_of(rings, len(polygons), name, subject, attributes)
         except RingFault as fault:
             found.fail(subject, str(fault))
+
+
+def _add_roads(feature: dict[str, Any], found: Found) -> bool:
+    """Whether a feature that is no polygon is a road; it is then one of those found."""
+    geometry = feature.get("geometry")
+    if not isinstance(geometry, dict):
+        return False
+    each = (road_of(feature.get("properties"), line) for line in lines_of(geometry))
+    roads = [road for road in each if road is not None]
+    found.roads += roads
+    return bool(roads)
 
 
 def _polygons(feature: Any) -> tuple[list[list[Any]] | None, str]:

@@ -5,7 +5,8 @@ they lie, in which units) is found out. The lots are then placed one by one, int
 in memory remains where each stands, and which names are taken.
 
 Read: GeoJSON (`geojson_lots`), CityJSON (`city_lots`, `city_stream`), GeoPackage (`package_lots`),
-OBJ (`object_lots`), and by GDAL Shapefile, OpenStreetMap, KML and others (`vector_lots`).
+OBJ (`object_lots`), and by GDAL Shapefile, OpenStreetMap, KML and others (`vector_lots`). Where
+there are roads, each lot begins at its front (`roads`, `streets`).
 """
 
 from __future__ import annotations
@@ -56,7 +57,9 @@ from veduta.grammar.options import LotOptions
 from veduta.grammar.outline import Found, Outline, Outlines
 from veduta.grammar.package_lots import is_package, package_outlines
 from veduta.grammar.rings import RingFault, clean_rings
+from veduta.grammar.roads import Roads
 from veduta.grammar.spool import Record, Spool
+from veduta.grammar.streets import roads_among
 from veduta.grammar.taken_names import TakenNames
 from veduta.grammar.terrain import Ground, NoGroundError, Terrain, read_terrain
 from veduta.grammar.vector_lots import SUFFIXES as VECTORS
@@ -123,7 +126,7 @@ def read_lots(
             raise InputError(path, f"has no lot that can be used{reason}", "Give it polygons.")
         frame = find_frame(path, found.epsg, survey, lambda: (_first_ring(one) for one in spool))
         terrain = read_terrain(options.terrain, frame.crs) if options.terrain is not None else None
-        stand = _Stand(frame, terrain, options.ground)
+        stand = _Stand(frame, terrain, options.ground, roads_among(options.roads, found, frame))
         lots = _placed(path, (_outline(record) for record in spool), stand, found, folder)
         if terrain is not None:
             frame = _from_lowest(frame, lots)
@@ -207,6 +210,7 @@ class _Stand:
     frame: Frame
     terrain: Terrain | None
     ground: Ground
+    roads: Roads
 
     def of(self, outline: Outline, own_id: Callable[[str], str]) -> Lot:
         """The lot, about its own anchor; RingFault or NoGroundError where it cannot be used."""
@@ -218,12 +222,16 @@ class _Stand:
             east, north, up = self.frame.origin_m
             own = [ring[:, :2] + (east, north) for ring in rings]
             level = self.terrain.under(own, self.ground) - up
+        attributes = outline.attributes
+        if (front := self.roads.front_of(flat[0] + low[:2])) is not None:
+            flat = [np.roll(flat[0], -front.edge, axis=0), *flat[1:]]
+            attributes = front.attributes() | attributes
         return Lot(
             id=own_id(outline.name),
             name=outline.name,
             rings_m=tuple(flat),
             anchor_m=(float(low[0]), float(low[1]), level),
-            attributes=outline.attributes,
+            attributes=attributes,
         )
 
 

@@ -83,6 +83,11 @@ class LotOptions(Options):
     up: Literal["y", "z"] = Field(
         default="y", description="the axis of an OBJ file that points up; with y, -z is north"
     )
+    roads: Path | None = Field(
+        default=None,
+        description="file of road lines, which say where the fronts of lots are; those in the file"
+        " of lots count, too",
+    )
     terrain: Path | None = Field(
         default=None, description="GeoTIFF of heights that the lots stand on, in their CRS"
     )

@@ -30,18 +30,30 @@ class Outline:
     attributes: dict[str, Attribute]
 
 
+@dataclass(frozen=True)
+class Road:
+    """A road: points (n, 3) along its middle, in the file's own frame; the width of its carriageway
+    (m); whether it is a path that no cars take.
+    """
+
+    points: NDArray[np.float64]
+    width_m: float
+    is_path: bool = False
+
+
 @dataclass
 class Found:
     """What a reader finds in a file beside outlines; whole when it has given the last of them.
 
     epsg: code of the reference system, None where the file names none. others: how many of each
-    kind are no polygons.
+    kind are no polygons. roads: the lines that are roads.
     """
 
     epsg: int | None = None
     failures: Failures = field(default_factory=Failures)
     notes: list[str] = field(default_factory=list)
     others: Counter[str] = field(default_factory=Counter)
+    roads: list[Road] = field(default_factory=list)
 
     def fail(self, subject: str, reason: str) -> None:
         """Something that would be a lot gives none."""

@@ -16,7 +16,7 @@ from pathlib import Path
 from veduta.run.errors import InputError
 
 RULES = "rules"
-SIGNS = ("assets", "models", "maps", "scenes", ".project", ".cityengine")
+SIGNS = ("assets", "models", "maps", "scenes", "data", "images", ".project", ".cityengine")
 """Any of these beside `rules` makes a folder a project."""
 HIGHEST = 6
 """Folders above a rule file that are looked at."""

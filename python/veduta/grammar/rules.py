@@ -17,6 +17,8 @@ from pathlib import Path
 from veduta import _core
 from veduta.grammar.encodings import decoded
 from veduta.grammar.project import SearchPath, search_path, with_folders
+from veduta.grammar.rule_packages import SUFFIX as PACKAGE
+from veduta.grammar.rule_packages import unpacked
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 
@@ -67,8 +69,10 @@ def style_names() -> list[str]:
 
 
 def find_rules(name: str) -> Path:
-    """The rule file that is meant by a path, or by the name of a style."""
+    """The rule file that is meant by a path, by a package of rules, or by the name of a style."""
     path = Path(name)
+    if path.suffix.lower() == PACKAGE:
+        return unpacked(path)
     if os.path.lexists(path):
         return path
     styles = style_names()

@@ -1,5 +1,5 @@
 """Building lots from the other formats of geodata that GDAL reads: Shapefile, FlatGeobuf, KML,
-GeoJSON by line, MapInfo, and OpenStreetMap as XML and PBF.
+GeoJSON by line, MapInfo, GML, and OpenStreetMap as XML and PBF.
 
 Features are read in blocks, so that a file may be larger than memory. Of OpenStreetMap only areas
 that are buildings become lots, with all of their tags as attributes.
@@ -9,25 +9,37 @@ from __future__ import annotations
 
 import difflib
 import re
+import tempfile
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+import shapely
 from numpy.typing import NDArray
 
 from veduta.geometry.crs import epsg_named
-from veduta.grammar.outline import Found, Outlines, name_of, outlines_of, plain_attributes
+from veduta.grammar.outline import (
+    Found,
+    Outlines,
+    Road,
+    name_of,
+    outlines_of,
+    plain_attributes,
+)
 from veduta.grammar.rings import RingFault, closed_ring
+from veduta.grammar.roads import road_of
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
 
 SUFFIXES = (
     ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".tab", ".mif",
+    ".gml",
 )  # fmt: skip
-"""GML is not among them: GDAL leaves a file beside the one that it reads."""
+_GML = ".gml"
 BLOCK = 20_000
-OSM_LAYER = "multipolygons"
+OSM_LAYER, OSM_LINES = "multipolygons", "lines"
 _NAMES = ("id", "osm_id", "gml_id", "fid", "name", "Name")
 _OSM = (".osm", ".pbf")
 _AREAS = ("Polygon", "MultiPolygon", "Unknown", "GeometryCollection", "CurvePolygon")
@@ -36,9 +48,23 @@ _TAG = re.compile(r'"((?:[^"\\]|\\.)*)"=>"((?:[^"\\]|\\.)*)"')
 
 def vector_outlines(path: Path, layer: str | None, found: Found) -> Outlines:
     """The polygons of a layer; of the only one where none is named. InputError without any."""
+    if path.suffix.lower() == _GML:
+        # GDAL leaves a file beside a GML file that it reads: it sees it in a folder of its own.
+        with tempfile.TemporaryDirectory() as folder:
+            seen = Path(folder, path.name)
+            seen.symlink_to(path.resolve())
+            for outline in _of_layers(seen, layer, found):
+                yield replace(outline, subject=outline.subject.replace(str(seen), str(path), 1))
+        return
+    yield from _of_layers(path, layer, found)
+
+
+def _of_layers(path: Path, layer: str | None, found: Found) -> Outlines:
     name, crs = _layer(path, layer)
     found.epsg = None if crs is None else _epsg(path, crs)
     is_osm = path.suffix.lower() in _OSM
+    if is_osm:
+        found.roads += _roads(path, OSM_LINES)
     number = 0
     for geometries, columns in _blocks(path, name):
         for row, geometry in enumerate(geometries):
@@ -69,6 +95,37 @@ def _outlines(
         yield from outlines_of(closed, len(polygons), own, subject, attributes)
     except RingFault as fault:
         found.fail(subject, str(fault))
+
+
+def road_lines(path: Path) -> tuple[list[Road], int | None]:
+    """The roads of all layers of lines of a file, and the EPSG code of its CRS."""
+    import pyogrio
+
+    try:
+        listed = [(str(name), str(kind)) for name, kind in pyogrio.list_layers(path)]
+        layers = [name for name, kind in listed if "LineString" in kind or kind == "Unknown"]
+        crs = [pyogrio.read_info(path, layer=name)["crs"] for name in layers]
+    except pyogrio.errors.DataSourceError as error:
+        raise _unreadable(path, error) from error
+    roads = [road for name in layers for road in _roads(path, name)]
+    if not roads:
+        raise InputError(path, "has no lines that are roads", "Give it lines of roads.")
+    return roads, _epsg(path, str(crs[0])) if crs and crs[0] is not None else None
+
+
+def _roads(path: Path, layer: str) -> list[Road]:
+    """The roads among the lines of a layer; of OpenStreetMap those with the tag `highway`."""
+    is_osm = path.suffix.lower() in _OSM
+    roads = []
+    for geometries, columns in _blocks(path, layer):
+        for row, geometry in enumerate(shapely.from_wkb(geometries, on_invalid="ignore")):
+            properties = {key: _plain(values[row]) for key, values in columns.items()}
+            if is_osm and not (properties := _tags(properties)).get("highway"):
+                continue
+            for line in () if geometry is None else shapely.get_parts(geometry):
+                if line.geom_type == "LineString":
+                    roads.append(road_of(properties, shapely.get_coordinates(line)))
+    return [road for road in roads if road is not None]
 
 
 def _layer(path: Path, wanted: str | None) -> tuple[str, str | None]:
@@ -108,7 +165,11 @@ def _blocks(path: Path, layer: str) -> Iterator[tuple[NDArray[Any], dict[str, ND
             told, _, geometries, columns = pyogrio.raw.read(
                 path, layer=layer, skip_features=start, max_features=BLOCK
             )
-        except (pyogrio.errors.DataSourceError, pyogrio.errors.FeatureError) as error:
+        except (
+            pyogrio.errors.DataSourceError,
+            pyogrio.errors.DataLayerError,
+            pyogrio.errors.FeatureError,
+        ) as error:
             raise _unreadable(path, error) from error
         names = [str(name) for name in told["fields"]]
         yield geometries, dict(zip(names, columns, strict=True))

@@ -82,9 +82,9 @@ def test_what_textures_are_made_with_wraps() -> None:
     assert goes_on.any()
 
 
-@pytest.mark.parametrize("name", texture_names())
+@pytest.mark.parametrize("name", [name for name in texture_names() if "glass" not in name])
 def test_no_blotch_is_seen_to_repeat(name: str) -> None:
-    """Quarters of a texture are nearly equally bright."""
+    """Quarters of a texture are nearly equally bright; a pane of glass shows the sky once."""
     picture = painted(name).astype(np.float64).mean(axis=2)
     rows, columns = (n // 4 * 4 for n in picture.shape)
     blocks = picture[:rows, :columns].reshape(4, rows // 4, 4, columns // 4).mean(axis=(1, 3))

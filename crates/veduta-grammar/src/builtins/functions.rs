@@ -52,6 +52,7 @@ const COORDINATE: &[Words] = &[
 const SPACE_OF_UV: &[Words] = &[NONE, &["uvSpace", "unitSpace"]];
 const SIZES: &[Words] = &[NONE, ANY, ANY];
 const ASSET_SIZES: &[Words] = &[NONE, &["sx", "sy", "sz", "tx", "ty", "tz"]];
+const PARTS: &[Words] = &[NONE, &["g", "m"]];
 const AXES_OF_SCOPE: &[Words] = &[NONE, AXIS_SETS];
 const RATIOS: &[Words] = &[NONE, ANY];
 const SUBCOMPONENTS: &[Words] = &[NONE, &["e", "v"]];
@@ -83,6 +84,7 @@ pub const FUNCTIONS: &[Function] = &[
     takes("geometry.du", 2, 2, SPACE_OF_UV), takes("geometry.dv", 2, 2, SPACE_OF_UV),
     of("geometry.groups", 0), of("geometry.height", 0),
     takes("geometry.hasTags", 1, 2, &[NONE, KINDS]),
+    takes("geometry.hasUVs", 0, 1, &[]),
     of("geometry.isClosedSurface", 0), of("geometry.isConcave", 0), of("geometry.isInstanced", 0),
     takes("geometry.isOriented", 1, 1, &[FACE_SELECTORS]),
     of("geometry.isPlanar", 1), of("geometry.isRectangular", 1),
@@ -103,7 +105,7 @@ pub const FUNCTIONS: &[Function] = &[
     // Assets and images
     takes("assetInfo", 2, 2, ASSET_SIZES), takes("imageInfo", 2, 2, RATIOS),
     takes("assetMetadata", 1, 3, SIZES),
-    takes("assetNamingInfo", 1, 3, SIZES), takes("assetNamingInfos", 1, 3, SIZES),
+    takes("assetNamingInfo", 2, 2, PARTS), takes("assetNamingInfos", 2, 2, PARTS),
     takes("assetsSortRatio", 2, 3, RATIOS), takes("assetsSortSize", 3, 3, AXES_OF_SCOPE),
     takes("imagesSortRatio", 2, 3, RATIOS),
     of("assetApproxRatio", 3), of("assetApproxSize", 3), of("assetBestRatio", 2),

@@ -12,6 +12,7 @@ use super::measures::Measure;
 use super::operations::OperationId;
 use super::queries::Query;
 use super::shape_attributes::ShapeAttribute;
+use super::sorting::Sorting;
 
 /// Rule files that belong together, ready to run.
 #[derive(Debug, Clone, Default)]
@@ -32,6 +33,8 @@ pub struct Code {
     pub reads_files: bool,
     /// Whether a rule trims shapes.
     pub trims: bool,
+    /// Whether they ask for tags.
+    pub tags: bool,
     /// The texts of all symbols.
     pub names: Vec<Arc<str>>,
 }
@@ -126,6 +129,11 @@ pub enum ExprKind {
         function: FileFunction,
         args: Vec<Expr>,
     },
+    /// A function that chooses files by how well they fit the scope.
+    Sorting {
+        sorting: Sorting,
+        args: Vec<Expr>,
+    },
     /// A question about other shapes.
     Query {
         query: Query,
@@ -134,6 +142,8 @@ pub enum ExprKind {
     /// `comp(f) { selector : value | ... }`: an array of a value for each component.
     Components {
         kind: Kind,
+        /// Whether scopes lie along the components.
+        aligned: bool,
         cells: Vec<ComponentValue>,
     },
     Unary {

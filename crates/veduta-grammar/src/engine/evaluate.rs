@@ -66,12 +66,20 @@ impl Run<'_> {
                 let value = function.call(&files, &values, || scene.stream.draw());
                 value.map_err(|message| Fault::at(expr.span, message))
             }
+            ExprKind::Sorting { sorting, args } => {
+                let values = self.values(args, scene)?;
+                self.sorted(*sorting, &values, expr.span, scene)
+            }
             ExprKind::Query { query, args } => {
                 let values = self.values(args, scene)?;
                 self.answer(*query, &values, scene.state, expr.span)
             }
-            ExprKind::Components { kind, cells } => {
-                let values = self.component_values(*kind, cells, expr.span, scene)?;
+            ExprKind::Components {
+                kind,
+                aligned,
+                cells,
+            } => {
+                let values = self.component_values((*kind, *aligned), cells, expr.span, scene)?;
                 let columns = values.len();
                 Ok(Value::Array(Arc::new(Array { columns, values })))
             }

@@ -23,7 +23,10 @@ pub struct Files {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FileFunction {
     Exists,
+    /// As a list in a string.
     Search,
+    /// As an array.
+    SearchAll,
     Random,
     Text,
     Numbers,
@@ -35,7 +38,7 @@ pub enum FileFunction {
 pub const TABLE: &[(&str, FileFunction, usize, usize)] = &[
     ("fileExists", FileFunction::Exists, 1, 1),
     ("fileSearch", FileFunction::Search, 1, 1),
-    ("filesSearch", FileFunction::Search, 1, 1),
+    ("filesSearch", FileFunction::SearchAll, 1, 1),
     ("fileRandom", FileFunction::Random, 1, 1),
     ("readTextFile", FileFunction::Text, 1, 1),
     ("readFloatTable", FileFunction::Numbers, 1, 1),
@@ -69,6 +72,9 @@ impl FileFunction {
                 let found: Vec<&str> = matching(files, name).collect();
                 Ok(Value::text(&found.join(";")))
             }
+            Self::SearchAll => {
+                Ok(Value::list(matching(files, name).map(Value::text).collect()))
+            }
             Self::Random => {
                 let drawn = draw(); // also where there is nothing: what follows stays the same
                 let found: Vec<&str> = matching(files, name).collect();
@@ -96,13 +102,13 @@ impl FileFunction {
 }
 
 /// A name without what leads to the project's own folder.
-fn plain(name: &str) -> &str {
+pub(super) fn plain(name: &str) -> &str {
     let name = name.strip_prefix("./").unwrap_or(name);
     name.strip_prefix('/').unwrap_or(name)
 }
 
 /// The files whose names a pattern fits: `*` is any part of a name within a folder, `$` any folders.
-fn matching<'a>(files: &'a Files, pattern: &'a str) -> impl Iterator<Item = &'a str> {
+pub(super) fn matching<'a>(files: &'a Files, pattern: &'a str) -> impl Iterator<Item = &'a str> {
     let each = pattern.split(';').map(|one| plain(one.trim()));
     let patterns: Vec<&str> = each.filter(|one| !one.is_empty()).collect();
     let names = files.names.iter().map(AsRef::as_ref);

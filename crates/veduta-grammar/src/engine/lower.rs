@@ -57,6 +57,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
             lists_files: false,
             reads_files: false,
             trims: false,
+            tags: false,
             diagnostics: vec![Vec::new(); program.units.len()],
         };
         let unit = instances[instance].unit;
@@ -67,6 +68,7 @@ pub fn lower_in_style(program: &Program, checked: &Checked, style: usize) -> Low
         lowered.code.lists_files |= lowering.lists_files;
         lowered.code.reads_files |= lowering.reads_files;
         lowered.code.trims |= lowering.trims;
+        lowered.code.tags |= lowering.tags;
         for (all, new) in lowered.diagnostics.iter_mut().zip(lowering.diagnostics) {
             let new = new.into_iter().filter(|one| !all.contains(one));
             let new: Vec<Diagnostic> = new.collect();
@@ -167,6 +169,7 @@ pub(super) struct Lowering<'a> {
     pub lists_files: bool,
     pub reads_files: bool,
     pub trims: bool,
+    pub tags: bool,
     checked: &'a Checked,
     instances: &'a [Instance],
     instance: usize,

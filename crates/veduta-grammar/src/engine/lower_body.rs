@@ -76,6 +76,7 @@ impl Lowering<'_> {
     fn operation(&mut self, id: OperationId, call: &Call) -> Operation {
         let mut args = call.args();
         self.trims |= id.trims();
+        self.tags |= id.tags();
         self.asks |= id.asks();
         let (fewest, most) = id.arguments();
         let name = self.text(call.name);

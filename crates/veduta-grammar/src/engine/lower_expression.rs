@@ -11,6 +11,7 @@ use super::measures::Measure;
 use super::queries::Query;
 use super::selection::kind_named;
 use super::shape_attributes::ShapeAttribute;
+use super::sorting::Sorting;
 
 impl Lowering<'_> {
     pub fn expr(&mut self, expr: &ast::Expr) -> Expr {
@@ -79,7 +80,7 @@ impl Lowering<'_> {
             [ast::Expr {
                 kind: Ast::Name(word),
                 ..
-            }] => kind_named(self.text(*word)),
+            }, ..] => kind_named(self.text(*word)),
             _ => None,
         };
         let Some(kind) = kind else {
@@ -101,8 +102,13 @@ impl Lowering<'_> {
                 });
             }
         }
+        let unaligned = |arg: &ast::Expr| match arg.kind {
+            Ast::Name(word) => self.text(word) == "noAlign",
+            _ => false,
+        };
         ExprKind::Components {
             kind,
+            aligned: !args.get(1).is_some_and(unaligned),
             cells: lowered,
         }
     }
@@ -134,7 +140,14 @@ impl Lowering<'_> {
                 return ExprKind::Files { function, args };
             }
         }
+        if let Some((sorting, fewest, most)) = Sorting::named(self.text(name)) {
+            if (fewest..=most).contains(&args.len()) {
+                self.lists_files = true;
+                return ExprKind::Sorting { sorting, args };
+            }
+        }
         if let Some(measure) = Measure::named(self.text(name)) {
+            self.tags |= measure.is_of_tags();
             return ExprKind::Measure { measure, args };
         }
         match Query::named(self.text(name)) {

@@ -48,6 +48,38 @@ const KEPT: &[(&str, Result<f64, &str>)] = &[
     ("material.metallicmap", Err("")),
 ];
 
+/// The settings of each texture layer, with what they are at first.
+macro_rules! settings {
+    ($($layer:literal),*) => {
+        &[$(
+            (concat!("material.", $layer, ".su"), Ok(1.0)),
+            (concat!("material.", $layer, ".sv"), Ok(1.0)),
+            (concat!("material.", $layer, ".tu"), Ok(0.0)),
+            (concat!("material.", $layer, ".tv"), Ok(0.0)),
+            (concat!("material.", $layer, ".rw"), Ok(0.0)),
+        )*]
+    };
+}
+
+/// How the layers of textures are scaled, moved and turned: kept as the others, and not shown.
+const LAID: &[(&str, Result<f64, &str>)] = settings![
+    "colormap",
+    "bumpmap",
+    "dirtmap",
+    "specularmap",
+    "opacitymap",
+    "normalmap",
+    "emissivemap",
+    "occlusionmap",
+    "roughnessmap",
+    "metallicmap"
+];
+
+/// A property that is kept, by its full name.
+fn kept(name: &str) -> Option<&'static (&'static str, Result<f64, &'static str>)> {
+    KEPT.iter().chain(LAID).find(|entry| entry.0 == name)
+}
+
 /// Properties that models show.
 const SHOWN: &[&str] = &[
     "material.name",
@@ -66,7 +98,7 @@ pub fn names() -> impl Iterator<Item = &'static str> {
 
 /// The names of all properties but the one that is three in one.
 fn single_names() -> impl Iterator<Item = &'static str> {
-    let kept = KEPT.iter().map(|entry| entry.0);
+    let kept = KEPT.iter().chain(LAID).map(|entry| entry.0);
     SHOWN.iter().copied().chain(kept)
 }
 
@@ -87,7 +119,7 @@ pub fn get(look: &Look, name: &str) -> Option<Value> {
             None => Value::text(""),
         },
         _ => {
-            let (name, first) = KEPT.iter().find(|entry| entry.0 == name)?;
+            let (name, first) = kept(name)?;
             match (look.kept.get(name), first) {
                 (Some(value), _) => value.clone(),
                 (None, Ok(number)) => Value::Number(*number),
@@ -133,7 +165,7 @@ pub fn set(look: &mut Look, name: &str, value: &Value, tiles: &Tiles) -> Result<
             look.texture = (!path.is_empty()).then(|| path.into());
         }
         _ => {
-            let known = KEPT.iter().find(|entry| entry.0 == name);
+            let known = kept(name);
             let (name, first) = known.ok_or_else(|| {
                 format!("`{name}` is neither an attribute nor a property of materials")
             })?;

@@ -5,6 +5,7 @@ use veduta_geometry::solid::{weld, Face, Mesh};
 
 use crate::shape::{components, is_meant, Form, Frames, Geometry, Kind, Surroundings, TOLERANCE};
 
+use super::marks::is_asked;
 use super::state::State;
 use super::texture_map::map_of;
 use super::value::Value;
@@ -33,6 +34,11 @@ pub enum Measure {
     IsPlanar,
     /// `geometry.isRectangular(tolerance)`: one face of four right angles, that near (degrees).
     IsRectangular,
+    /// `geometry.groups`, `geometry.materials`: the names of an asset's parts.
+    Groups,
+    Materials,
+    /// `geometry.hasUVs(set)`: whether texture coordinates were laid there.
+    HasUvs,
     FaceCount,
     EdgeCount,
     VertexCount,
@@ -51,7 +57,9 @@ const TABLE: &[(&str, Measure)] = &[
     ("geometry.boundaryLength", Measure::BoundaryLength),
     ("geometry.du", Measure::UvExtent(0)),
     ("geometry.dv", Measure::UvExtent(1)),
+    ("geometry.groups", Measure::Groups),
     ("geometry.hasTags", Measure::HasTags),
+    ("geometry.hasUVs", Measure::HasUvs),
     ("geometry.height", Measure::Height),
     ("geometry.isClosedSurface", Measure::IsClosed),
     ("geometry.isConcave", Measure::IsConcave),
@@ -59,6 +67,7 @@ const TABLE: &[(&str, Measure)] = &[
     ("geometry.isOriented", Measure::IsOriented),
     ("geometry.isPlanar", Measure::IsPlanar),
     ("geometry.isRectangular", Measure::IsRectangular),
+    ("geometry.materials", Measure::Materials),
     ("geometry.nEdges", Measure::EdgeCount),
     ("geometry.nFaces", Measure::FaceCount),
     ("geometry.nHoles", Measure::HoleCount),
@@ -78,6 +87,11 @@ impl Measure {
         found.map(|entry| entry.1)
     }
 
+    /// Whether it is about tags.
+    pub fn is_of_tags(self) -> bool {
+        matches!(self, Self::HasTags | Self::Tags)
+    }
+
     /// The names of all functions of geometry.
     pub fn names() -> impl Iterator<Item = &'static str> {
         TABLE.iter().map(|entry| entry.0)
@@ -92,6 +106,9 @@ impl Measure {
             Self::Height => Value::Number(height(form)),
             Self::HasTags => Value::Bool(has_tags(state, args)),
             Self::Tags => tags(state),
+            Self::Groups => parts(state, Kind::Groups),
+            Self::Materials => parts(state, Kind::Materials),
+            Self::HasUvs => Value::Bool(has_uvs(state, args)),
             Self::IsClosed => Value::Bool(form.geometry.is_solid()),
             Self::IsInstanced => Value::Bool(matches!(form.geometry, Geometry::Instance(_))),
             Self::Volume => Value::Number(if form.geometry.is_solid() {
@@ -220,20 +237,25 @@ fn has_tags(state: &State, args: &[Value]) -> bool {
         None => !extra.tags.is_empty(),
         Some(query) => {
             let query = query.to_string();
-            extra.tags.iter().any(|tag| is_like(tag, &query))
+            extra.tags.iter().any(|tag| is_asked(tag, &query))
         }
     }
 }
 
-/// Whether a text is as a pattern says, in which `*` at an end stands for anything.
-pub fn is_like(text: &str, pattern: &str) -> bool {
-    match (pattern.strip_prefix('*'), pattern.strip_suffix('*')) {
-        (Some(""), _) => true,
-        (Some(end), Some(_)) => text.contains(end.trim_end_matches('*')),
-        (Some(end), None) => text.ends_with(end),
-        (None, Some(start)) => text.starts_with(start),
-        (None, None) => text == pattern,
-    }
+/// The names of what `comp(g)` or `comp(m)` would take the shape apart into.
+fn parts(state: &State, kind: Kind) -> Value {
+    let names = match &state.form.geometry {
+        Geometry::Instance(instance) => instance.asset.part_names(kind),
+        _ if kind == Kind::Materials => vec![state.look.class.clone()],
+        _ => vec!["".into()],
+    };
+    Value::list(names.into_iter().map(Value::Text).collect())
+}
+
+fn has_uvs(state: &State, args: &[Value]) -> bool {
+    let set = args.first().and_then(Value::number).unwrap_or(0.0);
+    let maps = state.extra.as_ref().map(|extra| &extra.maps);
+    maps.and_then(|maps| maps.get(set as usize)).is_some_and(Option::is_some)
 }
 
 fn tags(state: &State) -> Value {

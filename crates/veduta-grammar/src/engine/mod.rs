@@ -25,6 +25,7 @@ mod lot;
 mod lower;
 mod lower_body;
 mod lower_expression;
+mod marks;
 mod materials;
 mod measures;
 mod nested;
@@ -40,6 +41,7 @@ mod rederive;
 mod run;
 mod selection;
 mod shape_attributes;
+mod sorting;
 mod state;
 mod steps;
 mod strings;
@@ -75,6 +77,7 @@ pub fn function_names() -> impl Iterator<Item = &'static str> {
     functions::Function::names()
         .chain(measures::Measure::names())
         .chain(queries::Query::names())
+        .chain(sorting::Sorting::names())
         .chain(files::TABLE.iter().map(|entry| entry.0))
         .chain(["comp"])
 }

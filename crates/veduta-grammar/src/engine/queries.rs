@@ -10,7 +10,7 @@ use std::sync::Arc;
 use glam::DVec3;
 use veduta_geometry::solid::{relation, Relation};
 
-use crate::shape::{box_distance, Scope};
+use crate::shape::{box_distance, Kind, Scope};
 use crate::Span;
 
 use super::converting::convert;
@@ -41,6 +41,9 @@ pub enum Query {
     Rank,
     /// `assetInfo(name, sx | sy | sz | tx | ty | tz)`: size and lowest place of an asset (m).
     AssetInfo,
+    /// `assetNamingInfo(name, g | m)`: the names of an asset's groups or materials, as a list in a
+    /// string or, `true`, as an array.
+    Naming(bool),
     /// `convert(...)`: see [`convert`].
     Convert,
     /// `getMaterial(used | shape | geometry, changed | all)`: names and values, a row of each.
@@ -49,6 +52,8 @@ pub enum Query {
 
 const TABLE: &[(&str, Query)] = &[
     ("assetInfo", Query::AssetInfo),
+    ("assetNamingInfo", Query::Naming(false)),
+    ("assetNamingInfos", Query::Naming(true)),
     ("contextCompare", Query::Rank),
     ("contextCount", Query::Count),
     ("convert", Query::Convert),
@@ -78,7 +83,7 @@ impl Query {
     pub fn is_about_others(self) -> bool {
         !matches!(
             self,
-            Self::TreeKey | Self::AssetInfo | Self::Convert | Self::Material
+            Self::TreeKey | Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material
         )
     }
 
@@ -89,7 +94,7 @@ impl Query {
             Self::Distance => Value::Number(f64::INFINITY),
             Self::Count | Self::Rank => Value::Number(0.0),
             Self::TreeKey => Value::text("0;"),
-            Self::AssetInfo | Self::Convert | Self::Material => Value::list(Vec::new()),
+            Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material => Value::list(Vec::new()),
         }
     }
 
@@ -129,6 +134,7 @@ impl Run<'_> {
         match query {
             Query::TreeKey => Ok(self.tree_key()),
             Query::AssetInfo => self.asset_info(args, span),
+            Query::Naming(as_array) => self.asset_names(args, as_array, span),
             Query::Convert => {
                 convert(args, state, self.first()).map_err(|message| Fault::at(span, message))
             }
@@ -205,6 +211,26 @@ impl Run<'_> {
             "s" => size[axis],
             _ => low[axis],
         }))
+    }
+
+    fn asset_names(&self, args: &[Value], as_array: bool, span: Span) -> Result<Value, Fault> {
+        let name = args[0].to_string();
+        let asset = self.options.assets.get(name.as_str());
+        let asset = asset.ok_or_else(|| Fault::missing(span, name.as_str().into()))?;
+        let kind = match args.get(1).map(ToString::to_string).as_deref() {
+            Some("g") | None => Kind::Groups,
+            Some("m") => Kind::Materials,
+            Some(other) => {
+                let message = format!("`{other}` names no parts of an asset: g or m");
+                return Err(Fault::at(span, message));
+            }
+        };
+        let names = asset.part_names(kind);
+        Ok(if as_array {
+            Value::list(names.into_iter().map(Value::Text).collect())
+        } else {
+            Value::text(&names.iter().map(|name| format!("{name};")).collect::<String>())
+        })
     }
 
     /// Whether one of the closed shapes that are asked for lies as the question says.

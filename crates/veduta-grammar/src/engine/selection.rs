@@ -1,12 +1,14 @@
 //! Which components of a shape a selector means.
 
 use std::cell::OnceCell;
+use std::sync::Arc;
 
 use veduta_geometry::solid::{joined, Mesh};
 
 use crate::ast::{BinaryOp, UnaryOp};
 use crate::shape::{
-    components, is_meant, surroundings, Component, Form, Frames, Kind, Surroundings, TOLERANCE,
+    components, is_meant, surroundings, Component, Form, Frames, Geometry, Kind, Surroundings,
+    TOLERANCE,
 };
 use crate::Span;
 
@@ -26,6 +28,8 @@ pub fn kind_named(word: &str) -> Option<Kind> {
         "fe" => Kind::FaceEdges,
         "v" => Kind::Vertices,
         "h" => Kind::Holes,
+        "g" => Kind::Groups,
+        "m" => Kind::Materials,
         _ => return None,
     })
 }
@@ -53,6 +57,16 @@ impl Choosing {
         }
     }
 
+    /// Faces whose scopes have the axes of the shape (`noAlign`).
+    pub fn unaligned(mut self) -> Self {
+        if self.kind == Kind::Faces {
+            for one in &mut self.found {
+                one.form = Form::around(one.form.world_mesh(), self.form.scope.axes, false);
+            }
+        }
+        self
+    }
+
     fn around(&self, at: usize) -> Surroundings {
         let all = self
             .around
@@ -74,11 +88,34 @@ impl Choosing {
     /// `comp.index` is its number among all.
     pub fn state(&self, whole: &State, at: usize) -> State {
         let mut state = whole.component(self.found[at].form.clone());
+        self.dress(&mut state, at);
         state.comp = Place {
             index: self.found[at].index,
             total: self.found.len(),
         };
         state
+    }
+
+    /// Gives a part of an asset the look that it has there.
+    pub fn dress(&self, state: &mut State, at: usize) {
+        let (Geometry::Instance(instance), Kind::Groups | Kind::Materials) =
+            (&self.form.geometry, self.kind)
+        else {
+            return;
+        };
+        let part = self.found[at].index;
+        let look = Arc::make_mut(&mut state.look);
+        if let Some(slot) = instance.asset.slot_of_part(self.kind, part) {
+            look.colour = slot.colour_in(look.colour);
+            if let Some((name, size_m)) = &slot.texture {
+                (look.texture, look.tile) = (Some(name.clone()), Some(*size_m));
+            }
+        }
+        if self.kind == Kind::Materials {
+            if let Some(name) = instance.asset.part_names(self.kind).get(part) {
+                look.class = name.clone();
+            }
+        }
     }
 
     /// The picked components as one shape along the axes of the whole; none where nothing is picked.
@@ -190,13 +227,16 @@ impl Run<'_> {
     /// it is that of all that the cell selects as one shape.
     pub(super) fn component_values(
         &mut self,
-        kind: Kind,
+        (kind, aligned): (Kind, bool),
         cells: &[ComponentValue],
         span: Span,
         scene: &mut Scene<'_>,
     ) -> Result<Vec<Value>, Fault> {
         self.check_time(span)?;
-        let choosing = Choosing::of(&scene.state.form, kind, self);
+        let mut choosing = Choosing::of(&scene.state.form, kind, self);
+        if !aligned {
+            choosing = choosing.unaligned();
+        }
         if choosing.found.len() > self.options.limits.parts {
             let message = format!("an array of {} elements", choosing.found.len());
             return Err(Fault::over(Limit::Parts, span, message));

@@ -7,12 +7,10 @@ use glam::{DMat3, DVec3};
 
 use crate::shape::Form;
 
+use super::marks::{Made, Mark};
 use super::operations::TrimPlane;
 use super::texture_map::{TextureMap, LAYERS};
 use super::value::Value;
-
-/// Sine of the angle up to which a face of a roof stands upright.
-const ALONG: f64 = 1e-4;
 
 /// How a shape looks, and what it is.
 #[derive(Debug, Clone, PartialEq)]
@@ -54,8 +52,10 @@ pub struct Place {
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Extra {
     pub tags: BTreeSet<Arc<str>>,
-    /// Whether the shape is a roof as a whole: its faces get tags.
-    pub is_roof: bool,
+    /// What made the shape as a whole: its faces get tags by that.
+    pub made: Option<Made>,
+    /// The tagged surfaces that the shape was put together from.
+    pub marks: Vec<Mark>,
     /// What `setupProjection` has prepared, by texture layer.
     pub projections: [Option<TextureMap>; LAYERS],
     /// Where the texture lies, by layer; None is the shape's scope from 0 to 1.
@@ -133,23 +133,13 @@ impl State {
         state
     }
 
-    /// A component of this shape. Those of a roof are tagged by where they look, as in CityEngine:
-    /// `roof.top` are slopes and what lies level, `roof.side` gables, `roof.bottom` its floor.
+    /// A component of this shape. A face has the tags that it had in the whole.
     pub fn component(&self, form: Form) -> Self {
         let mut state = self.with_form(form);
-        if self.extra.as_ref().is_some_and(|extra| extra.is_roof) {
+        let has = |extra: &Arc<Extra>| extra.made.is_some() || !extra.marks.is_empty();
+        if self.extra.as_ref().is_some_and(has) {
             let mesh = state.form.world_mesh();
-            let extra = state.extra_mut();
-            extra.is_roof = false;
-            if !mesh.is_empty() {
-                let up = mesh.face(0).normal().dot(self.form.scope.axes.y_axis);
-                let tag = match up {
-                    _ if up > ALONG => "roof.top",
-                    _ if up < -ALONG => "roof.bottom",
-                    _ => "roof.side",
-                };
-                extra.tags.insert(tag.into());
-            }
+            state.extra_mut().settle(&mesh, self.form.scope.axes);
         }
         state
     }

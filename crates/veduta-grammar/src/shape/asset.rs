@@ -5,6 +5,7 @@ use std::sync::Arc;
 use glam::{DMat3, DVec3};
 use veduta_geometry::solid::Mesh;
 
+use super::components::Kind;
 use super::scope::over;
 
 /// A mesh from outside, in metres in its own frame (y up). It is the same for all shapes that it is
@@ -18,6 +19,18 @@ pub struct Asset {
     solid: bool,
     face_slot: Vec<u32>,
     slots: Vec<Slot>,
+    /// The names of the slots, and the group of each face, where the file has them.
+    labels: Labels,
+}
+
+/// What the file of an asset calls its parts.
+#[derive(Debug, Clone, Default, PartialEq)]
+pub struct Labels {
+    /// The name of each slot's material.
+    pub materials: Vec<Arc<str>>,
+    /// The group of each face, by its place in `groups`.
+    pub face_group: Vec<u32>,
+    pub groups: Vec<Arc<str>>,
 }
 
 /// A part of an asset that looks alike: a frame, a pane.
@@ -81,7 +94,50 @@ impl Asset {
                 fallback: WHITE,
                 texture: None,
             }],
+            labels: Labels::default(),
         })
+    }
+
+    /// What the parts are called; None where the numbers do not fit.
+    pub fn with_labels(self, labels: Labels) -> Option<Self> {
+        let is_known = |&group: &u32| (group as usize) < labels.groups.len();
+        let fits = labels.materials.len() == self.slots.len()
+            && labels.face_group.len() == self.unit.face_count()
+            && labels.face_group.iter().all(is_known);
+        fits.then_some(Self { labels, ..self })
+    }
+
+    /// The names of what it is taken apart into: its groups, or its materials.
+    pub fn part_names(&self, kind: Kind) -> Vec<Arc<str>> {
+        let names = match kind {
+            Kind::Materials => &self.labels.materials,
+            _ => &self.labels.groups,
+        };
+        match names[..] {
+            [] => vec!["".into()],
+            _ => names.clone(),
+        }
+    }
+
+    /// The part of each face; empty where the file has no parts.
+    fn part_of_face(&self, kind: Kind) -> &[u32] {
+        match kind {
+            Kind::Materials if !self.labels.materials.is_empty() => &self.face_slot,
+            Kind::Materials => &[],
+            _ => &self.labels.face_group,
+        }
+    }
+
+    /// The slot that all faces of a part have; None where they have several.
+    pub fn slot_of_part(&self, kind: Kind, part: usize) -> Option<&Slot> {
+        let each = self.part_of_face(kind).iter().zip(&self.face_slot);
+        let mut slots = each
+            .filter(|(own, _)| **own as usize == part)
+            .map(|(_, &slot)| slot);
+        let first = slots.next()?;
+        slots
+            .all(|slot| slot == first)
+            .then(|| &self.slots[first as usize])
     }
 
     /// The slot of each face; None where the numbers do not fit.
@@ -171,6 +227,23 @@ impl Instance {
 
     pub fn is_solid(&self) -> bool {
         self.asset.solid
+    }
+
+    /// The parts that have faces, by their numbers, in shares of the box; none where the file has no
+    /// parts.
+    pub fn parts(&self, kind: Kind) -> Vec<(usize, Mesh)> {
+        let mesh = self.mesh();
+        let of_face = self.asset.part_of_face(kind);
+        let count = of_face.iter().max().map_or(0, |&last| last as usize + 1);
+        let mut faces = vec![Vec::new(); count];
+        for (face, &part) in of_face.iter().enumerate() {
+            faces[part as usize].push(face);
+        }
+        let parts = faces.into_iter().enumerate();
+        let parts = parts.filter(|(_, faces)| !faces.is_empty());
+        parts
+            .map(|(part, faces)| (part, mesh.of_faces(faces)))
+            .collect()
     }
 
     /// The faces in shares of the box.

@@ -19,6 +19,10 @@ pub enum Kind {
     Vertices,
     /// What fills each hole of each face.
     Holes,
+    /// The groups of an asset, or the shape where it has none.
+    Groups,
+    /// The materials of an asset, or the shape.
+    Materials,
 }
 
 /// Where a component looks, in the scope of the shape that it was taken from.
@@ -57,6 +61,7 @@ pub fn components(form: &Form, kind: Kind) -> Vec<Component> {
         Kind::FaceEdges => face_edges(form),
         Kind::Holes => holes(form),
         Kind::Vertices => vertices(form),
+        Kind::Groups | Kind::Materials => parts(form, kind),
     }
 }
 
@@ -113,6 +118,37 @@ fn face_component(scope: &Scope, mesh: &Mesh, face: Face<'_>, index: usize) -> O
         normal,
         form: Form::around(alone, face_axes(scope.axes.y_axis, normal, along), false),
     })
+}
+
+/// The parts of an asset as its file has them; anything else is one part.
+fn parts(form: &Form, kind: Kind) -> Vec<Component> {
+    let split = match &form.geometry {
+        Geometry::Instance(instance) => instance.parts(kind),
+        _ => Vec::new(),
+    };
+    let whole = || (0, form.clone());
+    let forms: Vec<(usize, Form)> = if split.is_empty() {
+        vec![whole()]
+    } else {
+        let in_world = |mesh: Mesh| mesh.mapped(|unit| form.scope.world(unit));
+        split
+            .into_iter()
+            .map(|(part, mesh)| {
+                let solid = mesh.is_closed();
+                (part, Form::around(in_world(mesh), form.scope.axes, solid))
+            })
+            .collect()
+    };
+    let component = |(index, form): (usize, Form)| {
+        let normal = form.world_mesh().faces().next().map(Face::normal);
+        Component {
+            index,
+            direction: normal.map(|normal| direction(form.scope.axes, normal)),
+            normal: normal.unwrap_or(DVec3::ZERO),
+            form,
+        }
+    };
+    forms.into_iter().map(component).collect()
 }
 
 fn holes(form: &Form) -> Vec<Component> {

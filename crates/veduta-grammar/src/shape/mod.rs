@@ -10,7 +10,7 @@ mod sizes;
 mod splitting;
 mod surroundings;
 
-pub use asset::{Asset, AssetFaces, Instance, Slot};
+pub use asset::{Asset, AssetFaces, Instance, Labels, Slot};
 pub use components::{components, direction, is_selected, Component, Direction, Kind};
 pub use distances::box_distance;
 pub use form::{rectangle, Form, Geometry, TOLERANCE};

@@ -52,6 +52,7 @@ pub fn is_meant(
     let slope = up.clamp(-1.0, 1.0).asin().to_degrees();
     Some(match word {
         "horizontal" => looks && slope.abs() > 90.0 - LEVEL,
+        "side" => looks && slope.abs() <= 90.0 - LEVEL,
         "vertical" => looks && slope.abs() <= LEVEL,
         "aslant" => looks && slope > LEVEL && slope <= 90.0 - LEVEL,
         "nutant" => looks && (LEVEL - 90.0..-LEVEL).contains(&slope),

@@ -69,6 +69,7 @@ pub fn surroundings(form: &Form, kind: Kind) -> Vec<Surroundings> {
             }
             at_border.into_iter().map(border).collect()
         }
+        Kind::Groups | Kind::Materials => Vec::new(),
         Kind::Holes => {
             let count = mesh.faces().map(|face| face.ring_count() - 1).sum();
             vec![border(true); count]

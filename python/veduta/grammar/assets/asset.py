@@ -7,7 +7,7 @@ a shape is flat, the plane z = 0 of the asset lies in it.
 from __future__ import annotations
 
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
@@ -48,7 +48,8 @@ class Asset:
     points_m: (v, 3) float64. corners: (c,) uint32, point numbers face by face, counter-clockwise
     seen from outside. offsets: (f + 1,) int64, first corner of each face. face_slot: (f,) int32.
     given_box_m: the box that fills a scope where it is not that around the points: all levels of
-    detail have the finest one's, so that they stand in the same place.
+    detail have the finest one's, so that they stand in the same place. face_group: (f,) place in
+    `groups`, the names that the asset's file has; empty where it has none.
     """
 
     name: str
@@ -58,6 +59,8 @@ class Asset:
     face_slot: NDArray[np.int32]
     slots: tuple[Slot, ...]
     given_box_m: NDArray[np.float64] | None = None
+    face_group: NDArray[np.int32] = field(default_factory=lambda: np.zeros(0, np.int32))
+    groups: tuple[str, ...] = ()
 
     @cached_property
     def box_m(self) -> NDArray[np.float64]:

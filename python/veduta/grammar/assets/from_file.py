@@ -41,6 +41,7 @@ def _mesh(path: Path) -> ReadMesh:
 def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
     """Points that coincide joined, faces without an area left out, warped ones in triangles."""
     corners, offsets, material = _welded(mesh)
+    group = mesh.face_group
     for triangles in (False, True):
         faces = [corners[a:b] for a, b in zip(offsets[:-1], offsets[1:], strict=True)]
         kept = [row for row, face in enumerate(faces) if _has_area(mesh.points[face])]
@@ -54,6 +55,8 @@ def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
             offsets=np.concatenate([[0], np.cumsum([len(face) for face in own])]).astype(np.int64),
             face_slot=material[kept],
             slots=tuple(Slot(label or "surface", colour) for label, colour in mesh.materials),
+            face_group=group[kept],
+            groups=mesh.groups,
         )
         asset = _flattened(_compact(asset))
         try:
@@ -61,7 +64,9 @@ def _cleaned(name: str, mesh: ReadMesh) -> Asset | None:
         except _core.PolygonFault:
             if triangles:
                 raise
-            corners, offsets, material = _fans(faces, material)
+            counts = [len(face) - 2 for face in faces]
+            corners, offsets = _fans(faces)
+            material, group = np.repeat(material, counts), np.repeat(group, counts)
             continue
         return asset
     return None
@@ -96,24 +101,16 @@ def _has_area(points: NDArray[np.float64]) -> bool:
     return float(np.linalg.norm(crossed)) > 1e-9 * longest * longest > 0.0
 
 
-def _fans(
-    faces: list[NDArray[np.int64]], material: NDArray[np.int32]
-) -> tuple[NDArray[np.int64], NDArray[np.int64], NDArray[np.int32]]:
+def _fans(faces: list[NDArray[np.int64]]) -> tuple[NDArray[np.int64], NDArray[np.int64]]:
     """Each face as triangles about its first corner."""
     triangles = [(face[0], face[k], face[k + 1]) for face in faces for k in range(1, len(face) - 1)]
-    counts = [len(face) - 2 for face in faces]
     corners = np.array(triangles, dtype=np.int64).reshape(-1)
-    return corners, np.arange(0, len(corners) + 1, 3), np.repeat(material, counts)
+    return corners, np.arange(0, len(corners) + 1, 3)
 
 
 def _compact(asset: Asset) -> Asset:
     """Without points that no face uses: they would widen the box."""
     used, corners = np.unique(asset.corners, return_inverse=True)
-    return Asset(
-        name=asset.name,
-        points_m=asset.points_m[used],
-        corners=corners.reshape(-1).astype(np.uint32),
-        offsets=asset.offsets,
-        face_slot=asset.face_slot,
-        slots=asset.slots,
+    return replace(
+        asset, points_m=asset.points_m[used], corners=corners.reshape(-1).astype(np.uint32)
     )

@@ -52,7 +52,11 @@ class Library:
             asset = self._known[name] = missing_box(name)
         slots = [(slot.colour, slot.fallback, textured(slot)) for slot in asset.slots]
         faces = (asset.points_m, asset.corners, asset.offsets)
-        rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots)
+        labels = None
+        if asset.groups:
+            names = [slot.name for slot in asset.slots]
+            labels = (names, asset.face_group.tolist(), list(asset.groups))
+        rules.add_asset(name, *faces, asset.box_m, asset.face_slot, slots, labels)
 
     def add_written_to(self, rules: _core.GrammarRules) -> None:
         """Hand over the assets whose names stand in the rules.
@@ -77,8 +81,9 @@ class Library:
             except InputError:
                 total.update(f"{name} is missing".encode())
                 continue
-            total.update(f"{name} {asset.slots}".encode())
-            for column in (asset.points_m, asset.corners, asset.offsets, asset.face_slot):
+            total.update(f"{name} {asset.slots} {asset.groups}".encode())
+            columns = (asset.points_m, asset.corners, asset.offsets, asset.face_slot)
+            for column in (*columns, asset.face_group):
                 total.update(column.tobytes())
         for root, path in self._files() if computed else ():
             total.update(f"{path.relative_to(root)} {path.stat().st_size}".encode())

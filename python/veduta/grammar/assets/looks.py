@@ -5,7 +5,7 @@ from __future__ import annotations
 from veduta.grammar.assets.asset import Slot
 
 FRAME = Slot("frame", roughness=0.6, fallback=(0.92, 0.91, 0.87))
-PANE = Slot("pane", (0.33, 0.4, 0.44), roughness=0.12)
+PANE = Slot("pane", (0.55, 0.66, 0.73), roughness=0.12, texture="glass")
 LEAF = Slot("leaf", roughness=0.5, fallback=(0.24, 0.32, 0.29), texture="wood")
 BRASS = Slot("brass", (0.66, 0.53, 0.29), roughness=0.35, metalness=0.6)
 STEEL = Slot("steel", (0.55, 0.57, 0.58), roughness=0.35, metalness=0.6)

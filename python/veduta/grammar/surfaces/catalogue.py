@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from functools import lru_cache
 from pathlib import Path
 
-from veduta.grammar.surfaces import brick, coats, ground, roofing, stone, wood
+from veduta.grammar.surfaces import brick, coats, glass, ground, roofing, stone, wood
 from veduta.grammar.surfaces.canvas import Canvas, Image
 from veduta.place.material import Colour
 from veduta.run.errors import InputError
@@ -60,6 +60,7 @@ SURFACES: dict[str, Surface] = {
     "boards": Surface(wood.boards, (2.24, 2.24), (0.89, 0.88, 0.86)),
     "shingles": Surface(wood.shingles, (1.96, 1.96), (0.85, 0.85, 0.83)),
     "wood": Surface(wood.planed, (1.2, 1.2), (0.93, 0.92, 0.92)),
+    "glass": Surface(glass.window, (2.4, 2.7), (0.61, 0.66, 0.71)),
     "cobbles": Surface(ground.cobbles, (2.13, 2.13), (0.77, 0.77, 0.77)),
     "paving": Surface(ground.paving, (2.4, 2.4), (0.88, 0.87, 0.86)),
     "lawn": Surface(ground.lawn, (2.0, 2.0), (0.84, 0.85, 0.83)),

@@ -14,7 +14,9 @@ use crate::shape::{Form, Kind};
 
 /// `comp(f) { front : A | side : B | all = C }`: each component goes to the first cell that
 /// selects it. After `:` each is a shape of its own, after `=` those of the cell are one. `f` are
-/// faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes.
+/// faces, `e` edges, each once, `fe` the edges of each face, `v` vertices, `h` what fills holes,
+/// `g` and `m` the groups and materials of an asset. With `noAlign` the scopes of faces have the axes
+/// of the shape.
 ///
 /// Selectors are words, numbers (-1 is the last) and conditions, which may be joined by `&&`, `||`
 /// and `!`. Other than in CityEngine, `street.front` and its like are always what `object.front`
@@ -22,12 +24,15 @@ use crate::shape::{Form, Kind};
 pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let kind = word(run, op, 0, frame)?;
     let Some(kind) = kind_named(&kind) else {
-        let message = format!("`{kind}` is no component: f, e, fe, v or h");
+        let message = format!("`{kind}` is no component: f, e, fe, v, g, m or h");
         return Err(Fault::at(op.span, message));
     };
     run.record(None, &frame.state, op.span)?;
     let whole = frame.state.clone();
-    let choosing = Choosing::of(&whole.form, kind, run);
+    let mut choosing = Choosing::of(&whole.form, kind, run);
+    if op.args.len() > 1 && word(run, op, 1, frame)?.as_ref() == "noAlign" {
+        choosing = choosing.unaligned();
+    }
     let mut planes = match kind {
         Kind::Faces if run.code.trims => planes(&choosing.found),
         _ => Vec::new(),
@@ -43,6 +48,17 @@ pub fn components(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Resul
             let form = |&at: &usize| choosing.found[at].form.clone();
             picked.iter().map(form).collect()
         };
+        if !combined && matches!(kind, Kind::Groups | Kind::Materials) {
+            let total = picked.len();
+            for (index, &at) in picked.iter().enumerate() {
+                let place = Place { index, total };
+                let form = choosing.found[at].form.clone();
+                let mut state = whole.selected(form, place, selector.name());
+                choosing.dress(&mut state, at);
+                run.run_cell(body, state, frame)?;
+            }
+            continue;
+        }
         if !planes.is_empty() && !combined {
             let total = picked.len();
             for ((index, &at), shape) in picked.iter().enumerate().zip(shapes) {

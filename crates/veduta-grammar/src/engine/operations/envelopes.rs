@@ -6,6 +6,7 @@ use veduta_geometry::solid::{envelope_within as space, Bound, Face, Mesh};
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::marks::Maker;
 use super::super::run::Run;
 use super::super::value::Value;
 use super::standing::stand;
@@ -54,6 +55,9 @@ pub fn envelope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<
     }
     if let Some(normal) = sheet.faces().map(Face::normal).find(|n| *n != DVec3::ZERO) {
         stand(frame, solid, normal);
+        if run.code.tags {
+            frame.state.made(Maker::Envelope, normal);
+        }
     }
     Ok(())
 }

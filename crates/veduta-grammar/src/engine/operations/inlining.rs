@@ -6,6 +6,7 @@ use veduta_geometry::solid::{boolean_within, joined, Boolean, Mesh};
 use super::super::code::{Cell, Operation};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::marks::Mark;
 use super::super::run::Run;
 use super::super::state::State;
 use super::word;
@@ -62,7 +63,19 @@ fn combine(
             (frame.state.clone(), other)
         }
     };
+    let marks = if run.code.tags {
+        let mut marks = first.marked(Some("bool.A"));
+        marks.extend(second.marked(Some("bool.B")));
+        marks
+    } else {
+        Vec::new()
+    };
     frame.state = combined(run, op, first, &second, how)?;
+    if run.code.tags {
+        // What both had is a tag of single faces now.
+        frame.state.extra_mut().tags.clear();
+        put_together_of(&mut frame.state, marks);
+    }
     frame.changed();
     Ok(())
 }
@@ -110,7 +123,7 @@ fn together(
             run.check_time(op.span)?;
             whole = combined(run, op, whole, shape, Boolean::Union)?;
         }
-        return Ok(agreed(&shapes, current.with_form(whole.form)));
+        return Ok(agreed(run, &shapes, current.with_form(whole.form)));
     }
     let meshes: Vec<Mesh> = shapes.iter().map(|shape| shape.form.world_mesh()).collect();
     let solid = shapes.iter().all(|shape| shape.form.geometry.is_solid());
@@ -125,7 +138,7 @@ fn together(
         parts.iter().for_each(|part| all.append(part));
         Form::around(all, axes, solid)
     };
-    Ok(agreed(&shapes, current.with_form(form)))
+    Ok(agreed(run, &shapes, current.with_form(form)))
 }
 
 /// Meshes as one with corners at one place as one.
@@ -136,13 +149,24 @@ pub fn recomposed(parts: &[&Mesh]) -> Mesh {
     joined(parts, extent * TOLERANCE)
 }
 
-/// The shape with the look that all of `shapes` have.
-fn agreed(shapes: &[State], mut whole: State) -> State {
+/// The shape with the look that all of `shapes` have, and with their tags where their faces are.
+fn agreed(run: &Run<'_>, shapes: &[State], mut whole: State) -> State {
+    if run.code.tags {
+        let marks = shapes.iter().flat_map(|shape| shape.marked(None)).collect();
+        put_together_of(&mut whole, marks);
+    }
     let same = shapes.windows(2).all(|pair| pair[0].look == pair[1].look);
     if let (true, Some(first)) = (same, shapes.first()) {
         whole.look = first.look.clone();
     }
     whole
+}
+
+/// Says which tagged surfaces a shape is made of, and that it is nothing else as a whole.
+fn put_together_of(whole: &mut State, marks: Vec<Mark>) {
+    let extra = whole.extra_mut();
+    extra.made = None;
+    extra.marks = marks;
 }
 
 fn emptied(mut state: State) -> State {

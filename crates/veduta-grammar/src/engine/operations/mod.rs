@@ -60,7 +60,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("center", transform::center, 1, 1),
     ("cleanupGeometry", reshaping::clean, 2, 2),
     ("color", appearance::colour, 1, 4),
-    ("comp", components::components, 1, 1),
+    ("comp", components::components, 1, 2),
     ("convexify", meshes::convexify, 0, 1),
     ("copyUV", textures::copy, 2, 2),
     ("deleteHoles", meshes::delete_holes, 0, 0),
@@ -78,7 +78,7 @@ const TABLE: &[(&str, Work, usize, usize)] = &[
     ("label", speech::label, 1, 1),
     ("mirror", scopes::mirror, 3, 3),
     ("mirrorScope", scopes::mirror_scope, 3, 3),
-    ("modify", modifying::modify, 1, 1),
+    ("modify", modifying::modify, 1, 2),
     ("normalizeUV", textures::normalize, 3, 3),
     ("offset", offsets::offset, 1, 2),
     ("offsetUV", textures::translate, 3, 3),
@@ -163,6 +163,11 @@ impl OperationId {
         TABLE[self.0].0 == "trim"
     }
 
+    /// Whether it has to do with tags.
+    pub fn tags(self) -> bool {
+        matches!(TABLE[self.0].0, "tag" | "deleteTags")
+    }
+
     /// Which argument names an asset.
     pub fn asset_argument(self) -> Option<usize> {
         match TABLE[self.0].0 {
@@ -201,7 +206,7 @@ pub(super) fn run(
     operation: &Operation,
     frame: &mut Frame,
 ) -> Result<(), Fault> {
-    if matches!(frame.state.form.geometry, Geometry::Instance(_)) {
+    if matches!(frame.state.form.geometry, Geometry::Instance(_)) && !takes_parts(operation) {
         assets::open_for(TABLE[operation.id.0].0, frame);
     }
     TABLE[operation.id.0].1(run, operation, frame)?;
@@ -235,6 +240,13 @@ pub(super) fn run(
         run.check_time(operation.span)?;
     }
     Ok(())
+}
+
+/// Whether it takes an asset apart by the parts that its file has.
+fn takes_parts(operation: &Operation) -> bool {
+    let kind = operation.args.first();
+    TABLE[operation.id.0].0 == "comp"
+        && matches!(kind, Some(Arg::Word(word)) if matches!(word.as_ref(), "g" | "m"))
 }
 
 /// A fault where a shape has too many faces.

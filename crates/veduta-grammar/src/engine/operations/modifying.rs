@@ -35,7 +35,10 @@ pub fn modify(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     };
     let whole = frame.state.clone();
     let mut parts = Parts::of(&whole.form);
-    let choosing = Choosing::of(&whole.form, kind, run);
+    let mut choosing = Choosing::of(&whole.form, kind, run);
+    if op.args.len() > 1 && word(run, op, 1, frame)?.as_ref() == "noAlign" {
+        choosing = choosing.unaligned();
+    }
     let chosen = run.chosen(selectors(op), &choosing, op.span, &mut frame.scene())?;
     for (cell, picked) in op.cells.iter().zip(chosen) {
         let Cell::Part {

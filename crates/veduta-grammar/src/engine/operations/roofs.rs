@@ -6,6 +6,7 @@ use veduta_geometry::solid::{roofed_within, Along, Face, Gables, Mesh, Overhang,
 use super::super::code::{Arg, Operation};
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::marks::Maker;
 use super::super::run::Run;
 use super::super::value::Value;
 use super::standing::{sheet_of, stand, upright};
@@ -274,7 +275,9 @@ impl Rise {
         };
         let solid = over_each(run, op, &sheet, slope, overhang, &kind)?;
         stand(frame, solid, up);
-        frame.state.extra_mut().is_roof = true;
+        if run.code.tags {
+            frame.state.made(Maker::Roof, up);
+        }
         Ok(())
     }
 }

@@ -51,12 +51,13 @@ pub fn rotate_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Res
 }
 
 /// `mirrorScope(x, y, z)`: true turns the axis round. What is in the scope stays. Scopes are
-/// right-handed here, so that none or two axes can be turned round; CityEngine turns any.
+/// right-handed here, so that none or two axes can be turned round: where one or three are asked for, the
+/// scope stays, and a message says so. CityEngine turns any.
 pub fn mirror_scope(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let signs = signs(run, op, frame)?;
     if signs.element_product() < 0.0 {
-        let message = "a scope with one or three axes turned round does not derive";
-        return Err(Fault::at(op.span, message));
+        let told = Value::text("mirrorScope: one or three axes turned round; the scope stays");
+        return run.write(&told, op.span);
     }
     turn_to(
         frame,
@@ -85,6 +86,9 @@ pub fn mirror(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
     frame
         .state
         .carry_textures(|map| map.mirrored(&scope, signs));
+    frame
+        .state
+        .carry_marks(|point| scope.world((scope.unit(point) - 0.5) * signs + 0.5));
     frame.changed();
     Ok(())
 }

@@ -6,6 +6,7 @@ use veduta_geometry::solid;
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::marks::Maker;
 use super::super::run::Run;
 use super::{length, word};
 use crate::shape::{Form, Geometry};
@@ -44,6 +45,9 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
         return Err(Fault::at(op.span, message));
     };
     frame.state.form = prism;
+    if run.code.tags {
+        frame.state.made(Maker::Extrude, along * height.signum());
+    }
     frame.changed();
     Ok(())
 }

@@ -6,6 +6,7 @@ use veduta_geometry::solid::{pyramids, Face, Mesh};
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
+use super::super::marks::Maker;
 use super::super::run::Run;
 use super::length;
 use crate::shape::Form;
@@ -26,7 +27,11 @@ pub fn taper(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(),
     } else {
         solid
     };
-    stand(frame, solid, sheet.face(0).normal());
+    let up = sheet.face(0).normal();
+    stand(frame, solid, up);
+    if run.code.tags {
+        frame.state.made(Maker::Taper, up * height.signum());
+    }
     Ok(())
 }
 

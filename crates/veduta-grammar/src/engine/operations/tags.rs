@@ -3,16 +3,15 @@
 use super::super::code::Operation;
 use super::super::fault::Fault;
 use super::super::frame::Frame;
-use super::super::measures::is_like;
+use super::super::marks::is_asked;
 use super::super::run::Run;
 use super::word;
 
 /// The most tags of a shape.
 const MOST_TAGS: usize = 1000;
 
-/// `tag(name)`: the shape and its children carry the name, for `isTagged` and `geometry.hasTags`.
-/// Other than in CityEngine tags belong to shapes as wholes, not to single faces, edges and
-/// vertices, and operations add none by themselves.
+/// `tag(name)`: the faces of the shape carry the name, for `isTagged` and `geometry.hasTags`. Other
+/// than in CityEngine edges and vertices have the tags of the whole that they were taken from.
 pub fn tag(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let name = word(run, op, 0, frame)?;
     let tags = &mut frame.state.extra_mut().tags;
@@ -27,16 +26,21 @@ pub fn tag(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), F
     Ok(())
 }
 
-/// `deleteTags()`, `deleteTags(name)`: all, or those that are like the name; `*` at an end of it
-/// stands for anything.
+/// `deleteTags()`, `deleteTags(name)`: all, or those of this name and below it.
 pub fn delete(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let query = match op.args.len() {
         0 => "*".into(),
         _ => word(run, op, 0, frame)?,
     };
     if frame.state.extra.is_some() {
-        let tags = &mut frame.state.extra_mut().tags;
-        tags.retain(|tag| !is_like(tag, &query));
+        let extra = frame.state.extra_mut();
+        extra.tags.retain(|tag| !is_asked(tag, &query));
+        for mark in &mut extra.marks {
+            mark.tags.retain(|tag| !is_asked(tag, &query));
+        }
+        if op.args.is_empty() {
+            extra.made = None;
+        }
     }
     frame.changed();
     Ok(())

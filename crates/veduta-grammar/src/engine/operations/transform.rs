@@ -97,6 +97,9 @@ pub fn place(frame: &mut Frame, scope: Scope) {
     frame
         .state
         .carry_textures(|map| map.carried(&before, &scope));
+    frame
+        .state
+        .carry_marks(|point| scope.world(before.unit(point)));
     frame.changed();
 }
 
