@@ -13,9 +13,7 @@ use veduta_grammar::engine::{
 };
 use veduta_grammar::{check, Checked, Program, Source, Style};
 
-use crate::assets::{
-    asset_of, labels_of, Assets, GivenLabels, GivenSlots, MissingAsset, Textures,
-};
+use crate::assets::{asset_of, labels_of, Assets, GivenLabels, GivenSlots, MissingAsset, Textures};
 use crate::derivation::{overrides_of, GivenEdit};
 use crate::derived_lot::{derived_of, to_python, Derived, DerivedLot, Outcome};
 use crate::given::{values, Given};

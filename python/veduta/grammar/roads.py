@@ -129,7 +129,8 @@ class Roads:
         self._width_m = np.repeat(np.array(widths, dtype=np.float64), counts)
         self._is_path = np.repeat(np.array(paths, dtype=bool), counts)
         ends = np.stack([self._from, self._to], axis=1)
-        self._tree = shapely.STRtree(shapely.linestrings(ends)) if len(ends) else None
+        lines: NDArray[np.object_] = np.atleast_1d(np.asarray(shapely.linestrings(ends)))
+        self._tree = shapely.STRtree(lines) if len(ends) else None
 
     def __len__(self) -> int:
         return len(self._from)

@@ -45,7 +45,7 @@ def unpacked(path: Path) -> Path:
     try:
         with zipfile.ZipFile(path) as archive:
             folder = _extracted(path, archive)
-    except (zipfile.BadZipFile, NotImplementedError, RuntimeError, EOFError) as error:
+    except (zipfile.BadZipFile, RuntimeError, EOFError) as error:
         fault = f"is no rule package that can be read ({error})"
         raise InputError(path, fault, "Share it anew, as a zip archive.") from error
     return _main_of(path, folder)

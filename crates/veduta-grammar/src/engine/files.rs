@@ -72,9 +72,9 @@ impl FileFunction {
                 let found: Vec<&str> = matching(files, name).collect();
                 Ok(Value::text(&found.join(";")))
             }
-            Self::SearchAll => {
-                Ok(Value::list(matching(files, name).map(Value::text).collect()))
-            }
+            Self::SearchAll => Ok(Value::list(
+                matching(files, name).map(Value::text).collect(),
+            )),
             Self::Random => {
                 let drawn = draw(); // also where there is nothing: what follows stays the same
                 let found: Vec<&str> = matching(files, name).collect();

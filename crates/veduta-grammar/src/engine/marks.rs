@@ -161,7 +161,9 @@ impl Extra {
 
 /// Whether a point with a normal lies on a face of a surface, seen from either side.
 fn lies_on(surface: &Mesh, point: DVec3, normal: DVec3) -> bool {
-    let extent = surface.bounds().map_or(0.0, |(low, high)| low.distance(high));
+    let extent = surface
+        .bounds()
+        .map_or(0.0, |(low, high)| low.distance(high));
     surface.faces().any(|face| {
         let own = face.normal();
         let Some(first) = face.points().next() else {

@@ -255,7 +255,8 @@ fn parts(state: &State, kind: Kind) -> Value {
 fn has_uvs(state: &State, args: &[Value]) -> bool {
     let set = args.first().and_then(Value::number).unwrap_or(0.0);
     let maps = state.extra.as_ref().map(|extra| &extra.maps);
-    maps.and_then(|maps| maps.get(set as usize)).is_some_and(Option::is_some)
+    maps.and_then(|maps| maps.get(set as usize))
+        .is_some_and(Option::is_some)
 }
 
 fn tags(state: &State) -> Value {

@@ -94,7 +94,9 @@ impl Query {
             Self::Distance => Value::Number(f64::INFINITY),
             Self::Count | Self::Rank => Value::Number(0.0),
             Self::TreeKey => Value::text("0;"),
-            Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material => Value::list(Vec::new()),
+            Self::AssetInfo | Self::Naming(_) | Self::Convert | Self::Material => {
+                Value::list(Vec::new())
+            }
         }
     }
 
@@ -229,7 +231,12 @@ impl Run<'_> {
         Ok(if as_array {
             Value::list(names.into_iter().map(Value::Text).collect())
         } else {
-            Value::text(&names.iter().map(|name| format!("{name};")).collect::<String>())
+            Value::text(
+                &names
+                    .iter()
+                    .map(|name| format!("{name};"))
+                    .collect::<String>(),
+            )
         })
     }
 
