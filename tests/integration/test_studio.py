@@ -23,8 +23,10 @@ from sample_document import sample_document, sample_photo
 from veduta.facade.model import build_part
 from veduta.formats.gltf import write_glb
 from veduta.formats.place_json import write_place
+from veduta.place.about import AboutOptions
 from veduta.place.manifest import Bounds, Place, PlacePart, Start
 from veduta.run.errors import InputError
+from veduta.studio.card import CardOptions
 from veduta.studio.content import STATIC
 from veduta.studio.export import RECORD, export_web
 
@@ -233,6 +235,20 @@ class TestExport:
         recorded = json.loads((web / RECORD).read_text())["files"]
         assert set(recorded) == names - {RECORD}
         assert not export_web(place, web).written
+
+    def test_says_what_is_given_of_the_place(self, place: Path, tmp_path: Path) -> None:
+        web, picture = tmp_path / "web", place / "sample" / "rectified.jpg"
+        about = AboutOptions(title="The square", licence="CC0-1.0")
+        export_web(place, web, about=about, card=CardOptions(picture=picture))
+        manifest = json.loads((web / "place.json").read_text())
+        assert (manifest["title"], manifest["licence"]) == ("The square", "CC0-1.0")
+        assert "title" not in json.loads((place / "place.json").read_text())
+        page = (web / "index.html").read_text()
+        assert "<title>The square · Veduta</title>" in page
+        assert 'content="card.jpg"' in page
+        assert "Content-Security-Policy" in page
+        assert (web / "card.jpg").stat().st_size > 1000
+        assert "card.jpg" in json.loads((web / RECORD).read_text())["files"]
 
     def test_refuses_a_folder_of_others(self, place: Path, tmp_path: Path) -> None:
         (tmp_path / "thesis.txt").write_text("years of work")

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from veduta.cli.export_call import ExportCall
+    from veduta.place.place import Place
     from veduta.place.registry import PlaceFormat
 
 SUMMARY = "Write a place in another format, or as a folder that any web server can show"
@@ -32,6 +33,10 @@ def run(argv: list[str]) -> int:
         )
     if (call.to is None) != (call.folder is None):
         raise InputError("--to and -o", "go together", "Write `--to obj,stl -o FOLDER`.")
+    if call.web is None and call.card != type(call.card)():
+        raise InputError(
+            "--picture and --address", "are for the card of a web page", "Give --web DIR with them."
+        )
     return _web(call, call.web) if call.web is not None else _files(call)
 
 
@@ -67,10 +72,9 @@ def _write(call: ExportCall, targets: list[tuple[PlaceFormat, Path]]) -> None:
     import tempfile
 
     from veduta.place.holding import left_out_of, require_held
-    from veduta.place.place import Place
     from veduta.run.errors import InputError, UnwritableError
 
-    place = Place.load(call.out)
+    place = _told(call)
     for one, target in targets:
         require_held(place, one, target)
     folder = targets[0][1].parent
@@ -80,7 +84,7 @@ def _write(call: ExportCall, targets: list[tuple[PlaceFormat, Path]]) -> None:
         folder.mkdir(parents=True, exist_ok=True)
         with tempfile.TemporaryDirectory(prefix=".export.", suffix=".tmp", dir=folder) as name:
             for _, target in targets:
-                _make(call.out, Path(name) / target.name, target)
+                _make(place, call.out, Path(name) / target.name, target)
             _move(Path(name), targets, force=call.force)
     except OSError as error:
         fault = f"cannot be written ({error.strerror})"
@@ -93,14 +97,23 @@ def _write(call: ExportCall, targets: list[tuple[PlaceFormat, Path]]) -> None:
             print(f"  not in it, as the format has no word for them: {', '.join(lacking)}")
 
 
-def _make(out: Path, made: Path, target: Path) -> None:
+def _told(call: ExportCall) -> Place:
+    """The place, with the words that were given."""
+    from veduta.place.place import Place
+
+    place = Place.load(call.out)
+    for name, words in call.about.given().items():
+        setattr(place, name, words)
+    return place
+
+
+def _make(place: Place, out: Path, made: Path, target: Path) -> None:
     """Write the place to `made`; errors name the target."""
     from veduta.place.flatten import TooManyTrianglesError
-    from veduta.place.place import Place
     from veduta.run.errors import InputError
 
     try:
-        Place.load(out).write(made)
+        place.write(made)
     except TooManyTrianglesError as error:
         raise InputError(out, str(error), "Write .glb, which has them once each.") from error
     except InputError as error:
@@ -129,7 +142,7 @@ def _move(work: Path, targets: list[tuple[PlaceFormat, Path]], *, force: bool) -
 def _web(call: ExportCall, web: Path) -> int:
     from veduta.studio.export import export_web
 
-    result = export_web(call.out, web, force=call.force)
+    result = export_web(call.out, web, about=call.about, card=call.card, force=call.force)
     if result.written:
         print(f"{web}: {result.files} files, {result.size_bytes / 1e6:.1f} MB")
     else:

@@ -2,11 +2,14 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Annotated
 
 import tyro
+
+from veduta.place.about import AboutOptions
+from veduta.studio.card import CardOptions
 
 Place = Annotated[
     tyro.conf.Positional[Path],
@@ -73,4 +76,6 @@ class ExportCall:
     to: To = None
     folder: Folder = None
     web: Web = None
+    about: AboutOptions = field(default_factory=AboutOptions)
+    card: CardOptions = field(default_factory=CardOptions)
     force: Force = False

@@ -18,10 +18,15 @@ LARGEST_BYTES = 256 * 2**20
 
 def write_place(place: Place, path: Path) -> None:
     """Write the manifest as indented JSON."""
+    write_bytes(path, manifest_bytes(place))
+
+
+def manifest_bytes(place: Place) -> bytes:
+    """The manifest as indented JSON."""
     unsaid: dict[str, Any] = {name: True for name in LATER if not getattr(place, name)}
     unsaid["parts"] = {n: {"core"} for n, part in enumerate(place.parts) if part.core is None}
     text = place.model_dump_json(by_alias=True, indent=2, exclude=unsaid)
-    write_bytes(path, (text + "\n").encode())
+    return (text + "\n").encode()
 
 
 def read_place(path: Path) -> Place:

@@ -17,6 +17,11 @@ def file_digest(path: Path) -> str:
         return hashlib.file_digest(handle, "sha256").hexdigest()
 
 
+def bytes_digest(content: bytes) -> str:
+    """The SHA-256 of what a file is to hold."""
+    return hashlib.sha256(content).hexdigest()
+
+
 def result_key(step: str, version: str, options: Options, inputs: JsonValue) -> str:
     """The key of a result: it changes with the step's version, any option and any input.
 

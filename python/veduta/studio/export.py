@@ -2,7 +2,7 @@
 
 What is in the folder is recorded with digests in `veduta-web.json`. A file that is not in the
 record, or differs from it, is the user's: the folder is then never replaced, not even with
-`force`. The folder appears whole or not at all.
+`force`. The folder appears whole or not at all. The words of the place stand in the head of its page.
 """
 
 from __future__ import annotations
@@ -16,13 +16,17 @@ from pathlib import Path
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from veduta.formats.place_json import manifest_bytes, read_place
+from veduta.place.about import AboutOptions
 from veduta.run.atomic import atomic_folder, write_bytes
-from veduta.run.digests import file_digest
+from veduta.run.digests import bytes_digest, file_digest
 from veduta.run.errors import InputError
+from veduta.studio.card import CARD, CardOptions, card_picture, checked_address, page_of
 from veduta.studio.content import MANIFEST, place_folder, studio_folder
 from veduta.studio.parts import part_files
 
 RECORD = "veduta-web.json"
+PAGE = "index.html"
 # How many foreign files a message names.
 _NAMED = 5
 
@@ -46,14 +50,28 @@ class ExportResult:
     size_bytes: int
 
 
-def export_web(out: Path, web: Path, *, force: bool = False) -> ExportResult:
-    """Write the place in `out` to the folder `web`; raises InputError where that may not be."""
+def export_web(
+    out: Path,
+    web: Path,
+    *,
+    about: AboutOptions | None = None,
+    card: CardOptions | None = None,
+    force: bool = False,
+) -> ExportResult:
+    """Write the place in `out` to the folder `web`; raises InputError where that may not be.
+
+    about: words that take the place of those in `place.json`. card: what a link to it is shown with.
+    """
     place = place_folder(out, "export")
-    sources = _sources(studio_folder(), place)
-    record = WebRecord(files={name: file_digest(path) for name, path in sources.items()})
+    said = _said(studio_folder(), place, about or AboutOptions(), card or CardOptions())
+    sources = _sources(studio_folder(), place, said)
+    record = WebRecord(files={name: _digest(source) for name, source in sources.items()})
     target = _resolved_target(web, place)
     earlier = _earlier(target)
-    size = sum(path.stat().st_size for path in sources.values())
+    size = sum(
+        len(source) if isinstance(source, bytes) else source.stat().st_size
+        for source in sources.values()
+    )
     if earlier == record:
         return ExportResult(written=False, files=len(sources), size_bytes=size)
     if earlier is not None and not force:
@@ -66,8 +84,26 @@ def export_web(out: Path, web: Path, *, force: bool = False) -> ExportResult:
     return ExportResult(written=True, files=len(sources), size_bytes=size)
 
 
-def _sources(static: Path, place: Path) -> dict[str, Path]:
-    """Every file of the export: its path in the folder and where it comes from."""
+def _said(static: Path, place: Path, about: AboutOptions, card: CardOptions) -> dict[str, bytes]:
+    """The files that are written for this export: the page, its card, and the manifest."""
+    told = read_place(place / MANIFEST).model_copy(update=about.given())
+    made: dict[str, bytes] = {}
+    if about.given():
+        made[MANIFEST] = manifest_bytes(told)
+    if card.picture is not None:
+        made[CARD] = card_picture(card.picture)
+    address = None if card.address is None else checked_address(card.address)
+    page = (static / PAGE).read_text(encoding="utf-8")
+    made[PAGE] = page_of(page, told, address=address, picture=CARD in made).encode()
+    return made
+
+
+def _digest(source: Path | bytes) -> str:
+    return bytes_digest(source) if isinstance(source, bytes) else file_digest(source)
+
+
+def _sources(static: Path, place: Path, said: dict[str, bytes]) -> dict[str, Path | bytes]:
+    """Every file of the export: its path in the folder, and where it comes from or its content."""
     studio = {
         path.relative_to(static).as_posix(): path
         for path in sorted(static.rglob("*"))
@@ -75,13 +111,13 @@ def _sources(static: Path, place: Path) -> dict[str, Path]:
     }
     files = {MANIFEST: place / MANIFEST, **part_files(place)}
     for name in files:
-        if name in studio or name == RECORD:
+        if name in studio or name in (RECORD, CARD):
             raise InputError(
                 place / MANIFEST,
                 f'a part is named "{name}", which is a file of the studio',
                 "Give the part another name.",
             )
-    return studio | files
+    return studio | files | said
 
 
 def _resolved_target(web: Path, place: Path) -> Path:
@@ -146,7 +182,7 @@ def _foreign_files(target: Path, record: WebRecord) -> list[str]:
     return foreign
 
 
-def _write(sources: dict[str, Path], record: WebRecord, target: Path) -> None:
+def _write(sources: dict[str, Path | bytes], record: WebRecord, target: Path) -> None:
     """Write beside the target, then put the whole in its place."""
     # A full export cannot be renamed over a folder that has files: set that one aside first.
     aside = _set_aside(target)
@@ -155,7 +191,10 @@ def _write(sources: dict[str, Path], record: WebRecord, target: Path) -> None:
             for name, source in sources.items():
                 copy = temporary / name
                 copy.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copyfile(source, copy)
+                if isinstance(source, bytes):
+                    write_bytes(copy, source)
+                else:
+                    shutil.copyfile(source, copy)
             content = json.dumps(record.model_dump(by_alias=True), indent=1) + "\n"
             write_bytes(temporary / RECORD, content.encode())
     except BaseException:
