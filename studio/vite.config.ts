@@ -34,6 +34,7 @@ function contentSecurityPolicy(): Plugin {
 export default defineConfig({
   base: "./",
   plugins: [contentSecurityPolicy(), notices()],
+  worker: { format: "es" },
   build: {
     outDir: "../python/veduta/studio/static",
     emptyOutDir: true,

@@ -58,6 +58,7 @@ export async function openPlace(
   const drawing = Promise.all([
     import("../three/clouds.ts"),
     import("../three/frusta.ts"),
+    import("../three/grower.ts"),
     import("../three/houses.ts"),
     import("../three/load.ts"),
     import("../three/morph-show.ts"),
@@ -70,7 +71,7 @@ export async function openPlace(
   onProgress(0, "place.json");
   // The index of the place and the first models need none of it.
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
-  const [{ loadClouds }, { Frusta }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot }, { SharedImages }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] =
+  const [{ loadClouds }, { Frusta }, { Grower }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot, stillOf }, { SharedImages }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] =
     await drawing;
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
@@ -81,6 +82,8 @@ export async function openPlace(
       : new Town(fileAddress(tileset, address), budget.tileError_px, () => viewer?.invalidate(), onShown);
   const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
   const images = new SharedImages();
+  const alive = new Set(place.animals.map(({ part }) => part));
+  const grower = new Grower();
   const houses: LoadedHouse[] = [];
   let tables: readonly FeatureTable[] = parts.map(({ table }) => table);
   const shares = parts.map(() => 0);
@@ -91,7 +94,9 @@ export async function openPlace(
       shares[index] = total === null ? 0.5 : got / total;
       onProgress(0.97 * Math.max(0.02, mean(shares)), slot.part.model);
     });
-    slot.take(loaded);
+    loaded.group.updateMatrixWorld(true);
+    const meets = !slot.part.isBackdrop && !alive.has(index);
+    slot.take(loaded, meets ? await grower.solidOf(stillOf(loaded), index) : null);
     tables = [...tables]; // the panels count anew
     viewer?.take(index);
     const house = await loadHouse(slot, address, houses.length, onFault);

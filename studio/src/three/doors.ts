@@ -7,7 +7,8 @@ import { add, length, scale, subtract, type Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
 import type { LoadedPart } from "./load.ts";
 import type { Mover } from "./movers.ts";
-import { type Hit, Solid, soupOf } from "./solid.ts";
+import { type Hit, Solid } from "./solid.ts";
+import { soupOf } from "./soup.ts";
 
 interface Leaf {
   readonly mover: Mover;

@@ -7,6 +7,8 @@ import type { InstancedFeatures } from "./instanced-mesh.ts";
 import type { Masks } from "./invented-mask.ts";
 import type { LoadedPart } from "./load.ts";
 import type { Mover } from "./movers.ts";
+import type { Solid } from "./solid.ts";
+import type { Soupable } from "./soup.ts";
 
 /** Its group and its table stay the same when the model comes: who has them sees what is in them. */
 export class PartSlot implements LoadedPart {
@@ -17,6 +19,8 @@ export class PartSlot implements LoadedPart {
   masks: Masks = new Map();
   movers: readonly Mover[] = [];
   animations: readonly AnimationClip[] = [];
+  /** What of it one bumps into; null where there is nothing. */
+  solid: Solid | null = null;
   isThere = false;
 
   constructor(readonly part: Part) {
@@ -24,7 +28,9 @@ export class PartSlot implements LoadedPart {
     this.group.matrixAutoUpdate = false;
   }
 
-  take(loaded: LoadedPart): void {
+  /** `solid` is of what `stillOf` it. */
+  take(loaded: LoadedPart, solid: Solid | null): void {
+    this.solid = solid;
     const { table, group } = this;
     Object.assign(this, loaded, { table, group });
     this.table.rows = loaded.table.rows;
@@ -33,4 +39,10 @@ export class PartSlot implements LoadedPart {
     this.group.updateMatrixWorld(true);
     this.isThere = true;
   }
+}
+
+/** What of a part does not move. */
+export function stillOf({ meshes, instanced, movers }: LoadedPart): Soupable {
+  const moving = new Set(movers.flatMap((mover) => mover.meshes));
+  return { meshes: meshes.filter((mesh) => !moving.has(mesh)), instanced };
 }

@@ -10,7 +10,7 @@ import { add, type Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
 import { Doors } from "./doors.ts";
 import type { PartSlot } from "./part-slot.ts";
-import { type Hit, Solid, soupOf } from "./solid.ts";
+import { type Hit, Solid } from "./solid.ts";
 
 export class PlaceSolid implements Obstacles {
   readonly #slots: readonly PartSlot[];
@@ -34,10 +34,7 @@ export class PlaceSolid implements Obstacles {
     if (slot === undefined) return;
     this.#boxes[index] = null;
     if (slot.part.isBackdrop || this.#alive.has(index)) return;
-    const moving = new Set(slot.movers.flatMap((mover) => mover.meshes));
-    const still = { meshes: slot.meshes.filter((mesh) => !moving.has(mesh)), instanced: slot.instanced };
-    const soup = soupOf([still], index);
-    this.#solids[index] = soup.rowOfFace.length === 0 ? null : new Solid(soup);
+    this.#solids[index] = slot.solid;
     this.#doors.take(this.#slots, index);
   }
 

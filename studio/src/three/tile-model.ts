@@ -14,7 +14,7 @@ import {
 import { isProvenance, isSemanticClass, type Provenance, type SemanticClass } from "../core/classes.ts";
 import { worldFromDrawn } from "../core/frames.ts";
 import type { TileTable } from "../core/tile-table.ts";
-import type { Soup } from "./solid.ts";
+import type { Soup } from "./soup.ts";
 
 type Column = BufferAttribute | InterleavedBufferAttribute;
 

@@ -12,7 +12,8 @@ import { describe, expect, it } from "vitest";
 import type { FeatureTable } from "../../src/core/features.ts";
 import { facesOfInstances, instancedFeatures, showInstances } from "../../src/three/instanced-mesh.ts";
 import { gatherRepeated } from "../../src/three/repeated-nodes.ts";
-import { Solid, soupOf } from "../../src/three/solid.ts";
+import { Solid } from "../../src/three/solid.ts";
+import { soupOf } from "../../src/three/soup.ts";
 import { DEFAULT_WALK } from "../../src/core/walking.ts";
 
 const table = { rows: Array.from({ length: 4 }, (_, row) => ({ id: `${row}` })) } as unknown as FeatureTable;
