@@ -86,12 +86,15 @@ export class Town implements Obstacles {
   readonly #failed = new Set<Tile>();
   #changes = 0;
   readonly #missing = new Map<string, Fault>();
+  /** Of the place: files are named as they lie in it. */
+  readonly #folder: string;
   readonly #asking = new Asking(() => this.#askAgain());
   #state: StudioState | null = null;
 
   /** `error_px`: how wrong a tile may be on the screen; `onShown` is called when other tiles are shown than before. */
   constructor(address: URL, error_px: number, onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
+    this.#folder = new URL("..", address).href;
     this.#tiles = new FlatTiles(address.href);
     this.#error_px = error_px;
     this.#plain_px = error_px;
@@ -109,8 +112,7 @@ export class Town implements Obstacles {
     this.#tiles.addEventListener("load-error", ({ tile, error, url }) => {
       if (tile !== null) this.#failed.add(tile);
       this.#tiles.errorTarget = this.#plain_px;
-      const file = String(url).split("/").slice(-3).join("/");
-      this.#missing.set(String(url), new Absent(file, error.message, "Check that the server still runs (`veduta view`)."));
+      this.#missing.set(String(url), new Absent(this.#nameOf(String(url)), error.message, "Check that the server still runs (`veduta view`)."));
       this.#asking.failed();
       onShown();
     });
@@ -163,7 +165,7 @@ export class Town implements Obstacles {
 
   /** Tiles that did not come. */
   get missing(): Missing[] {
-    return [...this.#missing].map(([file, fault]) => ({ file, fault }));
+    return [...this.#missing].map(([url, fault]) => ({ file: this.#nameOf(url), fault }));
   }
 
   /** Does not wait for the end of a pause. */
@@ -286,6 +288,10 @@ export class Town implements Obstacles {
       if (traversal.wasSetVisible && !this.#tiles.visibleTiles.has(tile)) traversal.wasSetVisible = false;
     }
     this.#tiles.update();
+  }
+
+  #nameOf(url: string): string {
+    return url.startsWith(this.#folder) ? decodeURIComponent(url.slice(this.#folder.length)) : url;
   }
 
   #askAgain(): void {

@@ -106,4 +106,28 @@ describe.skipIf(MISSING !== null || url === undefined)("a town of tiles", () => 
       await browser.close();
     }
   }, 400_000);
+
+  it("names tiles that do not come, stops a walker meanwhile, and asks for them again", async () => {
+    const browser = await launch();
+    try {
+      const { page } = await open(browser, url ?? "", { viewport: { width: 700, height: 450 } });
+      await page.route("**/*-full.glb", (route) => route.abort());
+      await page.keyboard.press("2");
+      await settled(page);
+      await page.keyboard.down("w");
+      await page.waitForFunction(() => window.veduta?.walk().blocked === true, undefined, { timeout: PATIENCE_MS });
+      await page.keyboard.up("w");
+      await page.waitForFunction(() => (window.veduta?.stats().missing.length ?? 0) > 0, undefined, { timeout: PATIENCE_MS });
+      const words = (await page.locator("veduta-missing div").textContent()) ?? "";
+      expect(words).toContain("-full.glb");
+      expect(words).not.toContain("http");
+      await page.unroute("**/*-full.glb");
+      const came = page.waitForResponse((answer) => answer.url().endsWith("-full.glb") && answer.ok(), { timeout: PATIENCE_MS });
+      await page.getByRole("button", { name: "Ask now" }).click();
+      await came;
+      await page.waitForFunction(() => window.veduta?.stats().missing.length === 0, undefined, { timeout: PATIENCE_MS });
+    } finally {
+      await browser.close();
+    }
+  }, 400_000);
 });
