@@ -31,6 +31,7 @@ async function visit() {
   const context = await browser.newContext({ viewport: { width: 700, height: 450 }, deviceScaleFactor: 0.4 });
   const page = await context.newPage();
   await page.addInitScript(countGl);
+  await page.addInitScript(watchTasks);
   const network = await context.newCDPSession(page);
   await network.send("Network.enable");
   if (Number(mbit) > 0) {
@@ -63,11 +64,20 @@ async function visit() {
   await page.keyboard.up("KeyQ");
   const turned = await page.evaluate(look);
   const frames = Math.max(1, turned.frames - still.frames);
+  const stuck_s = await page.evaluate(() => window.longestTask_ms / 1000);
   const heap = await page.evaluate(() => (window.gc?.(), performance.memory.usedJSHeapSize));
   return {
     state, first_s, whole_s, requests: seen.requests, sent_MB: seen.bytes / 1e6,
     textures: turned.textures, card_MB: turned.texture_bytes / 1e6,
     draws: (turned.draws - still.draws) / frames, triangles: Math.round((turned.triangles - still.triangles) / frames),
-    heap_MB: heap / 1e6, frames,
+    heap_MB: heap / 1e6, stuck_s, frames,
   };
+}
+
+/** Runs in the page: for how long it did not answer at worst. */
+function watchTasks() {
+  window.longestTask_ms = 0;
+  new PerformanceObserver((list) => {
+    for (const { duration } of list.getEntries()) window.longestTask_ms = Math.max(window.longestTask_ms, duration);
+  }).observe({ type: "longtask", buffered: true });
 }
