@@ -35,6 +35,24 @@ class Scanner(_Record):
     )
 
 
+class FullScanner(_Record):
+    """A scanner that looks all around. table: Parquet with `time_s` and `file` beside it: scans as
+    .pcd, .las, .laz or .npy (n, 3), in metres; x forward, y left, z up.
+    """
+
+    table: Table
+    vehicle_from_scanner: Matrix = Field(
+        description="3x4 by rows; the vehicle has x forward, y left, z up and 0 on the road"
+    )
+    nearest_m: Annotated[Finite, Field(ge=0.0)] = Field(
+        default=2.2, description="what is nearer is the vehicle itself"
+    )
+    farthest_m: Annotated[Finite, Field(gt=0.0)] = 120.0
+    clock_offset_s: Finite = Field(
+        default=0.0, description="is added to its times to get those of the path"
+    )
+
+
 class CameraMount(_Record):
     """The camera. table: Parquet with `time_s` and `file` (beside drive.toml)."""
 
@@ -52,6 +70,11 @@ class PathTable(_Record):
 
     table: Table
     frame: Literal["world_from_vehicle"] = "world_from_vehicle"
+    tf: tuple[str, str] | None = Field(
+        default=None,
+        description="where the table is a topic of transforms (tf): names of the world's frame and"
+        " of the vehicle's",
+    )
 
 
 class Surface(_Record):
@@ -88,8 +111,8 @@ class Positions(_Record):
 class Bag(_Record):
     """A ROS 1 bag, a folder of a ROS 2 bag, or an MCAP file. topics: of each table, by its name.
 
-    LaserScan becomes a table of scans; Odometry or PoseStamped of poses; NavSatFix of positions;
-    CompressedImage of images.
+    LaserScan becomes a table of scans, PointCloud2 of full ones; Odometry, PoseStamped or tf of
+    poses; NavSatFix of positions; CompressedImage of images.
     """
 
     file: str = Field(min_length=1, max_length=4096)
@@ -103,7 +126,8 @@ class DriveLog(_Record):
     crs: str | None = Field(default=None, description="EPSG:code of the path's coordinates")
     vertical_datum: str | None = Field(default=None, max_length=256)
     origin: tuple[Finite, Finite, Finite] = (0.0, 0.0, 0.0)
-    vertical: Scanner
+    vertical: Scanner | None = None
+    full: FullScanner | None = None
     horizontal: Scanner | None = None
     camera: CameraMount | None = None
     path: PathTable | None = None

@@ -11,20 +11,21 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from veduta.drive.document.log import CameraMount, DriveLog, Scanner
+from veduta.drive.document.log import DriveLog, Scanner
 from veduta.drive.read.bag import unpack_bag
 from veduta.drive.read.clocks import clock_apart, shared_beams
+from veduta.drive.read.full_scans import read_full
+from veduta.drive.read.poses import poses_at, poses_of
 from veduta.drive.read.scanned_path import find_path
+from veduta.drive.read.shots import shots_of
 from veduta.drive.read.spacing import equally_spaced
 from veduta.drive.read.spool import SpooledScans
 from veduta.drive.read.surface_model import read_heights
-from veduta.drive.read.tables import list_column, read_table, time_column
 from veduta.drive.record import DriveRecord, Shot, Sweep
 from veduta.run.errors import InputError
 
 LOG = "drive.toml"
 _MOST_BYTES = 1 << 20
-_LONGEST_NAME, _LONGEST_PATH = 255, 1024
 _CLOCK_SCANS = 20_000
 """Scans at the start of a drive from which clocks are compared."""
 _SAME_CLOCK_S = 0.005
@@ -72,13 +73,18 @@ def read_own(
         notes += unpack_bag(folder, log, log.bag, source, told)
     else:
         source = folder
+    if log.full is not None:
+        return read_full(source, log, log.full, seed, notes)
+    if log.vertical is None:
+        fault = "names neither a [vertical] scanner nor [full] scans"
+        raise InputError(folder / LOG, fault, "docs/drive.md describes both.")
     vertical = SpooledScans(source / log.vertical.table)
     scanner = log.vertical
     corrections: tuple[tuple[float, NDArray[np.float64], str], ...] = ()
     doubts: tuple[str, ...] = ()
     origin, crs = log.origin, log.crs
     if log.path is not None:
-        times, poses = _poses(source / log.path.table)
+        times, poses = poses_of(source / log.path.table)
         path_from = "poses of the log"
     elif log.horizontal is not None:
         level = SpooledScans(source / log.horizontal.table)
@@ -94,7 +100,7 @@ def read_own(
     sweeps = _sweeps(vertical, source / scanner.table, scanner, times, poses, spacing_m, notes)
     shots: tuple[Shot, ...] = ()
     if log.camera is not None:
-        shots = _shots(source, log.camera, times, poses, notes)
+        shots = shots_of(source, log.camera, times, poses, notes)
     height_m = float(scanner.vehicle_from_scanner[11])
     return DriveRecord(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
@@ -139,39 +145,6 @@ def read_toml(path: Path) -> DriveLog:
         raise InputError(path, f"{place}: {first['msg']}", "docs/drive.md describes it.") from error
 
 
-def _poses(path: Path) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
-    """(p,) times in ascending order and (p, 3, 4) world_from_vehicle."""
-    table = read_table(path, ("time_s", "matrix"))
-    times, rows = time_column(path, table), list_column(path, table, "matrix")
-    if rows.shape[1:] != (12,) or len(rows) < 2 or not np.isfinite(rows).all():
-        fault = "has not two poses of twelve numbers"
-        raise InputError(path, fault, "Each is a 3x4 matrix by rows.")
-    order = np.argsort(times, kind="stable")
-    return times[order], rows[order].reshape(-1, 3, 4)
-
-
-def _at(
-    wanted: NDArray[np.float64], times: NDArray[np.float64], poses: NDArray[np.float64]
-) -> NDArray[np.float64]:
-    """(n, 4, 4) the poses at some times: positions linearly, turns along the chord."""
-    after = np.clip(np.searchsorted(times, wanted), 1, len(times) - 1)
-    span = np.maximum(times[after] - times[after - 1], 1e-9)
-    share = np.clip((wanted - times[after - 1]) / span, 0.0, 1.0)[:, None, None]
-    mixed = (1.0 - share) * poses[after - 1] + share * poses[after]
-    left, _, right = np.linalg.svd(mixed[:, :, :3])
-    found = np.tile(np.eye(4), (len(wanted), 1, 1))
-    found[:, :3, :3] = left @ right
-    found[:, :3, 3] = mixed[:, :, 3]
-    return found
-
-
-def _is_name(name: str) -> bool:
-    """Whether a file may be called so: the system refuses to look for other names."""
-    own = name.encode("utf-8", "replace")
-    longest = max(len(part) for part in own.split(b"/"))
-    return longest <= _LONGEST_NAME and len(own) <= _LONGEST_PATH and b"\0" not in own
-
-
 def _sweeps(
     scans: SpooledScans,
     path: Path,
@@ -194,7 +167,7 @@ def _sweeps(
     for gap in np.flatnonzero(silent > _SILENT_S).tolist():
         notes.append(f"the vertical scanner is silent for {silent[gap]:.1f} s")
     mount = np.vstack([np.reshape(scanner.vehicle_from_scanner, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
-    places = _at(own[order], times, poses) @ mount
+    places = poses_at(own[order], times, poses) @ mount
     kept = equally_spaced(places[:, :3, 3], spacing_m)
     if len(kept) < len(order):
         notes.append(f"{len(kept)} of {len(order)} vertical scans are used: {spacing_m} m apart")
@@ -216,37 +189,3 @@ def _reader(
         return np.asarray(beams[kept] * ranges[kept, None], dtype=np.float64)
 
     return read
-
-
-def _shots(
-    folder: Path,
-    camera: CameraMount,
-    times: NDArray[np.float64],
-    poses: NDArray[np.float64],
-    notes: list[str],
-) -> tuple[Shot, ...]:
-    path = folder / camera.table
-    table = read_table(path, ("time_s", "file"))
-    own = time_column(path, table) + camera.clock_offset_s
-    mount = np.vstack([np.reshape(camera.vehicle_from_camera, (3, 4)), [0.0, 0.0, 0.0, 1.0]])
-    places = _at(own, times, poses) @ mount
-    shots, missing = [], 0
-    for name, time_s, place in zip(table["file"].to_pylist(), own, places, strict=True):
-        if not _is_name(str(name)):
-            raise InputError(path, "has a name that no file has", "Give the images' names.")
-        file = (folder / str(name)).resolve()
-        if not file.is_relative_to(folder.resolve()):
-            fault = f"names an image outside of the folder ({name})"
-            raise InputError(path, fault, "Put the images beside the table.")
-        if not file.is_file():
-            missing += 1
-            continue
-        shots.append(
-            Shot(
-                file.stem, file, float(time_s), camera.width_px, camera.height_px,
-                camera.focal_px, camera.centre_px, place,
-            )
-        )  # fmt: skip
-    if missing:
-        notes.append(f"{missing} of {len(own)} images are missing")
-    return tuple(shots)
