@@ -735,6 +735,27 @@ class VehicleParticles:
         share of the second ones where something stands.
         """
 
+# occupancy.rs
+class CoverFault(ValueError): ...
+
+def capsules_cover(
+    start: _Array1[np.int64],
+    end: _Array1[np.int64],
+    joints: _Array3[np.float32],
+    deep: _Array1[np.float32],
+    places: _Array2[np.float32],
+    shares: _Array2[np.float32],
+    weights: _Array1[np.float32],
+    soft: float,
+) -> tuple[_Array1[np.float64], _Array3[np.float64], _Array2[np.float64]]:
+    """Soft occupancy of tapered capsules against silhouettes, with its gradients.
+
+    start, end: (s,) joints of each segment. joints: (t, j, 2). deep: (j,) half of the thickness.
+    places: (p, 2) looked at. shares: (t, p) how much of each place the silhouette has. weights: (p,)
+    how much it counts. soft: how wide an edge is. All lengths are in one unit. The loss (t,) of each
+    frame, and its gradients by joints (t, j, 2) and thicknesses (t, j).
+    """
+
 # polygons.rs
 class PolygonFault(ValueError): ...
 class BadOffsetsError(PolygonFault): ...

@@ -21,6 +21,7 @@ mod interruptible;
 mod limits;
 mod linking;
 mod localise;
+mod occupancy;
 mod pace;
 mod polygons;
 mod roofs;
@@ -48,6 +49,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     limits::register(m)?;
     localise::register(m)?;
     linking::register(m)?;
+    occupancy::register(m)?;
     derivation::register(m)?;
     roofs::register(m)?;
     rules::register(m)?;

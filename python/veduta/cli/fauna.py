@@ -15,8 +15,9 @@ def run(arguments: list[str]) -> int:
 
     call = parse(FaunaCall, "veduta fauna", arguments)
     record = Record(
-        call.footage, call.masks, call.background, call.place, call.path, call.plan, call.joints
-    )
+        call.footage, call.masks, call.background, call.place, call.path, call.plan, call.joints,
+        call.markers,
+    )  # fmt: skip
     progress = Progress(quiet=call.quiet)
     result = run_fauna(record, call.out, call.options(), progress, force=call.force)
     return tell_result(result, quiet=call.quiet)

@@ -73,9 +73,20 @@ OwnPlan = Annotated[
 Joints = Annotated[
     Path | None,
     tyro.conf.arg(
-        metavar="CSV",
+        metavar="FILE",
         help_behavior_hint="",
-        help="where the joints of an animal with legs are, as DeepLabCut writes it; gaps may be",
+        help=(
+            "where the joints of an animal with legs are: a CSV as DeepLabCut writes it, or a JSON"
+            " as BADJA has it; gaps may be"
+        ),
+    ),
+]
+Markers = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="TOML",
+        help_behavior_hint="",
+        help="markers that are painted on the joints of an animal with legs, by their colours",
     ),
 ]
 
@@ -100,6 +111,7 @@ class FaunaCall:
     path: Way = None
     plan: OwnPlan = None
     joints: Joints = None
+    markers: Markers = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

@@ -8,7 +8,7 @@ import numpy as np
 from pydantic import JsonValue
 
 from veduta.fauna.build.build import Built, build_animal, goer_of
-from veduta.fauna.build.going import Goer, place_of
+from veduta.fauna.build.going import Goer, place_of, round_path
 from veduta.fauna.build.into_place import place_into, require_place
 from veduta.fauna.document.coat import COAT, load_coat, save_coat
 from veduta.fauna.document.limbed import LimbedAnimal
@@ -19,8 +19,9 @@ from veduta.fauna.limbed_recipe import read_limbed
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.path.given import read_path
 from veduta.fauna.path.plan import PathLimits
-from veduta.fauna.path.terrain import terrain_of
+from veduta.fauna.path.terrain import Terrain, terrain_of
 from veduta.fauna.path.through import FoundPath, path_through
+from veduta.fauna.path_command import write_on_path
 from veduta.fauna.path_picture import path_picture
 from veduta.fauna.pictures import gait_picture
 from veduta.fauna.recipe import Record, read_record
@@ -76,7 +77,7 @@ def _make(work: Work, record: Record, options: FaunaOptions) -> None:
         goer = make_limbed(work, animal, coat, options)
     else:
         goer = _limbless(work, animal, coat, options)
-    goal = None
+    goal: tuple[Place, FoundPath, Terrain] | None = None
     if record.place is not None:
         goal = _plan(work, record.place, record.way, goer.length_m)
     with work.step("writing"):
@@ -84,12 +85,17 @@ def _make(work: Work, record: Record, options: FaunaOptions) -> None:
         if coat is not None:
             save_coat(coat, work.folder / COAT)
             work.file(COAT, "its coat from the footage; half transparent where it is invented")
-        write_mesh_glb(goer.mesh, work.folder / MODEL)
+        write_mesh_glb(goer.mesh, work.folder / MODEL, rigged=True)
         if goal is None:
             place_of(goer).save(work.folder)
         else:
-            place, path = goal
+            place, path, _ = goal
             place_into(place, goer, path.points_m, closed=path.closed).save(work.folder)
+    if goal is None:
+        write_on_path(work, goer, round_path(goer.length_m), None, closed=True)
+    else:
+        path, terrain = goal[1:]
+        write_on_path(work, goer, path.points_m, terrain.footing, closed=path.closed)
     for name, meaning in (
         (MODEL, "the animal with its skeleton and clips (glTF)"),
         (DOCUMENT, "what was found, to edit and to build from again"),
@@ -110,6 +116,10 @@ def _document(
     if record.plan is not None or options.animal.limbless is None:
         limbed = read_limbed(work, record, options)
         return limbed.animal, limbed.coat
+    marked = record.joints or record.markers
+    if marked is not None:
+        fault = f"has joints of a body plan, and a {options.animal.kind} is read by its axis alone"
+        raise InputError(marked, fault, "Choose --kind quadruped or lizard, or give a --plan.")
     if options.animal.view == "side":
         fault = "is to be seen from the side, but an animal without limbs is read from above"
         raise InputError(record.path, fault, "Give footage from above, or a body plan (--plan).")
@@ -127,8 +137,10 @@ def _limbless(work: Work, animal: Animal, coat: Texture | None, options: FaunaOp
     return goer_of(animal, built)
 
 
-def _plan(work: Work, folder: Path, way: Path | None, length: float) -> tuple[Place, FoundPath]:
-    """The place, and the path through it of an animal so long (m)."""
+def _plan(
+    work: Work, folder: Path, way: Path | None, length: float
+) -> tuple[Place, FoundPath, Terrain]:
+    """The place, the path through it of an animal so long (m), and its ground."""
     with work.step("place"):
         place = Place.load(folder)
         require_place(place, folder)
@@ -146,7 +158,7 @@ def _plan(work: Work, folder: Path, way: Path | None, length: float) -> tuple[Pl
         path_picture(terrain, found),
         wide=True,
     )
-    return place, found
+    return place, found, terrain
 
 
 def _tell(work: Work, animal: Animal, built: Built) -> None:

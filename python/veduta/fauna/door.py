@@ -24,6 +24,7 @@ def read_animal(
     path: str | Path | None = None,
     plan: str | Path | None = None,
     joints: str | Path | None = None,
+    markers: str | Path | None = None,
     force: bool = False,
     **options: Any,
 ) -> Place:
@@ -33,12 +34,13 @@ def read_animal(
     masks: a folder of silhouettes, one for each frame. background: a picture without the animal.
     place: the folder of a place that the animal is put into. path: GeoJSON of its way there.
     plan: a TOML with a body plan of your own.
-    joints: a CSV of them as DeepLabCut writes it.
+    joints: a CSV of them as DeepLabCut writes it. markers: a TOML with the colours of painted ones.
     out: a folder for all that `veduta fauna -o OUT` writes; without it nothing stays. options: as
     on the command line. InputError names what cannot be used; NotFoundError says what is not in it.
     """
     chosen = options_of(FaunaOptions, options)
-    given = [path_or_none(one) for one in (masks, background, place, path, plan, joints)]
+    paths = (masks, background, place, path, plan, joints, markers)
+    given = [path_or_none(one) for one in paths]
     record = Record(Path(footage), *given)
     return place_of_run(
         out,

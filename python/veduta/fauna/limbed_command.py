@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from veduta.fauna.build.going import Goer
 from veduta.fauna.build.limbed import BuiltLimbed, build_limbed
+from veduta.fauna.build.walker import limbed_walker
 from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.options import FaunaOptions
 from veduta.place.material import Texture
@@ -19,7 +20,8 @@ def make_limbed(
         built = build_limbed(animal, coat, options.motion.speed)
         step.counts["clips"] = len(built.clips)
     _tell(work, animal, built)
-    return Goer(animal.name, built.mesh, animal.length.metres, False, built.clips)
+    length = animal.length.metres
+    return Goer(animal.name, built.mesh, length, False, built.clips, limbed_walker(built))
 
 
 def _tell(work: Work, animal: LimbedAnimal, built: BuiltLimbed) -> None:

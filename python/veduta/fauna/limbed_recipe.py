@@ -13,9 +13,9 @@ from veduta.fauna.document.schema import Source
 from veduta.fauna.limbed_pictures import chart_picture, figures_picture
 from veduta.fauna.motion.figure import Floats, figure_of
 from veduta.fauna.options import FaunaOptions
+from veduta.fauna.pins_recipe import pins_of
 from veduta.fauna.read.drawn import drawn_figure
-from veduta.fauna.read.footage import Footage, pictures_in
-from veduta.fauna.read.joints import read_joints
+from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.limbed import LimbedLooks, LimbedSeen, fit_limbed
 from veduta.fauna.read.limbed_coat import coat_of_plane
 from veduta.fauna.read.limbed_document import described_limbs, scaled_animal
@@ -59,16 +59,13 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
     """The document of the animal in footage, and its coat."""
     plan = plan_for(record, options)
     footage, moved = still_footage(work, record, options)
-    if record.joints is not None and moved:
-        fault = "are places in the pictures, and the camera of these moves"
-        raise InputError(record.joints, fault, "Give masks (--masks), too.")
     with work.step("silhouettes") as step:
         found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
         step.counts["good"] = len(found.rows)
         left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
         step.rejected.extend(left_out)
     found = _fewer(found)
-    pins = _pins(work, record, footage, plan)
+    pins = pins_of(work, record, footage, found, plan, options.footage.individual, moved=moved)
     with work.step("figure") as step:
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),
@@ -93,21 +90,6 @@ def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed
         coat = _coat(footage, found, seen, plan, joints)
     _tell(work, footage, found, seen, joints, overlaps, animal)
     return ReadLimbed(animal.model_copy(update={"coat": COAT}), coat)
-
-
-def _pins(work: Work, record: Record, footage: Footage, plan: BodyPlan) -> dict[str, Floats]:
-    """The marked joints by the frames of the footage; none where no CSV is given."""
-    if record.joints is None:
-        return {}
-    files: list[str] = []
-    if record.path.is_dir():
-        files = [picture.name for picture in pictures_in(record.path)]
-    count = max(len(files), int(footage.number[-1]) + 1)
-    with work.step("joints") as step:
-        marked = read_joints(record.joints, count, figure_of(plan).names, files)
-        step.counts["joints"] = len(marked.px)
-        step.rejected.extend(f"{name}: no joint of the body plan" for name in marked.unknown)
-    return {name: places[footage.number] for name, places in marked.px.items()}
 
 
 def _fewer(found: Silhouettes) -> Silhouettes:

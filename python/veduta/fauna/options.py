@@ -51,6 +51,15 @@ class FootageOptions(Options):
         le=10_000.0,
         description="frames a second; else as the video says, 25 for a folder of frames",
     )
+    crop: tuple[int, int, int, int] | None = Field(
+        default=None,
+        description="left, top, width and height of the piece of the frames that is read, px",
+    )
+    individual: str | None = Field(
+        default=None,
+        max_length=256,
+        description="which animal of a CSV of joints that has several",
+    )
 
 
 class MotionOptions(Options):

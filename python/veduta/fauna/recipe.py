@@ -14,7 +14,7 @@ from veduta.fauna.motion.angles import angles_of
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.pictures import angles_over_time, angles_picture, axes_picture
 from veduta.fauna.read.coat import coat_from_above
-from veduta.fauna.read.footage import Footage, read_footage
+from veduta.fauna.read.footage import Footage, cropped, read_footage
 from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
@@ -30,7 +30,7 @@ from veduta.run.work import Work
 class Record:
     """What the user gives: the footage, perhaps masks and a background picture, and perhaps a place
     for the animal to go in, with the points of its way, a body plan
-    of their own, and joints that are marked already.
+    of their own, joints that are marked already, and the colours of painted markers.
     """
 
     path: Path
@@ -40,6 +40,7 @@ class Record:
     way: Path | None = None
     plan: Path | None = None
     joints: Path | None = None
+    markers: Path | None = None
 
     @property
     def files(self) -> tuple[Path | None, ...]:
@@ -52,6 +53,7 @@ class Record:
             self.way,
             self.plan,
             self.joints,
+            self.markers,
         )
 
 
@@ -91,6 +93,7 @@ def still_footage(work: Work, record: Record, options: FaunaOptions) -> tuple[Fo
     """The frames as of a camera that stands still, and whether it moved."""
     with work.step("frames") as step:
         footage = read_footage(record.path, options.footage.fps)
+        footage = cropped(footage, options.footage.crop, record.path.name)
         step.counts["frames"] = len(footage.frames)
     if footage.assumed:
         work.doubt(

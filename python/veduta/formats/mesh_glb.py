@@ -18,6 +18,7 @@ from scipy.spatial.transform import Rotation
 from veduta.formats.gltf import feature_columns
 from veduta.formats.gltf_bin import GltfBin, glb_container, y_up
 from veduta.formats.gltf_materials import CLAMP, REPEAT, GltfMaterials
+from veduta.formats.gltf_rig import rig_for_others
 from veduta.imaging.srgb import linear_of_srgb
 from veduta.place.mesh import Mesh
 from veduta.place.skin import Clip, Skin
@@ -34,13 +35,16 @@ Y_UP = np.array([[1.0, 0.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0], [0.0, -1.0, 0.0, 0.
 """glTF's frame from the part's."""
 
 
-def write_mesh_glb(mesh: Mesh, path: Path) -> None:
-    """Write the mesh; the file appears whole or not at all."""
-    write_bytes(path, mesh_glb_bytes(mesh))
+def write_mesh_glb(mesh: Mesh, path: Path, *, rigged: bool = False) -> None:
+    """Write the mesh; the file appears whole or not at all. rigged: see `mesh_glb_bytes`."""
+    write_bytes(path, mesh_glb_bytes(mesh, rigged=rigged))
 
 
-def mesh_glb_bytes(mesh: Mesh) -> bytes:
-    """The content of a GLB file of the mesh."""
+def mesh_glb_bytes(mesh: Mesh, *, rigged: bool = False) -> bytes:
+    """The content of a GLB file of the mesh.
+
+    rigged: for other programs, as `formats.gltf_rig` says; Veduta does not read that back.
+    """
     binary = GltfBin()
     told = {
         "mesh": True,
@@ -69,6 +73,8 @@ def mesh_glb_bytes(mesh: Mesh) -> bytes:
         _add_skin(root, mesh.skin, binary)
         for clip in mesh.clips:
             _add_clip(root, mesh.skin, clip, binary)
+    if rigged and mesh.skin is not None:
+        rig_for_others(root, mesh, binary)
     root["bufferViews"] = binary.views
     root["accessors"] = binary.accessors
     binary.content.extend(b"\0" * (-len(binary.content) % 4))
@@ -229,9 +235,18 @@ def _add_clip(root: dict[str, Any], skin: Skin, clip: Clip, binary: GltfBin) -> 
             "name": clip.name,
             "channels": channels,
             "samplers": samplers,
-            "extras": {"veduta": {"loops": clip.loops}},
+            "extras": {"veduta": {"loops": clip.loops, **_contacts(clip)}},
         }
     )
+
+
+def _contacts(clip: Clip) -> dict[str, Any]:
+    """When each foot stands (s), for who plays the clip; nothing where that is not known."""
+    found = [
+        {"foot": one.foot, "joint": one.joint, "down_s": [list(pair) for pair in one.down_s]}
+        for one in clip.contacts
+    ]
+    return {"contacts": found} if found else {}
 
 
 def _is_still(keys: NDArray[np.float64], rested: NDArray[np.float64]) -> bool:

@@ -15,7 +15,7 @@ from veduta.formats.mesh_glb import Y_UP
 from veduta.imaging.srgb import srgb_of_linear
 from veduta.place.mesh import Mesh
 from veduta.place.part import Part
-from veduta.place.skin import Clip, Morph, Skin
+from veduta.place.skin import Clip, Contact, Morph, Skin
 from veduta.run.errors import InputError
 
 _OWN = {"mesh", "features", "attributes", "notes"}
@@ -131,6 +131,11 @@ def _clips(glb: Glb, skin: Skin) -> list[Clip]:
             joint = channel["target"]["node"] - first
             into = translations if channel["target"]["path"] == "translation" else rotations
             into[:, joint] = keys
-        loops = bool(told.get("extras", {}).get("veduta", {}).get("loops", False))
-        clips.append(Clip(told["name"], times, translations, rotations, loops))
+        more = told.get("extras", {}).get("veduta", {})
+        loops = bool(more.get("loops", False))
+        contacts = tuple(
+            Contact(one["foot"], one["joint"], tuple((a, b) for a, b in one["down_s"]))
+            for one in more.get("contacts", [])
+        )
+        clips.append(Clip(told["name"], times, translations, rotations, loops, contacts))
     return clips

@@ -31,10 +31,13 @@ _DIGITS = 4
 class X3dScene:
     """A scene as it grows. Names (DEF) are made unique, and of letters that XML ids may have."""
 
-    def __init__(self, title: str) -> None:
+    def __init__(
+        self, title: str, components: Sequence[tuple[str, int]] = (("Followers", 1),)
+    ) -> None:
         self._root = Element("X3D", {"profile": "Immersive", "version": "4.0"})
         head = ElementTree.SubElement(self._root, "head")
-        ElementTree.SubElement(head, "component", {"name": "Followers", "level": "1"})
+        for name, level in components:
+            ElementTree.SubElement(head, "component", {"name": name, "level": str(level)})
         for name, content in (("title", title), ("generator", f"Veduta {veduta.__version__}")):
             ElementTree.SubElement(head, "meta", {"name": name, "content": content})
         self.scene = ElementTree.SubElement(self._root, "Scene")
@@ -107,6 +110,11 @@ class X3dScene:
         look = self.node(shape, "Appearance", f"look-{material.name}")
         self._looks[key] = look.attrib["DEF"]
         self._material(look, material, glows=glows)
+
+    def appearance(self, shape: Element, material: Material) -> None:
+        """How a shape of a mesh looks."""
+        look = self.node(shape, "Appearance", f"look-{material.name}")
+        self._material(look, material, glows=True)
 
     def _material(self, look: Element, material: Material, *, glows: bool) -> None:
         texture = material.texture

@@ -56,13 +56,22 @@ class Skin:
         return local
 
 
+@dataclass(frozen=True)
+class Contact:
+    """When a foot stands in a clip. joint: its last one. down_s: from when to when, in order."""
+
+    foot: str
+    joint: str
+    down_s: tuple[tuple[float, float], ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Clip:
     """A motion of a skeleton, key by key: parent_from_joint at each time.
 
     times_s: (t,) ascending from 0. translations_m: (t, j, 3). rotations_xyzw: (t, j, 4), unit
     quaternions; the frame of a root's parent is the part's. loops: whether it begins anew at its
-    end without a jump.
+    end without a jump. contacts: when each foot stands, where that is known.
     """
 
     name: str
@@ -70,6 +79,7 @@ class Clip:
     translations_m: NDArray[np.float64]
     rotations_xyzw: NDArray[np.float64]
     loops: bool = False
+    contacts: tuple[Contact, ...] = ()
 
     def __post_init__(self) -> None:
         count = len(self.times_s)

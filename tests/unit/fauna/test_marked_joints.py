@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from dataclasses import replace
 from pathlib import Path
 
@@ -10,8 +11,9 @@ import pytest
 
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.motion.figure import figure_of
+from veduta.fauna.read.annotated import read_annotated
 from veduta.fauna.read.fit import Fit, FitLooks, spline_basis
-from veduta.fauna.read.joints import read_joints
+from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
 from veduta.fauna.read.windows import windows_of
 from veduta.run.errors import InputError
 
@@ -73,3 +75,60 @@ def test_a_marked_joint_pulls_the_figure_to_it() -> None:
     nose = joints[:, figure.names.index("nose")]
     away = np.linalg.norm(nose - marked, axis=1)[[0, 1, 3, 4]]
     assert away.max() < 6.0
+
+
+def test_an_index_of_three_columns_and_one_of_several_animals_are_read(tmp_path: Path) -> None:
+    path = tmp_path / "joints.csv"
+    path.write_text(
+        "scorer,,,me,me,me,me\nindividuals,,,a,a,b,b\nbodyparts,,,nose,nose,nose,nose\n"
+        "coords,,,x,y,x,y\nlabeled-data,dogs,img1.png,1,2,3,4\n"
+    )
+    with pytest.raises(InputError, match="several animals: a, b"):
+        read_joints(path, 2, NAMES, ())
+    with pytest.raises(InputError, match="has no animal 'c'"):
+        read_joints(path, 2, NAMES, (), "c")
+    found = read_joints(path, 2, NAMES, (), "b")
+    np.testing.assert_array_equal(found.px["nose"], [[np.nan, np.nan], [3.0, 4.0]])
+
+
+def test_joints_that_are_written_are_read_again(tmp_path: Path) -> None:
+    places = np.array([[1.5, 2.25], [np.nan, np.nan], [7.0, 8.0]])
+    path = tmp_path / "joints.csv"
+    path.write_text(written_joints(MarkedJoints({"nose": places}, ()), np.array([0, 2, 4])))
+    found = read_joints(path, 5, NAMES, ())
+    np.testing.assert_array_equal(found.px["nose"][[0, 2, 4]], places)
+
+
+def _annotated(**changed: object) -> str:
+    joints = [[0, 0]] * 37
+    joints[33], joints[8] = [540, 1000], [300, 400]
+    seen = [number in (33, 8) for number in range(37)]
+    entry = {"image_path": "a/Full-Resolution/dog/00002.jpg", "joints": joints, "visibility": seen}
+    return json.dumps([entry | changed])
+
+
+def test_annotations_are_scaled_to_the_frames(tmp_path: Path) -> None:
+    path = tmp_path / "dog.json"
+    path.write_text(_annotated())
+    found = read_annotated(path, 4, NAMES, 480)
+    np.testing.assert_allclose(found.px["nose"][2], [1000.0 * 480 / 1080, 240.0])
+    np.testing.assert_allclose(found.px["elbow_right"][2], [400.0 * 480 / 1080, 300 * 480 / 1080])
+    assert np.isnan(found.px["nose"][[0, 1, 3]]).all()
+
+
+@pytest.mark.parametrize(
+    ("text", "fault"),
+    [
+        ("{}", "is no list"),
+        ("[", "is no JSON"),
+        ("[{}]", "without its joints"),
+        (_annotated(image_path="dog.jpg"), "cannot be used"),
+        (_annotated(image_path="dog9.jpg"), "of frame 9, of 4"),
+        (_annotated(visibility=[False] * 37), "no joint of the body plan"),
+    ],
+)
+def test_annotations_of_another_layout_are_refused(tmp_path: Path, text: str, fault: str) -> None:
+    path = tmp_path / "dog.json"
+    path.write_text(text)
+    with pytest.raises(InputError, match=fault):
+        read_annotated(path, 4, NAMES, 480)

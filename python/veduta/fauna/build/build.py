@@ -10,6 +10,7 @@ from veduta.fauna.build.body import body_mesh
 from veduta.fauna.build.clips import spine_clip
 from veduta.fauna.build.going import Goer
 from veduta.fauna.build.skeleton import spine_of
+from veduta.fauna.build.walker import limbless_walker
 from veduta.fauna.document.schema import Animal
 from veduta.fauna.motion.angles import Floats, angles_of
 from veduta.fauna.motion.gaits import SAMPLES, Gait, roamed_gait, seen_gait, waved_gait
@@ -78,4 +79,6 @@ def goer_of(animal: Animal, built: Built) -> Goer:
         )
         for gait in built.gaits
     )  # fmt: skip
-    return Goer(animal.name, built.mesh, length, animal.kind == "fish", clips)
+    swims = animal.kind == "fish"
+    walker = limbless_walker(built.mesh, clips[0].name, length, swims=swims)
+    return Goer(animal.name, built.mesh, length, swims, clips, walker)

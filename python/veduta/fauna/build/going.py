@@ -8,6 +8,7 @@ import numpy as np
 
 from veduta.fauna.document.load import DOCUMENT
 from veduta.fauna.motion.angles import Floats
+from veduta.fauna.motion.transfer import Walker
 from veduta.place.manifest import AnimalClip, PlaceAnimal, Start
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, Standing
@@ -17,13 +18,16 @@ ROOT = "root"
 
 @dataclass(frozen=True, eq=False)
 class Goer:
-    """What goes: a mesh with a skeleton and clips, the usual one first."""
+    """What goes: a mesh with a skeleton and clips, the usual one first. walker: how it goes along a
+    path; None where its clips do not go on.
+    """
 
     name: str
     mesh: Mesh
     length_m: float
     swims: bool
     clips: tuple[AnimalClip, ...]
+    walker: Walker | None = None
 
     def standing(self) -> Standing:
         """How it stands in a place."""

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.fauna.build.limbed_skeleton import Bones
 from veduta.fauna.document.limbed import LimbedAnimal
-from veduta.fauna.motion.figure import Floats
+from veduta.fauna.motion.figure import Floats, Limb
 from veduta.fauna.motion.stride import Stride
-from veduta.place.skin import Clip
+from veduta.place.skin import Clip, Contact
 
 _LIFT_RAD = 0.35
 """A leg that was seen from above is lifted by so much in its swing: no view shows how far."""
@@ -17,7 +20,31 @@ _LIFT_RAD = 0.35
 def stride_clip(stride: Stride, bones: Bones, animal: LimbedAnimal) -> Clip:
     """The clip of a cycle: the root goes along x at an even pace, the body over it."""
     way = stride.times_s / stride.times_s[-1] * stride.stride
-    return _clip(stride.name, stride.times_s, stride, way, bones, animal, loops=True)
+    clip = _clip(stride.name, stride.times_s, stride, way, bones, animal, loops=True)
+    end = float(stride.times_s[-1])
+    contacts = [
+        _contact(bones, limb, _spans_of(stride.steps[limb.name], end))
+        for limb in bones.figure.feet()
+        if limb.name in stride.steps
+    ]
+    return replace(clip, contacts=tuple(contacts))
+
+
+def _contact(bones: Bones, limb: Limb, spans: list[tuple[float, float]]) -> Contact:
+    return Contact(limb.name, bones.figure.segments[limb.segments[-1]], tuple(spans))
+
+
+def _spans_of(step: tuple[float, float], end_s: float) -> list[tuple[float, float]]:
+    """When a foot stands in a cycle (s)."""
+    down, up = (round(phase * end_s, 6) for phase in step)
+    return [(down, up)] if down < up else [(0.0, up), (down, end_s)]
+
+
+def _spans_in(down: NDArray[np.bool_], times: Floats) -> list[tuple[float, float]]:
+    """When a foot stands, from a row for each time."""
+    change = np.diff(np.concatenate([[0], down.astype(np.int8), [0]]))
+    begin, end = np.flatnonzero(change == 1), np.flatnonzero(change == -1) - 1
+    return [(float(times[a]), float(times[b])) for a, b in zip(begin, end, strict=True) if b > a]
 
 
 def footage_clip(animal: LimbedAnimal, bones: Bones, speed: float) -> Clip | None:
@@ -37,8 +64,15 @@ def footage_clip(animal: LimbedAnimal, bones: Bones, speed: float) -> Clip | Non
     if animal.plan.view == "side":
         root[:, 1] = np.array(poses.root)[:, 1]
     lift = 1.0 - np.array(poses.down, dtype=np.float64).reshape(len(times), -1)
-    seen = Stride("footage", times, turns, root, lift, speed * float(times[-1]), 0.0)
-    return _clip("footage", times, seen, speed * times, bones, animal, loops=False)
+    seen = Stride("footage", times, turns, root, lift, speed * float(times[-1]), 0.0, {})
+    clip = _clip("footage", times, seen, speed * times, bones, animal, loops=False)
+    stands = np.array(poses.down, dtype=np.bool_).reshape(len(times), -1)
+    contacts = [
+        _contact(bones, limb, _spans_in(stands[:, poses.feet.index(limb.name)], times))
+        for limb in bones.figure.feet()
+        if limb.name in poses.feet
+    ]
+    return replace(clip, contacts=tuple(contacts))
 
 
 def _clip(

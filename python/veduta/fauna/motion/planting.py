@@ -22,11 +22,15 @@ _DAMPING = 1e-6
 
 @dataclass(frozen=True, eq=False)
 class Planted:
-    """turns: (t, s) corrected. root: (t, 2). worst: the farthest that a foot is from its place."""
+    """turns: (t, s) corrected. root: (t, 2). worst: the farthest that a foot is from its place.
+    steps: the phases at which each foot comes down and goes up, those that are out of reach
+    trimmed.
+    """
 
     turns: Floats
     root: Floats
     worst: float
+    steps: dict[str, tuple[float, float]]
 
 
 def phases_down(down: float, up: float, phase: Floats) -> NDArray[np.bool_]:
@@ -63,13 +67,15 @@ def planted_cycle(
             break
         lowered = lowered - np.array([0.0, min(worst, _LOWER - down)])
     if worst < _NEAR:
-        return Planted(now, lowered, worst)
+        return Planted(now, lowered, worst, steps)
     now, worst = turns.copy(), 0.0
     for limb in figure.feet():
         if limb.name in steps:
-            now, far = _trimmed(figure, now, lowered, stride, limb, steps[limb.name], side=side)
+            now, far, steps[limb.name] = _trimmed(
+                figure, now, lowered, stride, limb, steps[limb.name], side=side
+            )
             worst = max(worst, far)
-    return Planted(now, lowered, worst)
+    return Planted(now, lowered, worst, steps)
 
 
 def _planted(
@@ -86,7 +92,7 @@ def _planted(
 def _trimmed(
     figure: Figure, turns: Floats, root: Floats, stride: float, limb: Limb,
     step: tuple[float, float], *, side: bool,
-) -> tuple[Floats, float]:  # fmt: skip
+) -> tuple[Floats, float, tuple[float, float]]:  # fmt: skip
     """As `_planted`; a foot out of its leg's reach comes down later or goes up earlier."""
     down, up = step
     key = 1.0 / len(turns)
@@ -94,7 +100,7 @@ def _trimmed(
         found, off = _planted(figure, turns, root, stride, limb, (down, up), side=side)
         duty = (up - down) % 1.0
         if off.max() < _NEAR or duty < _SHORTEST:
-            return found, float(off.max())
+            return found, float(off.max()), (down, up)
         since = (float(off.argmax()) * key - down) % 1.0
         if since < 0.5 * duty:
             down = (down + key) % 1.0

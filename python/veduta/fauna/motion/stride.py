@@ -29,6 +29,7 @@ class Stride:
     """times_s: (t,) of a cycle, the last of them its end. turns: (t, s). root: (t, 2) in lengths,
     without the way. lift: (t, f) 0..1, how far in its swing each foot is, 0 while it stands.
     stride: lengths in the cycle. slides: how far a standing foot is from its place, at worst.
+    steps: the phases between which each foot stands.
     """
 
     name: str
@@ -38,6 +39,7 @@ class Stride:
     lift: Floats
     stride: float
     slides: float
+    steps: dict[str, tuple[float, float]]
 
 
 def stride_of(
@@ -59,15 +61,15 @@ def stride_of(
     planted = planted_cycle(figure, turns, root, gait.stride, steps, side=side)
     lift = np.zeros((KEYS, len(figure.feet())))
     for column, limb in enumerate(figure.feet()):
-        if limb.name in steps:
-            down, up = steps[limb.name]
+        if limb.name in planted.steps:
+            down, up = planted.steps[limb.name]
             share = ((phase - up) % 1.0) / max((down - up) % 1.0, 1e-9)
             lift[:, column] = np.where(share < 1.0, np.sin(np.pi * np.clip(share, 0.0, 1.0)), 0.0)
     times = np.linspace(0.0, gait.cycle_s, KEYS + 1)
     again = np.concatenate([np.arange(KEYS), [0]])
     return Stride(
         gait.name, times, planted.turns[again], planted.root[again], lift[again], gait.stride,
-        planted.worst,
+        planted.worst, planted.steps,
     )  # fmt: skip
 
 

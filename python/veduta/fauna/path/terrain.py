@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
@@ -28,13 +29,19 @@ _REMEDY = "Name a place whose ground is marked as such, or that consists of a te
 @dataclass(frozen=True, eq=False)
 class Terrain:
     """heights_m: (rows, columns) float64, NaN where there is no ground; row 0 is the southernmost.
-    blocked: what stands in the way there. origin_m: x, y of the middle of the first cell.
+    blocked: what stands in the way there. origin_m: x, y of the middle of the first cell. exact:
+    heights of the surface itself at places (n, 2), where there is one: feet are set by that.
     """
 
     heights_m: Floats
     blocked: NDArray[np.bool_]
     origin_m: tuple[float, float]
     cell_m: float
+    exact: Callable[[Floats], Floats] | None = None
+
+    def footing(self, points: Floats) -> Floats:
+        """(n,) the ground's height under feet at points (n, 2); NaN beside it."""
+        return self.height_at(points) if self.exact is None else self.exact(points)
 
     def cell_of(self, points: Floats) -> Floats:
         """(n, 2) row and column, fractional, of points (n, 2 or 3) in metres."""
@@ -76,12 +83,13 @@ def terrain_of(place: Place, length_m: float) -> Terrain:
     x = origin[0] + cell * np.arange(counts[0])
     y = origin[1] + cell * np.arange(counts[1])
     grid = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-    heights = _heights(ground, grid, float(high[2]) + 1.0).reshape(counts[1], counts[0])
+    surface = _Surface(ground, float(high[2]) + 1.0)
+    heights = surface.heights(grid).reshape(counts[1], counts[0])
     blocked = np.zeros(heights.shape, dtype=np.bool_)
     empty = Terrain(heights, blocked, origin, cell)
     if len(rest):
         blocked = _in_the_way(rest, empty, grid, length_m)
-    return Terrain(heights, blocked | ~np.isfinite(heights), origin, cell)
+    return Terrain(heights, blocked | ~np.isfinite(heights), origin, cell, surface.heights)
 
 
 def terrain_of_heights(heights_m: Floats, cell_m: float, origin_m: tuple[float, float]) -> Terrain:
@@ -111,15 +119,20 @@ def _sorted_triangles(place: Place) -> tuple[Floats, Floats]:
     return corners[0], corners[1]
 
 
-def _heights(triangles: Floats, grid: Floats, top: float) -> Floats:
-    """(n,) the highest point of the triangles over each place; NaN where there is none."""
-    scene = EmbreeScene()
-    TriangleMesh(scene, triangles.astype(np.float32))
-    origins = np.column_stack([grid, np.full(len(grid), top)]).astype(np.float32)
-    down = np.tile(np.array([0.0, 0.0, -1.0], dtype=np.float32), (len(grid), 1))
-    found = scene.run(origins, down, output=1)
-    height = top - found["tfar"].astype(np.float64)
-    return np.where(found["primID"] >= 0, height, np.nan)
+class _Surface:
+    """The highest points of triangles (m, 3, 3) over places."""
+
+    def __init__(self, triangles: Floats, top: float) -> None:
+        self._scene, self._top = EmbreeScene(), top
+        TriangleMesh(self._scene, triangles.astype(np.float32))
+
+    def heights(self, places: Floats) -> Floats:
+        """(n,) at places (n, 2); NaN where there is none."""
+        origins = np.column_stack([places, np.full(len(places), self._top)]).astype(np.float32)
+        down = np.tile(np.array([0.0, 0.0, -1.0], dtype=np.float32), (len(places), 1))
+        found = self._scene.run(origins, down, output=1)
+        height = self._top - found["tfar"].astype(np.float64)
+        return np.where(found["primID"] >= 0, height, np.nan)
 
 
 def _in_the_way(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import cv2
@@ -26,18 +26,28 @@ _REMEDY = "Give a video, or a folder of frames (JPEG, PNG, TIFF, WebP) named in 
 @dataclass(frozen=True, eq=False)
 class Footage:
     """frames: (t, h, w, 3) uint8 sRGB. number: (t,) of each frame in the record. frame_s: between
-    two that follow in the record. assumed: whether that time was assumed.
+    two that follow in the record. assumed: whether that time was assumed. whole: height and width
+    of the record's pictures, where the frames are a piece of them, and corner: its left and top.
     """
 
     frames: NDArray[np.uint8]
     number: NDArray[np.int64]
     frame_s: float
     assumed: bool
+    whole: tuple[int, int] | None = None
+    corner: tuple[int, int] = (0, 0)
 
     @property
     def size(self) -> tuple[int, int]:
         """Height and width (px)."""
         return int(self.frames.shape[1]), int(self.frames.shape[2])
+
+    def piece(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
+        """The piece of a picture of the record that the frames are; one of their size stays."""
+        if self.whole is None or pixels.shape[:2] != self.whole or self.whole == self.size:
+            return pixels
+        (left, top), (height, width) = self.corner, self.size
+        return pixels[top : top + height, left : left + width]
 
 
 def read_footage(path: Path, fps: float | None) -> Footage:
@@ -54,6 +64,21 @@ def read_footage(path: Path, fps: float | None) -> Footage:
     return Footage(frames, number, 1.0 / (fps or rate or _ASSUMED_FPS), assumed)
 
 
+def cropped(footage: Footage, crop: tuple[int, int, int, int] | None, name: str) -> Footage:
+    """A piece of all frames: left, top, width, height (px); InputError where it is none of them."""
+    if crop is None:
+        return footage
+    left, top, width, height = crop
+    high, wide = footage.size
+    if min(left, top) < 0 or min(width, height) < 8 or left + width > wide or top + height > high:
+        fault = (
+            f"is {wide} x {high} px, and --crop {left} {top} {width} {height} is no piece of that"
+        )
+        raise InputError(name, fault, "Give left, top, width and height in pixels.")
+    piece = np.ascontiguousarray(footage.frames[:, top : top + height, left : left + width])
+    return replace(footage, frames=piece, whole=(high, wide), corner=(left, top))
+
+
 def read_masks(folder: Path, footage: Footage) -> NDArray[np.bool_]:
     """(t, h, w) the silhouettes in a folder of masks, white on black, one for each frame."""
     remedy = "Give a mask of the frame's size for each frame, white where the animal is."
@@ -66,7 +91,7 @@ def read_masks(folder: Path, footage: Footage) -> NDArray[np.bool_]:
     masks = []
     for number in footage.number:
         file = files[int(number)]
-        pixels = read_image(file).pixels
+        pixels = footage.piece(read_image(file).pixels)
         if pixels.shape[:2] != footage.size:
             sizes = f"is {pixels.shape[1]} x {pixels.shape[0]} px, and its frame is not"
             raise InputError(file, sizes, remedy)

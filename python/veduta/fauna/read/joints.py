@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+from numpy.typing import NDArray
 
 from veduta.fauna.motion.figure import Floats
 from veduta.run.errors import InputError
@@ -35,39 +36,46 @@ class MarkedJoints:
     unknown: tuple[str, ...]
 
 
+@dataclass(frozen=True, eq=False)
+class _Table:
+    """A CSV's rows of places. label: what each is called by. columns: (t, c) numbers, NaN where
+    there is none. parts, coords: (c,) what the columns are of.
+    """
+
+    label: list[str]
+    columns: Floats
+    parts: list[str]
+    coords: list[str]
+
+
 def read_joints(
-    path: Path, frames: int, names: Sequence[str], files: Sequence[str]
-) -> MarkedJoints:
+    path: Path, frames: int, names: Sequence[str], files: Sequence[str],
+    individual: str | None = None,
+) -> MarkedJoints:  # fmt: skip
     """The joints in a CSV for footage of so many frames.
 
     names: the joints of the body plan. files: names of the frames' pictures, or none of a video;
     a row is told by its number, counted from 0, or by its picture's name. Names match by their
-    words, in any order: `left front paw` is `front_toe_left`. InputError where none does, or the
-    file is of another layout.
+    words, in any order: `left front paw` is `front_toe_left`. individual: which animal of a file
+    with several. InputError where no name matches, or the file is of another layout.
     """
-    rows = _rows(path)
-    heads = {row[0].strip().lower(): row[1:] for row in rows[:5] if row}
-    if "bodyparts" not in heads or "coords" not in heads:
-        raise InputError(path, "has no rows `bodyparts` and `coords`", _REMEDY)
-    if len({name.strip() for name in heads.get("individuals", [])} - {""}) > 1:
-        raise InputError(path, "has joints of several animals", "Give those of one alone.")
-    first = next(k for k, row in enumerate(rows) if row and row[0].strip().lower() == "coords") + 1
+    table = _table(path, individual)
     known = {_words(name): name for name in names}
     places: dict[str, Floats] = {}
     sure: dict[str, Floats] = {}
     unknown: list[str] = []
-    numbers = [_frame(path, row, files, frames) for row in rows[first:] if row]
-    for column, (part, coord) in enumerate(zip(heads["bodyparts"], heads["coords"], strict=False)):
+    numbers = [_frame(path, label, files, frames) for label in table.label]
+    for column, (part, coord) in enumerate(zip(table.parts, table.coords, strict=True)):
         name = known.get(_words(part))
         if name is None:
             if part not in unknown:
                 unknown.append(part)
             continue
-        values = _values(path, rows[first:], column + 1)
-        if coord.strip().lower() in ("x", "y"):
+        values = table.columns[:, column]
+        if coord in ("x", "y"):
             spot = places.setdefault(name, np.full((frames, 2), np.nan))
-            spot[numbers, 0 if coord.strip().lower() == "x" else 1] = values
-        elif coord.strip().lower() == "likelihood":
+            spot[numbers, 0 if coord == "x" else 1] = values
+        elif coord == "likelihood":
             sure.setdefault(name, np.ones(frames))[numbers] = values
     if not places:
         raise InputError(
@@ -80,6 +88,38 @@ def read_joints(
         if name in sure:
             spot[sure[name] < _SURE] = np.nan
     return MarkedJoints(places, tuple(unknown))
+
+
+def _table(path: Path, individual: str | None) -> _Table:
+    """The rows and columns of one animal. Its index is one column, or folder, video and picture."""
+    rows = [row for row in _rows(path) if row]
+    heads = {row[0].strip().lower(): row for row in rows[:5]}
+    if "bodyparts" not in heads or "coords" not in heads:
+        raise InputError(path, "has no rows `bodyparts` and `coords`", _REMEDY)
+    coords = [cell.strip().lower() for cell in heads["coords"]]
+    index = next((k for k, cell in enumerate(coords) if k and cell), len(coords))
+    chosen = list(range(index, min(len(coords), len(heads["bodyparts"]))))
+    whose = [cell.strip() for cell in heads.get("individuals", [])]
+    several = sorted(set(whose[index:]) - {""})
+    if individual is not None and individual not in several:
+        fault = (
+            f"has no animal {individual!r} (it has {', '.join(several) or 'one without a name'})"
+        )
+        raise InputError(path, fault, "Name one that it has (--individual).")
+    if individual is None and len(several) > 1:
+        fault = f"has joints of several animals: {', '.join(several[:6])}"
+        raise InputError(path, fault, "Name one of them (--individual).")
+    if individual is not None:
+        chosen = [k for k in chosen if k < len(whose) and whose[k] == individual]
+    first = next(k for k, row in enumerate(rows) if row[0].strip().lower() == "coords") + 1
+    label = [next((cell for cell in row[:index][::-1] if cell.strip()), "") for row in rows[first:]]
+    columns = [_values(path, rows[first:], k) for k in chosen]
+    return _Table(
+        label,
+        np.stack(columns, axis=1) if columns else np.zeros((len(label), 0)),
+        [heads["bodyparts"][k] for k in chosen],
+        [coords[k] for k in chosen],
+    )
 
 
 def _rows(path: Path) -> list[list[str]]:
@@ -98,14 +138,14 @@ def _words(name: str) -> frozenset[str]:
     return frozenset(_SAME.get(word, word) for word in words)
 
 
-def _frame(path: Path, row: list[str], files: Sequence[str], frames: int) -> int:
-    told = Path(row[0].strip()).name
+def _frame(path: Path, label: str, files: Sequence[str], frames: int) -> int:
+    told = Path(label.strip()).name
     if told in files:
         return files.index(told)
     digits = re.findall(r"\d+", told)
     number = int(digits[-1]) if digits else -1
     if not 0 <= number < frames:
-        raise InputError(path, f"has a row of frame {row[0]!r}, of {frames} frames", _REMEDY)
+        raise InputError(path, f"has a row of frame {label!r}, of {frames} frames", _REMEDY)
     return number
 
 
@@ -115,10 +155,25 @@ def _values(path: Path, rows: list[list[str]], column: int) -> Floats:
             [
                 float(row[column]) if len(row) > column and row[column].strip() else np.nan
                 for row in rows
-                if row
             ]
         )
     except ValueError as error:
         raise InputError(
             path, f"has no number in column {column + 1} ({error})", _REMEDY
         ) from error
+
+
+def written_joints(joints: MarkedJoints, number: NDArray[np.int64]) -> str:
+    """The joints as a CSV in the same layout, a row for each frame, by its number; gaps stay."""
+    names = sorted(joints.px)
+    heads = [
+        ["scorer", *["veduta"] * (2 * len(names))],
+        ["bodyparts", *[name for name in names for _ in "xy"]],
+        ["coords", *["x", "y"] * len(names)],
+    ]
+    places = np.concatenate([joints.px[name] for name in names], axis=1)
+    rows = [
+        [str(int(frame)), *(f"{value:.2f}" if np.isfinite(value) else "" for value in row)]
+        for frame, row in zip(number, places, strict=True)
+    ]
+    return "\n".join(",".join(row) for row in [*heads, *rows]) + "\n"

@@ -55,9 +55,11 @@ def described_limbs(
             "from above one does not see how high the animal is: the plan's roundness was taken"
         ]
     else:
-        doubts = [
+        doubts = [] if _sides_marked(seen) else [
             "silhouettes do not tell near legs from far ones: the left ones may be the right"
-            " ones, half a cycle later",
+            " ones, half a cycle later"
+        ]  # fmt: skip
+        doubts += [
             "one view does not show how wide the animal is: the plan's roundness was taken",
         ]
     gaits: list[LimbedGait] = []
@@ -85,6 +87,18 @@ def described_limbs(
         shape_score=float(np.median(overlaps)), missing=list(seen.missing), gaits=gaits,
         poses=poses, doubts=doubts,
     )  # fmt: skip
+
+
+def _sides_marked(seen: LimbedSeen) -> bool:
+    """Whether somebody has marked legs of both sides."""
+    figure = seen.fitted.figure
+    legs = {figure.names[joint]: limb.side for limb in figure.feet() for joint in limb.joints}
+    told = {
+        legs[name]
+        for name, at in seen.windows.pins.items()
+        if name in legs and np.isfinite(at).any()
+    }
+    return told >= {"left", "right"}
 
 
 def _seen_from(seen: LimbedSeen, plan: BodyPlan) -> Literal["left", "right", "above"]:

@@ -44,7 +44,7 @@ def silhouettes_in(
     if masks is not None:
         return silhouettes_of(read_masks(masks, footage), looks, name), None
     if background is not None:
-        pixels = read_image(background).pixels
+        pixels = footage.piece(read_image(background).pixels)
         if pixels.shape[:2] != footage.size:
             fault = f"is {pixels.shape[1]} x {pixels.shape[0]} px, and the frames are not"
             raise InputError(background, fault, "Give a picture of the frames' size.")

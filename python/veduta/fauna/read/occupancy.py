@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta._core import capsules_cover
 from veduta.fauna.motion.figure import Figure, Floats
 
 Singles = NDArray[np.float32]
@@ -34,36 +35,8 @@ def cover(
     how wide an edge is; all in one unit. Capsules are joined as what is in none: 1 - prod(1 - o),
     so every one of them feels every pixel that is near to it.
     """
-    start, end = figure.start, figure.end
-    count, joint_count = joints.shape[:2]
-    loss = np.zeros(count)
-    by_joint = np.zeros((count, joint_count, 2))
-    by_deep = np.zeros((count, joint_count))
-    first, last = deep[start].astype(np.float32), deep[end].astype(np.float32)
-    for row in range(count):
-        a = joints[row, start].astype(np.float32)
-        along = joints[row, end].astype(np.float32) - a
-        size = np.maximum((along**2).sum(axis=1), 1e-9)
-        x = pixels[None, :, 0] - a[:, 0, None]
-        y = pixels[None, :, 1] - a[:, 1, None]
-        t = np.clip((x * along[:, 0, None] + y * along[:, 1, None]) / size[:, None], 0.0, 1.0)
-        x -= t * along[:, 0, None]
-        y -= t * along[:, 1, None]
-        far = np.sqrt(x * x + y * y) + 1e-6
-        apart = (far - first[:, None] - t * (last - first)[:, None]) / soft
-        inside = 1.0 / (1.0 + np.exp(np.clip(apart, -20.0, 20.0)))
-        empty = np.prod(1.0 - inside, axis=0)
-        error = 1.0 - empty - shares[row]
-        area = max(float(shares[row].sum()), 1.0)
-        loss[row] = float((weights * error * error).sum()) / area
-        # By the distance: occupancy falls by (1 - occupancy) * inside / soft.
-        pull = inside * (-2.0 / (soft * area) * weights * error * empty)[None, :]
-        near = pull * (1.0 - t)
-        x *= 1.0 / far
-        y *= 1.0 / far
-        far_share = pull - near
-        for joint, weight in ((start, near), (end, far_share)):
-            np.add.at(by_deep[row], joint, -weight.sum(axis=1))
-            np.add.at(by_joint[row, :, 0], joint, -(weight * x).sum(axis=1))
-            np.add.at(by_joint[row, :, 1], joint, -(weight * y).sum(axis=1))
+    loss, by_joint, by_deep = capsules_cover(
+        figure.start, figure.end, joints.astype(np.float32), deep.astype(np.float32), pixels,
+        shares, weights, soft,
+    )  # fmt: skip
     return Cover(loss, by_joint, by_deep)

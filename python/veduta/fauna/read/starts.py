@@ -115,10 +115,13 @@ def _tails_held(fit: Fit, numbers: Floats, tries: StartLooks) -> list[Floats]:
 
 
 def _phases(count: int, fit: Fit) -> list[tuple[float, float]]:
-    """Of front and hind legs; from the side half a cycle later looks the same."""
+    """Of front and hind legs; from the side half a cycle later looks the same, if nobody has marked
+    which leg is which.
+    """
     if not fit.basis.shared:
         return [(0.0, 0.0)]
-    half = np.arange(count) * (1.0 if fit.top else 0.5) / count
+    told = fit.top or any(name.endswith("_left") for name in fit.pinned)
+    half = np.arange(count) * (1.0 if told else 0.5) / count
     return [(float(front), float(hind)) for front in half for hind in half]
 
 

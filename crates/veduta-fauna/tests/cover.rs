@@ -1,0 +1,105 @@
+//! Gradients against differences of the loss, and what cannot be compared.
+
+use proptest::prelude::*;
+use veduta_fauna::{cover, Capsules, Cover, CoverError, Looked};
+
+const START: [usize; 3] = [0, 1, 1];
+const END: [usize; 3] = [1, 2, 3];
+
+fn places() -> Vec<[f32; 2]> {
+    let side = 0..24u8;
+    side.clone()
+        .flat_map(|row| side.clone().map(move |column| (row, column)))
+        .map(|(row, column)| [f32::from(column) / 12.0 - 0.5, f32::from(row) / 12.0 - 0.5])
+        .collect()
+}
+
+/// 1 in a box, 0 beside it.
+fn shares(places: &[[f32; 2]]) -> Vec<f32> {
+    let inside = |p: &[f32; 2]| p.iter().all(|v| (0.1..0.9).contains(v));
+    places
+        .iter()
+        .map(|p| f32::from(u8::from(inside(p))))
+        .collect()
+}
+
+fn loss(joints: &[[f32; 2]], deep: &[f32]) -> Result<Cover, CoverError> {
+    let places = places();
+    let (weights, shares) = (vec![1.0; places.len()], shares(&places));
+    let capsules = Capsules {
+        start: &START,
+        end: &END,
+        deep,
+    };
+    let looked = Looked {
+        places: &places,
+        weights: &weights,
+        shares: &shares,
+        soft: 0.08,
+    };
+    cover(&capsules, joints, &looked)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(40))]
+    #[test]
+    fn gradients_are_those_of_the_loss(
+        flat in prop::collection::vec(-0.2f32..1.2, 8),
+        deep in prop::collection::vec(0.05f32..0.3, 4),
+    ) {
+        let joints: Vec<[f32; 2]> = flat.chunks(2).map(|p| [p[0], p[1]]).collect();
+        let Cover { by_joint, by_deep, .. } = loss(&joints, &deep)?;
+        let step = 2e-3f32;
+        for joint in 0..4 {
+            for axis in 0..2 {
+                let (mut more, mut less) = (joints.clone(), joints.clone());
+                more[joint][axis] += step;
+                less[joint][axis] -= step;
+                let slope = (loss(&more, &deep)?.loss[0] - loss(&less, &deep)?.loss[0]) / f64::from(2.0 * step);
+                prop_assert!((slope - by_joint[joint][axis]).abs() < 0.02 + 0.05 * slope.abs());
+            }
+            let (mut more, mut less) = (deep.clone(), deep.clone());
+            more[joint] += step;
+            less[joint] -= step;
+            let slope = (loss(&joints, &more)?.loss[0] - loss(&joints, &less)?.loss[0]) / f64::from(2.0 * step);
+            prop_assert!((slope - by_deep[joint]).abs() < 0.02 + 0.05 * slope.abs());
+        }
+    }
+}
+
+#[test]
+fn what_does_not_belong_together_is_refused() {
+    let deep = [0.1; 3];
+    let capsules = Capsules {
+        start: &[0],
+        end: &[3],
+        deep: &deep,
+    };
+    let looked = Looked {
+        places: &[[0.0, 0.0]],
+        weights: &[1.0],
+        shares: &[1.0],
+        soft: 0.1,
+    };
+    let joints = [[0.0; 2]; 3];
+    let missing = CoverError::Joint { joint: 3, count: 3 };
+    assert_eq!(cover(&capsules, &joints, &looked), Err(missing));
+    let capsules = Capsules {
+        end: &[1],
+        ..capsules
+    };
+    let wrong = CoverError::Size {
+        what: "joints",
+        given: 2,
+        wanted: 0,
+    };
+    assert_eq!(cover(&capsules, &joints[..2], &looked), Err(wrong));
+    let sharp = Looked {
+        soft: 0.0,
+        ..looked
+    };
+    assert_eq!(
+        cover(&capsules, &joints, &sharp),
+        Err(CoverError::Soft { soft: 0.0 })
+    );
+}

@@ -1,0 +1,278 @@
+"""A clip carried over to a path on the ground (paper 4.4): the body bent along the curve and laid
+on the ground's plane, feet planted by inverse kinematics, with start and stop.
+
+Arc length goes to arc length: what a joint has ahead of the body's middle it has along the curve.
+The bones of a body with limbs keep their lengths, so its spine is turned, not moved; one without
+limbs is carried joint by joint along the curve's normals.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter1d, maximum_filter1d
+
+from veduta.fauna.motion.carried import Joints, against_parents, joints_in
+from veduta.fauna.motion.figure import Floats
+from veduta.fauna.motion.reach import reached_in_space
+from veduta.fauna.motion.steps import (
+    Footing,
+    Heights,
+    Stands,
+    Steps,
+    stands_along,
+    steps_of,
+    within_reach,
+)
+from veduta.fauna.motion.whole_path import Curve, Pace, curve_of, going
+from veduta.place.skin import Clip, Contact, Skin
+
+
+@dataclass(frozen=True)
+class TransferLooks:
+    """How a body lies on the ground; in its lengths."""
+
+    along: float = 0.4
+    across: float = 0.1
+    """The plane under it is that of the ground so far before, behind and beside it."""
+    roll: float = 0.6
+    """It leans to the side by this share of the ground's slope there: animals keep upright."""
+    stretch: float = 0.985
+    """A leg is stretched to this share of its length at most; the body comes down for it by up
+    to
+    """
+    lower: float = 0.12
+    """this."""
+    lower_s: float = 0.12
+    """And so smoothly."""
+
+
+@dataclass(frozen=True, eq=False)
+class Leg:
+    """foot: its steps. joints: rows of the skeleton from the body on. end_m: (3,) its end in the
+    last of them.
+    """
+
+    foot: Footing
+    joints: tuple[int, ...]
+    end_m: Floats
+
+
+@dataclass(frozen=True, eq=False)
+class Walker:
+    """What goes: a skeleton, the clip that it goes by, and its legs.
+
+    spine: (j,) whether a joint turns with the curve where it is; others turn as what they hang on.
+    Without legs all joints are carried one by one. swims: it keeps its height over the ground.
+    """
+
+    skin: Skin
+    clip: Clip
+    stride_m: float
+    length_m: float
+    spine: NDArray[np.bool_]
+    legs: tuple[Leg, ...] = ()
+    swims: bool = False
+
+
+@dataclass(frozen=True, eq=False)
+class Walked:
+    """clip: in the frame of the path. slides_m: how far a standing foot is from its place at worst.
+    sinks_m: how far one is under the ground at worst. aside_m: the body's middle from the path.
+    """
+
+    clip: Clip
+    slides_m: float
+    sinks_m: float
+    aside_m: float
+
+
+def walked(
+    walker: Walker, path_m: Floats, ground: Heights, *, closed: bool, looks: TransferLooks
+) -> Walked:
+    """The clip `path`: the animal goes along a path (n, 3) from where it stands to where it
+    stops.
+    """
+    curve = curve_of(path_m, closed=closed)
+    half = min(0.5 * walker.length_m, 0.25 * curve.length_m)
+    whole = curve.length_m if closed else curve.length_m - 2.0 * half
+    seconds = float(walker.clip.times_s[-1])
+    times, way, pace = going(whole, Pace(max(walker.stride_m, 1e-6) / seconds))
+    phase = way / max(walker.stride_m, 1e-6)
+    way = way + (0.0 if closed else half)
+    share = np.clip(pace / 0.35, 0.0, 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    joints = joints_in(walker.skin, walker.clip, phase % 1.0 * seconds, share)
+    frame, origin = _frames(walker, curve, ground, way, looks)
+    if walker.legs:
+        laid = _bent(walker, joints, curve, way, frame, origin)
+    else:
+        laid = _carried(walker, joints, curve, way, ground)
+    plans = [stands_along(leg.foot, phase, way, walker.stride_m, curve) for leg in walker.legs]
+    laid = _lowered(walker, laid, plans, phase, times, ground, looks)
+    steps = []
+    for leg, plan in zip(walker.legs, plans, strict=True):
+        hung = laid.places[:, leg.joints[0]]
+        reach = 0.5 * (1.0 + looks.stretch) * _leg_length(walker.skin, leg)
+        near = within_reach(plan, phase, hung, reach, leg.foot, ground)
+        steps.append(steps_of(near, phase, leg.foot, ground, (hung, reach)))
+    slides, sinks, contacts = _planted(walker, laid, steps, times, ground)
+    turns, moves = against_parents(walker.skin, laid)
+    clip = Clip("path", times, moves, turns, False, tuple(contacts))
+    aside = _aside(walker, laid, curve, way)
+    return Walked(clip, slides, sinks, aside)
+
+
+def _frames(
+    walker: Walker, curve: Curve, ground: Heights, way: Floats, looks: TransferLooks
+) -> tuple[Floats, Floats]:
+    """(t, 3, 3) axes ahead, left and up of the body, and (t, 3) the ground under its middle."""
+    ahead = curve.heading(way)
+    left = np.stack([-ahead[:, 1], ahead[:, 0]], axis=1)
+    middle = curve.at(way)
+    along = np.linspace(-1.0, 1.0, 9) * looks.along * walker.length_m
+    across = np.linspace(-1.0, 1.0, 5) * looks.across * walker.length_m
+    x, y = (axis.reshape(-1) for axis in np.meshgrid(along, across, indexing="ij"))
+    spots = middle[:, None] + x[:, None] * ahead[:, None] + y[:, None] * left[:, None]
+    heights = np.array(ground(spots.reshape(-1, 2))).reshape(len(way), -1)
+    known = np.isfinite(heights)
+    base = np.nanmean(np.where(known.any(axis=1, keepdims=True), heights, 0.0), axis=1)
+    heights = np.where(known, heights, base[:, None])
+    level = heights.mean(axis=1)
+    slope = heights @ x / (x @ x)
+    lean = looks.roll * (heights @ y) / (y @ y)
+    if walker.swims:
+        slope, lean = np.zeros_like(slope), np.zeros_like(lean)
+    flat = np.zeros(len(way))
+    forward = np.column_stack([ahead, slope])
+    forward /= np.linalg.norm(forward, axis=1, keepdims=True)
+    side = np.column_stack([left, lean])
+    up = np.cross(forward, side)
+    up /= np.linalg.norm(up, axis=1, keepdims=True)
+    axes = np.stack([forward, np.cross(up, forward), up], axis=2)
+    return axes, np.column_stack([middle, level + flat])
+
+
+def _turned(angle: Floats) -> Floats:
+    """(..., 3, 3) turns about z."""
+    cos, sin, zero = np.cos(angle), np.sin(angle), np.zeros_like(angle)
+    rows = [cos, -sin, zero, sin, cos, zero, zero, zero, zero + 1.0]
+    return np.stack(rows, axis=-1).reshape(*angle.shape, 3, 3)
+
+
+def _bent(
+    walker: Walker, joints: Joints, curve: Curve, way: Floats, frame: Floats, origin: Floats
+) -> Joints:
+    """The body in its frame, its spine turned with the curve; bones keep their lengths."""
+    skin = walker.skin
+    here = curve.heading(way)
+    yaw = np.zeros(joints.places.shape[:2])
+    for joint, parent in enumerate(skin.parent):
+        if walker.spine[joint]:
+            there = curve.heading(way + skin.rest[joint, 0, 3])
+            cross = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
+            yaw[:, joint] = np.arctan2(cross, (here * there).sum(axis=1))
+        elif parent >= 0:
+            yaw[:, joint] = yaw[:, parent]
+    turn = _turned(yaw)
+    places = joints.places.copy()
+    for joint, parent in enumerate(skin.parent):
+        if parent == 0 and walker.spine[joint]:
+            at = curve.at(way + skin.rest[joint, 0, 3]) - curve.at(way)
+            left = np.stack([-here[:, 1], here[:, 0]], axis=1)
+            places[:, joint, 0] += (at * here).sum(axis=1) - skin.rest[joint, 0, 3]
+            places[:, joint, 1] += (at * left).sum(axis=1)
+        elif parent > 0:
+            away = joints.places[:, joint] - joints.places[:, parent]
+            places[:, joint] = places[:, parent] + np.einsum("tij,tj->ti", turn[:, parent], away)
+    world = frame[:, None] @ turn @ joints.turns
+    placed = origin[:, None] + np.einsum("tij,tkj->tki", frame, places)
+    world[:, 0], placed[:, 0] = frame, origin
+    return Joints(world, placed)
+
+
+def _carried(walker: Walker, joints: Joints, curve: Curve, way: Floats, ground: Heights) -> Joints:
+    """Each joint on the curve, where its arc length is, beside it by its normal."""
+    arcs = way[:, None] + joints.places[..., 0]
+    ahead = curve.heading(arcs)
+    left = np.stack([-ahead[..., 1], ahead[..., 0]], axis=-1)
+    flat = curve.at(arcs) + joints.places[..., 1:2] * left
+    level = np.interp(np.clip(arcs, 0.0, curve.length_m), curve.arcs, curve.points[:, 2])
+    if curve.closed:
+        level = np.interp(arcs % curve.length_m, curve.arcs, curve.points[:, 2])
+    if not walker.swims:
+        own = np.array(ground(flat.reshape(-1, 2))).reshape(level.shape)
+        own = np.where(np.isfinite(own), own, level)
+        level = np.asarray(gaussian_filter1d(own, 1.5, axis=1, mode="nearest"))
+    yaw = np.arctan2(ahead[..., 1], ahead[..., 0])
+    placed = np.concatenate([flat, (level + joints.places[..., 2])[..., None]], axis=-1)
+    return Joints(_turned(yaw) @ joints.turns, placed)
+
+
+def _lowered(
+    walker: Walker, laid: Joints, plans: list[Stands], phase: Floats, times: Floats,
+    ground: Heights, looks: TransferLooks,
+) -> Joints:  # fmt: skip
+    """The body brought down where a standing foot is out of its leg's reach."""
+    if not walker.legs:
+        return laid
+    need = np.zeros(len(times))
+    for leg, plan in zip(walker.legs, plans, strict=True):
+        long = looks.stretch * _leg_length(walker.skin, leg)
+        step = steps_of(plan, phase, leg.foot, ground)
+        away = laid.places[:, leg.joints[0]] - step.places
+        high = away[:, 2]
+        beyond = np.maximum((away**2).sum(axis=1) - long * long, 0.0)
+        down = high - np.sqrt(np.maximum(high * high - beyond, 0.0))
+        need = np.maximum(need, np.where(step.stands, down, 0.0))
+    need = np.minimum(need, looks.lower * walker.length_m)
+    keys = max(1.0, looks.lower_s / float(times[1] - times[0]))
+    wide = maximum_filter1d(need, 2 * int(2.0 * keys) + 1)
+    smooth = gaussian_filter1d(wide, keys)
+    moved = laid.places.copy()
+    moved[:, 1:, 2] -= smooth[:, None]
+    return Joints(laid.turns, moved)
+
+
+def _leg_length(skin: Skin, leg: Leg) -> float:
+    places = [skin.rest[joint, :3, 3] for joint in leg.joints]
+    places.append(places[-1] + leg.end_m)
+    return float(np.linalg.norm(np.diff(np.array(places), axis=0), axis=1).sum())
+
+
+def _planted(
+    walker: Walker, laid: Joints, steps: list[Steps], times: Floats, ground: Heights
+) -> tuple[float, float, list[Contact]]:
+    """Turns the legs, in place, so that their feet are where they are wanted."""
+    slides, sinks, contacts = 0.0, 0.0, []
+    for leg, step in zip(walker.legs, steps, strict=True):
+        rows = list(leg.joints)
+        end = laid.ends(rows[-1], leg.end_m)
+        turns, _ = reached_in_space(laid.places[:, rows], end, step.places)
+        laid.turns[:, rows] = turns @ laid.turns[:, rows]
+        for first, second in zip(rows, rows[1:], strict=False):
+            away = walker.skin.rest[second, :3, 3] - walker.skin.rest[first, :3, 3]
+            laid.places[:, second] = laid.ends(first, away)
+        end = laid.ends(rows[-1], leg.end_m)
+        off = np.linalg.norm(end - step.places, axis=1)[step.stands]
+        slides = max(slides, float(off.max(initial=0.0)))
+        deep = np.array(ground(end[:, :2])) - (end[:, 2] - leg.foot.sole_m)
+        sinks = max(sinks, float(np.nanmax(deep, initial=0.0)))
+        change = np.diff(np.concatenate([[0], step.stands.astype(np.int8), [0]]))
+        begin, last = np.flatnonzero(change == 1), np.flatnonzero(change == -1) - 1
+        spans = tuple(
+            (float(times[a]), float(times[b])) for a, b in zip(begin, last, strict=True) if b > a
+        )
+        contacts.append(Contact(leg.foot.name, walker.skin.names[rows[-1]], spans))
+    return slides, sinks, contacts
+
+
+def _aside(walker: Walker, laid: Joints, curve: Curve, way: Floats) -> float:
+    """How far the body's middle is from the path at worst: the mean of the spine, on the flat."""
+    if walker.legs:
+        return float(np.linalg.norm(laid.places[:, 0, :2] - curve.at(way), axis=1).max())
+    spine = laid.places[:, walker.spine, :2]
+    arcs = way[:, None] + walker.skin.rest[walker.spine, 0, 3][None]
+    return float(np.linalg.norm((spine - curve.at(arcs)).mean(axis=1), axis=1).max())

@@ -1,0 +1,91 @@
+"""What is known of an animal's joints beside its silhouettes: marked ones, and painted markers."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from veduta.fauna.document.plan import BodyPlan
+from veduta.fauna.motion.figure import Floats, figure_of
+from veduta.fauna.read.annotated import read_annotated
+from veduta.fauna.read.footage import Footage, pictures_in
+from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
+from veduta.fauna.read.markers import Marker, MarkerLooks, read_markers, tracked_markers
+from veduta.fauna.read.silhouettes import Silhouettes
+from veduta.fauna.recipe import Record
+from veduta.run.errors import InputError
+from veduta.run.work import Work
+
+JOINTS = "joints.csv"
+
+
+def pins_of(
+    work: Work, record: Record, footage: Footage, found: Silhouettes, plan: BodyPlan,
+    individual: str | None, *, moved: bool,
+) -> dict[str, Floats]:  # fmt: skip
+    """(t, 2) px by joint in the frames of the footage; none where nothing is given.
+
+    moved: whether the frames were laid on a canvas: places in the record are no places there.
+    A joint that is marked is taken from there, if it has a painted marker, too.
+    """
+    names = figure_of(plan).names
+    pins: dict[str, Floats] = {}
+    if record.markers is not None:
+        markers = read_markers(record.markers, names)
+        if moved and any(one.at is not None for one in markers):
+            _refuse_moved(record.markers)
+        markers = tuple(_in_frames(marker, footage) for marker in markers)
+        with work.step("markers") as step:
+            tracked = tracked_markers(
+                footage.frames, found.masks, found.rows, markers, MarkerLooks(), record.path.name
+            )
+            step.counts["markers"] = len(tracked.px)
+            step.rejected.extend(f"{name}: its colour is never seen" for name in tracked.unknown)
+        pins |= tracked.px
+    if record.joints is not None:
+        if moved:
+            _refuse_moved(record.joints)
+        with work.step("joints") as step:
+            marked = _marked(record, footage, names, individual)
+            step.counts["joints"] = len(marked.px)
+            step.rejected.extend(f"{name}: no joint of the body plan" for name in marked.unknown)
+        corner = np.array(footage.corner, dtype=np.float64)
+        pins |= {name: places[footage.number] - corner for name, places in marked.px.items()}
+    if pins:
+        whole = {name: at + np.array(footage.corner) for name, at in pins.items()}
+        text = written_joints(MarkedJoints(whole, ()), footage.number)
+        seen = float(np.mean([np.isfinite(at[:, 0]).mean() for at in pins.values()]))
+        work.measure("joints_marked_share", seen)
+        (work.folder / JOINTS).write_text(text, encoding="utf-8")
+        work.file(JOINTS, "joints that were marked or tracked, to correct and to give again")
+    return pins
+
+
+def _in_frames(marker: Marker, footage: Footage) -> Marker:
+    """The same with its frame and place as the footage has them, not the record."""
+    row = int(np.abs(footage.number - marker.frame).argmin())
+    if marker.at is None:
+        return replace(marker, frame=row)
+    (left, top), (x, y) = footage.corner, marker.at
+    return replace(marker, frame=row, at=(x - left, y - top))
+
+
+def _refuse_moved(path: object) -> None:
+    fault = "has places in the pictures, and the camera of these moves"
+    raise InputError(str(path), fault, "Give masks (--masks), too.")
+
+
+def _marked(
+    record: Record, footage: Footage, names: tuple[str, ...], individual: str | None
+) -> MarkedJoints:
+    joints = record.joints
+    if joints is None:
+        return MarkedJoints({}, ())
+    files: list[str] = []
+    if record.path.is_dir():
+        files = [picture.name for picture in pictures_in(record.path)]
+    count = max(len(files), int(footage.number[-1]) + 1)
+    if joints.suffix.lower() == ".json":
+        return read_annotated(joints, count, names, (footage.whole or footage.size)[0])
+    return read_joints(joints, count, names, files, individual)
