@@ -44,8 +44,9 @@ gpu: $(PACKAGES) ## the extension with graphics cards, for --device: a minute or
 	@touch $(GPU)
 	@$(MAKE) --no-print-directory setup
 
-demo: setup ## a synthetic street, rebuilt from its photo and compared with the truth
+demo: setup ## a synthetic street, rebuilt from its photo and compared with the truth; a walk through a gorge
 	.venv/bin/veduta demo -o out/demo $(DEMO)
+	.venv/bin/veduta demo --walk -o out/demo-walk
 
 studio: $(STUDIO) ## the web app alone
 

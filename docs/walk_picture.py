@@ -30,7 +30,7 @@ def main() -> None:
     frames: list[NDArray[np.uint8]] = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        write_walk(folder, GorgeWalk(keys=4, step_m=3.0, width_px=480, height_px=270))
+        write_walk(folder, GorgeWalk(keys=4, step_m=3.0, width_px=480, height_px=270, pool=True))
         record = read_stereo_record(folder, TakeOptions(), None)
         rig = record.rectifier.rig
         models = [

@@ -10,6 +10,7 @@ from veduta.cli.invoked import invoked
 SUMMARY = "Make a synthetic street, rebuild it from its photo, compare it with the truth"
 
 if TYPE_CHECKING:
+    from veduta.cli.demo_call import DemoCall
     from veduta.facade.compare import Comparison, Pair
     from veduta.facade.demo import DemoRecord, DemoResult
 
@@ -22,6 +23,8 @@ def run(arguments: list[str]) -> int:
     from veduta.run.progress import Progress
 
     call = parse(DemoCall, "veduta demo", arguments)
+    if call.walk:
+        return _walk(call)
     result = run_demo(
         call.out, call.demo, call.street, Progress(quiet=call.quiet), force=call.force
     )
@@ -29,6 +32,27 @@ def run(arguments: list[str]) -> int:
         return _tell_failure(result)
     if not call.quiet:
         print("\n".join(_lines(result.record, result)))
+    return 0
+
+
+def _walk(call: DemoCall) -> int:
+    """The walk through a gorge."""
+    from veduta.run.progress import Progress
+    from veduta.walk.demo import run_walk_demo
+
+    done = run_walk_demo(call.out, call.demo.seed, Progress(quiet=call.quiet), force=call.force)
+    if done.call.failure is not None:
+        print(f"error: {done.call.failure.subject}: {done.call.failure.reason}", file=sys.stderr)
+        return done.call.exit_code
+    if call.quiet:
+        return 0
+    print(f"A gorge from seed {call.demo.seed}: {done.call.summary}")
+    for one in done.transitions:
+        found = "" if one.found_m is None else f"{one.found_m:>8.3f} m found"
+        print(f"  {one.names:<14}{one.how:<8}{found}, {one.true_m:.3f} m true")
+    print(f"  water     in up to {done.water:.0%} of a view")
+    print(f"Why:        {call.out}/walk/report.html")
+    print(f"Walk in it: {invoked('view', f'{call.out}/walk')}")
     return 0
 
 

@@ -16,6 +16,14 @@ Force = Annotated[
     bool, tyro.conf.arg(help="replace results of other options; edited files are always kept")
 ]
 
+Walk = Annotated[
+    bool,
+    tyro.conf.arg(
+        help="a walk through a synthetic gorge in place of the street, from its stereo pictures:"
+        " OUT/stereo and OUT/walk; of the other options only --seed counts"
+    ),
+]
+
 
 @dataclass(frozen=True)
 class DemoCall:
@@ -30,5 +38,6 @@ class DemoCall:
     out: Out = Path("veduta-demo")
     demo: DemoOptions = field(default_factory=DemoOptions)
     street: SyntheticOptions = field(default_factory=SyntheticOptions)
+    walk: Walk = False
     force: Force = False
     quiet: Quiet = False
