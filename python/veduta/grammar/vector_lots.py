@@ -10,7 +10,7 @@ from __future__ import annotations
 import difflib
 import re
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -32,6 +32,7 @@ from veduta.grammar.rings import RingFault, closed_ring
 from veduta.grammar.roads import road_of
 from veduta.grammar.wkb import polygons_of_wkb
 from veduta.run.errors import InputError
+from veduta.run.limits import limited
 
 SUFFIXES = (
     ".shp", ".fgb", ".kml", ".geojsonl", ".geojsons", ".ndjson", ".osm", ".pbf", ".tab", ".mif",
@@ -42,6 +43,7 @@ BLOCK = 20_000
 OSM_LAYER, OSM_LINES = "multipolygons", "lines"
 _NAMES = ("id", "osm_id", "gml_id", "fid", "name", "Name")
 _OSM = (".osm", ".pbf")
+_REMEDY = "Check that it is whole, or save it anew as GeoPackage."
 _AREAS = ("Polygon", "MultiPolygon", "Unknown", "GeometryCollection", "CurvePolygon")
 _TAG = re.compile(r'"((?:[^"\\]|\\.)*)"=>"((?:[^"\\]|\\.)*)"')
 
@@ -99,18 +101,23 @@ def _outlines(
 
 def road_lines(path: Path) -> tuple[list[Road], int | None]:
     """The roads of all layers of lines of a file, and the EPSG code of its CRS."""
+    layers, crs = limited(_line_layers, path, path, _REMEDY)
+    roads = [road for name in layers for road in _roads(path, name)]
+    if not roads:
+        raise InputError(path, "has no lines that are roads", "Give it lines of roads.")
+    return roads, _epsg(path, str(crs[0])) if crs and crs[0] is not None else None
+
+
+def _line_layers(path: Path) -> tuple[list[str], list[str | None]]:
+    """The layers of lines and the CRS of each."""
     import pyogrio
 
     try:
         listed = [(str(name), str(kind)) for name, kind in pyogrio.list_layers(path)]
         layers = [name for name, kind in listed if "LineString" in kind or kind == "Unknown"]
-        crs = [pyogrio.read_info(path, layer=name)["crs"] for name in layers]
+        return layers, [pyogrio.read_info(path, layer=name)["crs"] for name in layers]
     except pyogrio.errors.DataSourceError as error:
         raise _unreadable(path, error) from error
-    roads = [road for name in layers for road in _roads(path, name)]
-    if not roads:
-        raise InputError(path, "has no lines that are roads", "Give it lines of roads.")
-    return roads, _epsg(path, str(crs[0])) if crs and crs[0] is not None else None
 
 
 def _roads(path: Path, layer: str) -> list[Road]:
@@ -130,8 +137,14 @@ def _roads(path: Path, layer: str) -> list[Road]:
 
 def _layer(path: Path, wanted: str | None) -> tuple[str, str | None]:
     """The layer's name and its CRS as GDAL has it."""
+    return limited(_layer_of, (path, wanted), path, _REMEDY)
+
+
+def _layer_of(asked: tuple[Path, str | None]) -> tuple[str, str | None]:
+    """In a process of its own: GDAL reads some formats by code that trusts their files."""
     import pyogrio  # GDAL takes a while to load
 
+    path, wanted = asked
     try:
         listed = [(str(name), str(kind)) for name, kind in pyogrio.list_layers(path)]
         names = [
@@ -157,31 +170,38 @@ def _layer(path: Path, wanted: str | None) -> tuple[str, str | None]:
 
 def _blocks(path: Path, layer: str) -> Iterator[tuple[NDArray[Any], dict[str, NDArray[Any]]]]:
     """Geometries (WKB) and columns, so many rows at a time."""
-    import pyogrio
-
     start = 0
     while True:
-        try:
-            told, _, geometries, columns = pyogrio.raw.read(
-                path, layer=layer, skip_features=start, max_features=BLOCK
-            )
-        except (
-            pyogrio.errors.DataSourceError,
-            pyogrio.errors.DataLayerError,
-            pyogrio.errors.FeatureError,
-        ) as error:
-            raise _unreadable(path, error) from error
-        names = [str(name) for name in told["fields"]]
+        names, geometries, columns = limited(_block, (path, layer, start), path, _REMEDY)
         yield geometries, dict(zip(names, columns, strict=True))
         start += len(geometries)
         if len(geometries) < BLOCK:
             return
 
 
+def _block(
+    asked: tuple[Path, str, int],
+) -> tuple[list[str], NDArray[Any], Sequence[NDArray[Any]]]:
+    """Names of columns, geometries and columns of the rows from one on."""
+    import pyogrio
+
+    path, layer, start = asked
+    try:
+        told, _, geometries, columns = pyogrio.raw.read(
+            path, layer=layer, skip_features=start, max_features=BLOCK
+        )
+    except (
+        pyogrio.errors.DataSourceError,
+        pyogrio.errors.DataLayerError,
+        pyogrio.errors.FeatureError,
+    ) as error:
+        raise _unreadable(path, error) from error
+    return [str(name) for name in told["fields"]], geometries, columns
+
+
 def _unreadable(path: Path, error: Exception) -> InputError:
     told = " ".join(str(error).split())[:200]
-    remedy = "Check that it is whole, or save it anew as GeoPackage."
-    return InputError(path, f"cannot be read ({told})", remedy)
+    return InputError(path, f"cannot be read ({told})", _REMEDY)
 
 
 def _epsg(path: Path, crs: str) -> int | None:

@@ -42,6 +42,7 @@ from veduta.plan.text.engine import prepare
 from veduta.plan.text.sheet_text import read_sheet, sheet_of_file
 from veduta.plan.vector.open_dxf import is_dxf
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.limits import limited
 from veduta.run.progress import StepProgress
 from veduta.run.report import Count, StepRecord, timed_step
 
@@ -225,12 +226,14 @@ def _read_vectors(
     drawing: Drawing, options: PlanOptions, steps: list[StepRecord], progress: StepProgress
 ) -> list[_Read]:
     """As `_read_pictures`, of a DXF file: its sheet is in the frame of drawing units already."""
-    from veduta.plan.vector.read import read_vectors  # not at the top: pictures need none of it
+    # Not at the top: pictures need none of it.
+    from veduta.plan.vector.read import DXF_LIMITS, DXF_REMEDY, read_given
 
     given = options.scale.scale
     progress(f"read {drawing.label}", 0.0)
     with timed_step(steps, f"read {drawing.label}") as step:
-        plan = read_vectors(drawing.path, None if given is None else given / 1000.0)
+        asked = (drawing.path, None if given is None else given / 1000.0)
+        plan = limited(read_given, asked, drawing.path, DXF_REMEDY, DXF_LIMITS)
         step.counts |= plan.counts | _counts(plan.drawn)
     return [
         _Read(

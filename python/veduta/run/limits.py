@@ -2,18 +2,24 @@
 
 Some libraries take gigabytes, or hours, for a file of two kilobytes, and end the whole process when
 there is no more memory. Here that ends a process that does nothing else, and the file is named.
+Where a header says how much there is, that is checked before: pictures and scans, whose headers
+tell all, need no other process.
 """
 
 from __future__ import annotations
 
+import atexit
 import importlib
+import os
 import resource
+import threading
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from veduta.run.errors import InputError
+from veduta.run.threads import available_cores
 from veduta.run.worker import Answer, Worker, end_workers
 
 A = TypeVar("A")
@@ -38,6 +44,8 @@ class _Request:
     name: str
     argument: Any
     limits: Limits
+    folder: str
+    """That the asking process stands in."""
 
 
 class ReaderFault(RuntimeError):
@@ -54,19 +62,51 @@ def limited(
     """What a function of a module's top level gives for an argument, in a process of its own.
 
     Both must be such that they can be sent there. InputError of the function passes through; where
-    it takes more memory or time, or ends the process, InputError names the subject.
+    it takes more memory or time, or ends the process, InputError names the subject. The process
+    stays for the next call: to start one takes as long as to read a few files.
     """
     allowed = limits or Limits()
-    worker = Worker(within, 1)
-    worker.send(_Request(function.__module__, function.__qualname__, argument, allowed))
+    request = _Request(
+        function.__module__, function.__qualname__, argument, allowed, str(Path.cwd())
+    )
+    with _one_at_a_time:
+        value: T = _asked(request, subject, remedy)
+    return value
+
+
+_one_at_a_time = threading.Lock()
+_kept: dict[int, Worker] = {}
+"""The process that reads, by the process that asks it: none is used by another's child."""
+
+
+def _asked(request: _Request, subject: str | Path, remedy: str) -> Any:
+    allowed = request.limits
+    worker = _kept.pop(os.getpid(), None)
+    if worker is None or worker.process.poll() is not None:
+        worker = Worker(within, available_cores())
     try:
+        worker.send(request)
         if not worker.pipe.poll(5 * allowed.seconds):
             raise InputError(subject, f"takes more than {allowed.seconds} s to read", remedy)
         answer = worker.receive()
-    finally:
+    except BaseException:  # also Ctrl-C: what it is at is not waited for
         end_workers([worker])
-    value: T = _value(answer, subject, remedy, allowed)
-    return value
+        raise
+    if answer.crash is not None:
+        end_workers([worker])
+    else:
+        _kept[os.getpid()] = worker
+    return _value(answer, subject, remedy, allowed)
+
+
+def end_readers() -> None:
+    """End the process that waits for a next file; it ends by itself with the one that asks, too."""
+    worker = _kept.pop(os.getpid(), None)
+    if worker is not None:
+        end_workers([worker])
+
+
+atexit.register(end_readers)
 
 
 def _value(answer: Answer, subject: str | Path, remedy: str, limits: Limits) -> Any:
@@ -85,16 +125,26 @@ def _value(answer: Answer, subject: str | Path, remedy: str, limits: Limits) -> 
 
 
 def within(request: _Request) -> Any:
-    """Call the function of a request under its limits; in the process that ends with it."""
-    function = getattr(importlib.import_module(request.module), request.name)
+    """Call the function of a request under its limits; in the process that reads one by one."""
     limits = request.limits
-    memory = _used_bytes() + limits.memory_mb * 1_000_000
-    resource.setrlimit(resource.RLIMIT_DATA, (memory, memory))
-    used = resource.getrusage(resource.RUSAGE_SELF)
-    seconds = int(used.ru_utime + used.ru_stime) + limits.seconds
-    resource.setrlimit(resource.RLIMIT_CPU, (seconds, seconds + 1))
     resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    return function(request.argument)
+    os.chdir(request.folder)
+    function = getattr(importlib.import_module(request.module), request.name)
+    used = resource.getrusage(resource.RUSAGE_SELF)
+    _limit(resource.RLIMIT_DATA, _used_bytes() + limits.memory_mb * 1_000_000)
+    _limit(resource.RLIMIT_CPU, int(used.ru_utime + used.ru_stime) + limits.seconds)
+    try:
+        return function(request.argument)
+    finally:
+        for kind in (resource.RLIMIT_DATA, resource.RLIMIT_CPU):
+            _limit(kind, resource.getrlimit(kind)[1])
+
+
+def _limit(kind: int, value: int) -> None:
+    """The soft limit, which the next request changes; the hard one stays."""
+    hard = resource.getrlimit(kind)[1]
+    asked = value if hard == resource.RLIM_INFINITY or value == hard else min(value, hard)
+    resource.setrlimit(kind, (asked, hard))
 
 
 def _used_bytes() -> int:

@@ -7,6 +7,10 @@ import os
 from veduta.run.errors import InputError
 
 
+def reader_and_folder(_: object) -> tuple[int, str]:
+    return os.getpid(), os.getcwd()
+
+
 def doubled(number: int) -> int:
     return 2 * number
 

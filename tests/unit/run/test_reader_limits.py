@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
+import os
+from pathlib import Path
+
 import pytest
-from reader_samples import doubled, ending, endless, faulty, hungry, refusing
+from reader_samples import (
+    doubled,
+    ending,
+    endless,
+    faulty,
+    hungry,
+    reader_and_folder,
+    refusing,
+)
 
 from veduta.run.errors import InputError
-from veduta.run.limits import Limits, ReaderFault, limited
+from veduta.run.limits import Limits, ReaderFault, end_readers, limited
 
 FEW = Limits(memory_mb=200, seconds=2)
 
@@ -39,3 +50,23 @@ def test_a_reader_that_takes_too_much_names_the_file(
 def test_a_bug_in_a_reader_is_one() -> None:
     with pytest.raises(ReaderFault, match="no such thing"):
         limited(faulty, None, "a.pdf", "Mend it.", FEW)
+
+
+def test_one_process_reads_one_file_after_another(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    first, folder = limited(reader_and_folder, None, "a.pdf", "Mend it.", FEW)
+    assert first != os.getpid()
+    assert folder == os.getcwd()
+    with pytest.raises(InputError, match="more than 200 MB"):
+        limited(hungry, 500, "a.pdf", "Mend it.", FEW)
+    # What one file may cost is no matter of the next.
+    assert limited(hungry, 500, "a.pdf", "Mend it.", Limits(900, 5)) == 500_000_000
+    monkeypatch.chdir(tmp_path)
+    assert limited(reader_and_folder, None, "a.pdf", "Mend it.", FEW) == (first, str(tmp_path))
+    with pytest.raises(InputError, match="SIGABRT"):
+        limited(ending, None, "a.pdf", "Mend it.", FEW)
+    second, _ = limited(reader_and_folder, None, "a.pdf", "Mend it.", FEW)
+    assert second != first
+    end_readers()
+    assert limited(doubled, 2, "a.pdf", "Mend it.", FEW) == 4

@@ -23,6 +23,7 @@ from veduta.drive.document.log import Bag, DriveLog
 from veduta.drive.read.bag_mend import mend_bag
 from veduta.drive.read.bag_rows import STATIC, BagRows, Row
 from veduta.run.errors import InputError
+from veduta.run.limits import Limits, limited
 
 if sys.version_info >= (3, 14):
     from compression import zstd
@@ -39,10 +40,29 @@ _FAULTS = (
 """What readers of bags raise at bytes that are none of a bag."""
 _BROKEN = (AnyReaderError, ArithmeticError, AssertionError, LookupError, TypeError)
 """And at a message that is none of its type."""
+_MEMORY_MB, _SECONDS, _BYTES_A_SECOND = 4000, 300, 1_000_000
+"""What unpacking may cost; bags of scans and pictures are read at 20 to 60 MB/s."""
+
+
+def unpack_in_limits(folder: Path, log: DriveLog, bag: Bag, scratch: Path) -> list[str]:
+    """As `unpack_bag`, in a process of its own: a block of a bag may swell to any size."""
+    path = folder / bag.file
+    files = [path] if path.is_file() else [one for one in path.glob("*") if one.is_file()]
+    size = sum(one.stat().st_size for one in files)
+    limits = Limits(_MEMORY_MB, _SECONDS + size // _BYTES_A_SECOND)
+    return limited(_unpacked, (folder, log, bag, scratch), path, "Record it anew.", limits)
+
+
+def _unpacked(given: tuple[Path, DriveLog, Bag, Path]) -> list[str]:
+    return unpack_bag(*given)
 
 
 def unpack_bag(
-    folder: Path, log: DriveLog, bag: Bag, scratch: Path, told: Callable[[float], None]
+    folder: Path,
+    log: DriveLog,
+    bag: Bag,
+    scratch: Path,
+    told: Callable[[float], None] = lambda share: None,
 ) -> list[str]:
     """Write the tables that topics are mapped to into `scratch`; what was left out, in words.
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pydantic import ValidationError
 
 from veduta.drive.document.log import DriveLog, Scanner
-from veduta.drive.read.bag import unpack_bag
+from veduta.drive.read.bag import unpack_in_limits
 from veduta.drive.read.clocks import clock_apart, shared_beams
 from veduta.drive.read.full_scans import read_full
 from veduta.drive.read.poses import poses_at, poses_of
@@ -70,7 +70,7 @@ def read_own(
             fault = "names a bag, and there is no place to unpack it"
             raise InputError(folder / LOG, fault, "Read it through `veduta drive`.")
         source = scratch
-        notes += unpack_bag(folder, log, log.bag, source, told)
+        notes += unpack_in_limits(folder, log, log.bag, source)
     else:
         source = folder
     if log.full is not None:

@@ -21,6 +21,7 @@ from scipy import ndimage
 from veduta.drive.record import HeightGrid
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import Limits, limited
 
 Floats = NDArray[np.float64]
 _MOST_BYTES, _MOST_CELLS = 4 << 30, 100_000_000
@@ -86,6 +87,10 @@ class SurfaceModel:
         return np.asarray(found, dtype=np.float64)
 
 
+LIMITS = Limits(memory_mb=4000, seconds=120)
+"""The largest one that is read takes a third of this."""
+
+
 def read_surface_model(
     path: Path, scanner_m: float, parameters: SurfaceParameters | None = None
 ) -> SurfaceModel:
@@ -94,7 +99,7 @@ def read_surface_model(
     One band of floats or 16-bit numbers is heights; three or four bands of bytes are a photo.
     """
     chosen = parameters or SurfaceParameters()
-    bands, low, cell_m, crs = _read(path)
+    bands, low, cell_m, crs = limited(_read, path, path, "Cut it to where the drive went.", LIMITS)
     if len(bands) == 1:
         return _of_heights(path, bands[0], low, cell_m, crs, scanner_m, chosen)
     edge = cv2.Canny(

@@ -12,12 +12,15 @@ from numpy.typing import NDArray
 from veduta.imaging.read import SUFFIXES, read_image
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import Limits, limited
 
 VIDEOS = (".avi", ".mp4", ".mov", ".mkv", ".m4v", ".webm", ".mpg", ".mpeg")
 _MOST_FRAMES = 600
 """Of longer footage every second, third, ... frame is read."""
 _MOST_BYTES = 3_000_000_000
 _MOST_FILE_BYTES = 20_000_000_000
+_LIMITS = Limits(memory_mb=2 * _MOST_BYTES // 1_000_000 + 1000, seconds=900)
+"""Frames are held twice while they are joined."""
 _ASSUMED_FPS = 25.0
 _FEWEST = 5
 _REMEDY = "Give a video, or a folder of frames (JPEG, PNG, TIFF, WebP) named in their order."
@@ -56,7 +59,7 @@ def read_footage(path: Path, fps: float | None) -> Footage:
         frames, number = _folder(path)
         rate: float | None = None
     else:
-        frames, number, rate = _video(path)
+        frames, number, rate = _film(path)
     if len(frames) < _FEWEST:
         fault = f"has {len(frames)} frames: motion is not seen in fewer than {_FEWEST}"
         raise InputError(path, fault, _REMEDY)
@@ -126,6 +129,11 @@ def _folder(path: Path) -> tuple[NDArray[np.uint8], NDArray[np.int64]]:
             raise InputError(files[int(place)], fault, "Give frames of one size.")
         frames[row] = pixels
     return frames, number.astype(np.int64)
+
+
+def _film(path: Path) -> tuple[NDArray[np.uint8], NDArray[np.int64], float | None]:
+    """As `_video`, in a process of its own: what decodes films trusts what they say."""
+    return limited(_video, path, path, _REMEDY, _LIMITS)
 
 
 def _video(path: Path) -> tuple[NDArray[np.uint8], NDArray[np.int64], float | None]:

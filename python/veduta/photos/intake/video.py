@@ -25,6 +25,7 @@ from veduta.photos.options import VideoOptions
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
+from veduta.run.limits import limited
 from veduta.run.progress import StepProgress, no_progress
 
 LARGEST_BYTES = 64_000_000_000
@@ -120,11 +121,16 @@ def video_of(path: Path) -> Video:
         raise InputError(path, fault, "Check its permissions.") from error
     if not any(start[at:].startswith(magic) for at, magic in _STARTS):
         raise InputError(path, "is not a film that can be read", _REMEDY)
+    return Video(path, path.name, digest, limited(_first_size, path, path, _REMEDY))
+
+
+def _first_size(path: Path) -> tuple[int, int]:
+    """Width and height (px) of the first frame; in a process of its own, for it may claim any."""
     with _opened(path) as film:
         if not film.grab():
             raise InputError(path, "has no frame that can be read", _REMEDY)
         height, width = _frame(path, film).shape[:2]
-    return Video(path, path.name, digest, (width, height))
+    return width, height
 
 
 def write_frames(

@@ -22,8 +22,12 @@ from veduta.plan.vector.sheet import VectorSheet, lay_out
 from veduta.plan.vector.units import unit_notes, unit_scale
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
+from veduta.run.limits import Limits
 
 _LEAST_STROKES = 4
+DXF_LIMITS = Limits(memory_mb=3000, seconds=240)
+"""A plan of 100,000 lines takes a fifth of this."""
+DXF_REMEDY = "Purge what is not drawn, or export the plan alone."
 
 
 @dataclass(frozen=True)
@@ -36,6 +40,11 @@ class VectorPlan:
     sha256: str
     notes: tuple[str, ...]
     counts: dict[str, int]
+
+
+def read_given(given: tuple[Path, float | None]) -> VectorPlan:
+    """As `read_vectors`, of both its arguments at once: for a process of its own."""
+    return read_vectors(*given)
 
 
 def read_vectors(path: Path, given_m: float | None = None) -> VectorPlan:
