@@ -66,7 +66,7 @@ $(PACKAGES): requirements/lock.txt .venv/.bootstrap
 
 $(EXTENSION): $(PACKAGES) pyproject.toml Cargo.toml Cargo.lock $(RUST_SOURCES) $(wildcard $(GPU))
 	@scripts/need cargo
-	env -u CONDA_PREFIX VIRTUAL_ENV=$(CURDIR)/.venv \
+	env -u CONDA_PREFIX VIRTUAL_ENV="$(CURDIR)/.venv" \
 		.venv/bin/maturin develop --release --locked --uv --quiet \
 		--features pyo3/extension-module$(if $(wildcard $(GPU)),$(COMMA)gpu)
 	@touch $@
@@ -152,7 +152,7 @@ pictures: setup ## the pictures of the docs, made from synthetic streets
 # One file with the extension and the studio; `pip install` of it needs neither Rust nor Node.
 wheel: setup ## one wheel, with the extension and the studio, in build/wheel
 	@rm -rf build/wheel
-	env -u CONDA_PREFIX VIRTUAL_ENV=$(CURDIR)/.venv \
+	env -u CONDA_PREFIX VIRTUAL_ENV="$(CURDIR)/.venv" \
 		.venv/bin/maturin build --release --locked --quiet --out build/wheel
 	@ls build/wheel/*.whl
 

@@ -3,7 +3,7 @@
 https://openusd.org - a stage in metres, z up. A part is an Xform with one Mesh, whose looks are
 GeomSubsets of the family `materialBind`, each bound to a UsdPreviewSurface that is named after its
 class. What each face is (`primvars:veduta:feature`, a row) and the table (`veduta:id`,
-`veduta:class`, `veduta:provenance`) stand with the mesh. Skeletons and clips are not written.
+`veduta:class`, `veduta:provenance`) stand with the mesh. What moves is a SkelRoot (`usd_skel`).
 """
 
 from __future__ import annotations
@@ -18,7 +18,9 @@ import numpy as np
 
 from veduta.formats.pictures import Pictures
 from veduta.formats.shapes import Look, Shape, shapes
+from veduta.formats.usd_skel import add_motion, moves
 from veduta.imaging.srgb import linear_of_srgb
+from veduta.place.mesh import Mesh
 from veduta.place.place import Place
 from veduta.run.atomic import sync_file
 from veduta.run.errors import InputError
@@ -102,9 +104,10 @@ class _PrimNames:
 
 def _mesh(stage: Usd.Stage, shape: Shape, names: _PrimNames) -> Any:
     """The mesh of a part, in the frame of the place."""
-    from pxr import Sdf, UsdGeom, Vt
+    from pxr import Sdf, UsdGeom, UsdSkel, Vt
 
-    above = UsdGeom.Xform.Define(stage, f"{_ROOT}/{names.unique(shape.placed.id)}")
+    kind = UsdSkel.Root if moves(shape.content) else UsdGeom.Xform
+    above = kind.Define(stage, f"{_ROOT}/{names.unique(shape.placed.id)}")
     above.GetPrim().SetDisplayName(shape.placed.standing.name or shape.placed.id)
     for name, value in shape.content.attributes.items():
         above.GetPrim().SetCustomDataByKey(f"veduta:{re.sub('[^A-Za-z0-9_]', '_', name)}", value)
@@ -143,6 +146,9 @@ def _mesh(stage: Usd.Stage, shape: Shape, names: _PrimNames) -> Any:
     for name, texts in columns.items():
         attribute = mesh.GetPrim().CreateAttribute(f"veduta:{name}", kinds.StringArray)
         attribute.Set(Vt.StringArray(texts))
+    if isinstance(shape.content, Mesh) and moves(shape.content):
+        transform = shape.placed.standing.transform
+        add_motion(stage, above.GetPath(), mesh, shape.content, transform)
     return mesh
 
 

@@ -37,6 +37,7 @@ Write = Callable[["Place", Path], None]
 
 _AROUND = (POINTS, CAMERAS, WALKS, ANIMALS)
 _SCENE = (LEAVES, LAMPS, MOTION, TOURS, *_AROUND)
+_USD = tuple(kind for kind in _SCENE if kind != MOTION)
 _PLAIN = (TEXTURES, *_SCENE)
 _CITY = (COLOURS, *_PLAIN)
 _MAP = (SURFACES, TOURS, *_AROUND)
@@ -45,10 +46,10 @@ ROWS: tuple[tuple[str, str, str, str, tuple[str, ...]], ...] = (
     (".glb", "glb", "glTF 2.0, one file", "place_glb:write_place_glb", _AROUND),
     (".obj", "obj", "Wavefront OBJ with MTL and textures", "place_obj:write_obj", _SCENE),
     (".stl", "stl", "STL", "place_stl:write_stl", (CLASSES, *_CITY)),
-    (".usda", "usda", "USD as text, textures beside", "place_usd:write_usd", _SCENE),
-    (".usdc", "usdc", "USD, binary, textures beside", "place_usd:write_usd", _SCENE),
-    (".usd", "usd", "USD, textures beside", "place_usd:write_usd", _SCENE),
-    (".usdz", "usdz", "USD with its textures in one file", "place_usd:write_usd", _SCENE),
+    (".usda", "usda", "USD as text, textures beside", "place_usd:write_usd", _USD),
+    (".usdc", "usdc", "USD, binary, textures beside", "place_usd:write_usd", _USD),
+    (".usd", "usd", "USD, textures beside", "place_usd:write_usd", _USD),
+    (".usdz", "usdz", "USD with its textures in one file", "place_usd:write_usd", _USD),
     (
         ".dae",
         "dae",

@@ -11,7 +11,7 @@ from typing import Annotated, Literal, get_args
 
 from pydantic import AfterValidator, BaseModel, ConfigDict, Field
 
-from veduta.plan.surroundings.sun import read_time
+from veduta.plan.sun import read_time
 
 Origin = Literal["measured", "inferred", "invented", "edited"]
 """Drawn on the plan; follows from what is drawn and a rule; on no record; written by a person."""

@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, field_validator
 
-from veduta.plan.surroundings.sun import read_time
+from veduta.plan.sun import read_time
 from veduta.run.options import Options
 
 RoofKind = Literal["auto", "hip", "gable", "pyramid", "mansard", "half-hip", "flat", "none"]

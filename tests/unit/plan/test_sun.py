@@ -12,9 +12,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from veduta.plan.sun import SunPosition, in_zone, read_time, sun_position
 from veduta.plan.surroundings import daylight
 from veduta.plan.surroundings.daylight import daylight_of
-from veduta.plan.surroundings.sun import SunPosition, in_zone, read_time, sun_position
 
 
 def test_position_published_by_nrel() -> None:

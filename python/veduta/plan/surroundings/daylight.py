@@ -15,8 +15,8 @@ from veduta.imaging.srgb import linear_of_srgb, srgb_of_linear
 from veduta.place.material import Colour
 from veduta.place.mover import Vector
 from veduta.place.sunlight import Sunlight
+from veduta.plan.sun import SunPosition
 from veduta.plan.surroundings.site import Site
-from veduta.plan.surroundings.sun import SunPosition
 
 DAY_SINE, NIGHT_SINE, DUSK_SINE = 0.3, -0.12, 0.22
 """Sines of the sun's elevation: as light as by day from here on, dark from there on, red below."""

@@ -12,7 +12,7 @@ from typing import Literal
 from veduta.place.manifest import PlaceSun
 from veduta.plan.document import PlanDocument
 from veduta.plan.options import SiteOptions
-from veduta.plan.surroundings.sun import (
+from veduta.plan.sun import (
     USUAL_SUN,
     USUAL_TIME,
     SunPosition,
