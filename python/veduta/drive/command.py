@@ -16,7 +16,7 @@ from veduta.drive.build.beside import column_spacing
 from veduta.drive.build.bodies import bodies_of
 from veduta.drive.build.body_file import BUILDINGS, write_bodies
 from veduta.drive.build.edited import with_document
-from veduta.drive.build.facade_files import FACADES, write_facades
+from veduta.drive.build.facade_files import FACADES, write_facade_list
 from veduta.drive.build.outcome import Outcome
 from veduta.drive.build.pictures import plan_picture
 from veduta.drive.build.place import PICTURES, classified, drive_place
@@ -28,7 +28,7 @@ from veduta.drive.read.log import log_files, read_log
 from veduta.drive.read.segments import cut_segments, driven_line
 from veduta.drive.record import DriveRecord
 from veduta.drive.stages import layer_segments, texture_segments
-from veduta.formats.laz import write_laz
+from veduta.formats.laz import write_laz_parts
 from veduta.run.digests import file_digest
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.page import Table
@@ -37,7 +37,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "7"
+VERSION = "8"
 POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
@@ -145,11 +145,14 @@ def _write(
     )
     text = json.dumps(document.model_dump(mode="json", by_alias=True), indent=1)
     (folder / DOCUMENT).write_text(text + "\n", encoding="utf-8")
-    cloud = classified(outcomes)
-    write_laz(cloud.points_m, cloud.colours, folder / POINTS, crs=record.crs,
-              origin_m=record.origin_m, classes=cloud.classes)  # fmt: skip
-    drive_place(record, outcomes, line, road_m).save(folder)
-    planes = write_facades(outcomes, folder / FACADES)
+    near = np.median(line, axis=0)
+    write_laz_parts(
+        ((one.points_m, one.colours, one.classes) for one in classified(outcomes)),
+        folder / POINTS, (near[0], near[1], near[2]), crs=record.crs, origin_m=record.origin_m,
+    )  # fmt: skip
+    drive_place(record, outcomes, line, road_m, folder).save(folder)
+    rows = [row for one in outcomes for _, _, row in one.planes]
+    planes = write_facade_list(rows, folder / FACADES)
     bodies = _bodies(record, outcomes, folder / BUILDINGS, work)
     files = [
         ("place.json", "the place: `veduta view` shows it"),
@@ -217,9 +220,9 @@ def _tell(
     work.measure("triangles_seen_in_no_image", round(share, 4))
     work.measure("atlas_px", sum(one.texels for one in outcomes))
     work.measure("image_px", sum(shot.width_px * shot.height_px for shot in record.shots))
-    looked = sum(one.consistency.looked for one in outcomes)
+    looked = sum(one.looked for one in outcomes)
     if looked:
-        wrong = sum(int(one.consistency.contradicted.sum()) for one in outcomes)
+        wrong = sum(one.contradicted for one in outcomes)
         work.measure("filled_points_where_images_disagree", round(wrong / looked, 4))
     work.summary = (
         f"{len(outcomes)} facade meshes of {triangles:,} triangles; {objects} objects taken out;"
@@ -231,7 +234,7 @@ def _tell(
         work.doubt("there are no images: nothing is textured")
     elif share > 0.2:
         work.doubt(f"{100 * share:.0f} % of the triangles are seen in no image: plain or invented")
-    points = np.concatenate([one.points for one in outcomes])
+    points = np.concatenate([one.sample for one in outcomes])
     kinds = np.concatenate([one.kinds for one in outcomes])
     work.picture(
         "From above",
@@ -240,9 +243,8 @@ def _tell(
     )  # fmt: skip
     rows: list[list[Count | None]] = []
     for one in outcomes:
-        count = np.bincount(one.kinds, minlength=67)
         rows.append([
-            one.segment.id, *(int(count[kind]) for kind in (6, 2, 64, 65, 66)), one.objects,
+            one.segment.id, *(int(one.counts[kind]) for kind in (6, 2, 64, 65, 66)), one.objects,
             round(one.unseen_share, 3), one.segment.reason,
         ])  # fmt: skip
     work.table(Table(

@@ -5,13 +5,17 @@ What is made of a segment is on disk as soon as it is made, so that a killed run
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections import deque
+from collections.abc import Callable, Iterator, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 
 from pydantic import JsonValue
 
 from veduta.drive.build.backdrop import backdrop_of
 from veduta.drive.build.beside import points_beside
+from veduta.drive.build.facade_files import FACADES
 from veduta.drive.build.near_images import NearImages
 from veduta.drive.build.outcome import Outcome, outcome_of
 from veduta.drive.build.pictures import (
@@ -28,8 +32,11 @@ from veduta.drive.kept import load_result, save_result
 from veduta.drive.options import DriveOptions
 from veduta.drive.record import DriveRecord
 from veduta.run.errors import NotFoundError
+from veduta.run.threads import available_cores
 from veduta.run.work import Work
 
+MOST_TAKEN_OUT = 3_000_000
+"""Points of the whole drive that are shown as taken out; `points.laz` has all."""
 FEWEST_COLUMNS = 10
 """Columns with a facade that a segment needs."""
 
@@ -55,13 +62,13 @@ def layer_segments(
     found = []
     with work.step("layers") as step:
         built = [one for one in segments if one.fate != "leave-out"]
-        for number, segment in enumerate(built):
+
+        def geometry_of(segment: DriveSegment) -> Geometry:
+            return _kept_geometry(record, segment, options, road_m, digests, work)
+
+        for number, (segment, geometry) in enumerate(_side_by_side(geometry_of, built)):
             work.progress("layers", number / len(built))
-
-            def load(segment: DriveSegment = segment) -> Geometry:
-                return _kept_geometry(record, segment, options, road_m, digests, work)
-
-            geometry = load()
+            load = partial(geometry_of, segment)
             if geometry.segment.fate == "as-is" and segment.fate != "as-is":
                 step.rejected.append(f"{segment.id}: {geometry.segment.reason}")
             if geometry.segment.fate == "build" and geometry.measured_walls() < FEWEST_COLUMNS:
@@ -78,6 +85,22 @@ def layer_segments(
             "a facade", "no segment has a main depth", "Drive along a street with buildings."
         )
     return found
+
+
+def _side_by_side(
+    make: Callable[[DriveSegment], Geometry], segments: Sequence[DriveSegment]
+) -> Iterator[tuple[DriveSegment, Geometry]]:
+    """Each segment with what is made of it, in their order; as many at once as there are cores."""
+    cores = available_cores()
+    waiting = list(segments)
+    with ThreadPoolExecutor(cores) as pool:
+        at_work: deque[tuple[DriveSegment, Future[Geometry]]] = deque()
+        while waiting or at_work:
+            while waiting and len(at_work) < cores:
+                segment = waiting.pop(0)
+                at_work.append((segment, pool.submit(make, segment)))
+            segment, made = at_work.popleft()
+            yield segment, made.result()
 
 
 def _kept_geometry(
@@ -131,11 +154,18 @@ def texture_segments(
             ) -> Textured:
                 return texture(one.load(), seen, options, told)
 
-            made = work.kept(
-                f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
-                save_result, lambda folder: load_result(Textured, folder),
-            )  # fmt: skip
-            found.append(outcome_of(made, seen, options.texture.texel_m))
+            def load(one: Layered = one, make: Callable[[], Textured] = make) -> Textured:
+                kept: Textured = work.kept(
+                    f"texture-{one.segment.id}", _inputs(one.segment, options, digests), make,
+                    save_result, lambda folder: load_result(Textured, folder),
+                )  # fmt: skip
+                return kept
+
+            made = load()
+            found.append(outcome_of(
+                made, load, seen, options.texture.texel_m,
+                max(MOST_TAKEN_OUT // len(layered), 1), work.folder / FACADES,
+            ))  # fmt: skip
             _show(made, work)
             step.counts[f"{one.segment.id}: triangles"] = len(made.surface.triangles)
         step.counts["images"] = images.looked

@@ -8,8 +8,10 @@ writes it; `untwine` or PDAL make it of this file.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from datetime import date
 from pathlib import Path
+from typing import Any
 
 import laspy
 import numpy as np
@@ -49,15 +51,62 @@ def write_laz(
     InputError where `crs` is none.
     """
     places = points + np.asarray(origin_m)
+    offset = np.floor(np.median(places, axis=0)) if len(places) else np.zeros(3)
+    scale = _scale(places, offset, surveyed=crs is not None)
+    cloud = laspy.LasData(_header(offset, scale, crs))
+    _fill(cloud, places, colours, classes)
+    with path.open("wb") as file:
+        cloud.write(file, do_compress=True, laz_backend=laspy.LazBackend.Lazrs)
+
+
+def write_laz_parts(
+    parts: Iterable[tuple[NDArray[np.float64], NDArray[np.uint8], NDArray[np.uint8] | None]],
+    path: Path,
+    middle: tuple[float, float, float],
+    *,
+    crs: str | None = None,
+    origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0),
+) -> int:
+    """Write points, colours and classes (as `write_laz` takes them) part after part, of which one
+    is in memory at a time; how many points there are.
+
+    middle: a place among the points (m): none lies more than 2000 km from it. InputError where
+    `crs` is none.
+    """
+    header = _header(np.floor(np.asarray(middle) + np.asarray(origin_m)), SURVEYED_SCALE_M, crs)
+    count = 0
+    with (
+        path.open("wb") as file,
+        laspy.open(
+            file, mode="w", header=header, do_compress=True, laz_backend=laspy.LazBackend.Lazrs,
+            closefd=False,
+        ) as writer,
+    ):  # fmt: skip
+        for points, colours, classes in parts:
+            rows = laspy.ScaleAwarePointRecord.zeros(len(points), header=header)
+            _fill(rows, points + np.asarray(origin_m), colours, classes)
+            writer.write_points(rows)
+            count += len(points)
+    return count
+
+
+def _header(offset: NDArray[np.float64], scale: float, crs: str | None) -> laspy.LasHeader:
     header = laspy.LasHeader(point_format=POINT_FORMAT, version="1.4")
     header.generating_software = "veduta"
     header.creation_date = _MADE
-    header.offsets = np.floor(np.median(places, axis=0)) if len(places) else np.zeros(3)
-    header.scales = np.full(3, _scale(places, header.offsets, surveyed=crs is not None))
+    header.offsets, header.scales = offset, np.full(3, scale)
     header.global_encoding.wkt = True
     if crs is not None:
         header.add_crs(_crs(crs))
-    cloud = laspy.LasData(header)
+    return header
+
+
+def _fill(
+    cloud: Any,
+    places: NDArray[np.float64],
+    colours: NDArray[np.uint8],
+    classes: NDArray[np.uint8] | None,
+) -> None:
     cloud.x, cloud.y, cloud.z = places.T
     # The format asks for the full range of 16 bits.
     cloud.red, cloud.green, cloud.blue = colours.T.astype(np.uint16) * 257
@@ -65,8 +114,6 @@ def write_laz(
         cloud.classification = classes
     cloud.return_number = np.ones(len(places), dtype=np.uint8)
     cloud.number_of_returns = np.ones(len(places), dtype=np.uint8)
-    with path.open("wb") as file:
-        cloud.write(file, do_compress=True, laz_backend=laspy.LazBackend.Lazrs)
 
 
 def _scale(places: NDArray[np.float64], offset: NDArray[np.float64], *, surveyed: bool) -> float:

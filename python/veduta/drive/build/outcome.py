@@ -1,20 +1,17 @@
-"""What is kept of a segment once it is textured: its meshes, its points, and its figures."""
+"""What stays in memory of a segment once it is textured: its figures; the rest is on disk."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.drive.build.consistency import Consistency
-from veduta.drive.build.facade_planes import (
-    FacadePlane,
-    Orthophoto,
-    facade_planes,
-    orthophoto,
-)
+from veduta.drive.build.facade_files import Row, write_facade
+from veduta.drive.build.facade_planes import FacadePlane, facade_planes, orthophoto
 from veduta.drive.build.fill import Source
 from veduta.drive.build.layers import PointClass
 from veduta.drive.build.meshes import CLASS_COLOURS, segment_mesh
@@ -26,64 +23,96 @@ from veduta.place.place import Standing
 
 _HIDDEN_M = 1.0
 """A point so far behind what hides it is not seen."""
+_SAMPLE = 20_000
+"""Points of a segment that the report draws."""
 
 
 @dataclass(frozen=True, eq=False)
 class Outcome:
-    """meshes: its walls and ground with their places. taken_out: (n, 3) m, with (n, 3) colours.
+    """load: the segment itself, from disk. taken_out: (n, 3) m, with (n, 3) colours.
 
-    points: (m, 3) all scan points (m), and those of filled holes, kinds: (m,) their `PointClass`.
-    triangles: of the meshes;
+    counts: (256,) points of each `PointClass`. sample: (k, 3) some of the points (m), kinds: (k,)
+    their classes. lowest_m: of the ground, inf where there is none. triangles: of the meshes;
     fine: before any were joined; unseen_share: of those, error_m: by which that moved the surface.
-    texels: of the atlas. planes: (name, plane, its orthophoto where images show enough of it).
+    texels: of the atlas. looked, contradicted: filled pixels that images were asked about, and
+    those where they disagree. planes: of its facades, by their names, and their rows of the list.
     """
 
     segment: DriveSegment
-    meshes: tuple[tuple[Mesh, Standing], ...]
+    load: Callable[[], Textured]
     taken_out: NDArray[np.float64]
     colours: NDArray[np.uint8]
-    points: NDArray[np.float64]
+    counts: NDArray[np.int64]
+    sample: NDArray[np.float64]
     kinds: NDArray[np.uint8]
+    lowest_m: float
     objects: int
     triangles: int
     fine: int
     unseen_share: float
     error_m: float
     texels: int
-    consistency: Consistency
-    planes: tuple[tuple[str, FacadePlane, Orthophoto | None], ...]
+    looked: int
+    contradicted: int
+    planes: tuple[tuple[str, FacadePlane, Row], ...]
 
 
-def outcome_of(textured: Textured, seen: Sequence[Seen], texel_m: float) -> Outcome:
-    """seen: images near the segment, which colour what was taken out."""
+def outcome_of(
+    textured: Textured,
+    load: Callable[[], Textured],
+    seen: Sequence[Seen],
+    texel_m: float,
+    most_taken_out: int,
+    facades: Path,
+) -> Outcome:
+    """seen: images near the segment, which colour what was taken out. facades: a folder for
+    pictures of its planes.
+    """
     geometry, surface = textured.geometry, textured.surface
-    meshes = []
-    if len(surface.triangles):
-        middle = surface.vertices.mean(axis=0)
-        transform = np.eye(4)
-        transform[:3, 3] = middle
-        name = f"{geometry.segment.side} side, {geometry.segment.id}"
-        for wall in (True, False):
-            mesh = segment_mesh(textured, middle, wall=wall)
-            told = name if wall else f"{name}, ground"
-            if mesh is not None:
-                place = Standing(told, transform, ground=not wall, document="drive.json")
-                meshes.append((mesh, place))
-    planes = tuple(
-        (f"{geometry.segment.id}-{number:02d}", plane, orthophoto(textured, plane, texel_m))
-        for number, plane in enumerate(facade_planes(textured), 1)
-    )
-    taken_out = geometry.foreground()
-    points, kinds = _with_filled(geometry)
+    name = geometry.segment.id
+    planes = []
+    for number, plane in enumerate(facade_planes(textured), 1):
+        picture = orthophoto(textured, plane, texel_m)
+        row = write_facade(f"{name}-{number:02d}", name, plane, picture, facades)
+        planes.append((f"{name}-{number:02d}", plane, row))
+    taken_out = _some(geometry.foreground(), most_taken_out)
+    points, kinds = with_filled(geometry)
+    ground = surface.vertices[surface.triangles[~surface.wall]][..., 2]
     return Outcome(
-        geometry.segment, tuple(meshes), taken_out, coloured(taken_out, seen),
-        points, kinds, geometry.object_count,
+        geometry.segment, load, taken_out, coloured(taken_out, seen),
+        np.bincount(kinds, minlength=256), _some(points, _SAMPLE), _some(kinds, _SAMPLE),
+        float(ground.min()) if ground.size else float("inf"), geometry.object_count,
         len(surface.triangles), textured.fine_triangles, textured.unseen_share,
-        textured.error_m, int(textured.atlas.surface.sum()), textured.consistency, planes,
+        textured.error_m, int(textured.atlas.surface.sum()), textured.consistency.looked,
+        int(textured.consistency.contradicted.sum()), tuple(planes),
     )  # fmt: skip
 
 
-def _with_filled(geometry: Geometry) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
+def placed_meshes(textured: Textured, lift_m: float) -> list[tuple[Mesh, Standing]]:
+    """The walls and the ground of a segment, and where they stand, `lift_m` higher."""
+    surface, segment = textured.surface, textured.geometry.segment
+    if not len(surface.triangles):
+        return []
+    middle = surface.vertices.mean(axis=0)
+    transform = np.eye(4)
+    transform[:3, 3] = middle + [0.0, 0.0, lift_m]
+    name = f"{segment.side} side, {segment.id}"
+    meshes = []
+    for wall in (True, False):
+        mesh = segment_mesh(textured, middle, wall=wall)
+        told = name if wall else f"{name}, ground"
+        if mesh is not None:
+            place = Standing(told, transform, ground=not wall, document="drive.json")
+            meshes.append((mesh, place))
+    return meshes
+
+
+def _some(rows: NDArray[Any], most: int) -> NDArray[Any]:
+    """Each n-th row, so that no more than `most` are left."""
+    return np.ascontiguousarray(rows[:: max(-(-len(rows) // most), 1)])
+
+
+def with_filled(geometry: Geometry) -> tuple[NDArray[np.float64], NDArray[np.uint8]]:
     """The scan points and their classes, and after them a point for each beam that was filled."""
     background, layers = geometry.background, geometry.layers
     filled = (background.source == Source.FILLED) & np.isfinite(background.depth)

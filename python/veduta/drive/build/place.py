@@ -2,16 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from functools import partial
+from pathlib import Path
 
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.drive.build.meshes import CLASS_COLOURS
-from veduta.drive.build.outcome import Outcome
-from veduta.drive.record import DriveRecord
+from veduta.drive.build.outcome import Outcome, placed_meshes, with_filled
+from veduta.drive.build.segment import Textured
+from veduta.drive.record import DriveRecord, Shot
 from veduta.place.manifest import PlaceCamera, Start, Tour
-from veduta.place.place import Cloud, Place
+from veduta.place.mesh import Mesh
+from veduta.place.place import Cloud, ModelFile, Place, PlacedPart
 
 PICTURES = "pictures"
 _EYE_EVERY_M, _SPEED_M_S = 2.0, 3.0
@@ -22,61 +26,65 @@ def drive_place(
     outcomes: Sequence[Outcome],
     line: NDArray[np.float64],
     road_m: float,
+    folder: Path,
 ) -> Place:
-    """line: (c, 3) the path of the scanner, along which the tour goes."""
-    place = Place(title=record.name, crs=record.crs, origin_m=record.origin_m)
+    """The place, with its models already written into `folder`, one segment after the other.
+
+    line: (c, 3) the path of the scanner, along which the tour goes. The lowest ground is at z = 0:
+    what is shown below that is hidden there. The origin moves the other way, so that all
+    coordinates in the world stay.
+    """
+    lift = max(-min((one.lowest_m for one in outcomes), default=0.0), 0.0)
+    up = np.array([0.0, 0.0, lift])
+    x, y, z = record.origin_m
+    place = Place(title=record.name, crs=record.crs, origin_m=(x, y, z - lift))
     for one in outcomes:
-        for mesh, standing in one.meshes:
-            place.add(mesh, standing)
+        for mesh, standing in placed_meshes(one.load(), lift):
+            row = PlacedPart(
+                mesh.id, standing, partial(_again, one.load, mesh.id, lift),
+                file=ModelFile(f"parts/{mesh.id}.glb"),
+                _content=mesh,
+            ).save(folder)  # fmt: skip
+            placed = PlacedPart.standing_as(row, partial(_again, one.load, mesh.id, lift))
+            placed.lies = True
+            place.parts[mesh.id] = placed
     taken_out = np.concatenate([one.taken_out for one in outcomes])
     # Otherwise what was taken out would stand in the street again, as points and in the photos.
     place.hidden = ("points", "cameras", "photos")
     colours = np.concatenate([one.colours for one in outcomes])
-    place.clouds.append(Cloud("taken-out", taken_out, colours))
-    place.cameras = [
-        PlaceCamera(
-            id=shot.name, name=shot.name, picture=f"{PICTURES}/{shot.name}.jpg",
-            width_px=shot.width_px, height_px=shot.height_px, focal_px=shot.focal_px,
-            centre_px=shot.centre_px, transform=tuple(shot.world_from_cam.T.ravel().tolist()),
-        )
-        for shot in record.shots
-    ]  # fmt: skip
+    place.clouds.append(Cloud("taken-out", taken_out + up, colours))
+    place.cameras = [_camera(shot, up) for shot in record.shots]
     if len(line) > 1:
-        place.tours.append(_tour(line, road_m))
+        place.tours.append(_tour(line + up, road_m))
         ahead = line[min(len(line) - 1, 100)]
-        eye, target = line[0], np.array([ahead[0], ahead[1], line[0][2]])
+        eye, target = line[0] + up, np.array([ahead[0], ahead[1], line[0][2]]) + up
         place.start = Start(eye=tuple(eye.tolist()), target=tuple(target.tolist()))
-    return _above_zero(place)
+    return place
 
 
-def _above_zero(place: Place) -> Place:
-    """The same place with its lowest ground at z = 0: what is shown below that is hidden there.
-
-    The origin moves the other way, so that all coordinates in the world stay.
-    """
-    grounds = [one for one in place.parts.values() if one.standing.ground]
-    lowest = min((float(one.triangles()[0][:, 2].min()) for one in grounds), default=0.0)
-    if lowest >= 0.0 or place.start is None:
-        return place
-    x, y, z = place.origin_m
-    start = place.start
-    raised = Place(place.title, crs=place.crs, origin_m=(x, y, z + lowest))
-    raised.start = Start(eye=_up(start.eye, -lowest), target=_up(start.target, -lowest))
-    return raised.merge(place)
+def _again(load: Callable[[], Textured], identity: str, lift_m: float) -> Mesh:
+    """A mesh of a segment, from what is on disk."""
+    return next(mesh for mesh, _ in placed_meshes(load(), lift_m) if mesh.id == identity)
 
 
-def _up(place: tuple[float, float, float], by_m: float) -> tuple[float, float, float]:
-    return place[0], place[1], place[2] + by_m
+def _camera(shot: Shot, up: NDArray[np.float64]) -> PlaceCamera:
+    pose = shot.world_from_cam.copy()
+    pose[:3, 3] += up
+    return PlaceCamera(
+        id=shot.name, name=shot.name, picture=f"{PICTURES}/{shot.name}.jpg",
+        width_px=shot.width_px, height_px=shot.height_px, focal_px=shot.focal_px,
+        centre_px=shot.centre_px, transform=tuple(pose.T.ravel().tolist()),
+    )  # fmt: skip
 
 
-def classified(outcomes: Sequence[Outcome]) -> Cloud:
-    """The scan points of all segments, coloured by their classes."""
-    kind = np.concatenate([one.kinds for one in outcomes] or [np.zeros(0, np.uint8)])
+def classified(outcomes: Sequence[Outcome]) -> Iterator[Cloud]:
+    """The points of one segment after the other, coloured by their classes."""
     table = np.zeros((256, 3), dtype=np.uint8)
     for value, colour in CLASS_COLOURS.items():
         table[value] = colour
-    points = np.concatenate([one.points for one in outcomes] or [np.zeros((0, 3))])
-    return Cloud("points", points, table[kind], kind)
+    for one in outcomes:
+        points, kinds = with_filled(one.load().geometry)
+        yield Cloud("points", points, table[kinds], kinds)
 
 
 def _tour(line: NDArray[np.float64], road_m: float) -> Tour:
