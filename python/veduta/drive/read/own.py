@@ -11,11 +11,12 @@ import numpy as np
 from numpy.typing import NDArray
 from pydantic import ValidationError
 
-from veduta.drive.document.log import DriveLog, Scanner
+from veduta.drive.document.log import CameraMount, DriveLog, Scanner
 from veduta.drive.read.bag import unpack_in_limits
 from veduta.drive.read.clocks import clock_apart, shared_beams
 from veduta.drive.read.full_scans import read_full
 from veduta.drive.read.poses import poses_at, poses_of
+from veduta.drive.read.roll import find_roll
 from veduta.drive.read.scanned_path import find_path
 from veduta.drive.read.shots import shots_of
 from veduta.drive.read.spacing import equally_spaced
@@ -94,6 +95,8 @@ def read_own(
         origin, crs, doubts = found.origin_m, found.crs, found.doubts
         corrections = tuple((float(times[row]), move, why) for row, move, why in found.corrected)
         notes += [f"the path comes from {path_from}", *found.notes]
+        if log.camera is not None:
+            poses = _leaning(source, log.camera, times, poses, notes)
     else:
         fault = "names neither a [path] nor a [horizontal] scanner"
         raise InputError(folder / LOG, fault, "Give poses, or scans to find them from.")
@@ -107,6 +110,26 @@ def read_own(
         path_from, corrections, doubts,
         None if log.surface is None else partial(read_heights, folder / log.surface.file, origin),
     )  # fmt: skip
+
+
+def _leaning(
+    source: Path,
+    camera: CameraMount,
+    times: NDArray[np.float64],
+    poses: NDArray[np.float64],
+    notes: list[str],
+) -> NDArray[np.float64]:
+    """Poses (p, 3, 4) with the roll that images tell; the same ones where they tell none."""
+    shots = shots_of(source, camera, times, poses, [])
+    ahead = poses_at(np.array([shot.time_s for shot in shots]), times, poses)[:, :3, 0]
+    roll = find_roll(shots, ahead)
+    if roll is None:
+        notes.append("too few images show upright edges: the vehicle is taken not to lean")
+        return poses
+    typical = np.rad2deg(np.sqrt((roll.roll_rad**2).mean()))
+    count = f"{len(roll.times_s)} of {roll.looked} images"
+    notes.append(f"roll comes from upright edges in {count}: {typical:.1f} degrees typically")
+    return roll.onto(times, poses)
 
 
 def _on_one_clock(

@@ -1,0 +1,123 @@
+"""How much better a path fits where it was found than anywhere around: its margin.
+
+A model of another place has edges, too, and particles settle where they fit best. There, other
+places nearby fit about as well; where the drive was, none does.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.drive.read.surface_model import SurfaceModel
+
+Floats = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RivalParameters:
+    """sigma_m: of points about edges, the stiffness of the path included. own_m: places nearer are
+    the same one. rival_m: places from there to `farthest_m` are rivals. step_m: between places that
+    are looked at; the best of them are refined by `fine_m`. turns_rad: headings that are tried.
+    scans, points: so many are laid onto the model.
+    """
+
+    sigma_m: float = 0.6
+    own_m: float = 1.5
+    rival_m: float = 4.0
+    farthest_m: float = 24.0
+    step_m: float = 1.0
+    fine_m: float = 0.25
+    turns_rad: tuple[float, ...] = (-0.08, -0.04, 0.0, 0.04, 0.08)
+    scans: int = 60
+    points: int = 40
+    refined: int = 8
+
+
+@dataclass(frozen=True)
+class Margin:
+    """own, rival: how well the path fits where it is, and at the best other place: 0 to 1.
+
+    away: (2,) m to that place.
+    """
+
+    own: float
+    rival: float
+    away: tuple[float, float]
+
+    @property
+    def share(self) -> float:
+        """What of the path's fit no rival has: near 0, another place does as well."""
+        return 1.0 - self.rival / max(self.own, 1e-9)
+
+
+def margin_of(
+    poses: Floats,
+    scans: Sequence[Floats],
+    model: SurfaceModel,
+    parameters: RivalParameters | None = None,
+) -> Margin:
+    """The path as a stiff line, moved and turned over the model. poses: (k, 3) in its CRS (m, rad).
+
+    scans: (n, 2) points of each in the vehicle's frame (m).
+    """
+    chosen = parameters or RivalParameters()
+    points = _laid(poses, scans, chosen)
+    middle = points.mean(axis=0)
+    around = points - middle
+    reach = np.arange(-chosen.farthest_m, chosen.farthest_m + 1e-9, chosen.step_m)
+    places = np.stack(np.meshgrid(reach, reach, indexing="ij"), axis=2).reshape(-1, 2)
+    length = np.linalg.norm(places, axis=1)
+    own = _refined(places[length <= chosen.own_m], around, middle, model, chosen)
+    ring = (length >= chosen.rival_m) & (length <= chosen.farthest_m)
+    rival = _refined(places[ring], around, middle, model, chosen)
+    x, y = rival[1].tolist()
+    return Margin(own[0], rival[0], (x, y))
+
+
+def _refined(
+    places: Floats, around: Floats, middle: Floats, model: SurfaceModel, chosen: RivalParameters
+) -> tuple[float, Floats]:
+    """The best fit among places (p, 2) and finer ones about the best of them."""
+    best, where = -1.0, places[0]
+    fine = np.arange(-chosen.step_m / 2, chosen.step_m / 2 + 1e-9, chosen.fine_m)
+    finer = np.stack(np.meshgrid(fine, fine, indexing="ij"), axis=2).reshape(-1, 2)
+    for turn in chosen.turns_rad:
+        cosine, sine = np.cos(turn), np.sin(turn)
+        turned = middle + around @ np.array([[cosine, sine], [-sine, cosine]])
+        rough = _fits(places, turned, model, chosen)
+        for row in np.argsort(-rough, kind="stable")[: chosen.refined].tolist():
+            own = _fits(places[row] + finer, turned, model, chosen)
+            if own.max() > best:
+                best, where = float(own.max()), places[row] + finer[int(own.argmax())]
+    return best, where
+
+
+def _fits(places: Floats, points: Floats, model: SurfaceModel, chosen: RivalParameters) -> Floats:
+    """(p,) how near to edges the points lie on average where they are moved by (p, 2); points off
+    the map count as on none.
+    """
+    height, width = model.distance_m.shape
+    found = np.zeros(len(places))
+    for row, place in enumerate(places):
+        at = np.floor((points + place - np.array(model.low)) / model.cell_m).astype(np.int64)
+        inside = (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
+        off = model.distance_m[at[inside, 1], at[inside, 0]].astype(np.float64)
+        near = np.exp(-0.5 * (off / chosen.sigma_m) ** 2)
+        found[row] = np.nansum(near) / max(len(points), 1)
+    return found
+
+
+def _laid(poses: Floats, scans: Sequence[Floats], chosen: RivalParameters) -> Floats:
+    """(n, 2) points of some scans in the model's CRS (m)."""
+    every = max(len(poses) // chosen.scans, 1)
+    found = []
+    for row in range(0, len(poses), every):
+        points = scans[row][:: max(len(scans[row]) // chosen.points, 1)]
+        cosine, sine = np.cos(poses[row, 2]), np.sin(poses[row, 2])
+        turned = points @ np.array([[cosine, sine], [-sine, cosine]])
+        found.append(turned + poses[row, :2])
+    return np.concatenate(found)
