@@ -17,12 +17,12 @@ from veduta.facade.analyse import analyse
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
 from veduta.facade.model import Model, build_model
-from veduta.facade.options import FacadeOptions, ModelOptions
+from veduta.facade.options import FacadeOptions, ModelOptions, StyleOptions
 from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
-from veduta.facade.style import StyleFound, find_style, write_style
+from veduta.facade.style_told import StyleTold
 from veduta.formats.cityjson import write_cityjson
 from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import Photo, read_image
@@ -44,7 +44,7 @@ class Building:
     photo_jpeg: bytes
     pixels: NDArray[np.uint8]
     model: Model
-    style: StyleFound | None = None
+    style: StyleTold | None = None
 
     @property
     def part(self) -> Part:
@@ -73,7 +73,7 @@ def reconstruct(
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
-    document, style = find_style(document, pixels, options.style, steps, progress)
+    document, style = _styled(document, pixels, options.style, steps, progress)
     model = _model(document, pixels, part_id, steps, progress)
     return Building(document, jpeg, pixels, model, style)
 
@@ -112,7 +112,7 @@ def write_building(
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
         write_rule_files(building.model, folder)
         if building.style is not None:
-            write_style(folder, building.style, document.source.image)
+            building.style.write(folder)
         Place().add(building.part, file=ModelFile("model.glb")).save(folder)
         write_cityjson(building.part, folder / "model.city.json")
         step.counts["bytes"] = sum(file.stat().st_size for file in folder.rglob("*"))
@@ -142,6 +142,20 @@ def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
     data = jpeg_bytes(pixels, JPEG_QUALITY, subsampling=0)
     with Image.open(io.BytesIO(data)) as image:
         return data, np.asarray(image.convert("RGB"), dtype=np.uint8)
+
+
+def _styled(
+    document: FacadeDocument,
+    pixels: NDArray[np.uint8],
+    options: StyleOptions,
+    steps: list[StepRecord],
+    progress: StepProgress,
+) -> tuple[FacadeDocument, StyleTold | None]:
+    if options.style is None:
+        return document, None
+    from veduta.facade.style import find_style  # loaded where it is used: few calls ask for it
+
+    return find_style(document, pixels, options, steps, progress)
 
 
 def _model(

@@ -19,7 +19,6 @@ from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.rectify import are_corners_doubtful
-from veduta.facade.style import style_pictures, style_tables
 from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
@@ -61,7 +60,7 @@ def image_report(
     building: Building, options: Options, steps: list[StepRecord]
 ) -> tuple[Report, bytes]:
     """The report of one building, and its page."""
-    document = building.document
+    document, style = building.document, building.style
     report = Report(
         verb="facade",
         subject=document.source.image,
@@ -75,10 +74,10 @@ def image_report(
         title=document.source.image,
         summary=summary_line(measures(document)),
         facts=_facts(document),
-        pictures=[*_pictures(building), *style_pictures(building.style)],
+        pictures=[*_pictures(building), *(style.pictures if style else ())],
         tables=[
             _elements(document),
-            *style_tables(building.style),
+            *(style.tables if style else ()),
             _provenance(building),
             *_energy(document),
         ],

@@ -184,7 +184,7 @@ def test_a_cut_tree_has_the_choices_outside_of_the_cut(haussmann: StyleGrammar) 
 def test_pixels_and_elements_speak_for_the_front_that_is_there() -> None:
     boxes = {kind: np.zeros((0, 4)) for kind in KINDS}
     windows = np.array([[1.0, 4.0, 2.2, 6.0], [4.0, 4.0, 5.2, 6.0]])
-    front = Front(6.0, 7.0, 7.0, {**boxes, "window": windows})
+    front = Front(6.0, 7.0, (), {**boxes, "window": windows})
     observed = seen_of(front, rows=60)
     right = log_likelihood(front, observed)
     for moved in (windows + 0.7, windows[:1], np.vstack([windows, [[2.4, 4.0, 3.4, 6.0]]])):

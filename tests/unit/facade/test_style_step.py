@@ -11,7 +11,7 @@ from test_style_search import CELLS, WIDTH_M
 
 from veduta.facade.document import FacadeDocument
 from veduta.facade.options import StyleOptions
-from veduta.facade.style import require_style, write_style
+from veduta.facade.style import find_style, require_style
 from veduta.facade.style.elevation import elevation
 from veduta.facade.style.grammar import ANY_FRONT, LOD, style_grammar
 from veduta.facade.style.infer import AUTO, StyleFound, candidate_names, infer_style, ranked
@@ -19,8 +19,9 @@ from veduta.facade.style.labels import Front, front_of, painted
 from veduta.facade.style.observed import LABELS, Observed, observed_of
 from veduta.facade.style.prior import Real
 from veduta.facade.style.search import SearchParameters
-from veduta.facade.style.step import find_style
-from veduta.facade.style.told import style_line, style_pictures, style_tables
+from veduta.facade.style.told import style_line, style_picture, style_tables
+from veduta.facade.style.write import style_files
+from veduta.facade.style_told import StyleTold
 from veduta.grammar.derivation import derive, parse
 from veduta.grammar.edits import read_edits
 from veduta.run.errors import InputError
@@ -85,16 +86,13 @@ def test_the_report_has_the_search_and_the_space(haussmann: StyleFound) -> None:
     titles = [table.title for table in style_tables(haussmann)]
     assert titles == ["Style", "Structure: haussmann", "Search"]
     assert len(style_tables(haussmann)[2].rows) == len(SearchParameters().betas)
-    (picture,) = style_pictures(haussmann)
-    assert picture.data.startswith(b"\x89PNG")
-    assert style_tables(None) == []
-    assert style_pictures(None) == []
+    assert style_picture(haussmann).data.startswith(b"\x89PNG")
 
 
 def test_the_files_derive_to_the_structure_that_was_found(
     haussmann: StyleFound, tmp_path: Path
 ) -> None:
-    write_style(tmp_path, haussmann, "photo.jpg")
+    StyleTold((), (), style_files(haussmann, "photo.jpg")).write(tmp_path)
     grammar, best = haussmann.chosen.posterior.grammar, haussmann.chosen.best
     rules = parse(tmp_path / "style/rules.cga")
     width = grammar.width_m * best.state.scale

@@ -16,6 +16,8 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.grammar.assets.asset import Asset
 
+ON_WALL_M = 0.05
+"""What lies in the plane of the wall along the lot's first edge."""
 DEEPEST_M = 2.0
 """What lies further behind the wall is another wall's: arcades are the deepest recesses."""
 _CORNERS = np.array(list(product((0, 1), repeat=3)))
@@ -24,15 +26,17 @@ _CORNERS = np.array(list(product((0, 1), repeat=3)))
 @dataclass(frozen=True)
 class Elevation:
     """`classes` and `said` (n) name class and provenance of each box; `boxes` (n, 4) are x0, z0,
-    x1, z1 in metres; `near` (n) is the y of what is nearest to the viewer. `roof_top_m` is the
-    highest point of all roofs, wherever they are; 0 without any.
+    x1, z1 in metres; `near` (n) is the y of what is nearest to the viewer. `roofs` are the outlines
+    (k, 2) of all surfaces of roofs, wherever they are; `eaves_m` is how high the walls at the
+    street go.
     """
 
     classes: tuple[str, ...]
     said: tuple[str, ...]
     boxes: NDArray[np.float64]
     near: NDArray[np.float64]
-    roof_top_m: float
+    roofs: tuple[NDArray[np.float64], ...]
+    eaves_m: float
 
     def of(self, *names: str) -> NDArray[np.float64]:
         """The boxes (k, 4) of these classes, from left to right and from below."""
@@ -55,8 +59,6 @@ def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevati
         bottom, top = _instances(derived, assets)
         np.minimum.at(low, derived.instance_feature, bottom)
         np.maximum.at(high, derived.instance_feature, top)
-    is_roof = np.array([name == "roof" for name in classes], dtype=np.bool_)
-    is_roof &= np.isfinite(high[:, 2])
     front = np.isfinite(low[:, 0]) & (high[:, 1] < DEEPEST_M)
     rows = np.flatnonzero(front)
     return Elevation(
@@ -64,8 +66,32 @@ def elevation(derived: _core.DerivedLot, assets: Mapping[str, Asset]) -> Elevati
         said=tuple(said[row] for row in rows.tolist()),
         boxes=np.column_stack([low[rows][:, [0, 2]], high[rows][:, [0, 2]]]),
         near=low[rows, 1],
-        roof_top_m=float(max([0.0, *high[is_roof, 2].tolist()])),
+        roofs=_roofs(derived, classes),
+        eaves_m=_eaves_m(derived, classes, starts),
     )
+
+
+def _eaves_m(derived: _core.DerivedLot, classes: list[str], starts: NDArray[np.int64]) -> float:
+    """The highest point of the walls' polygons, as these may be one feature around the corner."""
+    is_wall = np.array([name == "wall" for name in classes], dtype=np.bool_)
+    if not len(starts):
+        return 0.0
+    low = np.minimum.reduceat(derived.positions_m, starts)
+    high = np.maximum.reduceat(derived.positions_m, starts)
+    front = is_wall[derived.polygon_feature] & (np.abs(low[:, 1]) < ON_WALL_M)
+    front &= np.abs(high[:, 1]) < ON_WALL_M
+    return float(max([0.0, *high[front, 2].tolist()]))
+
+
+def _roofs(derived: _core.DerivedLot, classes: list[str]) -> tuple[NDArray[np.float64], ...]:
+    is_roof = np.array([name == "roof" for name in classes], dtype=np.bool_)
+    if not len(classes):
+        return ()
+    rows = np.flatnonzero(is_roof[derived.polygon_feature])
+    starts = derived.polygon_offsets[rows]
+    firsts, ends = derived.ring_offsets[starts], derived.ring_offsets[starts + 1]
+    flat = derived.positions_m[:, [0, 2]]
+    return tuple(flat[a:b] for a, b in zip(firsts.tolist(), ends.tolist(), strict=True))
 
 
 def _instances(

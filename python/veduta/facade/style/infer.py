@@ -14,7 +14,13 @@ from veduta.facade.style.observed import Observed
 from veduta.facade.style.posterior import Posterior, Scored
 from veduta.facade.style.prior import Choice, Real
 from veduta.facade.style.search import Searched, SearchParameters, search
-from veduta.facade.style.starts import climbed, read_attributes, read_state
+from veduta.facade.style.starts import (
+    best_start,
+    climbed,
+    read_attributes,
+    read_state,
+    usual_states,
+)
 from veduta.facade.style.state import SCALE
 from veduta.grammar.rules import style_names
 from veduta.run.errors import InputError, NotFoundError
@@ -27,6 +33,10 @@ GIVEN = Real(0.97, 1.03, 0.9, 1.1)
 """How much the metres may be wrong: where a storey is assumed to be 3 m high; with a size given."""
 NEAR_M, NEAR_SCALE = 0.15, 0.03
 """Attributes that differ by less are the same structure."""
+HOPELESS_NATS = 150.0
+"""Styles whose start is less likely than the best one by more are not climbed."""
+NEAR_NATS, NEAR_STEPS = 60.0, 150
+"""Candidates that are less likely than the best by no more are walked on for so many steps."""
 NONE_COUNTS = 0.65
 """What the likelihood of the best front without a style counts. It may have any sizes, a style's
 are those of its rules, which no real house of the style has quite: of what such a front explains,
@@ -108,20 +118,27 @@ def infer_style(
     read = read_attributes(document)
     scale = ASSUMED if document.scale.basis == "assumed-storey" else GIVEN
     names = [*candidate_names(style), ANY_FRONT]
-    found = []
+    started = []
     for place, name in enumerate(names):
         if heard is not None:
-            heard(name, 0.6 * place / len(names))
-        candidate = _climbed(name, document, observed, read, scale, rng)
-        if candidate is not None:
-            found.append(candidate)
+            heard(name, 0.2 * place / len(names))
+        one = _started(name, document, observed, read, scale, rng)
+        if one is not None:
+            started.append(one)
+    found = _climbed(started, rng, heard)
     styles = [one for one in found if one.name != ANY_FRONT]
     if not styles:
         remedy = "Call without --style."
         raise NotFoundError("a style", "no rules make a building of this size", remedy)
-    likeliest = max(styles, key=lambda one: one.log_evidence)
+    best = max(one.log_evidence for one in styles)
+    near = [one for one in found if one.log_evidence > best - NEAR_NATS]
+    rest = [one for one in found if one.log_evidence <= best - NEAR_NATS]
+    walked = [_walked(one, rng) for one in near]
+    likeliest = max(
+        (one for one in walked if one.name != ANY_FRONT), key=lambda one: one.log_evidence
+    )
     chosen = _searched(likeliest, rng, parameters, heard)
-    return ranked([chosen if one is likeliest else one for one in found], chosen)
+    return ranked([*(chosen if one is likeliest else one for one in walked), *rest], chosen)
 
 
 def ranked(candidates: Sequence[Candidate], chosen: Candidate) -> StyleFound:
@@ -133,7 +150,7 @@ def ranked(candidates: Sequence[Candidate], chosen: Candidate) -> StyleFound:
     return StyleFound(tuple(ordered), chances, chosen)
 
 
-def _climbed(
+def _started(
     name: str,
     document: FacadeDocument,
     observed: Observed,
@@ -141,10 +158,34 @@ def _climbed(
     scale: Real,
     rng: np.random.Generator,
 ) -> Candidate | None:
+    """The likeliest of a style's starts: as read, and its usual houses of this height."""
     grammar = style_grammar(name, document.facade.width_m, scale)
     posterior = Posterior(grammar, observed)
-    best = climbed(posterior, read_state(grammar, read), rng)
+    states = [read_state(grammar, read), *usual_states(grammar, observed.eaves_m, rng)]
+    best = best_start(posterior, states, rng)
     return None if best is None else Candidate(posterior, best)
+
+
+def _climbed(
+    started: Sequence[Candidate], rng: np.random.Generator, heard: Heard | None
+) -> list[Candidate]:
+    """The same climbed; those whose start is hopeless stay as they are."""
+    best = max((one.log_evidence for one in started), default=0.0)
+    found = []
+    for place, one in enumerate(started):
+        if heard is not None:
+            heard(one.name, 0.2 + 0.4 * place / len(started))
+        hopeless = one.name != ANY_FRONT and one.log_evidence < best - HOPELESS_NATS
+        climb = None if hopeless else climbed(one.posterior, one.best.state, rng)
+        found.append(one if climb is None else Candidate(one.posterior, climb))
+    return found
+
+
+def _walked(candidate: Candidate, rng: np.random.Generator) -> Candidate:
+    """The same after a short chain from its structure: climbs end at the first edge."""
+    short = SearchParameters(betas=(1.0,), steps=NEAR_STEPS)
+    found = search(candidate.posterior, [candidate.best], rng, short)
+    return Candidate(candidate.posterior, found.best)
 
 
 def _searched(

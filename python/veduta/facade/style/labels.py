@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import cv2
 import numpy as np
 from numpy.typing import NDArray
 
@@ -22,38 +23,45 @@ Float = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Front:
-    """A derived front in metres of a document: boxes (k, 4) of each kind, eaves, roof's top."""
+    """A derived front in metres of a document: boxes (k, 4) of each kind, the height of the eaves,
+    outlines (k, 2) of the roof's surfaces.
+    """
 
     width_m: float
     eaves_m: float
-    top_m: float
+    roofs: tuple[Float, ...]
     boxes: dict[str, Float]
+
+    @property
+    def top_m(self) -> float:
+        """The highest point of the roof, or the eaves."""
+        return max([self.eaves_m, *(float(roof[:, 1].max()) for roof in self.roofs)])
 
 
 def front_of(found: Elevation, width_m: float, scale: float) -> Front:
     """The front of an elevation. width_m: of the lot. scale: its metres in the document's one."""
-    walls, roof_top_m = found.of("wall"), found.roof_top_m
-    eaves = float(walls[:, 3].max()) if len(walls) else roof_top_m
     boxes = {kind: found.of(kind) / scale for kind in KINDS}
     boxes["balcony"] = _railings(boxes["balcony"])
     boxes["window"] = _above_railings(boxes["window"], boxes["balcony"])
-    return Front(width_m / scale, eaves / scale, max(eaves, roof_top_m) / scale, boxes)
+    roofs = tuple(roof / scale for roof in found.roofs)
+    return Front(width_m / scale, found.eaves_m / scale, roofs, boxes)
 
 
 def painted(front: Front, shape: tuple[int, int], cell_m: float) -> NDArray[np.intp]:
     """(rows, columns) the label of each cell, row 0 the lowest."""
     rows, columns = shape
-    labels = np.full(shape, _PLACE["sky"], dtype=np.intp)
-    eaves, top = round(front.eaves_m / cell_m), round(front.top_m / cell_m)
+    labels = np.full(shape, _PLACE["sky"], dtype=np.int32)
     if front.top_m - front.eaves_m >= _LEAST_ROOF_M:
-        labels[:top] = _PLACE["roof"]
-    labels[:eaves] = _PLACE["wall"]
+        for roof in front.roofs:
+            corners = np.rint(roof / cell_m).astype(np.int32)
+            cv2.fillPoly(labels, [corners], _PLACE["roof"])
+    labels[: round(front.eaves_m / cell_m)] = _PLACE["wall"]
     for kind in ("shop", "door", "window", "balcony"):
         cells = np.rint(front.boxes[kind] / cell_m).astype(np.intp)
         cells = np.clip(cells, 0, [columns, rows, columns, rows])
         for x0, z0, x1, z1 in cells.tolist():
             labels[z0:z1, x0:x1] = _PLACE[kind]
-    return labels
+    return labels.astype(np.intp)
 
 
 def _railings(boxes: Float) -> Float:

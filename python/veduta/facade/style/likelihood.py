@@ -34,6 +34,7 @@ class LikelihoodParameters:
 
     clutter: density of chance elements per square metre of front and square metre of widths and
     heights: one on 100 m2, up to 3 m wide and high. pixels, elements: what each counts.
+    taken_for: how often one of the kinds `alike` is taken for each other one of them.
     place_m, size_m: the thesis's deviations of place and size (6.15, 6.16).
     """
 
@@ -42,6 +43,8 @@ class LikelihoodParameters:
     clutter: float = 0.01 / 9.0
     pixels: float = 0.5
     elements: float = 0.5
+    alike: tuple[str, ...] = ("window", "door", "shop")
+    taken_for: float = 0.1
     place_m: float = 0.3
     size_m: float = 0.1
 
@@ -53,21 +56,37 @@ def log_likelihood(
     own = parameters or LikelihoodParameters()
     labels = painted(front, observed.shape, observed.cell_m)
     cells = float(np.take_along_axis(observed.ratios, labels[None], axis=0).sum())
-    elements = sum(_elements(front.boxes[kind], observed.boxes[kind], own) for kind in KINDS)
-    return own.pixels * cells + own.elements * elements
+    return own.pixels * cells + own.elements * _elements(front, observed, own)
 
 
-def _elements(boxes: Float, detected: Float, own: LikelihoodParameters) -> float:
+def _elements(front: Front, observed: Observed, own: LikelihoodParameters) -> float:
     missed = float(np.log1p(-own.found))
-    if not len(boxes):
-        return 0.0
-    if not len(detected):
+    boxes, kind = _stacked(front.boxes)
+    detected, kind_detected = _stacked(observed.boxes)
+    if not len(boxes) or not len(detected):
         return missed * len(boxes)
-    gains = _gains(boxes, detected, own)
+    gains = _gains(boxes, detected, own) + _kinds(own)[kind[:, None], kind_detected]
     best, back = gains.argmax(axis=1), gains.argmax(axis=0)
     rows = np.arange(len(boxes))
     own_gain = np.where(back[best] == rows, gains[rows, best], -np.inf)
     return float(np.maximum(own_gain, missed).sum())
+
+
+def _stacked(boxes: dict[str, Float]) -> tuple[Float, NDArray[np.intp]]:
+    """All boxes (n, 4), and the place of the kind of each."""
+    counts = [len(boxes[kind]) for kind in KINDS]
+    return np.concatenate([boxes[kind] for kind in KINDS]), np.repeat(np.arange(len(KINDS)), counts)
+
+
+def _kinds(own: LikelihoodParameters) -> Float:
+    """(4, 4) logarithm of how often an element of a kind is taken for one of another."""
+    chances = np.full((len(KINDS), len(KINDS)), 1e-9)
+    alike = [KINDS.index(kind) for kind in own.alike]
+    chances[np.ix_(alike, alike)] = own.taken_for
+    for place in range(len(KINDS)):
+        others = chances[place].sum() - chances[place, place]
+        chances[place, place] = 1.0 - others
+    return np.asarray(np.log(chances), np.float64)
 
 
 def _gains(boxes: Float, detected: Float, own: LikelihoodParameters) -> Float:

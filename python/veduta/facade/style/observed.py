@@ -46,7 +46,8 @@ class ObservedParameters:
     cell_m: the side of a cell. patch_m2: the area that counts as one observation, less than a
     window. above_m: how much above the eaves is looked at: a mansard is not higher. stray: share of
     cells where a label says nothing, as the share of pixels that the eyes get wrong (0.15 on ECP).
-    frequency: of the labels in fronts.
+    frequency: of the labels in fronts. confused: share of a label's cells that look like another
+    one, as seen on renders of the styles: glass in shops, doors of glass, slate, thin railings.
     """
 
     cell_m: float = 0.15
@@ -54,6 +55,17 @@ class ObservedParameters:
     above_m: float = 6.0
     stray: float = 0.15
     frequency: tuple[float, ...] = (0.10, 0.08, 0.43, 0.06, 0.02, 0.20, 0.11)
+    confused: tuple[tuple[str, str, float], ...] = (
+        ("roof", "wall", 0.25),
+        ("roof", "shop", 0.05),
+        ("shop", "window", 0.25),
+        ("shop", "door", 0.1),
+        ("door", "shop", 0.25),
+        ("door", "window", 0.15),
+        ("window", "shop", 0.15),
+        ("balcony", "window", 0.1),
+        ("balcony", "wall", 0.1),
+    )
 
 
 @dataclass(frozen=True)
@@ -119,10 +131,21 @@ def observed_of(
     whole = np.maximum(chances.sum(axis=0), 1e-9)
     hidden = np.clip(1.0 - whole, 0.0, 1.0)
     frequency = np.array(own.frequency)[:, None, None]
-    told = own.stray + (1.0 - own.stray) * (chances / whole) / frequency
+    likelier = np.tensordot(_confusion(own), chances / whole / frequency, axes=1)
+    told = own.stray + (1.0 - own.stray) * likelier
     weight = own.cell_m**2 / own.patch_m2
     ratios = weight * np.log(hidden + (1.0 - hidden) * told)
     return Observed(size_m[0], size_m[1], own.cell_m, ratios, boxes)
+
+
+def _confusion(own: ObservedParameters) -> Float:
+    """(7, 7) how often a label (row) looks like another one (column)."""
+    shares = np.eye(len(LABELS))
+    for label, other, share in own.confused:
+        row = LABELS.index(label)
+        shares[row, row] -= share
+        shares[row, LABELS.index(other)] += share
+    return shares
 
 
 def _span(start: float, end: float, size: int) -> tuple[int, int]:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from veduta.facade.document import FacadeDocument
@@ -62,6 +64,34 @@ def read_state(grammar: StyleGrammar, read: dict[str, float]) -> State:
             if own is not None:
                 values[name] = float(np.clip(own * factor, distribution.least, distribution.most))
     return state.with_attributes(**values)
+
+
+def usual_states(grammar: StyleGrammar, eaves_m: float, rng: np.random.Generator) -> list[State]:
+    """The style's usual houses of each number of storeys, in the scale that makes them as high.
+
+    For fronts whose floors were not read, or were read wrongly. eaves_m: the height of the front.
+    """
+    storeys, scale = grammar.distributions.get("storeys"), grammar.distributions[SCALE]
+    if not isinstance(storeys, Choice) or not isinstance(scale, Real):
+        return []
+    found = []
+    for number in storeys.values:
+        state = grammar.start().with_attributes(storeys=number)
+        made = grammar.complete(state, rng)
+        if made is None or made.front.eaves_m <= 0.0:
+            continue
+        factor = made.front.eaves_m * made.state.scale / eaves_m
+        if scale.least <= factor <= scale.most:
+            found.append(state.with_attributes(**{SCALE: factor}))
+    return found
+
+
+def best_start(
+    posterior: Posterior, states: Sequence[State], rng: np.random.Generator
+) -> Scored | None:
+    """The likeliest of some states; None where none makes a building."""
+    scored = [found for state in states if (found := posterior.score(state, rng)) is not None]
+    return max(scored, key=lambda one: one.log_posterior, default=None)
 
 
 def climbed(posterior: Posterior, start: State, rng: np.random.Generator) -> Scored | None:

@@ -8,10 +8,12 @@ from numpy.typing import NDArray
 from veduta.facade.document import FacadeDocument
 from veduta.facade.eyes import look
 from veduta.facade.options import StyleOptions
-from veduta.facade.style.infer import StyleFound, infer_style
+from veduta.facade.style.infer import infer_style
 from veduta.facade.style.observed import observe
 from veduta.facade.style.search import SearchParameters
-from veduta.facade.style.told import style_line
+from veduta.facade.style.told import style_line, style_picture, style_tables
+from veduta.facade.style.write import style_files
+from veduta.facade.style_told import StyleTold
 from veduta.run.errors import NotFoundError
 from veduta.run.progress import StepProgress
 from veduta.run.report import StepRecord, timed_step
@@ -23,7 +25,7 @@ def find_style(
     options: StyleOptions,
     steps: list[StepRecord],
     progress: StepProgress,
-) -> tuple[FacadeDocument, StyleFound | None]:
+) -> tuple[FacadeDocument, StyleTold | None]:
     """The style of a front, and the document with a note of it; None where none was asked for.
 
     rectified: (h, w, 3) uint8 sRGB, the rectified photo of the document.
@@ -51,7 +53,12 @@ def find_style(
             "derived": sum(one.posterior.grammar.derived for one in found.candidates),
             "steps": 0 if searched is None else searched.steps,
         }
-    return _noted(document, style_line(found)), found
+    told = StyleTold(
+        tables=tuple(style_tables(found)),
+        pictures=(style_picture(found),),
+        files=style_files(found, document.source.image),
+    )
+    return _noted(document, style_line(found)), told
 
 
 def _noted(document: FacadeDocument, note: str) -> FacadeDocument:

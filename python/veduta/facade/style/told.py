@@ -40,10 +40,8 @@ def style_line(found: StyleFound) -> str:
     return line
 
 
-def style_tables(found: StyleFound | None) -> list[Table]:
-    """Odds of all candidates, and the search of the likeliest; none without a style."""
-    if found is None:
-        return []
+def style_tables(found: StyleFound) -> list[Table]:
+    """Odds of all candidates, and the search of the likeliest."""
     rows: list[list[Cells]] = [
         [
             "none of these" if one.name == ANY_FRONT else one.name,
@@ -106,13 +104,11 @@ def _search(found: StyleFound) -> list[Table]:
     return [Table("Search", columns, rows, note=note, for_experts=True)]
 
 
-def style_pictures(found: StyleFound | None) -> list[Picture]:
-    """The procedural space around the best structure; nothing without a style."""
-    if found is None:
-        return []
+def style_picture(found: StyleFound) -> Picture:
+    """The procedural space around the best structure."""
     note = "What the eyes saw, the best structure of the style, and samples of the search."
     data = encoded(style_sheet(found), ".png")
-    return [Picture("Style", note, data, "image/png", "style/space.png", wide=True)]
+    return Picture("Style", note, data, "image/png", "style/space.png", wide=True)
 
 
 def style_sheet(found: StyleFound) -> Image.Image:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from pathlib import Path
 
 from veduta import _core
 from veduta.facade.style.grammar import DEPTH_M, StyleGrammar
@@ -15,7 +14,7 @@ from veduta.facade.style.told import style_sheet
 from veduta.grammar.edits import Edit, edits_text
 from veduta.grammar.sheet import encoded
 
-FOLDER, RULES, LOT, EDITS = "style", "rules.cga", "lot.geojson", "edits.txt"
+RULES, LOT, EDITS = "rules.cga", "lot.geojson", "edits.txt"
 SPACE = "space.png"
 LOT_NAME = "front"
 _HEAD = """/*
@@ -33,19 +32,19 @@ import style : "styles/{name}.cga"
 """
 
 
-def write_style(folder: Path, found: StyleFound, photo: str) -> None:
-    """Write rules, lot, edits and the picture of the space into a folder of their own."""
+def style_files(found: StyleFound, photo: str) -> dict[str, bytes]:
+    """Rules, lot, edits and the picture of the space, by their names."""
     grammar, best = found.chosen.posterior.grammar, found.chosen.best
-    into = folder / FOLDER
-    into.mkdir(exist_ok=True)
-    (into / RULES).write_text(style_rules(grammar, best, photo), encoding="utf-8")
-    (into / LOT).write_text(_lot(grammar.width_m * best.state.scale), encoding="utf-8")
     edits = [
         Edit((0, *path), None, choices=taken.alternatives)
         for path, taken in sorted(best.state.choices.items())
     ]
-    (into / EDITS).write_text(edits_text({LOT_NAME: edits}), encoding="utf-8")
-    (into / SPACE).write_bytes(encoded(style_sheet(found), ".png"))
+    return {
+        RULES: style_rules(grammar, best, photo).encode(),
+        LOT: _lot(grammar.width_m * best.state.scale).encode(),
+        EDITS: edits_text({LOT_NAME: edits}).encode(),
+        SPACE: encoded(style_sheet(found), ".png"),
+    }
 
 
 def style_rules(grammar: StyleGrammar, best: Scored, photo: str) -> str:

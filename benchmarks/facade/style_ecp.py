@@ -1,0 +1,101 @@
+"""Which style the fronts of ECP val have: Haussmann, by what the set is.
+
+    python benchmarks/facade/style_ecp.py [--images 20] [--rows FILE]
+
+ECP was never trained or tuned on. All styles are compared, with none of them.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+import time
+from pathlib import Path
+
+import numpy as np
+
+HERE = Path(__file__).parent
+sys.path[:0] = [str(HERE), str(HERE.parent)]
+
+from facade_truth import ecp  # noqa: E402
+from record import keep_or_print  # noqa: E402
+from style_rows import Row, rows_of  # noqa: E402
+
+from veduta.facade.analyse import analyse  # noqa: E402
+from veduta.facade.document import Source  # noqa: E402
+from veduta.facade.eyes import look  # noqa: E402
+from veduta.facade.options import FacadeOptions, RectifyOptions  # noqa: E402
+from veduta.facade.rectify import rectify  # noqa: E402
+from veduta.facade.style.infer import AUTO, infer_style  # noqa: E402
+from veduta.facade.style.observed import observe  # noqa: E402
+from veduta.facade.style.search import SearchParameters  # noqa: E402
+from veduta.imaging.read import read_image  # noqa: E402
+from veduta.run.errors import NotFoundError  # noqa: E402
+
+DATA = Path(os.environ.get("VEDUTA_DATA", HERE.parents[2] / "shared" / "data"))
+OPTIONS = FacadeOptions(rectify=RectifyOptions(rectified=True))
+RIGHT = "haussmann"
+STEPS = 300
+
+
+def main() -> None:
+    """Read, compare, print and record."""
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--images", type=int, default=20)
+    parser.add_argument("--rows", type=Path, help="where rows are kept as they come")
+    parser.add_argument("--draft", action="store_true", help="keep nothing")
+    call = parser.parse_args()
+    paths = {one.name: one.image for one in ecp(DATA, "val")[: call.images]}
+    rows = rows_of(call.rows, paths, lambda name: measured(name, paths[name]))
+    right = sum(row["found"] == RIGHT for row in rows)
+    best = sum(row["best style"] == RIGHT for row in rows)
+    notes = [
+        f"{right} of {len(rows)} are told as {RIGHT}; of the styles alone, {best} have it as the"
+        " best.",
+        "none counts: of the likelihood of the best front without a style, what the best style"
+        " has.",
+    ]
+    keep_or_print("facade-style-ecp", rows, notes, not call.draft)
+
+
+def measured(name: str, path: Path) -> Row:
+    """One picture."""
+    started = time.perf_counter()
+    photo = read_image(path)
+    height, width = photo.pixels.shape[:2]
+    source = Source(image=path.name, sha256=photo.sha256, width_px=width, height_px=height)
+    try:
+        rectified = rectify(photo, OPTIONS.rectify)
+        document, _ = analyse(rectified, source, OPTIONS)
+        observed = observe(look(rectified.pixels), document)
+        found = infer_style(document, observed, AUTO, SearchParameters(steps=STEPS))
+    except NotFoundError as error:
+        return {"image": name, "found": f"refused: {error}", "best style": ""}
+    by_name = {one.name: one for one in found.candidates}
+    none = by_name["none"].best.log_likelihood if "none" in by_name else float("nan")
+    best = found.chosen.best
+    choices = [f"{t.rule} {1 + (t.alternatives[0] or 0)}" for t in best.state.choices.values()]
+    return {
+        "image": name,
+        "found": found.candidates[0].name,
+        "best style": found.chosen.name,
+        "chance": round(found.chances[0], 4),
+        "ln likelihood": round(best.log_likelihood, 1),
+        "none counts": round(best.log_likelihood / none, 2) if none > 0.0 else None,
+        "second": next((c.name for c in found.candidates if c is not found.candidates[0]), ""),
+        "storeys": str(best.state.attributes.get("storeys")),
+        "read storeys": document.storeys,
+        "choices": ", ".join(choices),
+        "acceptance": _acceptance(found.chosen.searched),
+        "seconds": round(time.perf_counter() - started, 1),
+    }
+
+
+def _acceptance(searched: object) -> float | None:
+    chains = getattr(searched, "chains", ())
+    return round(float(np.mean([chains[0].acceptance])), 3) if chains else None
+
+
+if __name__ == "__main__":
+    main()
