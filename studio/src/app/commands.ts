@@ -33,6 +33,7 @@ export interface Told extends Record<Command, undefined> {
   readonly "play-tour": undefined;
   readonly animal: Partial<AnimalState>;
   readonly "play-walk": undefined;
+  readonly headset: undefined;
   readonly "seek-walk": Partial<MorphState>;
 }
 
@@ -133,7 +134,7 @@ export class Commands {
     };
   }
 
-  #ofMoving(): Pick<Handlers, "go" | "stick" | "tour" | "play-tour" | "seek-tour" | "stroll" | "morph-look" | "play-walk" | "seek-walk" | "animal"> {
+  #ofMoving(): Pick<Handlers, "go" | "stick" | "tour" | "play-tour" | "seek-tour" | "stroll" | "morph-look" | "play-walk" | "headset" | "seek-walk" | "animal"> {
     const { place, viewer } = this.#session;
     return {
       go: (places) => viewer.goTo(places),
@@ -145,9 +146,16 @@ export class Commands {
       stroll: () => toggleStroll(this.#session, this.#store),
       "morph-look": () => nextLook(this.#store),
       "play-walk": () => playStroll(this.#session, this.#store),
+      headset: () => void this.#enterHeadset(),
       "seek-walk": (change) => changeStroll(this.#store, change),
       animal: (change) => this.#store.update({ animal: { ...this.#store.value.animal, ...change } }),
     };
+  }
+
+  async #enterHeadset(): Promise<void> {
+    if (this.#store.value.morph === null) changeStroll(this.#store, {});
+    const words = (await this.#session.viewer.headset?.enter()) ?? null;
+    if (words !== null) this.#page.say(words);
   }
 
   /** First what lies over the picture, then the photo on the surfaces. */

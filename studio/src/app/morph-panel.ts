@@ -1,5 +1,6 @@
 /** The walk from view to view: play and pause, how far one is, how one sees it, and how good the transition is. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { headsetIsThere } from "../core/headset.ts";
 import { metresTo, type MorphState, type MorphWalk, placeOn } from "../core/morph-walk.ts";
 import { icons } from "./icons.ts";
 import { lineStyles } from "./line-styles.ts";
@@ -8,10 +9,12 @@ import { theme } from "./theme.ts";
 const KINDS = { morph: "morphs", fade: "cross-fades", cut: "is cut" } as const;
 
 export class MorphPanel extends LitElement {
-  static override properties = { walk: { attribute: false }, at: { attribute: false } };
+  static override properties = { walk: { attribute: false }, at: { attribute: false }, headset: { state: true } };
   declare walk: MorphWalk | null;
   /** Null while one is not on the walk. */
   declare at: MorphState | null;
+  /** Whether there is one to walk in. */
+  declare headset: boolean;
 
   static override styles = [
     theme,
@@ -52,6 +55,12 @@ export class MorphPanel extends LitElement {
     super();
     this.walk = null;
     this.at = null;
+    this.headset = false;
+  }
+
+  override connectedCallback(): void {
+    super.connectedCallback();
+    void headsetIsThere().then((there) => (this.headset = there));
   }
 
   override render(): TemplateResult | typeof nothing {
@@ -71,10 +80,13 @@ export class MorphPanel extends LitElement {
         .value=${String(now)} @input=${(event: Event) => this.#emit("seek-walk", Number((event.target as HTMLInputElement).value))} />
       <button class="word" title="Picture, geometry, counterparts (J)" data-field="look" @click=${() => this.#emit("look-walk")}>${at?.look ?? "picture"}</button>
       <button class="word" title="From position to position without anything between" data-field="instant"
-        aria-pressed=${at?.instant ?? false} @click=${() => this.#emit("instant-walk")}>instant</button>`;
+        aria-pressed=${at?.instant ?? false} @click=${() => this.#emit("instant-walk")}>instant</button>
+      ${this.headset
+        ? html`<button class="word" title="Walk in the headset" data-field="headset" @click=${() => this.#emit("headset-walk")}>headset</button>`
+        : nothing}`;
   }
 
-  #emit(name: "play-walk" | "seek-walk" | "look-walk" | "instant-walk", detail = 0): void {
+  #emit(name: "play-walk" | "seek-walk" | "look-walk" | "instant-walk" | "headset-walk", detail = 0): void {
     this.dispatchEvent(new CustomEvent(name, { detail, bubbles: true, composed: true }));
   }
 }

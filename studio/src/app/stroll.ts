@@ -49,6 +49,7 @@ export function strollPanel({ place: { walks } }: Session, morph: MorphState | n
   return html`<veduta-morph-panel class="sheet" role="group" aria-label="The walk" .walk=${walks[morph?.which ?? 0] ?? null} .at=${morph}
     @play-walk=${() => commands?.do("play-walk")}
     @seek-walk=${(event: CustomEvent<number>) => commands?.do("seek-walk", { at: event.detail, playing: false })}
+    @headset-walk=${() => commands?.do("headset")}
     @look-walk=${() => commands?.do("morph-look")}
     @instant-walk=${() => commands?.do("seek-walk", { instant: !(morph?.instant ?? false) })}></veduta-morph-panel>`;
 }

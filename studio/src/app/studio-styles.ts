@@ -113,7 +113,7 @@ export const studioStyles = css`
     bottom: calc(var(--edge) + 60px);
     left: 50%;
     transform: translateX(-50%);
-    width: 440px;
+    width: 500px;
     max-width: calc(100% - 2 * var(--edge));
     box-sizing: border-box;
   }

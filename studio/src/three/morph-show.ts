@@ -10,17 +10,20 @@ import {
   Scene,
   Vector2,
   Vector3,
+  type Texture,
   type WebGLRenderer,
+  type WebGLRenderTarget,
 } from "three";
 import type { Fault } from "../core/fault.ts";
 import { heightToCover, type MorphState, type MorphWalk, nearestStation, placeOn, reachOf, type Station, walkedOn } from "../core/morph-walk.ts";
 import { axesOf, drawnFromCamera } from "../core/pinhole.ts";
-import { MorphFiles } from "./morph-load.ts";
+import { type Eye, eyeCamera, levelAt } from "./eyes.ts";
+import { MorphFiles, type WayModels } from "./morph-load.ts";
 import { MorphLayer } from "./morph-layer.ts";
 import { mixMaterial, mixUniforms } from "./morph-material.ts";
 
-const NEAR_M = 0.3;
-const FAR_M = 4000;
+export const NEAR_M = 0.3;
+export const FAR_M = 4000;
 /** Looking aside: no further than there are pictures, by and large (the least, rad). */
 const LEAST_YAW = 1.4;
 const MOST_PITCH = 0.9;
@@ -34,6 +37,21 @@ export interface StrollCost {
   readonly held: number;
   readonly waiting: number;
   readonly bytes: number;
+}
+
+/** Where one is: m of the way from the start to the end; shown: the same, where it is cut 0 or 1. */
+interface Between {
+  readonly start: Station;
+  readonly end: Station;
+  readonly m: number;
+  readonly shown: number;
+  readonly models: WayModels | null;
+  readonly pictures: readonly [Texture | null, Texture | null];
+}
+
+interface Size {
+  readonly width: number;
+  readonly height: number;
 }
 
 export class MorphShow {
@@ -103,35 +121,72 @@ export class MorphShow {
   }
 
   draw(renderer: WebGLRenderer, state: MorphState): void {
+    const between = this.#between(state);
+    if (between === null) return;
+    const { x, y } = renderer.getDrawingBufferSize(new Vector2());
+    this.#aim(between, x / y);
+    this.#drawn = { calls: 0, triangles: 0 };
+    this.#paint(renderer, between, state, this.#camera, { width: x, height: y });
+    renderer.setRenderTarget(null);
+    this.#lay(renderer, between);
+  }
+
+  /** The same for each eye of a headset, into the parts of its picture. */
+  drawEyes(renderer: WebGLRenderer, state: MorphState, eyes: readonly Eye[], target: WebGLRenderTarget): void {
+    const between = this.#between(state);
+    if (between === null) return;
+    this.#aim(between, 1);
+    const base = levelAt(this.#camera.position, poseBetween(between).turn);
+    this.#drawn = { calls: 0, triangles: 0 };
+    for (const eye of eyes) {
+      const { x, y, width, height } = eye.viewport;
+      this.#paint(renderer, between, state, eyeCamera(base, eye), { width, height });
+      target.viewport.set(x, y, width, height);
+      target.scissor.set(x, y, width, height);
+      renderer.setRenderTarget(target);
+      this.#lay(renderer, between);
+    }
+    renderer.setRenderTarget(null);
+  }
+
+  /** Where one is; null where there is nothing. */
+  #between(state: MorphState): Between | null {
     const walk = this.#walks[state.which];
     const files = this.#files[state.which];
-    if (walk === undefined || files === undefined) return;
+    if (walk === undefined || files === undefined) return null;
     const at = state.instant ? nearestStation(walk, state.at) : state.at;
     files.follow(at);
     const { transition, m } = placeOn(walk, at);
     const way = walk.transitions[transition];
     const [start, end] = [walk.stations[way?.start ?? 0], walk.stations[way?.end ?? 0]];
-    if (start === undefined || end === undefined) return;
-    const whole = way?.kind === "cut" ? Math.round(m) : m;
-    const size = renderer.getDrawingBufferSize(new Vector2());
-    this.#aim(start, end, whole, size.x / size.y);
-    const models = files.way(transition);
-    const [own, other] = [files.picture(way?.start ?? 0), files.picture(way?.end ?? 0)];
-    this.#own.show(start, models?.forth ?? null, own, other, m, state.look);
-    this.#other.show(end, models?.back ?? null, other, own, 1 - m, state.look);
+    if (start === undefined || end === undefined) return null;
+    const pictures = [files.picture(way?.start ?? 0), files.picture(way?.end ?? 0)] as const;
+    return { start, end, m, shown: way?.kind === "cut" ? Math.round(m) : m, models: files.way(transition), pictures };
+  }
+
+  /** Both models, each into a picture of its own. */
+  #paint(renderer: WebGLRenderer, between: Between, { look }: MorphState, camera: PerspectiveCamera, size: Size): void {
+    const { start, end, m, models, pictures: [own, other] } = between;
+    this.#own.show(start, models?.forth ?? null, own, other, m, look);
+    this.#other.show(end, models?.back ?? null, other, own, 1 - m, look);
     const before = renderer.autoClear;
     renderer.autoClear = false;
-    this.#drawn = { calls: 0, triangles: 0 };
-    this.#own.draw(renderer, this.#camera, size.x, size.y);
-    this.#count(renderer);
-    this.#other.draw(renderer, this.#camera, size.x, size.y);
-    this.#count(renderer);
-    renderer.setRenderTarget(null);
+    for (const layer of [this.#own, this.#other]) {
+      layer.draw(renderer, camera, size.width, size.height);
+      this.#count(renderer);
+    }
+    renderer.autoClear = before;
+  }
+
+  /** One over the other, into what is to be seen. */
+  #lay(renderer: WebGLRenderer, { shown }: Between): void {
     this.#mix.ownColour.value = this.#own.target.texture;
     this.#mix.ownDepth.value = this.#own.target.depthTexture;
     this.#mix.otherColour.value = this.#other.target.texture;
     this.#mix.otherDepth.value = this.#other.target.depthTexture;
-    this.#mix.m.value = whole;
+    this.#mix.m.value = shown;
+    const before = renderer.autoClear;
+    renderer.autoClear = false;
     renderer.render(this.#screen, this.#flat);
     this.#count(renderer);
     renderer.autoClear = before;
@@ -149,16 +204,21 @@ export class MorphShow {
   }
 
   /** Between the two cameras, turned as the person looks; the picture covers the canvas. */
-  #aim(start: Station, end: Station, m: number, aspect: number): void {
-    const [from, to] = [poseOf(start), poseOf(end)];
-    this.#camera.position.lerpVectors(from.eye, to.eye, m);
+  #aim(between: Between, aspect: number): void {
+    const { eye, turn } = poseBetween(between);
+    this.#camera.position.copy(eye);
     const aside = new Quaternion().setFromEuler(new Euler(this.#pitch, this.#yaw, 0, "YXZ"));
-    this.#camera.quaternion.slerpQuaternions(from.turn, to.turn, m).multiply(aside);
-    this.#camera.fov = (heightToCover(start, aspect) * 180) / Math.PI;
+    this.#camera.quaternion.copy(turn).multiply(aside);
+    this.#camera.fov = (heightToCover(between.start, aspect) * 180) / Math.PI;
     this.#camera.aspect = aspect;
     this.#camera.updateProjectionMatrix();
     this.#camera.updateMatrixWorld();
   }
+}
+
+function poseBetween({ start, end, shown }: Between): { eye: Vector3; turn: Quaternion } {
+  const [from, to] = [poseOf(start), poseOf(end)];
+  return { eye: from.eye.lerp(to.eye, shown), turn: from.turn.slerp(to.turn, shown) };
 }
 
 function poseOf(station: Station): { eye: Vector3; turn: Quaternion } {

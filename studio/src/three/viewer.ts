@@ -13,6 +13,7 @@ import { DrawLoop } from "./draw-loop.ts";
 import type { Frusta } from "./frusta.ts";
 import { Follower } from "./follower.ts";
 import { Flight, type Pose, poseOf, setPose } from "./flight.ts";
+import { Headset } from "./headset.ts";
 import type { MorphShow, StrollCost } from "./morph-show.ts";
 import { NEAR_M, OrbitRig } from "./orbit-rig.ts";
 import type { ShownPhoto } from "./photo-show.ts";
@@ -44,6 +45,7 @@ export class Viewer {
   readonly #town: Town | null;
   readonly #frusta: Frusta | null;
   readonly #morphs: MorphShow | null;
+  readonly headset: Headset | null;
   readonly #renderer: WebGLRenderer;
   readonly #stage: Stage;
   readonly #camera = new PerspectiveCamera(38, 1, NEAR_M, 6000);
@@ -78,6 +80,7 @@ export class Viewer {
     this.#town = town;
     this.#frusta = frusta;
     this.#morphs = content.morphs;
+    this.headset = content.morphs === null ? null : new Headset(this.#renderer, content.morphs, store, () => this.invalidate());
     this.#stage = new Stage(place, content, () => this.invalidate());
     const { solid } = this.#stage;
     const { min, max } = solid.bounds;
@@ -277,6 +280,7 @@ export class Viewer {
     this.#stage.photos?.dispose();
     this.#frusta?.dispose();
     this.#morphs?.dispose();
+    void this.headset?.leave();
     this.#loop.stop();
     this.#resizes.disconnect();
     this.#pointer.dispose();
@@ -286,7 +290,7 @@ export class Viewer {
 
   /** Asks for a frame; nothing is drawn while nothing changes. */
   invalidate(): void {
-    this.#loop.ask();
+    if (this.headset?.isOn !== true) this.#loop.ask();
   }
 
   #move(seconds: number): boolean {
@@ -318,14 +322,12 @@ export class Viewer {
     const { morph } = this.#store.value;
     if (morph !== null && this.#morphs !== null) {
       this.#morphs.draw(this.#renderer, morph);
-      this.#frames += 1;
-      this.onDrawn();
-      return;
+    } else {
+      this.#orbit.keepDepth(this.#store.value.mode);
+      if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
+      this.#renderer.render(this.#stage.scene, this.#camera);
+      this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     }
-    this.#orbit.keepDepth(this.#store.value.mode);
-    if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
-    this.#renderer.render(this.#stage.scene, this.#camera);
-    this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     this.#frames += 1;
     this.onDrawn();
   }

@@ -16,8 +16,10 @@ export async function open(
   browser: Browser,
   url: string,
   context: BrowserContextOptions = {},
+  device: () => void = () => undefined,
 ): Promise<OpenedPage> {
   const page = await (await browser.newContext({ viewport: DESKTOP, deviceScaleFactor: SHARPNESS, serviceWorkers: "block", ...context })).newPage();
+  await page.addInitScript(device);
   const complaints: string[] = [];
   const { origin } = new URL(url);
   page.on("pageerror", (error) => complaints.push(`error: ${error.message}`));

@@ -32,6 +32,44 @@ const wall = async (page: Page, x: number, y: number, depth: number): Promise<nu
   return Math.max(...mean.map((value, k) => Math.abs(value - (wallColour(x, y)[k] ?? 0))));
 };
 
+/** A headset made up in the page: it draws both eyes side by side on the canvas, for three frames. */
+function withHeadset(): void {
+  const near = 0.3;
+  const far = 4000;
+  const [sum, product] = [-(far + near) / (far - near), (-2 * far * near) / (far - near)];
+  const counted = window as { eyesAsked?: number };
+  const size = (): { width: number; height: number } => document.querySelector("veduta-studio")?.shadowRoot?.querySelector("canvas") ?? { width: 2, height: 2 };
+  const views = [-1, 1].map((x) => ({ x, transform: { matrix: new Float32Array([1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, 0, 0, 1]) } }));
+  const session = {
+    inputSources: [],
+    updateRenderState: async () => await Promise.resolve(),
+    requestReferenceSpace: async () => await Promise.resolve({}),
+    addEventListener: () => undefined,
+    end: async () => await Promise.resolve(),
+    requestAnimationFrame: (draw: (now: number, frame: unknown) => void) => {
+      counted.eyesAsked = (counted.eyesAsked ?? 0) + 1;
+      if (counted.eyesAsked > 3) return;
+      const { width, height } = size();
+      const across = (2 * height) / (width / 2);
+      const projectionMatrix = new Float32Array([across, 0, 0, 0, 0, 2, 0, 0, 0, 0, sum, -1, 0, 0, product, 0]);
+      requestAnimationFrame((now) => draw(now, { getViewerPose: () => ({ views: views.map((view) => ({ ...view, projectionMatrix })) }) }));
+    },
+  };
+  const layer = class {
+    framebuffer = null;
+    framebufferWidth = size().width;
+    framebufferHeight = size().height;
+    getViewport({ x }: { x: number }): object {
+      const { width, height } = size();
+      return { x: x < 0 ? 0 : width / 2, y: 0, width: width / 2, height };
+    }
+  };
+  const xr = { isSessionSupported: async () => await Promise.resolve(true), requestSession: async () => await Promise.resolve(session) };
+  Object.defineProperty(navigator, "xr", { value: xr });
+  Object.defineProperty(window, "XRWebGLLayer", { value: layer });
+  WebGL2RenderingContext.prototype.makeXRCompatible = async () => await Promise.resolve();
+}
+
 describe.skipIf(MISSING !== null)("a walk from view to view", () => {
   it("shows the plain picture at a key position, and one picture of both between", async ({ page }) => {
     await seek(page, 0);
@@ -138,6 +176,20 @@ describe.skipIf(MISSING !== null)("a walk on other machines", () => {
     await page.mouse.move(stick.x + stick.width / 2, stick.y + 8, { steps: 3 });
     await page.waitForFunction(() => (window.veduta?.stroll()?.at ?? 0) > 0.15);
     await page.mouse.up();
+  });
+
+  plainly("shows both eyes of a headset their own view, where there is one", async () => {
+    const { page, complaints } = await open(await browser(true), `${site.origin}/`, {}, withHeadset);
+    await seek(page, 0);
+    await page.getByRole("button", { name: "headset" }).click();
+    await page.waitForFunction(() => ((window as { eyesAsked?: number }).eyesAsked ?? 0) > 3);
+    const { width, height } = page.viewportSize() ?? { width: 0, height: 0 };
+    // The eyes are 1 m to the left and to the right, and see 12 m of a wall 12 m away: the middle of each, a little lower.
+    for (const [x, part] of [[-1, 0.25], [1, 0.75]] as const) {
+      const { mean } = await look(page, around({ x: part * width, y: height * (0.5 + 1 / 12) }, 8));
+      expect(Math.max(...mean.map((value, k) => Math.abs(value - (wallColour(x, 1)[k] ?? 0))))).toBeLessThan(6);
+    }
+    expect(complaints).toEqual([]);
   });
 
   plainly("cross-fades the pictures where WebGL 2 is missing, and says so", async () => {

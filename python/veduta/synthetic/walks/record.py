@@ -27,7 +27,7 @@ class GorgeWalk:
     with each. fov_rad: the horizontal angle of view. views: at each key position, turned by
     view_turn_rad from one to the next about the left camera, the middle one ahead. pool: still
     water on the floor, from 4 m ahead of the first key position on. mover: a boulder that rolls
-    across the path, elsewhere at each key position.
+    across the path, elsewhere at each key position. samples: squared, of each pixel.
     """
 
     keys: int = 5
@@ -44,6 +44,7 @@ class GorgeWalk:
     view_turn_rad: float = 0.7
     pool: bool = False
     mover: bool = False
+    samples: int = 2
 
     @property
     def focal_px(self) -> float:
@@ -101,7 +102,9 @@ def shoot_walk(walk: GorgeWalk) -> tuple[list[WalkCamera], list[tuple[WalkShot, 
             scene = GorgeScene(_with_boulder(walk, gorge, number))
         for view in views_of(walk, camera):
             shown = (view, beside(view, walk.baseline_m))
-            left, right = (scene.shoot(one, walk.drift ** len(cameras)) for one in shown)
+            left, right = (
+                scene.shoot(one, walk.drift ** len(cameras), walk.samples) for one in shown
+            )
             cameras.append(view)
             pairs.append((left, right))
     return cameras, pairs
