@@ -34,3 +34,29 @@ class FillParameters:
     different: float = 80.0
     faith: float = 0.15
     rounds: int = 2
+
+
+@dataclass(frozen=True)
+class RepeatParameters:
+    """How one of several known offsets is chosen for each place.
+
+    longest_px: the longer side of the small copy. around: how far around a place its likeness is
+    looked at, in shares of `reach_px` (a storey, say): near, and far where nothing is known near.
+    far_weight: of the far in the likeness. different: larger differences (of 255) count as this.
+    faith: the weight of how well the whole picture repeats by an offset, in shares of a known
+    surrounding. guessed: weight of what was filled the round before. rounds: how often is chosen
+    anew. steady: in shares of `reach_px`, over which one offset is kept. refine_px: by how much an offset may be off at full size. largest: holes that give steps of
+    their own. smooth: in shares of `reach_px`, how far an interpolation is good.
+    """
+
+    longest_px: int = 256
+    around: tuple[float, float] = (0.12, 0.4)
+    far_weight: float = 0.15
+    different: float = 70.0
+    faith: float = 0.05
+    guessed: float = 0.25
+    rounds: int = 2
+    steady: float = 0.06
+    refine_px: int = 2
+    largest: int = 12
+    smooth: float = 0.1

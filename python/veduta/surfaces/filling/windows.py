@@ -83,14 +83,14 @@ def copy_windows(
         taken /= np.maximum(top, 1e-12)[..., None]
     filled = hole & (top > 0.0)
     if not blend:
-        taken += _level_with_rim(level.pixels[level.near], taken, (top > 0.0) & level.known[near])
+        taken += level_with_rim(level.pixels[level.near], taken, (top > 0.0) & level.known[near])
     pixels = level.pixels.copy()
     pixels[level.near][filled] = taken[filled]
     used = np.bincount(owner[filled], minlength=len(offsets))
     return Copied(pixels, used, np.sqrt(cost[hole]))
 
 
-def _level_with_rim(given: Floats, taken: Floats, known: Mask) -> Floats:
+def level_with_rim(given: Floats, taken: Floats, known: Mask) -> Floats:
     """(h, w, 3) what to add to copied pixels so that they are as bright as the known ones beside.
 
     The differences of known pixels from what would be copied to them, as far as they are ones of
