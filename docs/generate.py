@@ -25,6 +25,7 @@ from veduta.cli.fauna_call import FaunaCall
 from veduta.cli.grammar_call import DeriveCall, SampleCall, TreeCall
 from veduta.cli.photos_call import PhotosCall
 from veduta.cli.plan_call import PlanCall
+from veduta.facade.cleared import BEFORE_COLOURS, KINDS
 from veduta.facade.document import CLASSES
 from veduta.facade.outputs import COLOURS
 from veduta.facade.report import FILES
@@ -98,6 +99,15 @@ def files_table(files: Sequence[tuple[str, str]]) -> str:
         ("report.html", "the same with pictures, in one file"),
     )
     return table(("file", "what it is"), [(f"`{name}`", text) for name, text in (*files, *reports)])
+
+
+def before_table() -> str:
+    """What may stand before a front, with its colour in `before.png`."""
+    rows = [
+        (str(index), name, "#{:02x}{:02x}{:02x}".format(*BEFORE_COLOURS[index]))
+        for index, name in enumerate(KINDS)
+    ]
+    return table(("index", "what stands there", "colour"), rows)
 
 
 def classes_table() -> str:
@@ -180,6 +190,7 @@ TABLES: dict[str, dict[str, Callable[[], str]]] = {
         "options": lambda: options_table(FacadeCall),
         "files": lambda: files_table(FILES),
         "classes": classes_table,
+        "before": before_table,
     },
     "fauna.md": {"options": lambda: options_table(FaunaCall)},
     "grammar.md": {

@@ -2,7 +2,8 @@
 
 Balconies are built into one of two renders of a front and not into the other; what differs is the
 hole, with the shadows. Trees, hedges, vehicles, fences and people are those that
-`training/facade/sprites.py` draws, laid over the bare render. All pictures are of the facade's plane.
+`training/facade/sprites.py` draws, laid over the bare render. All pictures show the plane of the
+facade.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[2] / "training" / "facade"))
 
-from sprites import DRAWN
+from sprites import DRAWN  # type: ignore[import-not-found]
 
 from veduta.synthetic.build import build
 from veduta.synthetic.camera import Camera
@@ -138,9 +139,12 @@ def _windows(layout: Layout, camera: Camera, scale: float) -> NDArray[np.float64
     top = layout.height_m + 0.8 * layout.roof.rise_m
     rects = [e.rect for e in elements_of(layout, camera) if e.label == "window"]
     rects = [rect for rect in rects if rect.top_m <= top]
-    return np.array(
-        [[r.x_m, top - r.top_m, r.right_m, top - r.y_m] for r in rects], dtype=np.float64
-    ).reshape(-1, 4) * scale
+    return (
+        np.array(
+            [[r.x_m, top - r.top_m, r.right_m, top - r.y_m] for r in rects], dtype=np.float64
+        ).reshape(-1, 4)
+        * scale
+    )
 
 
 def _differs(one: Pixels, other: Pixels) -> Mask:
@@ -156,15 +160,13 @@ def _grown(mask: Mask) -> Mask:
     return np.asarray(cv2.morphologyEx(mask.astype(np.uint8), cv2.MORPH_CLOSE, kernel)) > 0
 
 
-def _behind(
-    bare: Pixels, kind: str, rng: np.random.Generator, scale: float
-) -> tuple[Pixels, Mask]:
+def _behind(bare: Pixels, kind: str, rng: np.random.Generator, scale: float) -> tuple[Pixels, Mask]:
     """The picture with sprites of one kind at its foot, and where they are."""
     draw = dict(DRAWN)[kind]
     width_m, height_m, count = _SIZE_M[kind]
     size = max(8, int(width_m * scale)), max(8, int(height_m * scale))
     seen, hole = bare.copy(), np.zeros(bare.shape[:2], dtype=np.bool_)
-    height, width = hole.shape
+    height, width = bare.shape[:2]
     free = max(1, width - size[0] * count)
     left = int(rng.integers(free))
     for number in range(count):

@@ -27,6 +27,7 @@ TIMEOUT_S = 300
 DEADLINE_S = 120
 FILES = {
     "facade.json",
+    "before.png",
     "labels.png",
     "rectified.jpg",
     "overlay.png",

@@ -10,6 +10,7 @@ from veduta.facade.compose import Parse, compose
 from veduta.facade.document import FacadeDocument, Source
 from veduta.facade.evidence import gather
 from veduta.facade.extent import find_skyline, row_histograms
+from veduta.facade.eyes import Seen
 from veduta.facade.floors import split_floors
 from veduta.facade.ground import read_ground
 from veduta.facade.ground_windows import find_ground_windows, with_windows
@@ -30,10 +31,15 @@ def analyse(
     source: Source,
     options: FacadeOptions,
     progress: StepProgress = no_progress,
+    seen: Seen | None = None,
 ) -> tuple[FacadeDocument, list[StepRecord]]:
-    """Read a rectified facade; NotFoundError where the image shows none."""
-    read = analyse_seen if options.eyes.eyes == "learned" else analyse_plain
-    return read(rectified, source, options, progress)
+    """Read a rectified facade; NotFoundError where the image shows none.
+
+    seen: what the learned eyes see in it, of a caller that has looked already.
+    """
+    if options.eyes.eyes == "learned":
+        return analyse_seen(rectified, source, options, progress, seen)
+    return analyse_plain(rectified, source, options, progress)
 
 
 def analyse_plain(

@@ -61,13 +61,17 @@ def analyse_seen(
     source: Source,
     options: FacadeOptions,
     progress: StepProgress = no_progress,
+    seen: Seen | None = None,
 ) -> tuple[FacadeDocument, list[StepRecord]]:
-    """Read a rectified facade with the learned eyes; NotFoundError where the image shows none."""
+    """Read a rectified facade with the learned eyes; NotFoundError where the image shows none.
+
+    seen: what these see in it, of a caller that has looked already.
+    """
     steps: list[StepRecord] = []
     front = FrontParameters()
     with timed_step(steps, "eyes") as step:
         progress("eyes", 0.0)
-        seen = look(rectified.pixels)
+        seen = seen or look(rectified.pixels)
         elements = seen_elements(seen)
         for kind in seen.kinds:
             step.counts[kind] = sum(e.kind == kind for e in elements)

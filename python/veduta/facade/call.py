@@ -11,6 +11,7 @@ from typing import Literal
 
 from pydantic import JsonValue
 
+from veduta.facade.cleared import BEFORE
 from veduta.facade.label_pictures import set_labels_apart
 from veduta.facade.load import DOCUMENT, MAX_BYTES, PHOTO
 from veduta.imaging.read import MAX_FILE_BYTES, SUFFIXES
@@ -144,6 +145,8 @@ def _digests(path: Path) -> tuple[str, ...]:
     bounds = {path: MAX_FILE_BYTES}
     if _kind(path) == "document":
         bounds = {path: MAX_BYTES, path.with_name(PHOTO): MAX_FILE_BYTES}
+        before = path.with_name(BEFORE)
+        bounds |= {before: MAX_FILE_BYTES} if before.is_file() else {}
     try:
         for file, bound in bounds.items():
             require_file(file, bound)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.facade.cleared import Cleared
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.plan import Plan, plan_building
 from veduta.facade.repeat import repeating_rules
@@ -44,19 +45,26 @@ class Model:
     textures: Mapping[str, Texture]
     size_m: tuple[float, float]
     part: Part
+    cleared: Cleared
 
 
-def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: str) -> Model:
+def build_model(
+    document: FacadeDocument,
+    rectified: NDArray[np.uint8],
+    part_id: str,
+    before: NDArray[np.uint8] | None = None,
+) -> Model:
     """Write the rules of one document, and derive them.
 
     rectified: (h, w, 3) uint8 sRGB, the rectified photo that the document describes.
+    before: (h, w) what stands before the front, places in `cleared.KINDS`.
     The part's frame: x right along the wall, z up, facade plane y = 0, body at y >= 0.
     The body is shell 0 and closed; balconies, chimneys and lids are closed shells of their own.
     """
     _check(document, rectified)
     _check_sizes(document)
     plan = plan_building(document)
-    textures = make_textures(document, rectified, plan.top_m)
+    textures = make_textures(document, rectified, plan.top_m, before)
     rules = write_rules(plan, textures, _roof_provenance(document), document.source.image)
     repeating, left_out = repeating_rules(plan, textures.colours, document.source.image) or (
         rules.text,
@@ -76,7 +84,9 @@ def build_model(document: FacadeDocument, rectified: NDArray[np.uint8], part_id:
         },
         notes=(*plan.notes, *left_out, *part.notes),
     )
-    return Model(rules.text, repeating, images, (plan.width_m, plan.depth_m), part)
+    return Model(
+        rules.text, repeating, images, (plan.width_m, plan.depth_m), part, textures.cleared
+    )
 
 
 def build_part(document: FacadeDocument, rectified: NDArray[np.uint8], part_id: str) -> Part:

@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from veduta.facade.analyse import analyse
+from veduta.facade.cleared import BEFORE, before_png, hidden_kinds, load_before
 from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.eyes import look
 from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
 from veduta.facade.model import Model, build_model
 from veduta.facade.options import FacadeOptions, ModelOptions, StyleOptions
@@ -38,11 +40,15 @@ JPEG_QUALITY = 95
 
 @dataclass(frozen=True)
 class Building:
-    """What one photo gave; `photo_jpeg` is the rectified photo as it is stored."""
+    """What one photo gave; `photo_jpeg` is the rectified photo as it is stored.
+
+    before: (h, w) what stands before the front, places in `cleared.KINDS`.
+    """
 
     document: FacadeDocument
     photo_jpeg: bytes
     pixels: NDArray[np.uint8]
+    before: NDArray[np.uint8]
     model: Model
     style: StyleTold | None = None
 
@@ -68,14 +74,20 @@ def reconstruct(
     with timed_step(steps, "rectify") as step:
         rectified = rectify(photo, options.rectify)
         step.counts["method"] = rectified.record.method
-    document, analysis = analyse(rectified, _source(photo), options, progress)
+    seen = None
+    if options.eyes.eyes == "learned":
+        progress("look", 0.0)
+        with timed_step(steps, "look"):
+            seen = look(rectified.pixels)
+    document, analysis = analyse(rectified, _source(photo), options, progress, seen)
     steps.extend(analysis)
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
     document, style = _styled(document, pixels, options.style, steps, progress)
-    model = _model(document, pixels, part_id, steps, progress)
-    return Building(document, jpeg, pixels, model, style)
+    before = np.zeros(pixels.shape[:2], np.uint8) if seen is None else hidden_kinds(seen)
+    model = _model(document, pixels, before, part_id, steps, progress)
+    return Building(document, jpeg, pixels, before, model, style)
 
 
 def rebuild(
@@ -90,9 +102,11 @@ def rebuild(
     with timed_step(steps, "load") as step:
         document = _sized(load_document(document_path), options)
         pixels = load_photo(document_path, document)
+        before = load_before(document_path, (pixels.shape[1], pixels.shape[0]))
         step.counts["elements"] = len(document.elements)
-    model = _model(document, pixels, part_id, steps, progress)
-    return Building(document, document_path.with_name(PHOTO).read_bytes(), pixels, model)
+    model = _model(document, pixels, before, part_id, steps, progress)
+    jpeg = document_path.with_name(PHOTO).read_bytes()
+    return Building(document, jpeg, pixels, before, model)
 
 
 def write_building(
@@ -108,6 +122,7 @@ def write_building(
         text = document.model_dump_json(by_alias=True, indent=1) + "\n"
         (folder / DOCUMENT).write_text(text, encoding="utf-8")
         (folder / PHOTO).write_bytes(building.photo_jpeg)
+        (folder / BEFORE).write_bytes(before_png(building.before))
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
         write_rule_files(building.model, folder)
@@ -161,13 +176,14 @@ def _styled(
 def _model(
     document: FacadeDocument,
     pixels: NDArray[np.uint8],
+    before: NDArray[np.uint8],
     part_id: str,
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> Model:
     progress("model", 0.0)
     with timed_step(steps, "model") as step:
-        model = build_model(document, pixels, part_id)
+        model = build_model(document, pixels, part_id, before)
         part = model.part
         step.counts |= {"features": len(part.features), "materials": len(part.materials)}
         step.rejected.extend(part.notes)

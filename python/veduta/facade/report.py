@@ -19,6 +19,7 @@ from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
 from veduta.facade.rectify import are_corners_doubtful
+from veduta.facade.rule_head import WALL_TEXTURE
 from veduta.imaging.encode import jpeg_bytes, png_bytes
 from veduta.imaging.read import read_image
 from veduta.run.errors import InputError
@@ -32,6 +33,7 @@ MAX_THUMBNAILS = 60
 FILES = (
     ("facade.json", "everything that was found; edit it and rebuild"),
     ("rectified.jpg", "the fronto-parallel photo"),
+    ("before.png", "what stands before the front, and is taken out of the wall's texture"),
     ("labels.png", "a class per pixel, drawn from facade.json"),
     ("overlay.png", "what was found, over the photo, with the numbers of the elements"),
     ("rules.cga", "the building as rules that repeat: derive it on a wider or higher lot"),
@@ -67,7 +69,11 @@ def image_report(
         state="done",
         options=options.model_dump(mode="json"),
         steps=steps,
-        measures={**measures(document), **count_adjusted(building.part.notes)},
+        measures={
+            **measures(document),
+            **count_adjusted(building.part.notes),
+            **_taken_out(building),
+        },
         notes=[*document.notes, *building.part.notes],
     )
     page = Page(
@@ -197,6 +203,29 @@ def adjusted_line(found: Mapping[str, Any]) -> str:
     return ", ".join(said)
 
 
+def _wall(building: Building) -> NDArray[np.uint8]:
+    return building.model.textures[WALL_TEXTURE].pixels
+
+
+def _wall_note(building: Building) -> str:
+    """What was taken out of the wall's texture, most first."""
+    shares = sorted(building.model.cleared.shares.items(), key=lambda item: -item[1])
+    told = ", ".join(f"{name} {100 * share:.0f} %" for name, share in shares if share >= 0.005)
+    copied = f"{100 * building.model.cleared.copied:.0f} % of that is copied from elsewhere"
+    return f"Without what stands before it ({told}); {copied}." if told else "As the photo has it."
+
+
+def _taken_out(building: Building) -> dict[str, Any]:
+    """What the wall's texture has no longer, as shares of it, and what came in its place."""
+    cleared = building.model.cleared
+    return {
+        "taken_out": {name: round(share, 4) for name, share in cleared.shares.items()},
+        "filled": round(float(cleared.filled.mean()), 4),
+        "filled_by_copies": round(cleared.copied, 3),
+        "light_evened": round(cleared.evened, 3),
+    }
+
+
 def _in_doubt(count: int) -> str:
     return f" ({count} doubtful)" if count else ""
 
@@ -222,6 +251,7 @@ def _pictures(building: Building) -> list[Picture]:
     return [
         _picture("Found", FOUND_NOTE, drawn, "overlay.png"),
         _picture("Photo", "The fronto-parallel view.", building.pixels, "rectified.jpg"),
+        _picture("Wall", _wall_note(building), _wall(building), "textures/wall.jpg"),
         _picture("Labels", "Each pixel in the colour of its class.", labels, "labels.png"),
     ]
 

@@ -14,21 +14,19 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.facade.cleared import Cleared, clear_surface
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import (
     Mask,
     PixelBox,
     element_mask,
     extent_mask,
-    pixels_of,
     seen_mask,
 )
 from veduta.place.material import Colour, Texture
 
 # Longest edge of a texture (px).
 LONGEST_PX = 4096
-# A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
-BALCONY_SPREAD = 0.08
 
 # Colours where the photo shows none of a class.
 _STONE: Colour = (0.78, 0.73, 0.65)
@@ -64,12 +62,19 @@ class FacadeTextures:
     width_m: float
     height_m: float
     colours: Colours
+    cleared: Cleared
 
 
-def make_textures(document: FacadeDocument, photo: Pixels, top_m: float) -> FacadeTextures:
+def make_textures(
+    document: FacadeDocument,
+    photo: Pixels,
+    top_m: float,
+    before: NDArray[np.uint8] | None = None,
+) -> FacadeTextures:
     """Cut the facade up to `top_m` above the ground out of the photo, and make both textures.
 
-    photo: (h, w, 3) uint8 sRGB, the rectified photo of the document.
+    photo: (h, w, 3) uint8 sRGB, the rectified photo of the document. before: (h, w) what
+    stands before the front, places in `cleared.KINDS`; nothing but balconies where it is not given.
     """
     facade, scale = document.facade, document.scale.metres_per_px
     bottom = facade.y_px + facade.height_px
@@ -82,17 +87,21 @@ def make_textures(document: FacadeDocument, photo: Pixels, top_m: float) -> Faca
     box = _in_photo(whole, photo)
     crop = photo[box.y0 : box.y1, box.x0 : box.x1].copy()
     unseen = ~seen_mask(document, box)
-    colours = _colours(document, crop, box, ~unseen)
+    hidden = np.zeros(crop.shape[:2], dtype=np.uint8)
+    if before is not None:
+        hidden = before[box.y0 : box.y1, box.x0 : box.x1]
+    colours = _colours(document, crop, box, ~unseen & (hidden == 0))
     _fill_unseen(document, crop, box, unseen, colours)
-    surface, invented = _surface_layer(document, crop, box, colours.roof)
+    cleared, invented = _surface_layer(document, crop, box, colours.roof, hidden)
     return FacadeTextures(
         front=_fitted(crop, unseen, box, whole),
-        wall=_fitted(surface, invented | unseen, box, whole),
+        wall=_fitted(cleared.pixels, invented | unseen, box, whole),
         left_m=(whole.x0 - facade.x_px) * scale,
         foot_m=(bottom - whole.y1) * scale,
         width_m=(whole.x1 - whole.x0) * scale,
         height_m=(whole.y1 - whole.y0) * scale,
         colours=colours,
+        cleared=cleared,
     )
 
 
@@ -131,32 +140,14 @@ def _typical(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
 
 
 def _surface_layer(
-    document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour
-) -> tuple[Pixels, Mask]:
+    document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour, before: NDArray[np.uint8]
+) -> tuple[Cleared, Mask]:
     """The photo without what stands before wall and roof, and the mask of invented pixels."""
     surface = crop.copy()
     invented = extent_mask(document, box, "sky") | element_mask(document, box, "chimney")
     surface[invented] = np.round(np.array(roof) * 255.0).astype(np.uint8)
-    balconies = [element for element in document.elements if element.class_ == "balcony"]
-    for element in sorted(balconies, key=lambda balcony: balcony.y_px):
-        rows, columns = pixels_of(element, box, BALCONY_SPREAD * element.height_px)
-        _mirror_into(surface, rows, columns)
-        invented[rows, columns] = True
-    return surface, invented
-
-
-def _mirror_into(surface: Pixels, rows: slice, columns: slice) -> None:
-    """Fill rows by those above them, mirrored at their upper edge (below, at the image's top)."""
-    count = rows.stop - rows.start
-    above, below = rows.start, surface.shape[0] - rows.stop
-    if count <= 0 or max(above, below) == 0:
-        return
-    offsets = np.arange(count)
-    if above >= min(count, below):
-        source = rows.start - 1 - np.minimum(offsets, above - 1)
-    else:
-        source = rows.stop + np.minimum(offsets[::-1], below - 1)
-    surface[rows, columns] = surface[source, columns]
+    cleared = clear_surface(document, surface, box, before)
+    return cleared, invented | cleared.filled
 
 
 def _fitted(pixels: Pixels, mask: Mask, box: PixelBox, whole: PixelBox) -> Texture:

@@ -2,7 +2,8 @@
 
 from veduta.surfaces.adjacency import neighbours
 from veduta.surfaces.extraction import surface_nets
-from veduta.surfaces.filling.options import FillParameters
+from veduta.surfaces.filling.options import FillParameters, RepeatParameters
+from veduta.surfaces.filling.repeating import Repeated, fill_by_repeats
 from veduta.surfaces.filling.step import Filled, fill_holes
 from veduta.surfaces.normals import face_normals, vertex_normals
 from veduta.surfaces.simplification import Simplified, simplify
@@ -13,12 +14,15 @@ from veduta.surfaces.texturing.step import TexturedMesh, texture_mesh
 __all__ = [
     "FillParameters",
     "Filled",
+    "RepeatParameters",
+    "Repeated",
     "Simplified",
     "SurfaceView",
     "TextureOptions",
     "TextureParameters",
     "TexturedMesh",
     "face_normals",
+    "fill_by_repeats",
     "fill_holes",
     "neighbours",
     "simplify",

@@ -48,7 +48,9 @@ def own_repeats(windows: Boxes, parameters: OwnRepeatParameters | None = None) -
     across = middle[other] - middle[one]
     by_head = np.stack([across, windows[other, 1] - windows[one, 1]], axis=1)
     by_foot = np.stack([across, windows[other, 3] - windows[one, 3]], axis=1)
-    kept = _frequent(np.concatenate([by_head, by_foot]), max(2.0, p.same * typical), typical, p.most)
+    kept = _frequent(
+        np.concatenate([by_head, by_foot]), max(2.0, p.same * typical), typical, p.most
+    )
     return OwnRepeats(kept, _storey(windows, typical))
 
 
@@ -58,7 +60,7 @@ def _frequent(offsets: Boxes, near_px: float, least_px: float, most: int) -> NDA
     if not len(offsets):
         return np.zeros((0, 2), np.int64)
     keys = np.rint(offsets / near_px).astype(np.int64)
-    unique, inverse, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
+    _, inverse, counts = np.unique(keys, axis=0, return_inverse=True, return_counts=True)
     means = np.stack(
         [np.bincount(inverse.ravel(), offsets[:, axis]) / counts for axis in (0, 1)], axis=1
     )

@@ -19,6 +19,10 @@ _OUTLIER = 60.0
 """Of 255: larger differences count as this where an offset is moved by a few pixels."""
 
 
+_BETTER = 0.97
+"""Share of the difference at which an offset is better by more than chance."""
+
+
 @dataclass(frozen=True, eq=False)
 class Spoilt:
     """A picture (h, w, 3) uint8, its holes (h, w), and (h,) the zone of each of its rows."""
@@ -32,8 +36,8 @@ class Spoilt:
         height, width = self.holes.shape
         size = max(1, round(width * scale)), max(1, round(height * scale))
         weight = cv2.resize((~self.holes).astype(np.float32), size, interpolation=cv2.INTER_AREA)
-        values = np.where(self.holes[..., None], 0, self.pixels).astype(np.float32)
-        values = cv2.resize(values, size, interpolation=cv2.INTER_AREA)
+        there = np.where(self.holes[..., None], 0, self.pixels).astype(np.float32)
+        values = cv2.resize(there, size, interpolation=cv2.INTER_AREA)
         shown = values / np.maximum(weight, 1e-3)[..., None]
         middles = ((np.arange(size[1]) + 0.5) * height / size[1]).astype(np.int64)
         return Small(np.asarray(shown, np.float32), np.asarray(weight > 0.6), self.zones[middles])
@@ -72,9 +76,7 @@ class Choice:
     cost: Floats
 
 
-def choose(
-    small: Small, steps: Offsets, reach: float, parameters: RepeatParameters
-) -> Choice:
+def choose(small: Small, steps: Offsets, reach: float, parameters: RepeatParameters) -> Choice:
     """The best of the steps (k, 2), x y, for each place of the small copy.
 
     reach: the size of what repeats, in pixels of the copy.
@@ -134,8 +136,13 @@ def _spread(values: Floats, sigma: float) -> Floats:
     return np.asarray(cv2.boxFilter(once, -1, (side, side)), np.float32)
 
 
-def refined(spoilt: Spoilt, choice: Choice, offsets: Offsets, reach_px: int) -> Offsets:
-    """Each offset that was chosen, moved by the few pixels by which what is around fits best."""
+def refined(
+    spoilt: Spoilt, choice: Choice, offsets: Offsets, around_px: int, reach_px: int
+) -> Offsets:
+    """Each offset that was chosen, moved by the few pixels by which what is around fits best.
+
+    around_px: how far around the holes is looked. It stays where another is hardly better.
+    """
     height, width = spoilt.holes.shape
     grey = cv2.cvtColor(spoilt.pixels, cv2.COLOR_RGB2GRAY).astype(np.float32)
     known = (~spoilt.holes).astype(np.float32)
@@ -146,12 +153,12 @@ def refined(spoilt: Spoilt, choice: Choice, offsets: Offsets, reach_px: int) -> 
     steps.sort(key=lambda step: abs(step[0]) + abs(step[1]))
     for which in np.unique(number[number >= 0]):
         offset = offsets[which]
-        part = _around(number == which, 4 * reach_px, offset, reach_px)
+        part = _around(number == which, around_px, offset, reach_px)
         if part is None:
             continue
         least = np.inf
         for dy, dx in steps:
-            by = offset + (dx, dy)
+            by = offset + np.array([dx, dy])
             source = (
                 slice(part[0].start + by[1], part[0].stop + by[1]),
                 slice(part[1].start + by[0], part[1].stop + by[0]),
@@ -159,7 +166,7 @@ def refined(spoilt: Spoilt, choice: Choice, offsets: Offsets, reach_px: int) -> 
             both = known[part] * known[source]
             apart = np.minimum(np.abs(grey[source] - grey[part]), _OUTLIER)
             difference = float((apart * both).sum()) / max(float(both.sum()), 1.0)
-            if difference < least - 1e-3:
+            if difference < _BETTER * least:
                 found[which], least = by, difference
     return found
 

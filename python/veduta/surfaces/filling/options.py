@@ -45,8 +45,12 @@ class RepeatParameters:
     far_weight: of the far in the likeness. different: larger differences (of 255) count as this.
     faith: the weight of how well the whole picture repeats by an offset, in shares of a known
     surrounding. guessed: weight of what was filled the round before. rounds: how often is chosen
-    anew. steady: in shares of `reach_px`, over which one offset is kept. refine_px: by how much an offset may be off at full size. largest: holes that give steps of
-    their own. smooth: in shares of `reach_px`, how far an interpolation is good.
+    anew. steady: in shares of `reach_px`, over which one offset is kept. refine_px: by how much an
+    offset may be off at full size. largest: holes that give steps of their own. smooth: in shares
+    of `reach_px`, how far an interpolation is good. strip: in the same, the rows above a hole that
+    are carried down into it. lower: the mean square error (of 255) that these get a strip further
+    down. sharp: how much the likeliest of all ways outweighs the others: the power of the inverse
+    of their errors. Chosen on four synthetic facades, of seeds 0 to 3.
     """
 
     longest_px: int = 256
@@ -60,3 +64,6 @@ class RepeatParameters:
     refine_px: int = 2
     largest: int = 12
     smooth: float = 0.1
+    strip: float = 0.25
+    lower: float = 120.0
+    sharp: float = 2.0

@@ -1,10 +1,10 @@
 """Holes filled by what stands at offsets that are known beforehand.
 
 Who knows by which offsets a facade repeats itself (its windows tell) need not search for them. To
-these come steps as long as each hole, by which a wall or a jamb goes on. Which offset serves where is
-decided on a small copy of the picture, by how like the known pixels around are to those at the
-offset; what is copied has full size. Where nothing is like, the hole is smooth: copied and
-interpolated pixels are weighed by the error that is to be expected of each.
+these come steps as long as each hole. Which offset serves where is decided on a small copy of the
+picture, by how like the known pixels around are to those at the offset; what is copied has full
+size. Beside it stand what is above the hole, carried down, and an interpolation: the three are
+weighed by the error that is to be expected of each.
 """
 
 from __future__ import annotations
@@ -15,6 +15,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.surfaces.filling.carrying import carried_down
 from veduta.surfaces.filling.choosing import Choice, Offsets, Spoilt, choose, refined
 from veduta.surfaces.filling.options import RepeatParameters
 from veduta.surfaces.filling.windows import level_with_rim
@@ -23,15 +24,17 @@ Floats = NDArray[np.float32]
 Mask = NDArray[np.bool_]
 _SMOOTH_PX = 5
 """Radius of the interpolation."""
+_SURE = np.float32(1.0)
+_NEVER = np.float32(1e9)
 _LEAST = 30.0
 """Mean square error (of 255) of the interpolation right beside what is known."""
 
 
 @dataclass(frozen=True, eq=False)
 class Repeated:
-    """pixels (h, w, 3) uint8, no hole left; copied (h, w) float32: the share that was copied, 0..1.
+    """pixels (h, w, 3) uint8, no hole left; copied (h, w) float32: the share of copies, 0..1.
 
-    What of a hole was not copied is interpolated: nothing on the facade is like what is around it.
+    The rest of a hole is interpolated: nothing on the facade is like what is around it.
     """
 
     pixels: NDArray[np.uint8]
@@ -46,11 +49,11 @@ def fill_by_repeats(
     zones: NDArray[np.int64] | None = None,
     parameters: RepeatParameters | None = None,
 ) -> Repeated:
-    """Fill the holes (h, w) of a picture (h, w, 3) by what stands at the offsets (k, 2), x y, first.
+    """Fill the holes (h, w) of a picture (h, w, 3), by what stands at offsets (k, 2), x y, first.
 
-    reach_px: the size of what repeats, about that of a storey. zones: (h,) rows of different numbers
-    never serve each other (a ground floor is no upper floor). The same comes out for the same input.
-    ValueError where the shapes differ or nothing is known.
+    reach_px: the size of what repeats, about that of a storey. zones: (h,) rows of different
+    numbers never serve each other (a ground floor is no upper floor). The same comes out for the
+    same input. ValueError where the shapes differ or nothing is known.
     """
     chosen = parameters or RepeatParameters()
     if pixels.ndim != 3 or pixels.shape[2] != 3 or pixels.shape[:2] != holes.shape:
@@ -65,15 +68,26 @@ def fill_by_repeats(
     steps = np.concatenate([offsets.reshape(-1, 2), _own_steps(holes, chosen)])
     small = spoilt.small(scale)
     choice = choose(small, np.rint(steps * scale).astype(np.int64), reach_px * scale, chosen)
-    steps = refined(spoilt, choice, steps, chosen.refine_px)
+    steps = refined(spoilt, choice, steps, max(4, round(0.3 * reach_px)), chosen.refine_px)
     taken, there = _copied(spoilt, steps, choice)
     taken += _light(pixels, taken, there & ~holes, scale)
-    smooth = cv2.inpaint(pixels, holes.astype(np.uint8), _SMOOTH_PX, cv2.INPAINT_TELEA)
     cost = cv2.resize(choice.cost, (width, height), interpolation=cv2.INTER_LINEAR)
-    share = _share(spoilt, cost, chosen.smooth * reach_px) * (there & holes)
-    mixed = share[..., None] * taken + (1.0 - share[..., None]) * smooth
+    cost = np.where(there, np.minimum(cost, 255.0**2), _NEVER)
+    # At the picture's border the interpolation takes up what is in the hole.
+    usual = np.median(pixels[~holes], axis=0).astype(np.uint8)
+    bare = np.where(holes[..., None], usual, pixels)
+    smooth = cv2.inpaint(bare, holes.astype(np.uint8), _SMOOTH_PX, cv2.INPAINT_TELEA)
+    down = carried_down(spoilt, reach_px, chosen)
+    ways = [
+        (taken, cost),
+        (down.pixels, down.cost),
+        (smooth.astype(np.float32), _smooth_cost(spoilt, chosen.smooth * reach_px)),
+    ]
+    weights = np.stack([(1.0 / np.maximum(each, _SURE)) ** chosen.sharp for _, each in ways])
+    weights /= weights.sum(axis=0)
+    mixed = sum(weight[..., None] * way for weight, (way, _) in zip(weights, ways, strict=True))
     made = np.where(holes[..., None], np.clip(np.rint(mixed), 0, 255), pixels).astype(np.uint8)
-    return Repeated(made, share.astype(np.float32))
+    return Repeated(made, np.where(holes, 1.0 - weights[2], 0.0).astype(np.float32))
 
 
 def _own_steps(holes: Mask, parameters: RepeatParameters) -> Offsets:
@@ -107,20 +121,26 @@ def _light(given: NDArray[np.uint8], taken: Floats, known: Mask, scale: float) -
     height, width = known.shape
     size = max(1, round(width * scale)), max(1, round(height * scale))
     there = cv2.resize(known.astype(np.float32), size, interpolation=cv2.INTER_AREA)
-    both = [
-        cv2.resize(np.where(known[..., None], picture, 0).astype(np.float32), size,
-                   interpolation=cv2.INTER_AREA)
-        / np.maximum(there, 1e-3)[..., None]
+    one, other = (
+        np.asarray(
+            cv2.resize(
+                np.where(known[..., None], picture, 0).astype(np.float32),
+                size,
+                interpolation=cv2.INTER_AREA,
+            )
+            / np.maximum(there, 1e-3)[..., None],
+            np.float32,
+        )
         for picture in (given, taken)
-    ]
-    level = level_with_rim(both[0], both[1], np.asarray(there > 0.5))
+    )
+    level = level_with_rim(one, other, np.asarray(there > 0.5))
     return np.asarray(cv2.resize(level, (width, height), interpolation=cv2.INTER_LINEAR))
 
 
-def _share(spoilt: Spoilt, cost: Floats, near_px: float) -> Floats:
-    """(h, w) of copying, by the mean square errors that are to be expected of both.
+def _smooth_cost(spoilt: Spoilt, near_px: float) -> Floats:
+    """(h, w) mean square error that is to be expected of an interpolation.
 
-    That of interpolation grows with the distance from what is known to how much that varies.
+    It grows with the distance from what is known to how much that varies.
     """
     known = (~spoilt.holes).astype(np.float32)
     grey = cv2.cvtColor(spoilt.pixels, cv2.COLOR_RGB2GRAY).astype(np.float32) * known
@@ -131,4 +151,4 @@ def _share(spoilt: Spoilt, cost: Floats, near_px: float) -> Floats:
     varies = np.maximum(square - mean * mean, 0.0)
     away = cv2.distanceTransform(spoilt.holes.astype(np.uint8), cv2.DIST_L2, 3)
     smooth = varies * (1.0 - np.exp(-away / max(near_px, 1.0))) + _LEAST
-    return np.asarray(smooth / (smooth + np.minimum(cost, 255.0**2)), np.float32)
+    return np.asarray(smooth, np.float32)

@@ -1,0 +1,120 @@
+"""The photo of wall and roof without what stands before them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from veduta.facade.cleared.kinds import KINDS
+from veduta.facade.cleared.light import even_light
+from veduta.facade.cleared.repeats import own_repeats
+from veduta.facade.document import FacadeDocument
+from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
+from veduta.surfaces import fill_by_repeats
+
+Pixels = NDArray[np.uint8]
+_ROOF, _UPPER, _GROUND = range(3)
+# A balcony's pixels spread beyond its rectangle by this share of its height (shadow, handrail).
+BALCONY_SPREAD = 0.08
+# Other things spread by this share of a storey.
+SPREAD = 0.02
+# Nothing is filled where more of the picture than this is hidden: it would be all invented.
+MOST_HIDDEN = 0.8
+
+
+@dataclass(frozen=True, eq=False)
+class Cleared:
+    """pixels (h, w, 3) uint8 sRGB; filled (h, w) bool, what was before the wall.
+
+    shares: of the picture, by what was there. copied: share of the filled that other places of the
+    front gave, the rest is interpolated. evened: the largest change of light, as a share.
+    """
+
+    pixels: Pixels
+    filled: Mask
+    shares: dict[str, float]
+    copied: float
+    evened: float
+
+
+def clear_surface(
+    document: FacadeDocument, crop: Pixels, box: PixelBox, before: NDArray[np.uint8]
+) -> Cleared:
+    """Take balconies and what `before` has out of a crop of the photo, and even its light.
+
+    crop: (h, w, 3), the part `box` of the photo. before: (h, w) of the crop, places in `KINDS`.
+    """
+    windows = _boxes(document, box, "window")
+    own = own_repeats(windows)
+    storey = own.storey_px or _mean_storey(document)
+    kinds = _with_balconies(document, box, before, storey)
+    holes = kinds > 0
+    shares = {
+        name: float((kinds == place).mean())
+        for place, name in enumerate(KINDS)
+        if place and (kinds == place).any()
+    }
+    zones, rows = _zones(document, box)
+    pixels, copied = crop, 0.0
+    if holes.any() and holes.mean() <= MOST_HIDDEN:
+        made = fill_by_repeats(crop, holes, own.offsets, storey, zones)
+        pixels, copied = made.pixels, float(made.copied[holes].mean())
+    else:
+        holes = np.zeros_like(holes)
+    wall = ~holes
+    for class_ in ("window", "door", "shop"):
+        wall &= ~element_mask(document, box, class_)
+    pixels, evened = even_light(pixels, wall, rows, storey)
+    return Cleared(pixels, holes, shares, copied, evened)
+
+
+def _boxes(document: FacadeDocument, box: PixelBox, wanted: str) -> NDArray[np.float64]:
+    """(n, 4) left, top, right, bottom in the crop."""
+    rows = [
+        (e.x_px, e.y_px, e.x_px + e.width_px, e.y_px + e.height_px)
+        for e in document.elements
+        if e.class_ == wanted
+    ]
+    return np.array(rows, dtype=np.float64).reshape(-1, 4) - (box.x0, box.y0, box.x0, box.y0)
+
+
+def _mean_storey(document: FacadeDocument) -> float:
+    return document.facade.height_px / max(document.storeys, 1)
+
+
+def _with_balconies(
+    document: FacadeDocument, box: PixelBox, before: NDArray[np.uint8], storey_px: float
+) -> NDArray[np.uint8]:
+    """What stands before the wall, with the balconies of the document, and a little around all."""
+    side = 2 * max(1, round(SPREAD * storey_px)) + 1
+    kernel = np.ones((side, side), np.uint8)
+    kinds = np.zeros_like(before)
+    for place in range(len(KINDS) - 1, 0, -1):
+        mask = (before == place).astype(np.uint8)
+        if mask.any():
+            kinds[cv2.dilate(mask, kernel) > 0] = place
+    for element in document.elements:
+        if element.class_ == "balcony":
+            spread = BALCONY_SPREAD * element.height_px
+            kinds[pixels_of(element, box, spread)] = KINDS.index("balcony")
+    return kinds
+
+
+def _zones(document: FacadeDocument, box: PixelBox) -> tuple[NDArray[np.int64], slice]:
+    """(h,) whether each row is of the roof, the upper floors or the ground floor; the upper rows.
+
+    A front without floors is one zone below its eaves.
+    """
+    height = box.y1 - box.y0
+    eaves = document.facade.y_px - box.y0
+    foot = eaves + document.facade.height_px
+    floors = document.rules.facade.sizes_m
+    ground = foot - floors[0] / document.scale.metres_per_px if len(floors) > 1 else foot
+    middles = np.arange(height) + 0.5
+    zones = np.where(middles < eaves, _ROOF, np.where(middles < ground, _UPPER, _GROUND))
+    upper = np.flatnonzero(zones == _UPPER)
+    rows = slice(int(upper[0]), int(upper[-1]) + 1) if len(upper) else slice(0, 0)
+    return zones.astype(np.int64), rows
