@@ -101,7 +101,10 @@ def _told(call: ExportCall) -> Place:
     """The place, with the words that were given."""
     from veduta.place.place import Place
 
-    place = Place.load(call.out)
+    told = Place.load(call.out)
+    place = told.untiled()
+    if place is not told:
+        print("its buildings are those of its city model: tiles hold many of them in one")
     for name, words in call.about.given().items():
         setattr(place, name, words)
     return place

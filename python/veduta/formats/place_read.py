@@ -118,12 +118,14 @@ def _low(city: CityFile) -> NDArray[np.float64]:
 def _building(building: BuildingFaces, origin: NDArray[np.float64]) -> Part:
     builder = PartBuilder(building.id)
     builder.attributes |= dict(building.attributes)
+    told = building.attributes.get("provenance")
+    known_by = Provenance(told) if told in set(Provenance) else Provenance.MEASURED
     materials: dict[SemanticClass, int] = {}
     features: dict[SemanticClass, int] = {}
     for rings, known in zip(building.polygons, building.classes, strict=True):
         semantic = known or SemanticClass.OTHER
         if semantic not in features:
-            features[semantic] = builder.feature(semantic, Provenance.MEASURED, semantic.value)
+            features[semantic] = builder.feature(semantic, known_by, semantic.value)
             materials[semantic] = builder.material(Material(semantic.value))
         moved = [ring - origin for ring in rings]
         builder.polygon(moved, features[semantic], materials[semantic])

@@ -104,8 +104,22 @@ def _late_read(name: str | None) -> Callable[[Path], Place] | None:
     return read
 
 
+def _untiled(place: Place) -> Place:
+    if place.tileset is None:
+        return place
+    from veduta.formats.tiled_town import untiled  # what reads city models takes a while to load
+
+    return untiled(place)
+
+
 register_folders(
-    PlaceFolders(save=save_place, save_part=save_part, load=load_place, read_model=read_model)
+    PlaceFolders(
+        save=save_place,
+        save_part=save_part,
+        load=load_place,
+        read_model=read_model,
+        untiled=_untiled,
+    )
 )
 for _suffix, _name, _title, _target, _left_out in ROWS:
     _read = _late_read(READERS.get(_suffix))

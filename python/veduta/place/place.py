@@ -234,12 +234,22 @@ class Place:
     def write(self, path: str | Path) -> None:
         """Write it as one file, in the format that its name asks for.
 
-        InputError where the format could hold nothing of it.
+        A town in tiles is written from the city model beside them. InputError where the format
+        could hold nothing of it.
         """
         target = Path(path)
         asked = format_of(target)
-        require_held(self, asked, target)
-        asked.write(self, target)
+        whole = self.untiled()
+        require_held(whole, asked, target)
+        asked.write(whole, target)
+
+    def untiled(self) -> Place:
+        """The same with its buildings as parts, where it has tiles that hold many of them.
+
+        They come from the city model that lies beside the tiles, which has classes and no pictures.
+        InputError where there is none.
+        """
+        return folders().untiled(self)
 
     def merge(self, other: Place) -> Place:
         """Both as one, in the frame of this one; `place.manifest.merge` has the rules.

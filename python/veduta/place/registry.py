@@ -50,6 +50,7 @@ class PlaceFolders:
     save_part: Callable[[PlacedPart, Path], PlacePart]
     load: Callable[[Path], Place]
     read_model: Callable[[Path], Part | Mesh]
+    untiled: Callable[[Place], Place]
 
 
 _formats: dict[str, PlaceFormat] = {}

@@ -213,7 +213,7 @@ def test_endings_and_names(tmp_path: Path) -> None:
         format_named("word")
 
 
-def test_a_town_of_tiles_is_refused_with_the_remedy(tmp_path: Path) -> None:
+def test_a_town_of_tiles_without_a_city_model_is_refused_with_the_remedy(tmp_path: Path) -> None:
     place = Place(tileset="tileset.json", folder=tmp_path)
 
     def unreadable() -> Mesh:
