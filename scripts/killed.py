@@ -2,10 +2,10 @@
 
     .venv/bin/python scripts/killed.py [NAME]... [--times 12]
 
-NAME begins the name of a call of `byte_calls.py`; without one, one call of each verb is killed. A call
-first runs to its end; then it is killed so many times, each in a new folder, at moments spread
+NAME begins the name of a call of `byte_calls.py`; without one, one call of each verb is killed. It
+runs to its end first; then it is killed so many times, each in a new folder, at moments spread
 evenly over the time that it took, and run again. What lies there then must be what the run that
-nobody disturbed has left, but for times (`same_bytes.TIMES`). Nothing may be left of the killed one.
+nobody disturbed has left, but for times (`same_bytes.TIMES`), and nothing else.
 """
 
 from __future__ import annotations
