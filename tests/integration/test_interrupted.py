@@ -13,6 +13,7 @@ from command_line import (
     facade,
     is_running,
     items_done,
+    read_json,
     running_facade,
     started_by,
     tree,
@@ -74,6 +75,8 @@ def test_stopped_at_a_single_photo(
     assert "the same command does the rest" in error
     assert {file.name for file in out.iterdir()} == {".veduta"}
     assert facade(photo, "-o", out).returncode == 0
+    # A rebuild knows by them what else belongs to the place.
+    assert read_json(out / ".veduta" / "run.json")["inputs"] == [photo.stem]
 
 
 def test_two_runs_into_one_folder(tmp_path: Path, photos: list[Path]) -> None:

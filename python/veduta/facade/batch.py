@@ -108,7 +108,7 @@ def run_call(
             if (force and amend) or _is_wanted(folder, source, call, options, result)
         ]
         before = {name: folder.record.files.get(f"{name}/{DOCUMENT}") for name in result.asked}
-        if folder.standing in {Standing.NEW, Standing.REPLACED}:
+        if folder.standing in {Standing.NEW, Standing.RESUMED, Standing.REPLACED}:
             folder.record.inputs = result.asked
         if waiting:
             result.up_to_date = False
