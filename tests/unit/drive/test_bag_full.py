@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import numpy as np
@@ -18,6 +19,7 @@ from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from scipy.spatial.transform import Rotation
 
+from veduta.drive.read.bag_rows import points_of
 from veduta.drive.read.own import read_own
 from veduta.run.errors import InputError
 
@@ -166,12 +168,24 @@ def test_transforms_without_frames_are_told(log: Path, tmp_path: Path) -> None:
         read_own(log, scratch=tmp_path / "scratch")
 
 
-def test_scans_that_are_no_points_are_told(
-    log: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    monkeypatch.setattr("veduta.drive.read.bag_rows._FLOATS", {8: "f8"})
-    with pytest.raises(InputError, match="not x, y and z as floats"):
-        read_own(log, scratch=tmp_path / "scratch")
+def _cloud(names: str, count: int, data: bytes) -> SimpleNamespace:
+    fields = [
+        SimpleNamespace(name=name, offset=4 * row, datatype=7) for row, name in enumerate(names)
+    ]
+    return SimpleNamespace(
+        is_bigendian=True, width=count, height=1, point_step=12, fields=fields, data=data
+    )
+
+
+def test_scans_that_are_no_points_are_told() -> None:
+    path = Path("a.bag")
+    rows = np.arange(6, dtype=">f4").tobytes()
+    expected = np.arange(6.0).reshape(2, 3)
+    np.testing.assert_array_equal(points_of(_cloud("xyz", 2, rows), path), expected)
+    with pytest.raises(InputError, match=r"a\.bag.*points with x, y, i, not x, y and z"):
+        points_of(_cloud("xyi", 2, rows), path)
+    with pytest.raises(InputError, match="3 points in 24 bytes"):
+        points_of(_cloud("xyz", 3, rows), path)
 
 
 def _files(folder: Path, places: NDArray[np.float64]) -> None:
