@@ -105,14 +105,14 @@ def main() -> None:
                 try:
                     found = localise(chain, model, start, reach, seed)
                 except NotFoundError as error:
-                    row[name] = "refused" if name == "mirrored" else f"refused: {error}"
+                    row[name] = f"refused: {error}"
                     continue
                 fit = float(found.share[found.sure].mean())
                 through = float(found.through[found.sure].mean())
                 if name == "mirrored":
-                    row[name] = f"FOLLOWED ({fit:.2f} on edges, {through:.2f} through)"
+                    row[name] = f"FOLLOWED ({fit:.2f} on edges, margin {found.margin.share:.2f})"
                     continue
-                row |= {"on edges": fit, "through": through}
+                row |= {"on edges": fit, "through": through, "margin": found.margin.share}
                 off = errors(chain.all_poses(found.poses) - [*LOW, 0.0], truth)
                 near = off["end off (m)"] < 1.0 and off["end off (deg)"] < 2.0
                 row |= {**off, "right": "found" if near else "WRONG"}
@@ -126,14 +126,15 @@ def notes(rows: list[Row], cell_m: float) -> list[str]:
     """What the table comes to, and how it was made."""
     found = sum(row["right"] == "found" for row in rows)
     ends = [float(row.get("end off (m)") or 1e9) for row in rows]
-    refused = sum(row["mirrored"] == "refused" for row in rows)
+    refused = sum(str(row["mirrored"]).startswith("refused") for row in rows)
     return [
         f"{found} of {len(rows)} end within 1 m and 2 degrees, {sum(end < 2.0 for end in ends)}"
         f" within 2 m (bound: 18 of 20); {refused} of {len(rows)} refused in the mirrored tile,"
         f" which has as many houses. Cells of {cell_m} m.",
         "Simulated scans (180 degrees at one, or 360; sigma 3.5 cm, 3 % strays, 2 % lost, trunks)"
         " every 0.5 m; the path comes from matching them. The surface model has trees and cars in"
-        " it, the walls are the outlines. Thresholds were chosen over eight of these starts.",
+        " it, the walls are the outlines. Thresholds were chosen over eight of these starts, the"
+        " least margin (0.1) over those with the seeds 3, 8, 10 and 12.",
     ]
 
 

@@ -19,6 +19,7 @@ from rasterio.transform import from_origin
 from veduta.drive.read.clocks import clock_apart
 from veduta.drive.read.localise import Localised
 from veduta.drive.read.own import read_own
+from veduta.drive.read.rivals import Margin
 from veduta.drive.read.scan_chain import ScanChain
 from veduta.drive.read.spacing import equally_spaced
 from veduta.run.errors import InputError, NotFoundError
@@ -184,7 +185,8 @@ def test_over_an_aerial_photo_the_road_is_level(
         moved[-1] = 0.3, -0.4
         sure = np.ones(count, dtype=bool)
         fit = np.full(count, share)
-        return Localised(poses, moved, fit, np.zeros(count), sure, np.zeros(count))
+        margin = Margin(0.8, 0.4, (9.0, 0.0))
+        return Localised(poses, moved, fit, np.zeros(count), sure, np.zeros(count), margin)
 
     monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
     record = read_own(folder)

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 
 from veduta._core import VehicleParticles
 from veduta.drive.read.pose_graph import Fix, Step, spread_corrections
+from veduta.drive.read.rivals import Margin, margin_of
 from veduta.drive.read.scan_chain import ScanChain
 from veduta.drive.read.scan_match import between
 from veduta.drive.read.surface_model import SurfaceModel
@@ -24,6 +25,8 @@ from veduta.run.errors import NotFoundError
 Floats = NDArray[np.float64]
 _NEXT_SEED = 7919
 """Between the seeds of two tries."""
+_WHAT = "the place of the drive in the surface model"
+_REMEDY = "Give the model of the place of the drive, and a start nearer to where it began."
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,8 @@ class LocaliseParameters:
     all scans. least_share: of their points on edges, on average. most_through: of their beams
     through what stands there. tries: runs with other draws, of which the best is taken: a street
     looks alike along itself, and particles that agree on a wrong place stay there. good: a run
-    that fits so well is enough.
+    that fits so well is enough. least_margin: share of the path's fit that no other place around
+    may have: in a model of another place many fit alike.
     """
 
     particles: int = 5000
@@ -71,6 +75,7 @@ class LocaliseParameters:
     most_through: float = 0.12
     tries: int = 4
     good: float = 0.8
+    least_margin: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +83,7 @@ class Localised:
     """poses: (k, 3) of the key scans in the model's CRS. moved_m: (k, 2) by which each was
     corrected there, after the best rigid place of the whole path. share: (k,) of the points of each
     on edges. through: (k,) of the beams of each through what stands there. sure: (k,) whether the
-    particles agreed. spread_m: (k,) theirs.
+    particles agreed. spread_m: (k,) theirs. margin: how much better the path fits than around.
     """
 
     poses: Floats
@@ -87,6 +92,7 @@ class Localised:
     through: Floats
     sure: NDArray[np.bool_]
     spread_m: Floats
+    margin: Margin
 
 
 def localise(
@@ -136,7 +142,15 @@ def localise(
     ]
     placed = _placed(chain.poses, poses, sure)
     found = spread_corrections(placed, [*steps, *(loops or [])], fixes)
-    return Localised(found, found[:, :2] - placed[:, :2], share, through, sure, spread)
+    margin = margin_of(found, chain.scans, model)
+    if margin.share < chosen.least_margin:
+        x, y = margin.away
+        evidence = (
+            f"it fits {np.hypot(x, y):.0f} m away {100 * (1.0 - margin.share):.0f} % as well as"
+            " where it fits best"
+        )
+        raise NotFoundError(_WHAT, evidence, _REMEDY)
+    return Localised(found, found[:, :2] - placed[:, :2], share, through, sure, spread, margin)
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,8 +237,8 @@ def _must_fit(
     spread: Floats,
     chosen: LocaliseParameters,
 ) -> None:
-    remedy = "Give the model of the place of the drive, and a start nearer to where it began."
-    what = "the place of the drive in the surface model"
+    remedy = _REMEDY
+    what = _WHAT
     if not sure.any():
         evidence = f"the particles stay {spread.min():.1f} m apart at best"
         raise NotFoundError(what, evidence, remedy)
