@@ -5,9 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
+from veduta.run.digests import file_digest
 from veduta.run.work import Work
 from veduta.walk.build.local_model import LocalModel, model_of_depth
 from veduta.walk.build.photo_depth import FramePlanes
@@ -67,12 +70,18 @@ class PhotoRecord:
         return [*self.sources, *(pairs[n].left for n in self._around(self.numbers[number]))]
 
     def key(self, work: Work, number: int) -> KeyModel:
-        """Depth from the frames before and after."""
+        """Depth from the frames before and after; kept, for a run that is killed and for links."""
         self.path.tell(work)
-        return KeyModel(self._model(self.numbers[number]), KeyFigures(np.eye(3)[None]))
+        frame = self.numbers[number]
+        found = work.kept_arrays(
+            f"frame-{frame:04d}", [*map(file_digest, self.files_of(number)), repr(self.rig)],
+            lambda: dict(zip(("depth", "sure"), self._planes.depth(frame), strict=True)),
+        )  # fmt: skip
+        return KeyModel(self._model(frame, found), KeyFigures(np.eye(3)[None]))
 
-    def _model(self, frame: int) -> LocalModel:
-        depth, sure = self._planes.depth(frame)
+    def _model(self, frame: int, found: dict[str, NDArray[Any]]) -> LocalModel:
+        """found: its depth, and where that is sure."""
+        depth, sure = found["depth"], found["sure"]
         return model_of_depth(
             self.path.pairs[frame].key, self.path.picture(frame), depth, sure, self.rig
         )

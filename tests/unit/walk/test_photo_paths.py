@@ -14,6 +14,8 @@ from veduta.run.errors import InputError
 from veduta.run.progress import Progress
 from veduta.synthetic.walks.record import GorgeWalk, write_walk
 from veduta.synthetic.walks.shoot import WalkCamera
+from veduta.walk import command
+from veduta.walk.build.photo_depth import FramePlanes
 from veduta.walk.command import Sources, run_walk
 from veduta.walk.options import TakeOptions, WalkOptions
 from veduta.walk.photo_record import PhotoRecord, read_photo_record
@@ -50,7 +52,8 @@ def test_depth_comes_from_the_frames_before_and_after(frames: Path) -> None:
     record = read_photo_record(frames / "photos", frames / "cameras", TakeOptions(), 1000)
     assert record.rig.baseline_m == pytest.approx(0.8, rel=0.05)
     assert isinstance(record, PhotoRecord)
-    model = record._model(1)
+    depth, sure = record._planes.depth(1)
+    model = record._model(1, {"depth": depth, "sure": sure})
     true = np.load(frames / "depth" / "001.npy")
     seen = model.measured & np.isfinite(true)
     off = np.abs(model.depth_m / true - 1.0)[seen]
@@ -73,6 +76,31 @@ def test_a_walk_of_a_single_camera(frames: Path, tmp_path: Path) -> None:
     assert way["distance_m"] == pytest.approx(1.6, rel=0.03)
     assert way["score_db"] > way["unmoved_db"] + 1.0
     assert [one["id"] for one in told["keys"]] == ["000", "002"]
+
+
+def test_depth_is_kept_when_a_run_is_killed(
+    frames: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    asked: list[int] = []
+    plain = FramePlanes.depth
+
+    def counted(self: FramePlanes, number: int) -> object:
+        asked.append(number)
+        return plain(self, number)
+
+    def killed(*args: object, **named: object) -> object:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(FramePlanes, "depth", counted)
+    monkeypatch.setattr(command, "find_way", killed)
+    sources = Sources(cameras=frames / "cameras")
+    options = WalkOptions(take=TakeOptions(every=2))
+    for _ in range(2):
+        with pytest.raises(KeyboardInterrupt):
+            run_walk(
+                frames / "photos", tmp_path / "out", options, Progress(quiet=True), sources=sources
+            )
+    assert asked == [0, 2]
 
 
 def test_an_unknown_scale_is_said(frames: Path, tmp_path: Path) -> None:
