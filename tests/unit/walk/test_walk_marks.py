@@ -22,6 +22,7 @@ from veduta.walk.build.mesh import GRASS, MOVING, MorphMesh
 from veduta.walk.build.moving import find_moving
 from veduta.walk.build.render import Mixing, draw_mesh, mixed
 from veduta.walk.build.screen import Screen
+from veduta.walk.build.water import find_water
 from veduta.walk.command import run_walk
 from veduta.walk.options import WalkOptions
 from veduta.walk.rig import Rig, StereoPair
@@ -172,3 +173,15 @@ def test_a_thing_that_moves_is_said_and_marked(tmp_path: Path) -> None:
     assert 0.03 < way["moving"] < 0.12
     glb = (tmp_path / "out" / way["forth"]).read_bytes()
     assert b'"moving"' in glb[: glb.index(b"BIN\0")]
+
+
+def test_an_upright_wall_that_looks_the_same_above_and_below_is_no_water() -> None:
+    screen = Screen(240, 160, (200.0, 200.0), (120.0, 80.0))
+    rays = screen.points(screen.pixels, np.ones((160, 240)))
+    depth = np.full((160, 240), 5.0)
+    rng = np.random.default_rng(5)
+    stripes = np.repeat(rng.integers(40, 220, 60), 4)[None, :] + rng.normal(0, 4, (160, 240))
+    image = np.repeat(np.clip(stripes, 0, 255)[..., None], 3, axis=2).astype(np.uint8)
+    everywhere = np.ones((160, 240), dtype=bool)
+    found = find_water(image, rays * depth[..., None], everywhere, ~everywhere, screen)
+    assert not found.any()

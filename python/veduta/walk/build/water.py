@@ -75,8 +75,8 @@ def find_water(
     sky: (h, w); what mirrors it belongs to the water, too.
     """
     nothing = np.zeros(measured.shape, dtype=np.bool_)
-    detail = _detail(image)
-    level = _best_level(points, measured, detail, screen, limits)
+    detail, rows = _detail(image)
+    level = _best_level(points, measured, rows, screen, limits)
     if level is None:
         return nothing
     alike = _mirrors(points, measured, detail, screen, level, limits)
@@ -97,28 +97,33 @@ def _large(found: Mask, least: float) -> Mask:
     return np.asarray(large[numbers], dtype=np.bool_)
 
 
-def _detail(image: Image) -> NDArray[np.float32]:
-    """(h, w) the light without what changes slowly."""
+def _detail(image: Image) -> tuple[NDArray[np.float32], NDArray[np.float32]]:
+    """(h, w) the light without what changes slowly, and how it changes from row to row.
+
+    A mirror turns the latter around. What is upright looks the same above and below any level, and
+    would make water of walls; it does not change from row to row.
+    """
     grey = cv2.cvtColor(image, cv2.COLOR_RGB2GRAY).astype(np.float32)
     soft = cv2.GaussianBlur(grey, (0, 0), 1.5)
-    return np.asarray(soft - cv2.GaussianBlur(grey, (0, 0), 12.0), dtype=np.float32)
+    fine = np.asarray(soft - cv2.GaussianBlur(grey, (0, 0), 12.0), dtype=np.float32)
+    return fine, np.asarray(cv2.Sobel(soft, cv2.CV_32F, 0, 1, ksize=3), dtype=np.float32)
 
 
 def _best_level(
-    points: Floats, measured: Mask, detail: NDArray[np.float32], screen: Screen, limits: WaterLimits
+    points: Floats, measured: Mask, rows: NDArray[np.float32], screen: Screen, limits: WaterLimits
 ) -> _Level | None:
     """The level about which most points below agree with what is above; None: there is no water."""
     seen = np.flatnonzero(measured & (points[..., 1] > 0.0))
     if len(seen) < limits.fewest:
         return None
     chosen = seen[:: max(1, len(seen) // limits.points)]
-    own, look = points.reshape(-1, 3)[chosen], detail.ravel()[chosen]
+    own, look = points.reshape(-1, 3)[chosen], rows.ravel()[chosen]
     depth = screen.project(points)[1]
     best: tuple[float, _Level] | None = None
     for below_m in np.geomspace(*limits.levels_m, limits.steps):
         for tilt_rad in limits.tilts_rad:
             level = _Level(float(below_m), tilt_rad)
-            score = _score(own, look, depth, measured, detail, screen, level, limits)
+            score = _score(own, look, depth, measured, rows, screen, level, limits)
             if score > 0.0 and (best is None or score > best[0]):
                 best = (score, level)
     return None if best is None else best[1]
@@ -126,7 +131,7 @@ def _best_level(
 
 def _score(
     own: Floats, look: NDArray[np.float32], depth: Floats, measured: Mask,
-    detail: NDArray[np.float32], screen: Screen, level: _Level, limits: WaterLimits,
+    rows: NDArray[np.float32], screen: Screen, level: _Level, limits: WaterLimits,
 ) -> float:  # fmt: skip
     """How many points below a level agree, times how alike they look; 0 where it is no water."""
     own_depth = np.hypot(own[:, 0], own[:, 2])
@@ -143,8 +148,8 @@ def _score(
     agree = float(near.sum() / known.sum())
     if agree < limits.share or near.sum() < limits.fewest:
         return 0.0
-    pair = look[below][near].astype(np.float64), detail[at][near].astype(np.float64)
-    alike = float(np.corrcoef(*pair)[0, 1]) if min(one.std() for one in pair) > 1e-6 else 0.0
+    pair = look[below][near].astype(np.float64), rows[at][near].astype(np.float64)
+    alike = -float(np.corrcoef(*pair)[0, 1]) if min(one.std() for one in pair) > 1e-6 else 0.0
     return float(near.sum()) * alike if alike > limits.correlation else 0.0
 
 
