@@ -44,8 +44,8 @@ gpu: $(PACKAGES) ## the extension with graphics cards, for --device: a minute or
 	@touch $(GPU)
 	@$(MAKE) --no-print-directory setup
 
-demo: setup ## a synthetic street, rebuilt from its photo and compared with the truth; a walk through a gorge
-	.venv/bin/veduta demo -o out/demo $(DEMO)
+demo: setup ## a synthetic street, rebuilt from its photo, and an animal in it; a walk through a gorge
+	.venv/bin/veduta demo -o out/demo --animal $(DEMO)
 	.venv/bin/veduta demo --walk -o out/demo-walk
 
 studio: $(STUDIO) ## the web app alone

@@ -10,6 +10,8 @@ from veduta.cli.invoked import invoked
 SUMMARY = "Make a synthetic street, rebuild it from its photo, compare it with the truth"
 
 if TYPE_CHECKING:
+    from pathlib import Path
+
     from veduta.cli.demo_call import DemoCall
     from veduta.facade.compare import Comparison, Pair
     from veduta.facade.demo import DemoRecord, DemoResult
@@ -32,7 +34,18 @@ def run(arguments: list[str]) -> int:
         return _tell_failure(result)
     if not call.quiet:
         print("\n".join(_lines(result.record, result)))
-    return 0
+    return _animal(call.out, quiet=call.quiet, force=call.force) if call.animal else 0
+
+
+def _animal(out: Path, *, quiet: bool, force: bool) -> int:
+    """An animal in the street, read from a film of it."""
+    from veduta.cli.told import tell_result
+    from veduta.fauna.demo import run_demo_animal
+    from veduta.run.progress import Progress
+
+    if not quiet:
+        print(f"\nAn animal from a film of it ({out}/film):")
+    return tell_result(run_demo_animal(out, Progress(quiet=quiet), force=force), quiet=quiet)
 
 
 def _walk(call: DemoCall) -> int:

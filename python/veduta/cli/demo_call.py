@@ -15,6 +15,9 @@ from veduta.synthetic.options import SyntheticOptions
 Force = Annotated[
     bool, tyro.conf.arg(help="replace results of other options; edited files are always kept")
 ]
+Animal = Annotated[
+    bool, tyro.conf.arg(help="send an animal through the street: OUT/animal is the place with it")
+]
 
 Walk = Annotated[
     bool,
@@ -39,5 +42,6 @@ class DemoCall:
     demo: DemoOptions = field(default_factory=DemoOptions)
     street: SyntheticOptions = field(default_factory=SyntheticOptions)
     walk: Walk = False
+    animal: Animal = False
     force: Force = False
     quiet: Quiet = False

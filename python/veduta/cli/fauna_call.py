@@ -90,6 +90,15 @@ Markers = Annotated[
     ),
 ]
 
+Gaits = Annotated[
+    Path | None,
+    tyro.conf.arg(
+        metavar="FILE",
+        help_behavior_hint="",
+        help="animal.json of another animal with legs, or of other footage: its gaits are taken on",
+    ),
+]
+
 
 @dataclass(frozen=True)
 class FaunaCall:
@@ -112,6 +121,7 @@ class FaunaCall:
     plan: OwnPlan = None
     joints: Joints = None
     markers: Markers = None
+    gaits: Gaits = None
     motion: MotionOptions = field(default_factory=MotionOptions)
     force: Force = False
     quiet: Quiet = False

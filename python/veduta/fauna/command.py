@@ -4,25 +4,23 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
 from pydantic import JsonValue
 
 from veduta.fauna.build.build import Built, build_animal, goer_of
 from veduta.fauna.build.going import Goer, place_of, round_path
-from veduta.fauna.build.into_place import place_into, require_place
+from veduta.fauna.build.into_place import place_into
 from veduta.fauna.document.coat import COAT, load_coat, save_coat
 from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.document.load import DOCUMENT, load_animal, save_animal
 from veduta.fauna.document.schema import Animal
 from veduta.fauna.limbed_command import make_limbed
 from veduta.fauna.limbed_recipe import read_limbed
+from veduta.fauna.motion.borrowed import borrowed
 from veduta.fauna.options import FaunaOptions
-from veduta.fauna.path.given import read_path
-from veduta.fauna.path.plan import PathLimits
-from veduta.fauna.path.terrain import Terrain, terrain_of
-from veduta.fauna.path.through import FoundPath, path_through
+from veduta.fauna.path.terrain import Terrain
+from veduta.fauna.path.through import FoundPath
 from veduta.fauna.path_command import write_on_path
-from veduta.fauna.path_picture import path_picture
+from veduta.fauna.path_recipe import planned
 from veduta.fauna.pictures import gait_picture
 from veduta.fauna.recipe import Record, read_record
 from veduta.formats.mesh_glb import write_mesh_glb
@@ -49,7 +47,7 @@ def run_fauna(
     if record.way is not None and record.place is None:
         fault = "says where to go, but not in which place"
         raise InputError(record.way, fault, "Name the place, too (--place).")
-    inputs: JsonValue = [None if path is None else _digests(path) for path in record.files]
+    inputs: JsonValue = [None if path is None else _digests(path, out) for path in record.files]
     call = VerbCall(
         command="fauna",
         version=VERSION,
@@ -64,22 +62,28 @@ def run_fauna(
     return run_verb(call, out, make, progress, force=force)
 
 
-def _digests(record: Path) -> JsonValue:
+def _digests(record: Path, out: Path) -> JsonValue:
+    """Of a file, or of all files of a folder but those of OUT, which may lie in it."""
     if record.is_file():
         return [file_digest(record)]
-    files = sorted(path for path in record.rglob("*") if path.is_file())
+    own = out.resolve()
+    files = sorted(
+        path for path in record.rglob("*") if path.is_file() and own not in path.resolve().parents
+    )
     return [f"{path.relative_to(record)} {file_digest(path)}" for path in files]
 
 
 def _make(work: Work, record: Record, options: FaunaOptions) -> None:
     animal, coat = _document(work, record, options)
+    if record.gaits is not None:
+        animal = _with_gaits(animal, record.gaits)
     if isinstance(animal, LimbedAnimal):
         goer = make_limbed(work, animal, coat, options)
     else:
         goer = _limbless(work, animal, coat, options)
     goal: tuple[Place, FoundPath, Terrain] | None = None
     if record.place is not None:
-        goal = _plan(work, record.place, record.way, goer.length_m)
+        goal = planned(work, record.place, record.way, goer)
     with work.step("writing"):
         save_animal(animal, work.folder / DOCUMENT)
         if coat is not None:
@@ -127,6 +131,15 @@ def _document(
     return read.described.animal, read.coat
 
 
+def _with_gaits(animal: Animal | LimbedAnimal, file: Path) -> LimbedAnimal:
+    other = load_animal(file)
+    if not isinstance(animal, LimbedAnimal) or not isinstance(other, LimbedAnimal):
+        whose = "the other one" if isinstance(animal, LimbedAnimal) else "this one"
+        fault = f"has gaits for legs, and {whose} has none"
+        raise InputError(file, fault, "Give two animals with legs.")
+    return borrowed(animal, other, file.name)
+
+
 def _limbless(work: Work, animal: Animal, coat: Texture | None, options: FaunaOptions) -> Goer:
     with work.step("motion") as step:
         built = build_animal(animal, options.motion, coat)
@@ -135,30 +148,6 @@ def _limbless(work: Work, animal: Animal, coat: Texture | None, options: FaunaOp
         step.counts["refused states"] = max(gait.refused for gait in built.gaits)
     _tell(work, animal, built)
     return goer_of(animal, built)
-
-
-def _plan(
-    work: Work, folder: Path, way: Path | None, length: float
-) -> tuple[Place, FoundPath, Terrain]:
-    """The place, the path through it of an animal so long (m), and its ground."""
-    with work.step("place"):
-        place = Place.load(folder)
-        require_place(place, folder)
-        terrain = terrain_of(place, length)
-    with work.step("path") as step:
-        points = None if way is None else read_path(way)
-        found = path_through(terrain, points, PathLimits(), length)
-        step.counts["cells"] = int(terrain.blocked.size)
-        step.counts["free cells"] = int(found.ways.free.sum())
-    apart = np.linalg.norm(np.diff(found.points_m, axis=0), axis=1)
-    work.measure("path_m", float(apart.sum()))
-    work.picture(
-        "The path over the terrain",
-        "north is up; brown: in the way, pale: too near to it; the path blue, its points red",
-        path_picture(terrain, found),
-        wide=True,
-    )
-    return place, found, terrain
 
 
 def _tell(work: Work, animal: Animal, built: Built) -> None:

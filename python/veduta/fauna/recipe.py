@@ -41,6 +41,7 @@ class Record:
     plan: Path | None = None
     joints: Path | None = None
     markers: Path | None = None
+    gaits: Path | None = None
 
     @property
     def files(self) -> tuple[Path | None, ...]:
@@ -54,6 +55,7 @@ class Record:
             self.plan,
             self.joints,
             self.markers,
+            self.gaits,
         )
 
 

@@ -6,6 +6,7 @@
 import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, SkinnedMesh, Vector3 } from "three";
 import type { Animal, AnimalState } from "../core/animal.ts";
 import { Course, type Ground } from "../core/course.ts";
+import { type Goer, waits } from "../core/giving-way.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { LoadedPart } from "./load.ts";
@@ -55,6 +56,12 @@ class LivingAnimal {
   /** World frame. */
   get place(): Vec3 {
     return this.course.at(0).point;
+  }
+
+  /** Where it is, and where it goes. */
+  get goer(): Goer {
+    const { point, ahead } = this.course.at(0);
+    return { place: point, ahead, length_m: this.animal.length_m };
   }
 
   /** True while it moves. */
@@ -178,7 +185,11 @@ export class Animals {
   /** True while one moves. */
   advance(state: AnimalState, seconds: number): boolean {
     const passed = Math.min(seconds, MOST_SECONDS);
-    const moves = this.#all.map((one, index) => one?.advance(state.playing, index === state.which ? state.clip : 0, passed) ?? false);
+    const goers = this.#all.map((one) => one?.goer ?? null);
+    const moves = this.#all.map((one, index) => {
+      const wants = state.playing && !waits(index, goers);
+      return one?.advance(wants, index === state.which ? state.clip : 0, passed) ?? false;
+    });
     return moves.includes(true) || (state.playing && this.#living.some(({ course }) => course.pace > 0));
   }
 }

@@ -48,11 +48,27 @@ def place_of(goer: Goer, path: Floats | None = None) -> Place:
     closed = path is None
     line = round_path(goer.length_m) if path is None else path
     place.animals.append(goer.along(line, closed=closed))
-    size = float(np.ptp(line[:, :2], axis=0).max())
-    middle = line.mean(axis=0)
-    eye = middle + size * np.array([-0.35, -0.85, 0.6])
-    place.start = Start(eye=_vector(eye), target=_vector(middle))
+    place.start = first_view(line, goer.length_m)
     return place
+
+
+def first_view(path: Floats, length_m: float) -> Start:
+    """Where a visitor begins: beside the animal, near enough to see it, however long its path is.
+
+    It stands half its length into the path, and soon goes on: the look is a little ahead.
+    """
+    arcs = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(path, axis=0), axis=1))])
+    here, ahead = (
+        np.array([np.interp(way * length_m, arcs, path[:, axis]) for axis in range(3)])
+        for way in (0.5, 1.5)
+    )
+    along = ahead[:2] - here[:2]
+    along = along / max(float(np.linalg.norm(along)), 1e-9)
+    aside = np.array([along[1], -along[0], 0.0])
+    onward = np.array([along[0], along[1], 0.0])
+    target = here + length_m * np.array([0.0, 0.0, 0.3]) + 0.6 * length_m * onward
+    eye = target + length_m * (2.6 * aside + 1.5 * onward + np.array([0.0, 0.0, 1.3]))
+    return Start(eye=_vector(eye), target=_vector(target))
 
 
 def round_path(length_m: float) -> Floats:

@@ -4,12 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-import numpy as np
-
-from veduta.fauna.build.going import Goer
+from veduta.fauna.build.going import Goer, first_view
 from veduta.fauna.document.load import DOCUMENT
 from veduta.fauna.motion.angles import Floats
-from veduta.place.manifest import Start
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 
@@ -35,13 +32,6 @@ def place_into(place: Place, goer: Goer, path: Floats, *, closed: bool) -> Place
     place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
     place.add(goer.mesh, standing)
     place.animals.append(goer.along(path, closed=closed))
-    low, high = path.min(axis=0), path.max(axis=0)
-    size = max(float(np.linalg.norm(high - low)), 4.0 * goer.length_m)
-    middle = 0.5 * (low + high)
-    eye = middle + size * np.array([-0.3, -0.75, 0.45])
-    place.start = Start(
-        eye=(float(eye[0]), float(eye[1]), float(eye[2])),
-        target=(float(middle[0]), float(middle[1]), float(middle[2])),
-    )
+    place.start = first_view(path, goer.length_m)
     return place
 

@@ -7,10 +7,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from veduta.fauna.build.limbed_body import BodyLooks, Hull, hull_of
-from veduta.fauna.build.limbed_clips import footage_clip, stride_clip
+from veduta.fauna.build.limbed_clips import footage_clip, joined_clip, stride_clip
 from veduta.fauna.build.limbed_coat import dressed
 from veduta.fauna.build.limbed_skeleton import Bones, bones_of, limbed_skin
 from veduta.fauna.document.limbed import LimbedAnimal
+from veduta.fauna.motion.joined import joined_gaits
 from veduta.fauna.motion.stride import Stride, stride_of
 from veduta.place.features import feature_table
 from veduta.place.manifest import AnimalClip
@@ -43,6 +44,8 @@ def build_limbed(
         gait = gait.model_copy(update={"cycle_s": cycle})
         strides.append(stride_of(animal, bones.figure, gait))
     clips = [stride_clip(stride, bones, animal) for stride in strides]
+    joined = joined_gaits(bones.figure, tuple(strides), side=animal.plan.view == "side")
+    clips += [] if joined is None else [joined_clip(joined, bones, animal)]
     pace = speed or _pace(animal)
     seen = footage_clip(animal, bones, pace)
     clips += [] if seen is None else [seen]

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from veduta.fauna.build.limbed_skeleton import Bones
 from veduta.fauna.document.limbed import LimbedAnimal
 from veduta.fauna.motion.figure import Floats, Limb
+from veduta.fauna.motion.joined import Joined
 from veduta.fauna.motion.stride import Stride
 from veduta.place.skin import Clip, Contact
 
@@ -26,6 +27,17 @@ def stride_clip(stride: Stride, bones: Bones, animal: LimbedAnimal) -> Clip:
         _contact(bones, limb, _spans_of(stride.steps[limb.name], end))
         for limb in bones.figure.feet()
         if limb.name in stride.steps
+    ]
+    return replace(clip, contacts=tuple(contacts))
+
+
+def joined_clip(joined: Joined, bones: Bones, animal: LimbedAnimal) -> Clip:
+    """The clip of several gaits, the root as fast as each of them."""
+    stride = joined.stride
+    clip = _clip(stride.name, stride.times_s, stride, joined.way, bones, animal, loops=True)
+    contacts = [
+        _contact(bones, limb, _spans_in(joined.down[:, column], stride.times_s))
+        for column, limb in enumerate(bones.figure.feet())
     ]
     return replace(clip, contacts=tuple(contacts))
 

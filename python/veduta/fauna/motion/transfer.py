@@ -169,9 +169,10 @@ def _bent(
     skin = walker.skin
     here = curve.heading(way)
     yaw = np.zeros(joints.places.shape[:2])
+    middles = _middles(skin)
     for joint, parent in enumerate(skin.parent):
         if walker.spine[joint]:
-            there = curve.heading(way + skin.rest[joint, 0, 3])
+            there = curve.heading(way + middles[joint])
             cross = here[:, 0] * there[:, 1] - here[:, 1] * there[:, 0]
             yaw[:, joint] = np.arctan2(cross, (here * there).sum(axis=1))
         elif parent >= 0:
@@ -182,15 +183,33 @@ def _bent(
         if parent == 0 and walker.spine[joint]:
             at = curve.at(way + skin.rest[joint, 0, 3]) - curve.at(way)
             left = np.stack([-here[:, 1], here[:, 0]], axis=1)
-            places[:, joint, 0] += (at * here).sum(axis=1) - skin.rest[joint, 0, 3]
+            flat = np.linalg.norm(frame[:, :2, 0], axis=1)
+            places[:, joint, 0] += (at * here).sum(axis=1) / flat - skin.rest[joint, 0, 3]
             places[:, joint, 1] += (at * left).sum(axis=1)
         elif parent > 0:
             away = joints.places[:, joint] - joints.places[:, parent]
             places[:, joint] = places[:, parent] + np.einsum("tij,tj->ti", turn[:, parent], away)
     world = frame[:, None] @ turn @ joints.turns
     placed = origin[:, None] + np.einsum("tij,tkj->tki", frame, places)
+    # It stands over its feet, upright on a slope, too: only its trunk lies along that.
+    hung = float(np.mean([skin.rest[leg.joints[0], 2, 3] for leg in walker.legs]))
+    upright = np.array([0.0, 0.0, 1.0]) - frame[:, :, 2]
+    placed += hung * upright[:, None]
     world[:, 0], placed[:, 0] = frame, origin
     return Joints(world, placed)
+
+
+def _middles(skin: Skin) -> Floats:
+    """(j,) how far ahead the middle of each joint's segment is at rest."""
+    own = skin.rest[:, 0, 3]
+    found: Floats = own.copy()
+    for joint, parent in enumerate(skin.parent):
+        children = np.flatnonzero(skin.parent == joint)
+        if len(children):
+            found[joint] = 0.5 * (own[joint] + own[int(children[0])])
+        elif parent > 0:
+            found[joint] = own[joint] + 0.5 * (own[joint] - own[parent])
+    return found
 
 
 def _carried(walker: Walker, joints: Joints, curve: Curve, way: Floats, ground: Heights) -> Joints:
@@ -270,9 +289,11 @@ def _planted(
 
 
 def _aside(walker: Walker, laid: Joints, curve: Curve, way: Floats) -> float:
-    """How far the body's middle is from the path at worst: the mean of the spine, on the flat."""
-    if walker.legs:
-        return float(np.linalg.norm(laid.places[:, 0, :2] - curve.at(way), axis=1).max())
-    spine = laid.places[:, walker.spine, :2]
-    arcs = way[:, None] + walker.skin.rest[walker.spine, 0, 3][None]
-    return float(np.linalg.norm((spine - curve.at(arcs)).mean(axis=1), axis=1).max())
+    """How far the body's middle is from the path at worst, on the flat.
+
+    It is that of where its legs hang, or of all joints of a body without legs.
+    """
+    rows = [leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine).tolist()
+    arcs = way[:, None] + walker.skin.rest[rows, 0, 3][None]
+    away = (laid.places[:, rows, :2] - curve.at(arcs)).mean(axis=1)
+    return float(np.linalg.norm(away, axis=1).max())
