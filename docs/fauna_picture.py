@@ -27,6 +27,7 @@ from veduta.fauna.motion.carried import composed
 from veduta.fauna.motion.transfer import TransferLooks, walked
 from veduta.fauna.options import AnimalOptions, FaunaOptions
 from veduta.fauna.recipe import Record
+from veduta.place.material import Texture
 from veduta.place.mesh import Mesh
 from veduta.place.skin import Clip, Skin
 from veduta.run.progress import Progress
@@ -64,7 +65,7 @@ def main() -> None:
           f" feet slide {done.slides_m:.4f} m and sink {done.sinks_m:.4f} m")  # fmt: skip
 
 
-def _animal(folder: Path) -> tuple[LimbedAnimal, object]:
+def _animal(folder: Path) -> tuple[LimbedAnimal, Texture | None]:
     filmed = film_quadruped(100, frames=22, cycle=16.0)
     frames = folder / "quadruped"
     frames.mkdir()

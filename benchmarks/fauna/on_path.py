@@ -91,8 +91,8 @@ def million(kind: str, walker: Walker) -> Row:
     """Planning in a million heights, and 300 keys on the way."""
     rough = np.random.default_rng(3).normal(size=(1000, 1000))
     heights = cv2.GaussianBlur(rough, (0, 0), 40.0)
-    heights *= 2.0 / heights.std()
-    terrain = terrain_of_heights(heights, 0.2, (0.0, 0.0))
+    scaled: Floats = np.asarray(heights * (2.0 / heights.std()), dtype=np.float64)
+    terrain = terrain_of_heights(scaled, 0.2, (0.0, 0.0))
     points = np.array([[20.0, 20.0], [150.0, 60.0], [180.0, 180.0]])
     begin = time.perf_counter()
     found = path_through(terrain, points, PathLimits(), walker.length_m)
