@@ -26,6 +26,7 @@ from veduta.carve.build.hull import carve_hull, root_of  # noqa: E402
 from veduta.carve.build.measures import overlaps  # noqa: E402
 from veduta.carve.options import SilhouetteOptions  # noqa: E402
 from veduta.carve.read.turntable import Focal, find_turns  # noqa: E402
+from veduta.carve.read.unposed import bare_cameras  # noqa: E402
 from veduta.carve.read.views import read_views  # noqa: E402
 from veduta.carve.views import Floats, View  # noqa: E402
 
@@ -52,14 +53,14 @@ def fit(views: Sequence[View]) -> tuple[float, float]:
     return float(found.mean()), float(found.min())
 
 
-def measured(name: str, views: Sequence[View], *, even: bool) -> Row:
-    """A row of one set."""
+def measured(name: str, views: Sequence[View], given_views: Sequence[View], *, even: bool) -> Row:
+    """A row of one set. given_views: the same by the cameras that are withheld."""
     height, width = views[0].mask.shape
     began = time.perf_counter()
     guess = Focal(1.3 * max(width, height), 0.4)
     found = find_turns([view.mask for view in views], guess, even=even)
     seconds = time.perf_counter() - began
-    error = np.degrees(np.abs(found.table.angles)) - turns([view.camera for view in views])
+    error = np.degrees(np.abs(found.table.angles)) - turns([view.camera for view in given_views])
     error -= np.median(error)
     focal = (found.table.focal_px,) * 2
     half = (width / 2.0, height / 2.0)
@@ -72,14 +73,14 @@ def measured(name: str, views: Sequence[View], *, even: bool) -> Row:
         )
         for view, pose in zip(views, found.table.poses(), strict=True)
     ]
-    (own, least), (given, _) = fit(turned), fit(views)
+    (own, least), (given, _) = fit(turned), fit(given_views)
     return {
         "what": name + (", even turns" if even else ""),
         "photos": len(views),
         "turns off, degrees (rms)": float(np.sqrt(np.square(error).mean())),
         "most": float(np.abs(error).max()),
         "focal px": found.table.focal_px,
-        "given focal px": views[0].camera.focal_px[0],
+        "given focal px": given_views[0].camera.focal_px[0],
         "tilt, degrees": float(np.degrees(found.table.tilt)),
         "rays miss px": found.miss_px,
         f"IoU at {2**LEVELS}": own,
@@ -98,8 +99,12 @@ def main() -> None:
     rows = []
     for name in ("dinoSparseRing", "vgg-dino"):
         folder = given.data / name
-        views = read_views(folder, read_cameras(folder), SilhouetteOptions()).views
-        rows += [measured(name, views, even=even) for even in (False, True)]
+        truth = read_views(folder, read_cameras(folder), SilhouetteOptions()).views
+        names = [view.camera.picture for view in truth]
+        every = bare_cameras(folder)
+        bare = replace(every, cameras=tuple(c for c in every.cameras if c.picture in names))
+        views = read_views(folder, bare, SilhouetteOptions()).views
+        rows += [measured(name, views, truth, even=even) for even in (False, True)]
     notes = [
         "Cameras withheld; silhouettes from the background. Angles less their median difference.",
         "Nothing was tuned by dinoSparseRing. Its camera lay on its side, and its ring is no full"

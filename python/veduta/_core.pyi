@@ -41,6 +41,31 @@ class GraphicsCard:
         levels: int,
     ) -> CarvedVolume:
         """As `carve_hull` does."""
+    def match_planes(
+        self,
+        image: _Array2[np.uint8],
+        camera: _Array1[np.float64],
+        neighbours: Sequence[_Array2[np.uint8]],
+        cameras: _Array2[np.float64],
+        depths: Sequence[_Array2[np.float32] | None],
+        start: _Array2[np.float32] | None,
+        start_shape: tuple[int, int],
+        *,
+        near: float,
+        far: float,
+        sweeps: int,
+        views: int,
+        step_px: float,
+        gamma_grey: float,
+        gamma_px: float,
+        noise_grey: float,
+        consistency: float,
+        most_px: float,
+        vary_depth: float,
+        vary_normal: float,
+        seed: int,
+    ) -> _Array2[np.float32]:
+        """As `match_planes` does."""
     def match_pair(
         self,
         here: _Array3[np.uint8],

@@ -25,7 +25,8 @@ pub struct SweepRule {
     pub most_views: usize,
     /// Views that see it more slantingly do not count.
     pub least_cosine: f64,
-    /// Voxels so near to an outline (in voxels) hold a silhouette up: they stay.
+    /// What is so near to an outline (in voxels) stays where nothing farther than that along the view's
+    /// ray would hold the silhouette up.
     pub rim_voxels: f64,
     /// Sweeps at most.
     pub sweeps: usize,
@@ -42,6 +43,8 @@ pub struct Swept {
     pub hull_spreads: Vec<f32>,
 }
 
+/// Between two looks along a ray.
+const STEP_VOXELS: f64 = 0.7;
 const STEPS: [[isize; 3]; 6] = [
     [1, 0, 0],
     [-1, 0, 0],
@@ -67,27 +70,28 @@ pub fn sweep(
         solid,
         ..Swept::default()
     };
-    let mut held = vec![false; swept.solid.len()];
     let mut asked = grey(&swept.solid, root.voxels());
     for number in 0..rule.sweeps.max(1) {
         let shell = grey(&swept.solid, root.voxels());
-        let judged = judge_all(photos, views, root, &swept.solid, &shell, &asked, rule);
+        let judged = judge_all(photos, root, &swept.solid, &shell, &asked, rule);
         if number == 0 {
-            swept.hull_spreads = judged.iter().filter_map(|one| one.0).collect();
+            swept.hull_spreads = judged.iter().copied().flatten().collect();
         }
         if rule.sweeps == 0 {
             break;
         }
-        let mut gone = Vec::new();
-        for (voxel, (spread, rim)) in asked.iter().zip(&judged) {
-            held[*voxel] |= *rim;
-            if !held[*voxel] && spread.is_some_and(|one| one > rule.spread) {
-                gone.push(*voxel);
-            }
-        }
-        for voxel in &gone {
-            swept.solid[*voxel] = false;
-        }
+        let wanted = asked.iter().zip(&judged);
+        let wanted: Vec<usize> = wanted
+            .filter(|(_, spread)| spread.is_some_and(|one| one > rule.spread))
+            .map(|(voxel, _)| *voxel)
+            .collect();
+        let mut left = swept.solid.clone();
+        wanted.iter().for_each(|voxel| left[*voxel] = false);
+        let (held, gone): (Vec<usize>, Vec<usize>) = wanted
+            .par_iter()
+            .partition(|voxel| holds_up(views, root, &left, **voxel, rule));
+        held.iter().for_each(|voxel| left[*voxel] = true);
+        swept.solid = left;
         swept.carved.push(gone.len());
         if gone.is_empty() {
             break;
@@ -168,17 +172,56 @@ fn normal(solid: &[bool], voxel: usize, along: usize) -> [f64; 3] {
     }
 }
 
-/// Of each voxel that is asked for, the spread of its colours where enough views see it, and whether
-/// it holds an outline up.
+/// Whether a silhouette's outline would shrink without a voxel: of all that is left, nothing else lies
+/// on the view's ray through it.
+fn holds_up(
+    views: &[View<'_>],
+    root: &Root,
+    left: &[bool],
+    voxel: usize,
+    rule: &SweepRule,
+) -> bool {
+    let at = root.centre(place(voxel, root.voxels()));
+    views.iter().any(|view| {
+        let (pixel, depth) = view.projection.project(at);
+        let voxel_px = view.projection.focal_px * root.voxel_m() / depth;
+        let near = f64::from(view.distance_px(pixel)).abs() < rule.rim_voxels * voxel_px;
+        depth > 0.0 && near && !backed(view, root, left, at, rule.rim_voxels)
+    })
+}
+
+/// Whether something is left on the ray of a view through a place, farther off than so many voxels.
+fn backed(view: &View<'_>, root: &Root, left: &[bool], at: [f64; 3], voxels: f64) -> bool {
+    let along = root.voxels();
+    let way: [f64; 3] = std::array::from_fn(|axis| at[axis] - view.projection.centre_m[axis]);
+    let length = way.iter().map(|one| one * one).sum::<f64>().sqrt();
+    let solid = |away: f64| -> Option<bool> {
+        let mut voxel = 0;
+        for axis in 0..3 {
+            let place = at[axis] + way[axis] / length * away * root.voxel_m();
+            let cell = ((place - root.low_m[axis]) / root.voxel_m()).floor();
+            if !(cell >= 0.0 && cell < along as f64) {
+                return None;
+            }
+            voxel = voxel * along + cell as usize;
+        }
+        Some(left[voxel])
+    };
+    [1.0, -1.0].iter().any(|sign| {
+        let steps = (1..).map(|step| sign * (voxels + STEP_VOXELS * f64::from(step)));
+        steps.map_while(solid).any(|one| one)
+    })
+}
+
+/// Of each voxel that is asked for, the spread of its colours where enough views see it.
 fn judge_all(
     photos: &[Photo<'_>],
-    views: &[View<'_>],
     root: &Root,
     solid: &[bool],
     shell: &[usize],
     asked: &[usize],
     rule: &SweepRule,
-) -> Vec<(Option<f32>, bool)> {
+) -> Vec<Option<f32>> {
     let along = root.voxels();
     let centres: Vec<[f64; 3]> = shell
         .par_iter()
@@ -196,29 +239,25 @@ fn judge_all(
         .map(|voxel| {
             let at = root.centre(place(*voxel, along));
             let out = normal(solid, *voxel, along);
-            judge(photos, views, &maps, root, at, out, rule)
+            judge(photos, &maps, root, at, out, rule)
         })
         .collect()
 }
 
 fn judge(
     photos: &[Photo<'_>],
-    views: &[View<'_>],
     maps: &[DepthMap],
     root: &Root,
     at: [f64; 3],
     out: [f64; 3],
     rule: &SweepRule,
-) -> (Option<f32>, bool) {
+) -> Option<f32> {
     let mut seen: Vec<(f64, [f32; 3])> = Vec::with_capacity(rule.most_views + 1);
-    let mut rim = false;
-    for ((photo, view), map) in photos.iter().zip(views).zip(maps) {
+    for (photo, map) in photos.iter().zip(maps) {
         let (pixel, depth) = photo.projection.project(at);
         if depth <= 0.0 {
             continue;
         }
-        let voxel_px = photo.projection.focal_px * root.voxel_m() / depth;
-        rim |= f64::from(view.distance_px(pixel)).abs() < rule.rim_voxels * voxel_px;
         let Some(cosine) = facing(photo.projection.centre_m, at, out) else {
             continue;
         };
@@ -231,8 +270,7 @@ fn judge(
             seen.truncate(rule.most_views);
         }
     }
-    let spread = (seen.len() >= rule.least_views).then(|| spread_of(&seen));
-    (spread, rim)
+    (seen.len() >= rule.least_views).then(|| spread_of(&seen))
 }
 
 /// Root mean square distance of the colours from their mean, per channel.

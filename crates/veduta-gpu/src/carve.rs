@@ -37,30 +37,49 @@ struct Grid {
     spare: [u32; 2],
 }
 
-/// What the silhouettes leave of the root, as `veduta_carve::hull::carve` finds it.
-pub fn carve(card: &Card, views: &[View<'_>], root: Root) -> Result<Volume, GpuError> {
-    check(views, root).map_err(|why| GpuError::Given(why.to_string()))?;
-    let engine = OnCard::new(card, views, root)?;
-    carve_on(&engine, views.len(), root).map_err(|why| {
-        let fault = engine.fault.borrow_mut().take();
-        fault.unwrap_or_else(|| GpuError::Given(why.to_string()))
-    })
+/// The compiled kernels, once for all objects.
+pub struct Carver {
+    judge: Kernel,
+    measure: Kernel,
+}
+
+impl Carver {
+    pub fn new(card: &Card) -> Self {
+        Self {
+            judge: card.kernel(SOURCE, "judge"),
+            measure: card.kernel(SOURCE, "measure"),
+        }
+    }
+
+    /// What the silhouettes leave of the root, as `veduta_carve::hull::carve` finds it.
+    pub fn carve(&self, card: &Card, views: &[View<'_>], root: Root) -> Result<Volume, GpuError> {
+        check(views, root).map_err(|why| GpuError::Given(why.to_string()))?;
+        let engine = OnCard::new(self, card, views, root)?;
+        carve_on(&engine, views.len(), root).map_err(|why| {
+            let fault = engine.fault.borrow_mut().take();
+            fault.unwrap_or_else(|| GpuError::Given(why.to_string()))
+        })
+    }
 }
 
 struct OnCard<'a> {
+    kernels: &'a Carver,
     card: &'a Card,
     root: Root,
     count: usize,
     views: wgpu::Buffer,
     distances: wgpu::Buffer,
-    judge: Kernel,
-    measure: Kernel,
     /// What went wrong: the octree knows only that something did.
     fault: RefCell<Option<GpuError>>,
 }
 
 impl<'a> OnCard<'a> {
-    fn new(card: &'a Card, views: &[View<'_>], root: Root) -> Result<Self, GpuError> {
+    fn new(
+        kernels: &'a Carver,
+        card: &'a Card,
+        views: &[View<'_>],
+        root: Root,
+    ) -> Result<Self, GpuError> {
         card.check()?;
         let mut distances: Vec<f32> = Vec::new();
         let mut given = Vec::with_capacity(views.len());
@@ -69,13 +88,12 @@ impl<'a> OnCard<'a> {
             distances.extend_from_slice(view.distances_px);
         }
         Ok(Self {
+            kernels,
             card,
             root,
             count: views.len(),
             views: card.given(&given)?,
             distances: card.given(&distances)?,
-            judge: card.kernel(SOURCE, "judge"),
-            measure: card.kernel(SOURCE, "measure"),
             fault: RefCell::new(None),
         })
     }
@@ -114,7 +132,8 @@ impl<'a> OnCard<'a> {
         let open = self.card.given(&self.open(&cubes))?;
         let found = self.card.empty(cubes.len())?;
         let bound = [&grid, &self.views, &self.distances, &places, &open, &found];
-        self.card.run(&self.judge, &bound, cubes.len().div_ceil(64));
+        self.card
+            .run(&self.kernels.judge, &bound, cubes.len().div_ceil(64));
         let words = self.words();
         let verdicts: Vec<u32> = self.card.read(&found, cubes.len())?;
         let kept: Vec<u32> = self.card.read(&open, words * cubes.len())?;
@@ -138,7 +157,7 @@ impl<'a> OnCard<'a> {
             let open = self.card.given(&self.open(cubes))?;
             let values = self.card.empty(cubes.len() * IN_BLOCK)?;
             let bound = [&grid, &self.views, &self.distances, &places, &open, &values];
-            self.card.run(&self.measure, &bound, cubes.len());
+            self.card.run(&self.kernels.measure, &bound, cubes.len());
             found.extend(self.card.read::<f32>(&values, cubes.len() * IN_BLOCK)?);
         }
         Ok(found)

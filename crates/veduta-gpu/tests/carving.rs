@@ -1,6 +1,7 @@
 //! A lopsided body seen from a ring: the volume of the shader is that of the loops.
 
 use veduta_carve::{hull, Projection, Root, View};
+use veduta_gpu::carve::Carver;
 
 use crate::card;
 
@@ -50,7 +51,7 @@ fn the_shader_carves_what_the_loops_carve() {
         levels: 6,
     };
     let wanted = hull::carve(&views, root).unwrap();
-    let found = veduta_gpu::carve::carve(&card, &views, root).unwrap();
+    let found = Carver::new(&card).carve(&card, &views, root).unwrap();
     assert!(wanted.inside() > 10_000);
     let side = root.voxels();
     let (mut most, mut turned) = (0.0_f32, 0);

@@ -4,6 +4,9 @@
 
 mod carving;
 mod matching;
+#[path = "../../veduta-stereo/tests/scene.rs"]
+mod scene;
+mod searching;
 mod vanishing;
 
 use veduta_gpu::{Card, GpuError};

@@ -1,6 +1,7 @@
 //! A card that vanishes says so at the next call, and nothing panics.
 
 use veduta_carve::{Projection, Root, View};
+use veduta_gpu::carve::Carver;
 use veduta_gpu::GpuError;
 
 use crate::card;
@@ -10,6 +11,7 @@ fn a_card_that_vanishes_is_told() {
     let Some(card) = card() else { return };
     let buffer = card.given(&[1.0_f32; 64]).unwrap();
     assert_eq!(card.read::<f32>(&buffer, 64).unwrap(), vec![1.0; 64]);
+    let carver = Carver::new(&card);
     card.destroy();
     let gone = card.read::<f32>(&buffer, 64);
     assert!(matches!(gone, Err(GpuError::Lost(_))), "{gone:?}");
@@ -34,7 +36,7 @@ fn a_card_that_vanishes_is_told() {
         side_m: 1.0,
         levels: 5,
     };
-    let carved = veduta_gpu::carve::carve(&card, &[view], root);
+    let carved = carver.carve(&card, &[view], root);
     assert!(matches!(carved, Err(GpuError::Lost(_))));
 }
 

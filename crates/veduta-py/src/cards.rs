@@ -5,15 +5,19 @@ use pyo3::create_exception;
 use pyo3::exceptions::PyRuntimeError;
 use pyo3::prelude::*;
 use veduta_carve::Root;
+use veduta_gpu::carve::Carver;
 use veduta_gpu::link::Linker;
 use veduta_gpu::pair::Matcher;
+use veduta_gpu::search::Searcher;
 use veduta_gpu::{Card, GpuError};
 use veduta_stereo::link::{LinkRule, Step};
 use veduta_stereo::pair::PairRule;
+use veduta_stereo::patch::Window;
+use veduta_stereo::search::Search;
 
 use crate::carve::{views_of, CarvedVolume};
 use crate::linking::{own_step, path_given, rectified, shaped, step_of, told, OwnStep};
-use crate::stereo::camera_of;
+use crate::stereo::{camera_of, planes_told, Matching};
 
 /// As in `linking`: the stub's types are read file by file.
 type GivenStep<'py> = (
@@ -40,6 +44,8 @@ struct GraphicsCard {
     card: Card,
     matcher: Matcher,
     linker: Linker,
+    searcher: Searcher,
+    carver: Carver,
 }
 
 #[pymethods]
@@ -50,11 +56,12 @@ impl GraphicsCard {
     fn new(py: Python<'_>, software: bool) -> PyResult<Self> {
         py.detach(|| {
             let card = Card::open(software)?;
-            let (matcher, linker) = (Matcher::new(&card), Linker::new(&card));
             Ok(Self {
+                matcher: Matcher::new(&card),
+                linker: Linker::new(&card),
+                searcher: Searcher::new(&card),
+                carver: Carver::new(&card),
                 card,
-                matcher,
-                linker,
             })
         })
         .map_err(fault)
@@ -88,10 +95,71 @@ impl GraphicsCard {
             side_m,
             levels,
         };
-        let found = py.detach(|| veduta_gpu::carve::carve(&self.card, &views, root));
+        let found = py.detach(|| self.carver.carve(&self.card, &views, root));
         Ok(CarvedVolume {
             volume: found.map_err(fault)?,
         })
+    }
+
+    /// As `match_planes` does.
+    #[pyo3(signature = (image, camera, neighbours, cameras, depths, start, start_shape, *, near,
+                        far, sweeps, views, step_px, gamma_grey, gamma_px, noise_grey, consistency,
+                        most_px, vary_depth, vary_normal, seed))]
+    #[allow(clippy::too_many_arguments)] // each is a number of its own to who calls
+    fn match_planes<'py>(
+        &self,
+        py: Python<'py>,
+        image: PyReadonlyArray2<'py, u8>,
+        camera: PyReadonlyArray1<'py, f64>,
+        neighbours: Vec<PyReadonlyArray2<'py, u8>>,
+        cameras: PyReadonlyArray2<'py, f64>,
+        depths: Vec<Option<PyReadonlyArray2<'py, f32>>>,
+        start: Option<PyReadonlyArray2<'py, f32>>,
+        start_shape: (usize, usize),
+        near: f32,
+        far: f32,
+        sweeps: usize,
+        views: usize,
+        step_px: f32,
+        gamma_grey: f32,
+        gamma_px: f32,
+        noise_grey: f32,
+        consistency: f32,
+        most_px: f32,
+        vary_depth: f32,
+        vary_normal: f32,
+        seed: u64,
+    ) -> PyResult<Bound<'py, PyArray2<f32>>> {
+        let given = Matching::new(
+            &image,
+            &camera,
+            (&neighbours, &cameras, &depths),
+            (start.as_ref(), start_shape),
+            Search {
+                window: Window {
+                    step_px,
+                    gamma_grey,
+                    gamma_px,
+                    noise_grey,
+                },
+                sweeps,
+                near,
+                far,
+                views,
+                consistency,
+                most_px,
+                vary_depth,
+                vary_normal,
+                seed,
+            },
+        )?;
+        let found = py.detach(|| {
+            given.planes(|image, camera, others, start, rule| {
+                self.searcher
+                    .search(&self.card, image, camera, others, start, rule)
+            })
+        });
+        planes_told(py, found.map_err(fault)?)
     }
 
     /// As `match_pair` does.

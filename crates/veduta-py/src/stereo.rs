@@ -99,46 +99,97 @@ fn match_planes<'py>(
     vary_normal: f32,
     seed: u64,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let reference = grey_of(&image)?;
-    let own = camera_of(&camera.as_array().to_vec())?;
-    let greys: Vec<Grey> = neighbours.iter().map(grey_of).collect::<PyResult<_>>()?;
-    let cameras = cameras_of(&cameras, greys.len())?;
-    if depths.len() != greys.len() {
-        return Err(StereoFault::new_err("depths or None for each neighbour"));
-    }
-    let known: Vec<Option<Vec<f32>>> = depths.iter().map(|one| one.as_ref().map(values)).collect();
-    let start = start
-        .map(|rows| planes_of(&rows, start_shape))
-        .transpose()?;
-    let settings = Search {
-        window: Window {
-            step_px,
-            gamma_grey,
-            gamma_px,
-            noise_grey,
+    let given = Matching::new(
+        &image,
+        &camera,
+        (&neighbours, &cameras, &depths),
+        (start.as_ref(), start_shape),
+        Search {
+            window: Window {
+                step_px,
+                gamma_grey,
+                gamma_px,
+                noise_grey,
+            },
+            sweeps,
+            near,
+            far,
+            views,
+            consistency,
+            most_px,
+            vary_depth,
+            vary_normal,
+            seed,
         },
-        sweeps,
-        near,
-        far,
-        views,
-        consistency,
-        most_px,
-        vary_depth,
-        vary_normal,
-        seed,
-    };
-    let found = py
-        .detach(|| {
-            let others: Vec<Neighbour<'_>> = (0..greys.len())
-                .map(|i| Neighbour {
-                    image: &greys[i],
-                    camera: cameras[i],
-                    depths: known[i].as_deref(),
-                })
-                .collect();
-            search(&reference, own, &others, start, settings)
+    )?;
+    planes_told(py, py.detach(|| given.planes(search)).map_err(fault)?)
+}
+
+/// What `match_planes` of the processor and of a graphics card are given.
+pub struct Matching {
+    reference: Grey,
+    camera: Camera,
+    greys: Vec<Grey>,
+    cameras: Vec<Camera>,
+    known: Vec<Option<Vec<f32>>>,
+    start: Option<Planes>,
+    search: Search,
+}
+
+/// Pictures, cameras and depths of the neighbours.
+pub type Others<'a, 'py> = (
+    &'a [PyReadonlyArray2<'py, u8>],
+    &'a PyReadonlyArray2<'py, f64>,
+    &'a [Option<PyReadonlyArray2<'py, f32>>],
+);
+
+impl Matching {
+    pub fn new(
+        image: &PyReadonlyArray2<'_, u8>,
+        camera: &PyReadonlyArray1<'_, f64>,
+        others: Others<'_, '_>,
+        start: (Option<&PyReadonlyArray2<'_, f32>>, (usize, usize)),
+        search: Search,
+    ) -> PyResult<Self> {
+        let (neighbours, cameras, depths) = others;
+        let greys: Vec<Grey> = neighbours.iter().map(grey_of).collect::<PyResult<_>>()?;
+        if depths.len() != greys.len() {
+            return Err(StereoFault::new_err("depths or None for each neighbour"));
+        }
+        Ok(Self {
+            reference: grey_of(image)?,
+            camera: camera_of(&camera.as_array().to_vec())?,
+            cameras: cameras_of(cameras, greys.len())?,
+            greys,
+            known: depths.iter().map(|one| one.as_ref().map(values)).collect(),
+            start: start.0.map(|rows| planes_of(rows, start.1)).transpose()?,
+            search,
         })
-        .map_err(fault)?;
+    }
+
+    /// By a search on the processor or on a card.
+    pub fn planes<E>(
+        self,
+        by: impl FnOnce(&Grey, Camera, &[Neighbour<'_>], Option<Planes>, Search) -> Result<Planes, E>,
+    ) -> Result<Planes, E> {
+        let others: Vec<Neighbour<'_>> = (0..self.greys.len())
+            .map(|i| Neighbour {
+                image: &self.greys[i],
+                camera: self.cameras[i],
+                depths: self.known[i].as_deref(),
+            })
+            .collect();
+        by(
+            &self.reference,
+            self.camera,
+            &others,
+            self.start,
+            self.search,
+        )
+    }
+}
+
+pub fn planes_told(py: Python<'_>, found: Planes) -> PyResult<Bound<'_, PyArray2<f32>>> {
     let rows = found.planes.iter().zip(&found.costs);
     let flat: Vec<f32> = rows
         .flat_map(|(plane, cost)| [plane.inverse, plane.slope[0], plane.slope[1], *cost])

@@ -1,30 +1,30 @@
-//! Numbers drawn from a seed, the pixel and the sweep: the same on any number of threads.
+//! Numbers drawn from a seed, the pixel and the sweep: the same on any number of threads, and in whole
+//! numbers of 32 bits, so that graphics cards draw the same.
 
-pub struct Chance(u64);
+pub struct Chance(u32);
+
+/// Mixes all bits (Wellons 2018, hash-prospector's lowbias32).
+fn mixed(given: u32) -> u32 {
+    let first = (given ^ (given >> 16)).wrapping_mul(0x7feb_352d);
+    let second = (first ^ (first >> 15)).wrapping_mul(0x846c_a68b);
+    second ^ (second >> 16)
+}
 
 impl Chance {
-    pub fn new(seed: u64, pixel: u64, sweep: u64) -> Self {
-        let mut made = Self(
-            seed.wrapping_mul(0x9E37_79B9_7F4A_7C15)
-                ^ pixel.wrapping_mul(0xBF58_476D_1CE4_E5B9)
-                ^ sweep.wrapping_mul(0x94D0_49BB_1331_11EB),
-        );
-        made.next();
-        made
+    pub fn new(seed: u64, pixel: u32, sweep: u32) -> Self {
+        let seeds = mixed((seed >> 32) as u32 ^ mixed(seed as u32));
+        Self(mixed(pixel ^ mixed(sweep ^ seeds)))
     }
 
-    fn next(&mut self) -> u64 {
-        // splitmix64 (Steele, Lea and Flood 2014)
-        self.0 = self.0.wrapping_add(0x9E37_79B9_7F4A_7C15);
-        let mut z = self.0;
-        z = (z ^ (z >> 30)).wrapping_mul(0xBF58_476D_1CE4_E5B9);
-        z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
-        z ^ (z >> 31)
+    fn next(&mut self) -> u32 {
+        // The steps of splitmix (Steele, Lea and Flood 2014).
+        self.0 = self.0.wrapping_add(0x9e37_79b9);
+        mixed(self.0)
     }
 
     /// From 0 up to 1.
     pub fn unit(&mut self) -> f32 {
-        (self.next() >> 40) as f32 / (1u64 << 24) as f32
+        (self.next() >> 8) as f32 / (1u32 << 24) as f32
     }
 
     pub fn between(&mut self, low: f32, high: f32) -> f32 {

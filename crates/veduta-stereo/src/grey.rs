@@ -39,6 +39,11 @@ impl Grey {
         })
     }
 
+    /// The pixels, row by row.
+    pub fn values(&self) -> impl Iterator<Item = u8> + '_ {
+        self.fours.iter().map(|four| four[0])
+    }
+
     #[inline]
     pub fn at(&self, x: usize, y: usize) -> f32 {
         f32::from(self.fours[y * self.width + x][0])

@@ -4,7 +4,7 @@ use crate::camera::Transfer;
 use crate::grey::Grey;
 
 /// Samples along one side of a window.
-const SIDE: usize = 5;
+pub const SIDE: usize = 5;
 pub const SAMPLES: usize = SIDE * SIDE;
 /// The worst cost: a view that does not see the window, or sees another thing there.
 pub const WORST: f32 = 2.0;

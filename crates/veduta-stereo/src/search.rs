@@ -43,7 +43,7 @@ pub struct Search {
 }
 
 /// Pixels from which candidates come, in eight groups; each group gives its best.
-const GROUPS: [&[(i32, i32)]; 8] = [
+pub const GROUPS: [&[(i32, i32)]; 8] = [
     &[(-1, 0), (-2, -1), (-2, 1)],
     &[(1, 0), (2, -1), (2, 1)],
     &[(0, -1), (-1, -2), (1, -2)],
@@ -53,7 +53,8 @@ const GROUPS: [&[(i32, i32)]; 8] = [
     &[(0, -3), (0, -5), (0, -9), (0, -15)],
     &[(0, 3), (0, 5), (0, 9), (0, 15)],
 ];
-const MOST_VIEWS: usize = 16;
+/// Neighbours at most; others are left out.
+pub const MOST_VIEWS: usize = 16;
 
 struct Scene<'a> {
     image: &'a Grey,
@@ -75,10 +76,7 @@ pub fn search(
 ) -> Result<Planes, StereoError> {
     let scene = Scene::new(image, camera, neighbours, search)?;
     let (width, height) = (image.width, image.height);
-    let mut found = match start {
-        Some(start) => start.resized(width, height),
-        None => scene.random(),
-    };
+    let mut found = scene.begun(start);
     found.costs = (0..width * height)
         .into_par_iter()
         .map(|i| {
@@ -93,6 +91,17 @@ pub fn search(
         }
     }
     Ok(found)
+}
+
+/// What a search begins with, costs not yet counted: for other engines than this one.
+pub fn begun(
+    image: &Grey,
+    camera: Camera,
+    neighbours: &[Neighbour<'_>],
+    start: Option<Planes>,
+    search: Search,
+) -> Result<Planes, StereoError> {
+    Ok(Scene::new(image, camera, neighbours, search)?.begun(start))
 }
 
 impl<'a> Scene<'a> {
@@ -139,6 +148,13 @@ impl<'a> Scene<'a> {
         })
     }
 
+    fn begun(&self, start: Option<Planes>) -> Planes {
+        match start {
+            Some(start) => start.resized(self.image.width, self.image.height),
+            None => self.random(),
+        }
+    }
+
     fn ray(&self, x: usize, y: usize) -> [f32; 3] {
         let ray = self.camera.ray([x as f64 + 0.5, y as f64 + 0.5]);
         let length = crate::camera::dot(ray, ray).sqrt();
@@ -163,7 +179,7 @@ impl<'a> Scene<'a> {
         let planes = (0..width * height)
             .into_par_iter()
             .map(|i| {
-                let mut chance = Chance::new(self.search.seed, i as u64, u64::MAX);
+                let mut chance = Chance::new(self.search.seed, i as u32, u32::MAX);
                 self.drawn(&mut chance, i % width, i / width)
             })
             .collect();
@@ -261,8 +277,7 @@ impl<'a> Scene<'a> {
                 }
             }
         }
-        let pixel = i as u64;
-        let mut chance = Chance::new(self.search.seed, pixel, sweep as u64);
+        let mut chance = Chance::new(self.search.seed, i as u32, sweep as u32);
         let scale = 0.5f32.powi(sweep as i32);
         let ray = self.ray(x, y);
         for kind in 0..4 {

@@ -40,15 +40,15 @@ from veduta.dense.telling import (
 )
 from veduta.dense.writing import write_cloud, write_depths, write_place
 from veduta.place.mesh import Mesh
-from veduta.run.card import choose_engine
+from veduta.run.card import Engine, choose_engine
 from veduta.run.digests import file_digest
-from veduta.run.errors import InputError, NotFoundError
+from veduta.run.errors import NotFoundError
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "2"
+VERSION = "3"
 SURFACE = "surface"
 MEMORY_OF_VOLUME = 0.5
 """Share of the memory that the volume may take."""
@@ -82,7 +82,6 @@ def run_dense(
     InputError where the cameras or the photos cannot be used together.
     """
     chosen = options or DenseOptions()
-    _require_shaders(chosen)
     found = in_metres(read_cameras(cameras, images), chosen.scale)
     usable, left = usable_cameras(found)
     name = cameras.resolve().name
@@ -102,12 +101,14 @@ def run_dense(
     )
 
 
-def _require_shaders(options: DenseOptions) -> None:
-    """InputError where a graphics card is asked for and the method cannot use one."""
-    if options.device.device == "gpu" and options.depth.method != "linking":
-        fault = f"--method {options.depth.method} has no shaders yet"
-        remedy = "Use --method linking, or --device auto, which goes on with the processor."
-        raise InputError("--device gpu", fault, remedy)
+def _engine(options: DenseOptions) -> Engine:
+    """What computes. PatchMatch on a card agrees with the processor's within a tolerance, not byte
+    for byte: it is used where it is asked for.
+    """
+    device = options.device.device
+    if options.depth.method == "patchmatch" and device == "auto":
+        return Engine(device, None, "the processor: PatchMatch takes a card with --device gpu only")
+    return choose_engine(device)
 
 
 def _make(work: Work, given: _Given, options: DenseOptions) -> None:
@@ -118,12 +119,13 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     comparisons, sparse = _comparisons(work, given, views, options, parameters)
     agree = min(options.depth.agree, 1 if len(comparisons) < 3 else options.depth.agree)
     inputs: JsonValue = [given.digests, scale]
+    engine = _engine(options)
     if options.depth.method == "linking":
-        engine = choose_engine(options.device.device)
         linking = Linking(views, comparisons, sparse, inputs, agree, parameters, engine)
         readers = all_linked_depths(work, linking)
     else:
-        matching = Matching(views, comparisons, inputs, agree, options.random.seed, parameters)
+        seed = options.random.seed
+        matching = Matching(views, comparisons, inputs, agree, seed, parameters, engine)
         readers = all_depth_maps(work, matching)
 
     def depth_map(view: int) -> DepthMap:

@@ -13,6 +13,7 @@ from veduta.dense.read.agreeing import agreed_depths
 from veduta.dense.read.matching import Planes, match_coarse, match_fine
 from veduta.dense.read.neighbours import Comparison
 from veduta.dense.stages import Arrays, depth_arrays, depth_map_of, kept_mapped, told
+from veduta.run.card import Engine, tell_engine
 from veduta.run.report import StepRecord
 from veduta.run.work import Work
 
@@ -33,6 +34,7 @@ class Matching:
     agree: int
     seed: int
     parameters: DenseParameters
+    engine: Engine
 
 
 def all_depth_maps(work: Work, matching: Matching) -> dict[int, Callable[[], DepthMap]]:
@@ -41,6 +43,7 @@ def all_depth_maps(work: Work, matching: Matching) -> dict[int, Callable[[], Dep
         coarse = _planes(work, matching, step, "coarse", None)
     with work.step("fine depths") as step:
         fine = _planes(work, matching, step, "fine", coarse)
+    tell_engine(work, matching.engine)
     found: dict[int, Callable[[], DepthMap]] = {}
     with work.step("agreement") as step:
         for done, comparison in enumerate(matching.comparisons):
@@ -59,7 +62,7 @@ def _reader(arrays: Arrays) -> Callable[[], DepthMap]:
 
 def _key(matching: Matching, comparison: Comparison, *parameters: object) -> JsonValue:
     row: list[JsonValue] = [*comparison.neighbours]
-    ranges: list[JsonValue] = [comparison.near_m, comparison.far_m]
+    ranges: list[JsonValue] = [comparison.near_m, comparison.far_m, matching.engine.told]
     steps: list[JsonValue] = [told(one) for one in parameters]
     return [matching.inputs, comparison.view, row, ranges, matching.seed, steps]
 
@@ -76,9 +79,10 @@ def _planes(
     match, views = matching.parameters.match, matching.views
 
     def make(comparison: Comparison) -> Callable[[], Arrays]:
+        seed, engine = matching.seed, matching.engine
         if coarse is None:
-            return lambda: {PLANES: match_coarse(views, comparison, matching.seed, match)}
-        return lambda: {PLANES: match_fine(views, comparison, coarse, matching.seed, match)}
+            return lambda: {PLANES: match_coarse(views, comparison, seed, match, engine)}
+        return lambda: {PLANES: match_fine(views, comparison, coarse, seed, match, engine)}
 
     for done, comparison in enumerate(matching.comparisons):
         work.progress(f"{name} depths", done / len(matching.comparisons))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from time import perf_counter
 from typing import Any, Literal, TypeVar
 
 from pydantic import Field
@@ -25,8 +26,8 @@ class DeviceOptions(Options):
     device: Device = Field(
         default="auto",
         description=(
-            "a graphics card where there is one (auto), the processor (cpu), or a graphics card and"
-            " nothing else (gpu)"
+            "a graphics card where there is one and it is faster (auto), the processor (cpu), or a"
+            " graphics card and nothing else (gpu)"
         ),
     )
 
@@ -35,7 +36,8 @@ class Engine:
     """Where the heavy steps of a run are computed.
 
     card: the open graphics card, or None: the processor. told: how it was chosen, for the report.
-    lost: why the card was given up in the middle, or None.
+    lost: why the card was given up in the middle, or None. slower: the steps that a trial showed to
+    be slower on the card, with what it showed.
     """
 
     def __init__(self, device: Device, card: _core.GraphicsCard | None, told: str) -> None:
@@ -43,11 +45,44 @@ class Engine:
         self.card = card
         self.told = told
         self.lost: str | None = None
+        self.slower: dict[str, str] = {}
+        self._tried: set[str] = set()
 
-    def run(self, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]) -> T:
+    def run(
+        self,
+        on_card: Callable[[_core.GraphicsCard], T],
+        on_cores: Callable[[], T],
+        step: str | None = None,
+    ) -> T:
         """On the card where there is one. If it vanishes, `auto` computes this again on the
         processor and stays there; where `gpu` was asked for that is an InputError.
+
+        step: of many alike, whose results are the same bytes on both: `auto` computes the first on
+        both and goes on with the faster.
         """
+        if self.card is None or step in self.slower:
+            return on_cores()
+        if self.device == "auto" and step is not None and step not in self._tried:
+            return self.trial(step, on_card, on_cores)
+        return self._on_card(on_card, on_cores)
+
+    def trial(
+        self, step: str, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]
+    ) -> T:
+        """What the processor finds; `slower` has the step where the card took longer."""
+        self._tried.add(step)
+        began = perf_counter()
+        found = on_cores()
+        cores_s = perf_counter() - began
+        self._on_card(on_card, lambda: found)  # a first call compiles and warms
+        began = perf_counter()
+        self._on_card(on_card, lambda: found)
+        card_s = perf_counter() - began
+        if self.card is not None and card_s >= cores_s:
+            self.slower[step] = f"{step}: {card_s:.3f} s on the card, {cores_s:.3f} s on the cores"
+        return found
+
+    def _on_card(self, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]) -> T:
         if self.card is None:
             return on_cores()
         try:
@@ -83,6 +118,11 @@ def choose_engine(device: Device, *, software: bool = False) -> Engine:
 def tell_engine(work: Work, engine: Engine) -> None:
     """In the report: what computed, and that the card was given up where it was."""
     work.fact("Computed by", engine.told)
+    if engine.slower:
+        work.note(
+            f"{engine.told} was slower in a trial, so that the processor computed: "
+            + "; ".join(engine.slower.values())
+        )
     if engine.lost is not None:
         work.doubt(f"{engine.lost}; from there on the processor computed")
 

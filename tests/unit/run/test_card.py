@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from typing import Any
 
 import numpy as np
@@ -67,6 +68,44 @@ def test_a_card_that_vanishes_is_given_up_or_an_error(monkeypatch: pytest.Monkey
     assert "pulled out" in engine.lost
     with pytest.raises(InputError, match="pulled out"):
         Engine("gpu", given, "the graphics card X").run(vanished, lambda: 2)
+
+
+def test_auto_leaves_steps_to_the_processor_that_a_card_slows_down() -> None:
+    card: Any = object()
+    engine = Engine("auto", card, "the graphics card X")
+    asked: list[str] = []
+
+    def slow(_: object) -> str:
+        asked.append("card")
+        time.sleep(0.02)
+        return "found"
+
+    def fast() -> str:
+        asked.append("cores")
+        return "found"
+
+    assert engine.run(slow, fast, "links") == "found"
+    assert "links: 0.0" in engine.slower["links"]
+    asked.clear()
+    assert engine.run(slow, fast, "links") == "found"
+    assert asked == ["cores"]
+
+    def soon(_: object) -> str:
+        asked.append("card")
+        return "found"
+
+    def late() -> str:
+        time.sleep(0.02)
+        return "found"
+
+    engine.run(soon, late, "pairs")
+    asked.clear()
+    engine.run(soon, late, "pairs")
+    assert asked == ["card"]
+    # Who asks for the card gets it.
+    asked.clear()
+    assert Engine("gpu", card, "X").run(slow, fast, "links") == "found"
+    assert asked == ["card"]
 
 
 @pytest.mark.skipif(not BUILT, reason="built without graphics cards: make gpu")

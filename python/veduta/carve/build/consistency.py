@@ -41,7 +41,7 @@ class ConsistencyRule:
     most_views: int = 6
     least_cosine: float = 0.35
     rim_voxels: float = 1.5
-    sweeps: int = 40
+    sweeps: int = 80
     piece: int = 30
     smooth: float = 0.8
 

@@ -15,18 +15,21 @@ from veduta.carve.views import Mask, View, camera_rows
 from veduta.run.card import Engine
 
 Floats = NDArray[np.float64]
+HULL = "hull"
 
 
 @dataclass(frozen=True)
 class HullRule:
     """margin: of the volume's side, that is left around the bounds. band: of the silhouette's larger
     side, how far around its box distances are kept. beyond: of the photo's larger side, how far a
-    silhouette that leaves the photo is thought to go on.
+    silhouette that leaves the photo is thought to go on. trial_levels: so much coarser is the hull by
+    which `--device auto` tries whether the card is faster.
     """
 
     margin: float = 0.02
     band: float = 0.1
     beyond: float = 0.5
+    trial_levels: int = 1
 
 
 @dataclass(frozen=True, eq=False)
@@ -76,12 +79,20 @@ def carve_hull(
         np.array([corner for _, corner in fields], dtype=np.float64),
         root.low_m.tolist(),
         root.side_m,
-        root.levels,
     )
     if engine is None:
-        return Hull(root, _core.carve_hull(*given))
+        return Hull(root, _core.carve_hull(*given, root.levels))
+    if engine.device == "auto" and engine.card is not None:
+        coarse = max(root.levels - rule.trial_levels, 5)
+        engine.trial(
+            HULL,
+            lambda card: card.carve_hull(*given, coarse),
+            lambda: _core.carve_hull(*given, coarse),
+        )
     volume = engine.run(
-        lambda card: card.carve_hull(*given), lambda: _core.carve_hull(*given)
+        lambda card: card.carve_hull(*given, root.levels),
+        lambda: _core.carve_hull(*given, root.levels),
+        HULL,
     )
     return Hull(root, volume)
 

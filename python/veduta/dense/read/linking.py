@@ -152,6 +152,7 @@ def disparities_of(
     return engine.run(
         lambda card: card.match_pair(*given, **settings),
         lambda: _core.match_pair(*given, **settings),
+        "pairs",
     )
 
 
@@ -203,6 +204,7 @@ def linked_depths(
     depths, deviations, estimates = engine.run(
         lambda card: card.link_views(*given, **settings),
         lambda: _core.link_views(*given, **settings),
+        "links",
     )
     reachable = sum(len(chain) for chain in chains)
     good = estimates >= max(1, min(least, reachable))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TypedDict
 
 import cv2
 import numpy as np
@@ -11,9 +12,28 @@ from numpy.typing import NDArray
 from veduta import _core
 from veduta.dense.document.views import Views, scaled_row, scaled_size
 from veduta.dense.read.neighbours import Comparison
+from veduta.run.card import Engine
 
 Planes = NDArray[np.float32]
 Depths = list[NDArray[np.float32] | None]
+
+
+class MatchSettings(TypedDict):
+    """What `match_planes` takes by name."""
+
+    near: float
+    far: float
+    sweeps: int
+    views: int
+    step_px: float
+    gamma_grey: float
+    gamma_px: float
+    noise_grey: float
+    consistency: float
+    most_px: float
+    vary_depth: float
+    vary_normal: float
+    seed: int
 
 
 @dataclass(frozen=True)
@@ -41,13 +61,15 @@ class MatchParameters:
 
 
 def match_coarse(
-    views: Views, comparison: Comparison, seed: int, parameters: MatchParameters
+    views: Views, comparison: Comparison, seed: int, parameters: MatchParameters, engine: Engine
 ) -> Planes:
     """(pixels, 4) at the last coarse level: inverse depth (1/m), its slopes (1/m/px), the cost."""
     planes, shape = None, (1, 1)
     for level in parameters.coarse:
         nothing: Depths = [None for _ in comparison.neighbours]
-        planes = _match(views, comparison, level, (planes, shape), nothing, seed, parameters)
+        planes = _match(
+            views, comparison, level, (planes, shape), nothing, seed, parameters, engine
+        )
         shape = _shape(views, comparison.view, level[0])
     if planes is None:
         raise ValueError("no coarse level")
@@ -60,6 +82,7 @@ def match_fine(
     planes: dict[int, Planes],
     seed: int,
     parameters: MatchParameters,
+    engine: Engine,
 ) -> Planes:
     """(pixels, 4) at the working size. planes: the coarse ones of the view and its neighbours."""
     scale = parameters.coarse[-1][0]
@@ -74,7 +97,7 @@ def match_fine(
         larger = cv2.resize(coarse, size, interpolation=cv2.INTER_NEAREST)
         depths.append(np.asarray(larger, dtype=np.float32))
     begun = (start, _shape(views, comparison.view, scale))
-    return _match(views, comparison, parameters.fine, begun, depths, seed, parameters)
+    return _match(views, comparison, parameters.fine, begun, depths, seed, parameters, engine)
 
 
 def _shape(views: Views, view: int, scale: float) -> tuple[int, int]:
@@ -90,10 +113,11 @@ def _match(
     depths: Depths,
     seed: int,
     parameters: MatchParameters,
+    engine: Engine,
 ) -> Planes:
     scale, sweeps, vary_depth, vary_normal = level
     near = comparison.neighbours
-    return _core.match_planes(
+    given = (
         views.grey(comparison.view, scale),
         scaled_row(views.cameras[comparison.view], scale),
         [views.grey(other, scale) for other in near],
@@ -101,6 +125,8 @@ def _match(
         depths,
         start[0],
         start[1],
+    )
+    settings = MatchSettings(
         near=comparison.near_m,
         far=comparison.far_m,
         sweeps=sweeps,
@@ -114,6 +140,10 @@ def _match(
         vary_depth=vary_depth,
         vary_normal=vary_normal,
         seed=seed,
+    )
+    return engine.run(
+        lambda card: card.match_planes(*given, **settings),
+        lambda: _core.match_planes(*given, **settings),
     )
 
 
