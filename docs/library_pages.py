@@ -13,6 +13,7 @@ from veduta.place.registry import formats
 _CLASSES: tuple[tuple[type[Any], Sequence[str]], ...] = (
     (veduta.Place, ("add", "load", "save", "write", "merge", "bounds_m")),
     (veduta.Standing, ()),
+    (veduta.ModelFile, ()),
     (PlacedPart, ("content", "triangles")),
     (veduta.Mesh, ("simple",)),
     (veduta.Part, ()),

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from veduta.place.load import load
     from veduta.place.mesh import Mesh
     from veduta.place.part import Part
-    from veduta.place.place import Cloud, Place, Standing
+    from veduta.place.place import Cloud, ModelFile, Place, Standing
     from veduta.place.semantics import Provenance, SemanticClass
     from veduta.plan.door import read_plan
     from veduta.walk.door import read_walk
@@ -45,6 +45,7 @@ os.environ["CPL_VSIL_CURL_ALLOWED_EXTENSIONS"] = ".none"
 __all__ = [
     "Cloud",
     "Mesh",
+    "ModelFile",
     "Part",
     "Place",
     "Provenance",
@@ -71,6 +72,7 @@ _LATE = {
     "Place": "place.place",
     "Provenance": "place.semantics",
     "SemanticClass": "place.semantics",
+    "ModelFile": "place.place",
     "Standing": "place.place",
     "carve_photos": "carve.door",
     "measure_photos": "dense.door",
