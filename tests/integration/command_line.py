@@ -28,6 +28,7 @@ DEADLINE_S = 120
 FILES = {
     "facade.json",
     "before.png",
+    "facade.csv",
     "labels.png",
     "rectified.jpg",
     "overlay.png",

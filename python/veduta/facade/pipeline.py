@@ -22,6 +22,7 @@ from veduta.facade.model import Model, build_model
 from veduta.facade.options import FacadeOptions, ModelOptions, StyleOptions
 from veduta.facade.outputs import label_png, rasterise
 from veduta.facade.overlay import overlay, png
+from veduta.facade.quantities import QUANTITIES, quantities_csv
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.facade.style_told import StyleTold
@@ -33,7 +34,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "12"
+VERSION = "13"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -125,6 +126,8 @@ def write_building(
         (folder / BEFORE).write_bytes(before_png(building.before))
         (folder / "labels.png").write_bytes(label_png(document, rasterise(document)))
         (folder / "overlay.png").write_bytes(png(overlay(document, building.pixels)))
+        table = quantities_csv(document, building.part)
+        (folder / QUANTITIES).write_text(table, encoding="utf-8")
         write_rule_files(building.model, folder)
         if building.style is not None:
             building.style.write(folder)

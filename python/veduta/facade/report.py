@@ -18,6 +18,7 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.outputs import coloured, rasterise
 from veduta.facade.overlay import overlay
 from veduta.facade.pipeline import Building
+from veduta.facade.quantities import quantities
 from veduta.facade.rectify import are_corners_doubtful
 from veduta.facade.rule_head import WALL_TEXTURE
 from veduta.imaging.encode import jpeg_bytes, png_bytes
@@ -38,6 +39,7 @@ FILES = (
     ("overlay.png", "what was found, over the photo, with the numbers of the elements"),
     ("rules.cga", "the building as rules that repeat: derive it on a wider or higher lot"),
     ("cells.cga", "the building as it was read, from which the models are derived"),
+    ("facade.csv", "counts, areas and the ratio of windows to wall, by kind and floor"),
     ("lot.geojson", "the lot that the rules stand on"),
     ("textures/", "the pictures that the rules name"),
     ("model.glb", "the building as glTF 2.0"),
@@ -73,6 +75,7 @@ def image_report(
             **measures(document),
             **count_adjusted(building.part.notes),
             **_taken_out(building),
+            "window_to_wall": round(quantities(building.document).window_to_wall, 4),
         },
         notes=[*document.notes, *building.part.notes],
     )

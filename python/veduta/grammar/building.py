@@ -179,9 +179,12 @@ def _materials(
         colour = (round(red, 4), round(green, 4), round(blue, 4))
         texture = None if image is None else textures.get(image)
         opacity = round(seen, 4)
+        roughness = _ROUGHNESS.get(semantic, 0.9)
         if texture is None:
-            roughness = _ROUGHNESS.get(semantic, 0.9)
             material = Material(semantic.value, colour, roughness, opacity=opacity)
+        elif semantic is SemanticClass.WINDOW:
+            # A picture that a wall and its panes share: glass is no wall.
+            material = Material(semantic.value, colour, roughness, texture=texture, opacity=opacity)
         else:
             name_told = PurePath(str(image)).stem
             material = Material(name_told, colour, texture=texture, opacity=opacity)

@@ -13,7 +13,9 @@ from veduta.facade.cleared import BEFORE, KINDS, before_png, hidden_kinds, load_
 from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
 from veduta.facade.eyes import Seen
+from veduta.facade.model import build_part
 from veduta.facade.textures import make_textures
+from veduta.place.semantics import SemanticClass
 from veduta.run.errors import InputError
 
 
@@ -97,3 +99,18 @@ def test_before_png_comes_back_and_bad_ones_are_named(tmp_path: Path) -> None:
     (tmp_path / BEFORE).write_bytes(b"no picture")
     with pytest.raises(InputError, match="cannot be read as PNG"):
         load_before(document, (20, 10))
+
+
+def test_panes_are_glass_and_no_wall() -> None:
+    document = sample_document([element("window", 2.0, 4.0, 1.0, 1.5)])
+    part = build_part(document, sample_photo(document), "house")
+    panes = [
+        part.features.semantic(row) is SemanticClass.WINDOW for row in range(len(part.features))
+    ]
+    of_window = (
+        np.array(panes)[part.polygon_feature]
+        & ~np.array(["reveal" in name for name in part.features.name])[part.polygon_feature]
+    )
+    used = {part.materials[n] for n in part.polygon_material[of_window].tolist()}
+    assert {material.name for material in used} == {"window"}
+    assert max(material.roughness for material in used) < 0.5

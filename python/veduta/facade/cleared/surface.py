@@ -13,7 +13,7 @@ from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
-from veduta.surfaces import fill_by_repeats
+from veduta.surfaces import Repeated, fill_by_repeats
 
 Pixels = NDArray[np.uint8]
 _ROOF, _UPPER, _GROUND = range(3)
@@ -47,9 +47,7 @@ def clear_surface(
 
     crop: (h, w, 3), the part `box` of the photo. before: (h, w) of the crop, places in `KINDS`.
     """
-    windows = _boxes(document, box, "window")
-    own = own_repeats(windows)
-    storey = own.storey_px or _mean_storey(document)
+    storey = own_repeats(_boxes(document, box, "window")).storey_px or _mean_storey(document)
     kinds = _with_balconies(document, box, before, storey)
     holes = kinds > 0
     shares = {
@@ -57,18 +55,24 @@ def clear_surface(
         for place, name in enumerate(KINDS)
         if place and (kinds == place).any()
     }
-    zones, rows = _zones(document, box)
     pixels, copied = crop, 0.0
     if holes.any() and holes.mean() <= MOST_HIDDEN:
-        made = fill_by_repeats(crop, holes, own.offsets, storey, zones)
+        made = fill_front(document, crop, box, holes)
         pixels, copied = made.pixels, float(made.copied[holes].mean())
     else:
         holes = np.zeros_like(holes)
     wall = ~holes
     for class_ in ("window", "door", "shop"):
         wall &= ~element_mask(document, box, class_)
-    pixels, evened = even_light(pixels, wall, rows, storey)
+    pixels, evened = even_light(pixels, wall, _zones(document, box)[1], storey)
     return Cleared(pixels, holes, shares, copied, evened)
+
+
+def fill_front(document: FacadeDocument, crop: Pixels, box: PixelBox, holes: Mask) -> Repeated:
+    """Fill the holes (h, w) of a crop by what the windows of the document say of repeats."""
+    own = own_repeats(_boxes(document, box, "window"))
+    storey = own.storey_px or _mean_storey(document)
+    return fill_by_repeats(crop, holes, own.offsets, storey, _zones(document, box)[0])
 
 
 def _boxes(document: FacadeDocument, box: PixelBox, wanted: str) -> NDArray[np.float64]:
