@@ -49,7 +49,7 @@ def prepare(folder: Path, keys: int, width_px: int) -> Row:
         "what": "prepare", "views": keys * VIEWS, "megapixels": width_px * height_px / 1e6,
         "processor s": seconds, "wall s": wall,
         f"processor s for {PAPER_VIEWS} views of 1 MP": (
-            seconds * PAPER_VIEWS / (keys * VIEWS) / (width_px * height_px / 1e6)
+            seconds * (PAPER_VIEWS / VIEWS - 1) / (keys - 1) / (width_px * height_px / 1e6)
         ),
         "summary": result.summary,
     }  # fmt: skip

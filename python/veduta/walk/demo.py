@@ -6,7 +6,7 @@ of the pictures.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -48,10 +48,10 @@ class WalkDemo:
 
 
 def run_walk_demo(
-    out: Path, seed: int, progress: Progress, *, force: bool, gorge: GorgeWalk = GORGE
+    out: Path, seed: int, progress: Progress, *, force: bool, gorge: GorgeWalk | None = None
 ) -> WalkDemo:
     """Make the gorge's pictures, walk through them, compare; the same call again is up to date."""
-    made = GorgeWalk(**{**vars(gorge), "seed": seed})
+    made = replace(gorge or GORGE, seed=seed)
     key = result_key("demo walk", f"{VERSION}, walk {WALK_VERSION}", Options(), vars(made))
     with open_out(out, "demo", key, force=force) as folder:
         if folder.standing is not Standing.UP_TO_DATE or not (out / STEREO).is_dir():
