@@ -14,12 +14,16 @@ from veduta.facade.style.state import SCALE, State
 
 PITCHES = {"bayWidth": 1.0, "moduleWidth": 2.0, "houseWidth": 2.0}
 """Attributes that have the width of so many columns."""
-_ANGLES = 3
+SHARES = ("windowShare",)
+"""Attributes that are no lengths."""
+LEAST_CHANCE = 0.02
+"""Numbers of storeys that are less likely are no starts."""
+_HALVINGS = 3
 """Halvings of the step in which an attribute is moved up and down."""
 
 
 def read_attributes(document: FacadeDocument) -> dict[str, float]:
-    """Numbers of the front as it was read, in metres of the document."""
+    """Numbers of the front as it was read: shares, and lengths in metres of the document."""
     sizes = document.rules.facade.sizes_m
     found = {"storeys": float(max(1, len(sizes) - 1))}
     if len(sizes) > 1:
@@ -30,6 +34,12 @@ def read_attributes(document: FacadeDocument) -> dict[str, float]:
     pitch = _pitch(document)
     if pitch is not None:
         found["bayWidth"] = pitch
+    windows = [e for e in document.elements if e.class_ == "window" and (e.floor or 0) > 0]
+    if windows:
+        found["windowWidth"] = float(np.median([e.width_m for e in windows]))
+        high = float(np.median([e.height_m for e in windows]))
+        found["windowShare"] = high / found["storeyHeight"]
+    found["roofHeight"] = document.rules.roof_height_m
     return found
 
 
@@ -62,7 +72,8 @@ def read_state(grammar: StyleGrammar, read: dict[str, float]) -> State:
             if name in PITCHES and "bayWidth" in read:
                 own = PITCHES[name] * read["bayWidth"]
             if own is not None:
-                values[name] = float(np.clip(own * factor, distribution.least, distribution.most))
+                own *= 1.0 if name in SHARES else factor
+                values[name] = float(np.clip(own, distribution.least, distribution.most))
     return state.with_attributes(**values)
 
 
@@ -75,7 +86,9 @@ def usual_states(grammar: StyleGrammar, eaves_m: float, rng: np.random.Generator
     if not isinstance(storeys, Choice) or not isinstance(scale, Real):
         return []
     found = []
-    for number in storeys.values:
+    for number, chance in zip(storeys.values, storeys.chances, strict=True):
+        if chance < LEAST_CHANCE:
+            continue
         state = grammar.start().with_attributes(storeys=number)
         made = grammar.complete(state, rng)
         if made is None or made.front.eaves_m <= 0.0:
@@ -129,7 +142,7 @@ def _best_attributes(posterior: Posterior, at: Scored, rng: np.random.Generator)
                 at = _better(posterior, at, at.state.with_attributes(**{name: value}), rng)
             continue
         step = distribution.step
-        for _ in range(_ANGLES):
+        for _ in range(_HALVINGS):
             for sign in (1.0, -1.0):
                 value = float(at.state.attributes[name]) + sign * step
                 if distribution.least <= value <= distribution.most:
