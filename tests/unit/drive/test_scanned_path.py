@@ -185,7 +185,7 @@ def test_over_an_aerial_photo_the_road_is_level(
         moved[-1] = 0.3, -0.4
         sure = np.ones(count, dtype=bool)
         fit = np.full(count, share)
-        margin = Margin(0.8, 0.4, (9.0, 0.0))
+        margin = Margin(0.8, 0.78 if doubted else 0.4, (9.0, 0.0))
         return Localised(poses, moved, fit, np.zeros(count), sure, np.zeros(count), margin)
 
     monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
@@ -197,4 +197,4 @@ def test_over_an_aerial_photo_the_road_is_level(
     np.testing.assert_allclose(moved_m, [0.3, -0.4, 0.0])
     assert "localised" in why
     assert any("taken for level" in note for note in record.notes)
-    assert [doubt[:4] for doubt in record.doubts] == (["60 %"] if doubted else [])
+    assert [doubt[:4] for doubt in record.doubts] == (["60 %", "the "] if doubted else [])

@@ -46,8 +46,7 @@ class LocaliseParameters:
     all scans. least_share: of their points on edges, on average. most_through: of their beams
     through what stands there. tries: runs with other draws, of which the best is taken: a street
     looks alike along itself, and particles that agree on a wrong place stay there. good: a run
-    that fits so well is enough. least_margin: share of the path's fit that no other place around
-    may have: in a model of another place many fit alike.
+    that fits so well is enough.
     """
 
     particles: int = 5000
@@ -75,7 +74,6 @@ class LocaliseParameters:
     most_through: float = 0.12
     tries: int = 4
     good: float = 0.8
-    least_margin: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,13 +141,6 @@ def localise(
     placed = _placed(chain.poses, poses, sure)
     found = spread_corrections(placed, [*steps, *(loops or [])], fixes)
     margin = margin_of(found, chain.scans, model)
-    if margin.share < chosen.least_margin:
-        x, y = margin.away
-        evidence = (
-            f"it fits {np.hypot(x, y):.0f} m away {100 * (1.0 - margin.share):.0f} % as well as"
-            " where it fits best"
-        )
-        raise NotFoundError(_WHAT, evidence, _REMEDY)
     return Localised(found, found[:, :2] - placed[:, :2], share, through, sure, spread, margin)
 
 

@@ -22,7 +22,8 @@ class RivalParameters:
     """sigma_m: of points about edges, the stiffness of the path included. own_m: places nearer are
     the same one. rival_m: places from there to `farthest_m` are rivals. step_m: between places that
     are looked at; the best of them are refined by `fine_m`. turns_rad: headings that are tried.
-    scans, points: so many are laid onto the model.
+    scans, points: so many are laid onto the model. passed_at: part of a beam's way at which nothing
+    may stand.
     """
 
     sigma_m: float = 0.6
@@ -35,11 +36,12 @@ class RivalParameters:
     scans: int = 60
     points: int = 40
     refined: int = 8
+    passed_at: float = 0.75
 
 
 @dataclass(frozen=True)
 class Margin:
-    """own, rival: how well the path fits where it is, and at the best other place: 0 to 1.
+    """own, rival: how well the path fits where it is, and at the best other place: 1 at best.
 
     away: (2,) m to that place.
     """
@@ -65,9 +67,9 @@ def margin_of(
     scans: (n, 2) points of each in the vehicle's frame (m).
     """
     chosen = parameters or RivalParameters()
-    points = _laid(poses, scans, chosen)
+    points, passed = (_laid(poses, scans, part, chosen) for part in (1.0, chosen.passed_at))
     middle = points.mean(axis=0)
-    around = points - middle
+    around = np.stack([points, passed]) - middle
     reach = np.arange(-chosen.farthest_m, chosen.farthest_m + 1e-9, chosen.step_m)
     places = np.stack(np.meshgrid(reach, reach, indexing="ij"), axis=2).reshape(-1, 2)
     length = np.linalg.norm(places, axis=1)
@@ -87,7 +89,7 @@ def _refined(
     finer = np.stack(np.meshgrid(fine, fine, indexing="ij"), axis=2).reshape(-1, 2)
     for turn in chosen.turns_rad:
         cosine, sine = np.cos(turn), np.sin(turn)
-        turned = middle + around @ np.array([[cosine, sine], [-sine, cosine]])
+        turned = middle + around @ np.array([[cosine, sine], [-sine, cosine]])  # (2, n, 2)
         rough = _fits(places, turned, model, chosen)
         for row in np.argsort(-rough, kind="stable")[: chosen.refined].tolist():
             own = _fits(places[row] + finer, turned, model, chosen)
@@ -97,27 +99,37 @@ def _refined(
 
 
 def _fits(places: Floats, points: Floats, model: SurfaceModel, chosen: RivalParameters) -> Floats:
-    """(p,) how near to edges the points lie on average where they are moved by (p, 2); points off
-    the map count as on none.
+    """(p,) how near to edges the points lie on average where they are moved by (p, 2), less the
+    share of beams through what stands there. points: (2, n, 2) ends of beams, and places on their
+    way; what is off the map counts as on no edge and as free.
     """
-    height, width = model.distance_m.shape
     found = np.zeros(len(places))
     for row, place in enumerate(places):
-        at = np.floor((points + place - np.array(model.low)) / model.cell_m).astype(np.int64)
-        inside = (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
-        off = model.distance_m[at[inside, 1], at[inside, 0]].astype(np.float64)
-        near = np.exp(-0.5 * (off / chosen.sigma_m) ** 2)
-        found[row] = np.nansum(near) / max(len(points), 1)
+        ends, passed = (_distances(one + place, model) for one in points)
+        near = np.exp(-0.5 * (ends / chosen.sigma_m) ** 2)
+        found[row] = near.mean() - (passed < -chosen.sigma_m).mean()
     return found
 
 
-def _laid(poses: Floats, scans: Sequence[Floats], chosen: RivalParameters) -> Floats:
-    """(n, 2) points of some scans in the model's CRS (m)."""
+def _distances(points: Floats, model: SurfaceModel) -> Floats:
+    """(n,) of points (n, 2) to the nearest edge (m), negative inside of what stands; inf where
+    nothing is known.
+    """
+    height, width = model.distance_m.shape
+    at = np.floor((points - np.array(model.low)) / model.cell_m).astype(np.int64)
+    inside = (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
+    at = np.where(inside[:, None], at, 0)
+    off = np.where(inside, model.distance_m[at[:, 1], at[:, 0]], np.nan).astype(np.float64)
+    return np.where(np.isfinite(off), off, np.inf)
+
+
+def _laid(poses: Floats, scans: Sequence[Floats], part: float, chosen: RivalParameters) -> Floats:
+    """(n, 2) points of some scans in the model's CRS (m), or places at a part of the way there."""
     every = max(len(poses) // chosen.scans, 1)
     found = []
     for row in range(0, len(poses), every):
         points = scans[row][:: max(len(scans[row]) // chosen.points, 1)]
         cosine, sine = np.cos(poses[row, 2]), np.sin(poses[row, 2])
-        turned = points @ np.array([[cosine, sine], [-sine, cosine]])
+        turned = part * points @ np.array([[cosine, sine], [-sine, cosine]])
         found.append(turned + poses[row, :2])
     return np.concatenate(found)

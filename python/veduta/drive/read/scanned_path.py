@@ -32,6 +32,9 @@ _FEWEST_MATCHED = 0.5
 _SURE_FIT = 0.8
 """Share of points on edges: five of the six wrong places that were followed in the Delft tile had
 less (`benchmarks/results/drive-localise-delft.md`)."""
+_LEAST_MARGIN = 0.1
+"""Share of a path's fit that no place around has. A synthetic street had 0.11 in its own model and
+less than 0 in another's; that is too little to refuse a model by."""
 _GPS_M = 15.0
 """How far off a GPS may be between buildings."""
 
@@ -105,10 +108,16 @@ def find_path(
     corrected = _corrections(chain, placed.moved_m, why)
     fit = float(placed.share[placed.sure].mean())
     how += f"; localised in {log.surface.file}, where {100 * fit:.0f} % of the points lie on edges"
-    doubts = () if fit >= _SURE_FIT else (
+    doubts: tuple[str, ...] = () if fit >= _SURE_FIT else (
         f"{100 * fit:.0f} % of the scans' points lie on edges of {log.surface.file}: the drive may"
         " have been in a street that looks alike; the report shows the path from above",
     )  # fmt: skip
+    if placed.margin.share < _LEAST_MARGIN:
+        metres = float(np.hypot(*placed.margin.away))
+        doubts += (
+            f"the path fits {log.surface.file} nearly as well {metres:.0f} m away: it may be the"
+            " model of another place",
+        )
     return ScannedPath(
         times,
         _matrices(local, ground - origin[2], slope),
