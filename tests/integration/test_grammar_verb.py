@@ -68,9 +68,9 @@ def test_one_command_makes_a_street(tmp_path: Path) -> None:
     out = tmp_path / "street"
     done = veduta("grammar", "derive", "haussmann", "-o", out)
     assert done.returncode == 0, done.stderr
-    assert {path.name for path in out.iterdir()} == ALL_FILES | {"textures"}
+    assert {path.name for path in out.iterdir()} == ALL_FILES | {"textures", "streets"}
     place = read_json(out / "place.json")
-    assert len(place["parts"]) == 14
+    assert len(place["parts"]) == 14 + 1  # the houses and the street
     for part in place["parts"]:
         issues = validate_gltf(out / part["model"])
         assert (issues["numErrors"], issues["numWarnings"]) == (0, 0), issues["messages"]

@@ -42,6 +42,7 @@ mod scopes;
 mod setbacks;
 mod shapes;
 mod snapping;
+mod tagging;
 
 #[test]
 fn every_file_of_tests_is_in_this_program() {

@@ -6,9 +6,12 @@ import numpy as np
 
 from veduta.grammar.lot import Lot
 from veduta.grammar.lots import Lots
-from veduta.synthetic.lots import street_of_lots
+from veduta.grammar.outline import Road
+from veduta.synthetic.lots import STREET_M, street_of_lots
 
 DEMO_LOTS = 14
+PAVEMENT_M, ENDS_M = 3.0, 12.0
+"""Beside the carriageway, and how far the street goes on beyond the last house (m)."""
 NOTE = "no lots were given: the street is synthetic"
 
 
@@ -20,4 +23,7 @@ def demo_lots(count: int, seed: int) -> Lots:
         low = np.floor(outline.min(axis=0))
         anchor = (float(low[0]), float(low[1]), 0.0)
         lots.append(Lot(id=name, name=name, rings_m=(outline - low,), anchor_m=anchor))
-    return Lots(tuple(lots), notes=(NOTE,), look=(street.eye_m, street.target_m))
+    middle = np.array([[-ENDS_M, STREET_M / 2, 0.0], [street.length_m + ENDS_M, STREET_M / 2, 0.0]])
+    road = Road(middle, STREET_M - 2 * PAVEMENT_M)
+    look = (street.eye_m, street.target_m)
+    return Lots(tuple(lots), notes=(NOTE,), look=look, roads=(road,))

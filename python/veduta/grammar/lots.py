@@ -54,7 +54,7 @@ from veduta.grammar.lot import (
 )
 from veduta.grammar.object_lots import object_outlines
 from veduta.grammar.options import LotOptions
-from veduta.grammar.outline import Found, Outline, Outlines
+from veduta.grammar.outline import Found, Outline, Outlines, Road
 from veduta.grammar.package_lots import is_package, package_outlines
 from veduta.grammar.rings import RingFault, clean_rings
 from veduta.grammar.roads import Roads
@@ -82,7 +82,8 @@ MOST_COMPARED = 10_000
 class Lots:
     """The lots of one call, about `origin_m` in `crs`, and what gave none.
 
-    look: where a visitor begins: eye and target (m, about the origin), if the lots know it.
+    look: where a visitor begins: eye and target (m, about the origin), if the lots know it. roads:
+    in metres about the origin.
     """
 
     lots: Sequence[Lot]
@@ -91,6 +92,7 @@ class Lots:
     failures: Failures = field(default_factory=Failures)
     notes: tuple[str, ...] = ()
     look: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
+    roads: tuple[Road, ...] = ()
 
     def close(self) -> None:
         """Give the room on the disk back; no lot can be read any more."""
@@ -133,7 +135,8 @@ def read_lots(
         if len(spool) >= TELL_EACH:
             say(f"{path}: {len(lots):,} lots")
     notes = (*found.all_notes(), *frame.notes)
-    return Lots(lots, frame.crs, frame.origin_m, found.failures, notes)
+    roads = stand.roads.lines
+    return Lots(lots, frame.crs, frame.origin_m, found.failures, notes, roads=roads)
 
 
 def require_lots(path: Path | None, options: LotOptions | None) -> None:

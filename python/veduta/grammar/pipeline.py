@@ -23,6 +23,8 @@ from veduta.grammar.failures import Failures
 from veduta.grammar.given import check_options
 from veduta.grammar.ground import is_level
 from veduta.grammar.joining import tables, write_ground, write_ground_city, write_pictures
+from veduta.grammar.kerbs import NAME as STREETS
+from veduta.grammar.kerbs import streets_of, with_streets
 from veduta.grammar.left_out import told_of_all
 from veduta.grammar.lot import anchors_of
 from veduta.grammar.lots import Lots, edited_lots, read_lots, require_lots
@@ -37,6 +39,7 @@ from veduta.grammar.reported import write_joined as write_reports
 from veduta.grammar.rules import compile_rules, find_rules, read_rules
 from veduta.grammar.squares import FEW, Square, Squares, squares_of, told
 from veduta.grammar.textures import find_textures, read_textures, textures_digests
+from veduta.place.place import Standing as PartStanding
 from veduta.run.atomic import same_file
 from veduta.run.digests import result_key
 from veduta.run.errors import InputError
@@ -373,9 +376,16 @@ def _write_town(folder: OutFolder, call: _Call, work: Path, whole: Whole) -> Non
     done = {name for name, _ in whole.blocks}
     separate = is_separate(call.options, lots)
     grounds = write_ground(work, call.squares, done, separate=separate)
-    write_tileset(town_of(lots, squares, whole, grounds), work / TILESET)
+    town = town_of(lots, squares, whole, grounds)
+    streets = streets_of(lots.lots, lots.roads)
+    if streets is not None:
+        town = with_streets(town, streets, work)
+    write_tileset(town, work / TILESET)
     tileset = TILESET if streamed else None
-    place_of(lots, whole, grounds, folder.path, tileset=tileset).save(work)
+    place = place_of(lots, whole, grounds, folder.path, tileset=tileset)
+    if streets is not None:
+        place.add(streets, PartStanding(name=STREETS, arrangement="invented", ground=True))
+    place.save(work)
     if not call.options.output.city:
         return
     pieces = [_city_path(folder.path, one) for one in squares if one.name in done]

@@ -115,6 +115,7 @@ class Roads:
     def __init__(self, roads: Sequence[Road], parameters: FrontParameters | None = None) -> None:
         """roads: their points in metres from the origin of all lots."""
         self._parameters = parameters or FrontParameters()
+        self.lines = tuple(roads)
         pieces = [
             (road.points[:-1, :2], road.points[1:, :2], road)
             for road in roads

@@ -19,13 +19,14 @@ class StreetLots:
     """Lots whose first edge lies along the street.
 
     outlines_m: (4, 2) each, counter-clockwise. names: one for each. eye_m, target_m: x, y, z of
-    somebody who stands in the street, and of what they look at.
+    somebody who stands in the street, and of what they look at. length_m: of the longer row.
     """
 
     outlines_m: list[NDArray[np.float64]]
     names: list[str]
     eye_m: tuple[float, float, float]
     target_m: tuple[float, float, float]
+    length_m: float
 
 
 def street_of_lots(count: int, seed: int) -> StreetLots:
@@ -43,7 +44,7 @@ def street_of_lots(count: int, seed: int) -> StreetLots:
         names.append(f"{side}-{number // 2 + 1}")
     length = max(ends.values())
     eye = (0.06 * length, STREET_M * 0.36, EYE_M)
-    return StreetLots(outlines, names, eye, (0.6 * length, STREET_M * 0.62, 6.5))
+    return StreetLots(outlines, names, eye, (0.6 * length, STREET_M * 0.62, 6.5), length)
 
 
 def _lot(left: float, right: float, depth: float, side: str) -> NDArray[np.float64]:

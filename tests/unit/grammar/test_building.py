@@ -92,7 +92,7 @@ Middle --> split(y) { 1 : Wall. | 2 : Hole | ~1 : Wall. }
 Hole --> [ Reveal ] t(0, 0, -0.3) Pane
 Reveal -->
     set(surface, "reveal") extrude(-0.3) reverseNormals()
-    comp(f) { front : NIL | back : NIL | all : Wall. }
+    comp(f) { top : NIL | bottom : NIL | all : Wall. }
 Pane --> set(surface, "pane") set(provenance, "guessed") split(x) { 1 : Pane. | ~1 : Pane. }
 """
 

@@ -119,6 +119,21 @@ impl State {
         marks.collect()
     }
 
+    /// The tags of all faces of the shape.
+    pub fn all_tags(&self) -> Tags {
+        let Some(extra) = &self.extra else {
+            return Tags::new();
+        };
+        let mut tags = extra.tags.clone();
+        if extra.made.is_some() || !extra.marks.is_empty() {
+            let mesh = self.form.world_mesh();
+            for face in mesh.faces() {
+                tags.extend(extra.tags_of(&mesh, face, self.form.scope.axes));
+            }
+        }
+        tags
+    }
+
     /// All tags of a face of the shape; `axes` are those of the scope that it was made in.
     fn face_tags(&self, mesh: &Mesh, face: Face<'_>, axes: DMat3) -> Tags {
         self.extra.as_ref().map_or_else(Tags::new, |extra| {

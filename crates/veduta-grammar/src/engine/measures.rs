@@ -229,17 +229,12 @@ fn height(form: &Form) -> f64 {
     bounds.map_or(0.0, |(low, high)| high.y - low.y)
 }
 
+/// Whether a face has a tag that is asked for, or any.
 fn has_tags(state: &State, args: &[Value]) -> bool {
-    let Some(extra) = &state.extra else {
-        return false;
-    };
-    match args.first() {
-        None => !extra.tags.is_empty(),
-        Some(query) => {
-            let query = query.to_string();
-            extra.tags.iter().any(|tag| is_asked(tag, &query))
-        }
-    }
+    let query = args.first().map(ToString::to_string);
+    let all = state.all_tags();
+    all.iter()
+        .any(|tag| query.as_ref().is_none_or(|query| is_asked(tag, query)))
 }
 
 /// The names of what `comp(g)` or `comp(m)` would take the shape apart into.
@@ -260,8 +255,7 @@ fn has_uvs(state: &State, args: &[Value]) -> bool {
 }
 
 fn tags(state: &State) -> Value {
-    let all = state.extra.iter().flat_map(|extra| &extra.tags);
-    Value::list(all.map(|tag| Value::Text(tag.clone())).collect())
+    Value::list(state.all_tags().into_iter().map(Value::Text).collect())
 }
 
 fn angle(mesh: &Mesh, args: &[Value]) -> Result<f64, String> {

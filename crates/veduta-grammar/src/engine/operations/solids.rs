@@ -1,6 +1,6 @@
 //! Solids from faces, and primitive shapes.
 
-use glam::DVec3;
+use glam::{DMat3, DVec3};
 use veduta_geometry::solid;
 
 use super::super::code::Operation;
@@ -8,12 +8,14 @@ use super::super::fault::Fault;
 use super::super::frame::Frame;
 use super::super::marks::Maker;
 use super::super::run::Run;
+use super::standing::upright;
 use super::{length, word};
-use crate::shape::{Form, Geometry};
+use crate::shape::{Form, Geometry, Scope};
 
 /// `extrude(height)`, `extrude(direction, height)`: faces to prisms along the normal, or `world.up`
-/// (also `world.y`), or another axis of the world or the scope. The scope holds the solid afterwards. A height of 0
-/// leaves the faces as they are.
+/// (also `world.y`), or another axis of the world or the scope. The scope holds the solid afterwards,
+/// with y along the direction and x as it was, as far as it can be; along its own axes (Veduta's own
+/// `x`, `y` and `z`) it stays as it is turned. A height of 0 leaves the faces as they are.
 pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), Fault> {
     let last = op.args.len() - 1;
     let height = length(run, op, last, frame.state.form.scope.size.y, frame)?;
@@ -40,7 +42,10 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     if height == 0.0 || form.geometry == Geometry::Nothing {
         return Ok(());
     }
-    let Some(prism) = extruded(form, along, height) else {
+    // Along an axis of its own the scope stays as it is turned.
+    let keeps = matches!(direction.as_deref(), Some("x" | "y" | "z"));
+    let turned = if keeps { axes } else { upright(form, along) };
+    let Some(prism) = extruded(form, along, height, turned) else {
         let message = "the faces lie along the direction in which they are to be extruded";
         return Err(Fault::at(op.span, message));
     };
@@ -52,20 +57,35 @@ pub fn extrude(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(
     Ok(())
 }
 
-fn extruded(form: &Form, along: DVec3, height: f64) -> Option<Form> {
+fn extruded(form: &Form, along: DVec3, height: f64, axes: DMat3) -> Option<Form> {
     let by = along * height;
     if let Geometry::Rectangle(axis) = form.geometry {
         if height > 0.0 && along.abs_diff_eq(form.scope.axes.col(axis), 1e-12) {
             let mut scope = form.scope;
             scope.size[axis] = height;
             return Some(Form {
-                scope,
+                scope: along_axes(&scope, axes),
                 geometry: Geometry::Box,
             });
         }
     }
     let prism = solid::extrude(&form.world_mesh(), by);
-    (!prism.is_empty()).then(|| Form::around(prism, form.scope.axes, true))
+    (!prism.is_empty()).then(|| Form::around(prism, axes, true))
+}
+
+/// The same box with its axes in another order or turned round.
+fn along_axes(scope: &Scope, axes: DMat3) -> Scope {
+    if axes == scope.axes {
+        return *scope;
+    }
+    let local = axes.transpose();
+    let corners = [scope.world(DVec3::ZERO), scope.world(DVec3::ONE)].map(|corner| local * corner);
+    let low = corners[0].min(corners[1]);
+    Scope {
+        origin: axes * low,
+        axes,
+        size: (corners[0] - corners[1]).abs(),
+    }
 }
 
 /// The direction of the faces: that of the sum of their area vectors.
