@@ -17,6 +17,7 @@ from veduta.plan.compose import Named, compose_storey
 from veduta.plan.document import PlanDocument, Scale, Sheet, Storey
 from veduta.plan.doubts import position_notes
 from veduta.plan.drawn import Drawn, DrawnRoom
+from veduta.plan.fittings.find import find_fittings, fitting_rooms
 from veduta.plan.load import LARGEST_M, size_of
 from veduta.plan.names.guess import RoomFacts
 from veduta.plan.names.name import name_rooms
@@ -138,6 +139,10 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
     metres_per_px = scale.metres_per_px
     drawn = replace(read.drawn, stairs=true_flights(read.drawn, metres_per_px))
     drawn, ways_in = with_ways_in(drawn, metres_per_px)
+    drawn = replace(drawn, fittings=find_fittings(drawn, metres_per_px))
+    named = _names(drawn, metres_per_px)
+    written = {room: one.use for room, one in named.items() if one.origin == "measured"}
+    drawn = replace(drawn, fittings=fitting_rooms(drawn.fittings, written))
     storey = compose_storey(
         drawn,
         scale,
@@ -146,7 +151,7 @@ def _storey(index: int, drawing: Drawing, read: _Read, options: PlanOptions) -> 
         page=drawing.page,
         elevation_m=index * options.house.storey_height,
         height_m=options.house.storey_height,
-        named=_names(drawn, metres_per_px),
+        named=named,
         notes=[
             *read.notes,
             *remarks(drawn, read.sheet_px, metres_per_px),
@@ -362,6 +367,7 @@ def _facts(
         outdoors=room.outdoors,
         stairs=stairs,
         way_out_m=max((out_m.get(name, 0.0) for name in room.openings), default=0.0),
+        fittings=frozenset(one.kind for one in drawn.fittings if one.room == room.id),
     )
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
@@ -9,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.plan.document import (
+    Fitting,
     Junction,
     Opening,
     Origin,
@@ -22,7 +24,7 @@ from veduta.plan.document import (
     Text,
     Wall,
 )
-from veduta.plan.drawn import Drawn, DrawnOpening, DrawnRoom
+from veduta.plan.drawn import Drawn, DrawnFitting, DrawnOpening, DrawnRoom
 
 STOREY_HEIGHT_M = 2.7
 DOOR_HEIGHT_M = 2.05
@@ -113,6 +115,7 @@ def compose_storey(
             )
             for one in drawn.stairs
         ],
+        fittings=[_fitting(one, frame) for one in drawn.fittings],
         texts=list(drawn.texts if texts is None else texts),
         notes=[*drawn.notes, *notes],
     )
@@ -135,6 +138,20 @@ class _Frame:
 
     def length(self, px: float) -> float:
         return round(px * self.metres_per_px, 5)
+
+
+def _fitting(one: DrawnFitting, frame: _Frame) -> Fitting:
+    # Its front, in the plan frame: y turns over.
+    x, y = -float(one.back[0]), float(one.back[1])
+    return Fitting(
+        id=one.id,
+        kind=one.kind,
+        room=one.room,
+        at_m=frame.point(one.middle_px),
+        turn_rad=round(math.atan2(x, -y), 5),
+        size_m=(frame.length(one.width_px), frame.length(one.depth_px)),
+        score=one.score,
+    )
 
 
 def _opening(one: DrawnOpening, frame: _Frame) -> Opening:

@@ -33,6 +33,9 @@ RoomUse = Literal[
     "wardrobe", "hall", "corridor", "stairs", "study", "sauna", "garage", "balcony", "terrace",
     "technical", "other", "unknown",
 ]  # fmt: skip
+FittingKind = Literal[
+    "toilet", "basin", "bathtub", "shower", "washer", "hob", "kitchen-sink", "bed"
+]
 Metres = Annotated[float, Field(ge=0.0, le=10_000.0)]
 Score = Annotated[float, Field(ge=0.0, le=1.0)]
 Point = tuple[float, float]
@@ -231,6 +234,19 @@ class Stairs(_Record):
     origin: Origin = "measured"
 
 
+class Fitting(_Record):
+    """A thing that the plan draws in a room, such as a bath: it is furnished where it is drawn."""
+
+    id: str
+    kind: FittingKind
+    room: str = Field(description="id of a room")
+    at_m: Point = Field(description="middle of its rectangle")
+    turn_rad: float = Field(description="of its front from -y of the plan, counter-clockwise")
+    size_m: tuple[Metres, Metres] = Field(description="width (along its back), depth")
+    score: Score
+    origin: Origin = "measured"
+
+
 class Furniture(_Record):
     """A thing that stands in a room, hangs on its wall, or stands on another thing."""
 
@@ -285,6 +301,7 @@ class Storey(_Record):
     openings: list[Opening]
     rooms: list[Room]
     stairs: list[Stairs] = []
+    fittings: list[Fitting] = Field(default=[], description="what is drawn in the rooms")
     furniture: list[Furniture] | None = Field(
         default=None, description="null: not furnished yet; [] is left empty"
     )

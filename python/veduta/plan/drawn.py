@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from shapely.geometry import Polygon
 
 from veduta.plan.document import (
+    FittingKind,
     JunctionType,
     OpeningType,
     Origin,
@@ -130,6 +131,23 @@ class DrawnStairs:
 
 
 @dataclass(frozen=True)
+class DrawnFitting:
+    """A bath, a toilet, a bed: `middle_px` (2,) of its rectangle, `back` (2,) the way to its back.
+
+    `width_px` is along its back, `depth_px` from back to front.
+    """
+
+    id: str
+    kind: FittingKind
+    room: str
+    middle_px: NDArray[np.float64]
+    back: NDArray[np.float64]
+    width_px: float
+    depth_px: float
+    score: float
+
+
+@dataclass(frozen=True)
 class Drawn:
     """All that was found on one sheet, in pixels of `cleaned.pixels`."""
 
@@ -141,6 +159,7 @@ class Drawn:
     stairs: tuple[DrawnStairs, ...] = ()
     texts: tuple[Text, ...] = ()
     notes: tuple[str, ...] = field(default=())
+    fittings: tuple[DrawnFitting, ...] = ()
 
     @property
     def size_px(self) -> tuple[int, int]:

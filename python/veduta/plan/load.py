@@ -128,10 +128,15 @@ def size_of(storey: Storey) -> float:
     return float(np.ptp(points, axis=0).max()) if points else 0.0
 
 
+_WITH_IDS = (
+    "junctions", "walls", "openings", "rooms", "stairs", "fittings", "furniture", "lights",
+)  # fmt: skip
+
+
 def _id_faults(storey: Storey, place: str) -> list[str]:
     """Ids that are there twice, and ids of nothing."""
     found = []
-    for kind in ("junctions", "walls", "openings", "rooms", "stairs", "furniture", "lights"):
+    for kind in _WITH_IDS:
         items = getattr(storey, kind) or ()
         if len(items) > MAX_PARTS:
             return [f"{place}.{kind}: {len(items)}, more than {MAX_PARTS}"]
@@ -149,6 +154,8 @@ def _id_faults(storey: Storey, place: str) -> list[str]:
         found += _unknown([(f"{at}.room", light.room)], rooms)
         if not 0.0 < light.above_m < storey.height_m:
             found.append(f"{at}.above_m: {light.above_m:g} m is not between floor and ceiling")
+    for index, one in enumerate(storey.fittings):
+        found += _unknown([(f"{place}.fittings[{index}].room", one.room)], rooms)
     for index, wall in enumerate(storey.walls):
         at = f"{place}.walls[{index}]"
         found += _unknown([(f"{at}.start", wall.start), (f"{at}.end", wall.end)], junctions)

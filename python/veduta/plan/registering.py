@@ -66,6 +66,7 @@ def moved(storey: Storey, by_m: Point) -> Storey:
             )
             for one in storey.stairs
         ],
+        "fittings": [one.model_copy(update={"at_m": at(one.at_m)}) for one in storey.fittings],
     }
     return storey.model_copy(update=changes)
 

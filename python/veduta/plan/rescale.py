@@ -78,6 +78,12 @@ def scaled(storey: Storey, factor: float) -> Storey:
         ],
         "rooms": [_room(one, factor) for one in storey.rooms],
         "stairs": [_stairs(one, factor) for one in storey.stairs],
+        "fittings": [
+            one.model_copy(
+                update={"at_m": _at(one.at_m, factor), "size_m": _at(one.size_m, factor)}
+            )
+            for one in storey.fittings
+        ],
         "furniture": None,
         "lights": None,
     }

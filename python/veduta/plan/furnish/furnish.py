@@ -8,8 +8,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from veduta.plan.document import Furniture, PlanDocument, Room, RoomUse, Stairs
+from veduta.plan.document import Fitting, Furniture, PlanDocument, Room, RoomUse, Stairs
 from veduta.plan.furnish.arrangement import Spot, Variant, alone
+from veduta.plan.furnish.as_drawn import place_drawn, without_drawn
 from veduta.plan.furnish.catalogue.entry import Wanted
 from veduta.plan.furnish.catalogue.read import Catalogue
 from veduta.plan.furnish.choice import Choice
@@ -45,6 +46,8 @@ INSTEAD: dict[str, str] = {"shower": "bathtub", "fridge": "fridge-small"}
 """Not wanted where the other stands already."""
 AS: dict[RoomUse, RoomUse] = {"other": "storage"}
 RESTARTS = 3
+DRAWN_GROUP = 1000
+"""Groups of what is drawn begin here: what a room wants has lower numbers."""
 MOST_THINGS = 60
 """In a room."""
 
@@ -78,7 +81,8 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
         if storey.furniture is None:
             height = storey.height_m - slab_m
             done = [
-                furnish_room(one, choice, storey.name) for one in room_spaces(space, height, below)
+                furnish_room(one, choice, storey.name, storey.fittings)
+                for one in room_spaces(space, height, below)
             ]
             rooms += done
             storeys[index] = storey.model_copy(update={"furniture": records(done)})
@@ -86,14 +90,23 @@ def furnish(document: PlanDocument, catalogue: Catalogue, seed: int, slab_m: flo
     return document.model_copy(update={"storeys": storeys}), rooms
 
 
-def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom:
-    """A room by its use; where something critical finds no place, what came before it gives way."""
+def furnish_room(
+    space: RoomSpace, choice: Choice, storey: str, fittings: Sequence[Fitting] = ()
+) -> FurnishedRoom:
+    """A room by its use; where something critical finds no place, what came before it gives way.
+
+    What the plan draws in it stands first, and gives way to nothing.
+    """
     if is_too_large(space.floor):
         return FurnishedRoom(space.room, (), (), ("is left empty: it is too large",))
     name = zlib.crc32(f"{storey} {space.room.id}".encode())
     seeds = [choice.seed, name]
     wishes = list(_wishes(space, choice, np.random.default_rng(seeds)))
     ways = Ways(space.floor, space.doors)
+    begun = Layout(space, ways)
+    own = [one for one in fittings if one.room == space.room.id]
+    elsewhere = place_drawn(own, begun, choice, DRAWN_GROUP)
+    wishes = without_drawn(wishes, begun.stood)
     tried: list[tuple[Layout, list[str], int]] = []
     given_up: list[str] = []
     critical = {wish.type for wish in wishes if wish.critical}
@@ -102,7 +115,7 @@ def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom
         return sum(kind in critical for kind in one[1]), len(one[1])
 
     for _ in range(RESTARTS):
-        layout = Layout(space, ways)
+        layout = begun.copy()
         missing, left, failed = _place_all(wishes, layout, choice, np.random.default_rng(seeds))
         tried.append((layout, [*_not_replaced(given_up, layout), *missing], left))
         if not failed:
@@ -113,7 +126,10 @@ def furnish_room(space: RoomSpace, choice: Choice, storey: str) -> FurnishedRoom
     best, missing, left = min(reversed(tried), key=lack)
     place_upon(best, choice, np.random.default_rng([*seeds, 1]))
     full = f"has {MOST_THINGS} things, which are the most; {left} wishes were not looked at"
-    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing), (full,) if left else ())
+    notes = [f"has its {kind} elsewhere than drawn: it would be in the way" for kind in elsewhere]
+    if left:
+        notes.append(full)
+    return FurnishedRoom(space.room, tuple(best.stood), tuple(missing), tuple(notes))
 
 
 def _not_replaced(given_up: Sequence[str], layout: Layout) -> list[str]:
@@ -232,6 +248,7 @@ def records(rooms: Sequence[FurnishedRoom]) -> list[Furniture]:
                     size_m=one.size_m,
                     above_m=one.above_m,
                     on=None if one.on is None else ids[id(one.on)],
+                    origin="measured" if one.drawn else "invented",
                 )
             )
     return found

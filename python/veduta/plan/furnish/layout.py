@@ -31,6 +31,7 @@ class Stood:
     """A thing in its place: `at` is the middle of its base, `turn` that of `Furniture`.
 
     on: what it stands on. group: things of one group may stand in each other's free space.
+    drawn: whether the plan has it there.
     """
 
     entry: Entry
@@ -40,6 +41,7 @@ class Stood:
     above_m: float = 0.0
     on: Stood | None = None
     group: int = 0
+    drawn: bool = False
 
     @cached_property
     def shape(self) -> Polygon:

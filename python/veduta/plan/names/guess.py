@@ -2,7 +2,7 @@
 
 Bayes' rule with independent facts. The table is what rooms of houses and flats usually measure; it
 was written for this project from building codes and experience, not fitted to any data set, so the
-probabilities are no more than an order. Fixtures will say more, where they are found.
+probabilities are no more than an order. Fittings that are drawn in a room say more than all of it.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from veduta.plan.document import RoomUse
+from veduta.plan.document import FittingKind, RoomUse
 
 
 @dataclass(frozen=True)
@@ -21,6 +21,7 @@ class RoomFacts:
     `elongation` is long side over short side; `doors` and `windows` are counts; `outdoors` whether
     it lies outside the walls; `stairs` whether stairs are drawn in it. `way_out_m`
     is how wide its widest way out of the house is, 0 where it has none, None where nobody knows.
+    `fittings` are the kinds of what is drawn in it.
     """
 
     area_m2: float
@@ -30,6 +31,7 @@ class RoomFacts:
     outdoors: bool = False
     stairs: bool = False
     way_out_m: float | None = None
+    fittings: frozenset[FittingKind] = frozenset()
 
 
 @dataclass(frozen=True)
@@ -61,6 +63,7 @@ _USUAL: dict[RoomUse, _Usual] = {
     "garage": _Usual(0.2, 26.0, 0.35, 1.5, 0.3),
     "technical": _Usual(0.1, 3.5, 0.50, 1.0, 0.1),
 }
+_TOILET_M2, _OPEN_KITCHEN_M2 = 2.6, 26.0
 _STAIRWELL_M2 = 16.0  # with stairs that turn, and the way to them
 _WITH_STAIRS: tuple[RoomUse, ...] = ("living", "hall", "corridor", "dining")  # ways through
 _DEAD_ENDS: tuple[RoomUse, ...] = ("bathroom", "toilet", "storage", "wardrobe", "technical")
@@ -128,6 +131,9 @@ def _likeliest(
     if room.outdoors:
         # A balcony is narrow and small; nothing else is said by its shape.
         return (0.6, "balcony") if room.area_m2 < 12.0 else (0.6, "terrace")
+    told = _by_fittings(room)
+    if told is not None:
+        return told
     if room.stairs and room.area_m2 < _STAIRWELL_M2:
         return (0.7, "stairs")
     possible = _WITH_STAIRS if room.stairs else tuple(_USUAL)
@@ -137,6 +143,18 @@ def _likeliest(
     total = sum(weights.values())
     best = max(weights, key=lambda use: weights[use])
     return (weights[best] / total, best) if total > 0 else (0.0, "unknown")
+
+
+def _by_fittings(room: RoomFacts) -> tuple[float, RoomUse] | None:
+    """What is drawn in a room says what it is for; a basin or a machine may stand anywhere."""
+    drawn = room.fittings
+    if "bathtub" in drawn or "shower" in drawn:
+        return (0.9, "bathroom")
+    if "toilet" in drawn:
+        return (0.85, "toilet" if room.area_m2 < _TOILET_M2 else "bathroom")
+    if "hob" in drawn:
+        return (0.9, "kitchen" if room.area_m2 < _OPEN_KITCHEN_M2 else "living")
+    return (0.85, "bedroom") if "bed" in drawn else None
 
 
 def _log_weight(

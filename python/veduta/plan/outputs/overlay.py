@@ -11,7 +11,7 @@ from PIL import Image, ImageDraw
 from shapely.geometry import Polygon, box
 
 from veduta.imaging.lettering import text_width, write
-from veduta.plan.document import Sheet, Storey
+from veduta.plan.document import Fitting, Sheet, Storey
 from veduta.plan.drawing import Drawing, Layer, Shape
 from veduta.plan.outputs.colours import LAYER_COLOURS, USE_COLOURS, Rgb, rgb
 
@@ -25,6 +25,7 @@ _OPACITY: dict[Layer, float] = {"rooms": 0.42, "walls": 0.55}
 _INK: Rgb = (31, 42, 55)
 _FAINT: Rgb = (104, 112, 122)
 _PAPER: Rgb = (250, 249, 246)
+_FITTING: Rgb = (176, 48, 128)
 _SHIFT = 4
 """OpenCV draws at 1/16 px."""
 _DOUBTFUL = 0.5
@@ -62,6 +63,9 @@ def _storey(drawing: Drawing, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     picture = faded.astype(np.uint8)
     for shape in drawing.shapes:
         _draw(picture, shape, sheet, scale)
+    for one in drawing.storey.fittings:
+        ring = _at(sheet, _around(one), scale)
+        cv2.polylines(picture, [ring], True, _FITTING, 2, cv2.LINE_AA, _SHIFT)
     canvas = Image.new("RGB", (picture.shape[1] + PANEL_PX, max(picture.shape[0], 520)), _PAPER)
     canvas.paste(Image.fromarray(picture), (0, 0))
     pen = ImageDraw.Draw(canvas)
@@ -69,6 +73,15 @@ def _storey(drawing: Drawing, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
     _opening_ids(pen, drawing, scale)
     _legend(pen, drawing.storey, picture.shape[1] + 24)
     return np.asarray(canvas, dtype=np.uint8)
+
+
+def _around(one: Fitting) -> NDArray[np.float64]:
+    """The corners of a fitting, (4, 2), plan frame."""
+    cos, sin = np.cos(one.turn_rad), np.sin(one.turn_rad)
+    signs = np.array([[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]])
+    corners = 0.5 * signs * np.array(one.size_m)
+    turned: NDArray[np.float64] = corners @ np.array([[cos, sin], [-sin, cos]]) + np.array(one.at_m)
+    return turned
 
 
 def _draw(picture: NDArray[np.uint8], shape: Shape, sheet: Sheet, scale: float) -> None:
