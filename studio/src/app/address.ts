@@ -37,7 +37,9 @@ export class Address {
       animals: place.animals.map(({ clips }) => clips.length),
     });
     if (view === null) return false;
-    this.#store.update({ ...view.state, selected: this.#rowOf(view) });
+    // A link that says nothing of an animal follows none.
+    const animal = { ...this.#store.value.animal, following: false };
+    this.#store.update({ animal, ...view.state, selected: this.#rowOf(view) });
     if (view.look !== null && view.state.shot === null) viewer.lookFrom(view.look);
     this.#isStep = false;
     return true;

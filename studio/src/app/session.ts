@@ -1,5 +1,7 @@
 /** Opens the place that the page's address asks for. */
 import type { FeatureTable } from "../core/features.ts";
+import { STANDING } from "../core/animal.ts";
+import { beginsWithAnimal } from "../core/animal-view.ts";
 import { budgetOf } from "../core/budget.ts";
 import { type SunPath, sunPathOf } from "../core/daylight.ts";
 import { Fault } from "../core/fault.ts";
@@ -115,6 +117,7 @@ export async function openPlace(
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
+  store.update({ animal: { ...STANDING, following: beginsWithAnimal(place) } });
   store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPath.firstHour });
   const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, () => viewer?.invalidate(), onFault);
   if (morphs !== null) store.update({ morph: strollFrom(0) });

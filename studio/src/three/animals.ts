@@ -169,6 +169,11 @@ export class Animals {
     return this.#living.map(({ animal, place, course }) => ({ id: animal.id, place, pace: course.pace }));
   }
 
+  /** The first one; null while its model is on its way. */
+  get first(): Goer | null {
+    return this.#all[0]?.goer ?? null;
+  }
+
   placeOf(which: number): Vec3 | null {
     return this.#all[which]?.place ?? null;
   }

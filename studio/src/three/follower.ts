@@ -8,6 +8,9 @@ import type { OrbitRig } from "./orbit-rig.ts";
 /** From how many body lengths an animal is followed. */
 const FOLLOW_LENGTHS = 4;
 
+/** Who looks at it from within so many already stays as far away. */
+const NEAR_LENGTHS = 25;
+
 export class Follower {
   readonly #orbit: OrbitRig;
   readonly #animals: Animals;
@@ -24,7 +27,10 @@ export class Follower {
     const before = this.#before;
     this.#before = at === null ? null : new Vector3(...drawnFromWorld(at));
     if (this.#before === null) return;
+    const length_m = this.#animals.lengthOf(animal.which);
+    const isBeside = this.#orbit.target.distanceTo(this.#before) < length_m && this.#orbit.arm_m < NEAR_LENGTHS * length_m;
+    if (before === null && isBeside) return;
     this.#orbit.shift(this.#before.clone().sub(before ?? this.#orbit.target));
-    if (before === null) this.#orbit.approach(FOLLOW_LENGTHS * this.#animals.lengthOf(animal.which));
+    if (before === null) this.#orbit.approach(FOLLOW_LENGTHS * length_m);
   }
 }

@@ -2,7 +2,7 @@
 import { MathUtils, type PerspectiveCamera, Spherical, Vector3 } from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
-import { type Box, framePoints, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
+import { type Box, boxOfPoints, framePoints, homeDirection, type Insets, shiftOf } from "../core/framing.ts";
 import type { Mode } from "../core/state.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Pose, setPose } from "./flight.ts";
@@ -21,6 +21,7 @@ export class OrbitRig {
   readonly #corners: readonly Vec3[];
   readonly #direction: Vec3;
   readonly #size: number;
+  readonly #stage: Pick<Stage, "firstLook">;
 
   /**
    * `corners` are those of what is to be `seen`, and that the box around them; `outlook` is where the
@@ -29,9 +30,11 @@ export class OrbitRig {
   constructor(
     camera: PerspectiveCamera,
     canvas: HTMLElement,
-    { corners, seen, outlook }: Pick<Stage, "corners" | "seen" | "outlook">,
+    stage: Pick<Stage, "corners" | "seen" | "outlook" | "firstLook">,
     onChange: () => void,
   ) {
+    const { corners, seen, outlook } = stage;
+    this.#stage = stage;
     this.#camera = camera;
     this.#bounds = seen;
     this.#corners = corners;
@@ -40,8 +43,10 @@ export class OrbitRig {
     this.#controls.enableDamping = true;
     this.#controls.dampingFactor = 0.09;
     this.#controls.zoomToCursor = true;
-    this.#size = length(subtract(seen.max, seen.min));
-    this.#controls.minDistance = Math.min(1, 0.1 * this.#size);
+    this.#size = sizeOf(seen);
+    const look = stage.firstLook;
+    const least = look === null ? Infinity : 0.5 * sizeOf(boxOfPoints(look.corners));
+    this.#controls.minDistance = Math.min(1, 0.1 * this.#size, least);
     this.#controls.maxDistance = 12 * this.#size;
     this.#controls.maxPolarAngle = 0.495 * Math.PI;
     this.#controls.addEventListener("change", onChange);
@@ -55,10 +60,11 @@ export class OrbitRig {
     this.#controls.enabled = enabled;
   }
 
-  /** The pose that shows the whole place in the free part of the picture. */
+  /** The pose that shows the whole place, or its animal, in the free part of the picture. */
   home(aspect: number, insets: Insets): { pose: Pose; target: Vector3 } {
     const fov_rad = MathUtils.degToRad(ORBIT_FOV_DEG);
-    const view = framePoints(this.#corners, this.#direction, fov_rad, aspect, insets);
+    const { corners, direction } = this.#stage.firstLook ?? { corners: this.#corners, direction: this.#direction };
+    const view = framePoints(corners, direction, fov_rad, aspect, insets);
     const target = new Vector3(...drawnFromWorld(view.target));
     const camera = this.#camera.clone();
     camera.position.set(...drawnFromWorld(view.eye));
@@ -93,6 +99,11 @@ export class OrbitRig {
   shift(by: Vector3): void {
     this.#camera.position.add(by);
     this.#controls.target.add(by);
+  }
+
+  /** How far the camera is from what it looks at (m). */
+  get arm_m(): number {
+    return this.#camera.position.distanceTo(this.target);
   }
 
   /** Comes as near to what it looks at as this (m), if it is farther away. */
@@ -143,4 +154,8 @@ export class OrbitRig {
   dispose(): void {
     this.#controls.dispose();
   }
+}
+
+function sizeOf({ min, max }: Box): number {
+  return length(subtract(max, min));
 }

@@ -2,6 +2,7 @@
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
 import type { Budget } from "../core/budget.ts";
 import { daylightAt, type SunPath, sunPathOf } from "../core/daylight.ts";
+import { beginsWithAnimal, type FirstLook, firstStand, lookAtAnimal } from "../core/animal-view.ts";
 import { drawnFaces, drawnFromWorld, worldPoint } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
@@ -63,6 +64,7 @@ export class Stage {
   readonly animals: Animals;
   /** The photos that lie on the place; null where it has none. */
   readonly photos: PhotoShow | null;
+  readonly #place: Place;
   readonly #content: ViewerContent;
   /** What photos can lie on. */
   readonly #surfaces = new Scene();
@@ -76,6 +78,7 @@ export class Stage {
   /** `onChange` is called when something has arrived that is to be drawn. */
   constructor(place: Place, content: ViewerContent, onChange: () => void) {
     const { parts, town, clouds, frusta, textures, houses } = content;
+    this.#place = place;
     this.#content = content;
     this.#town = town;
     this.#backdrop = new Backdrop(parts);
@@ -114,6 +117,16 @@ export class Stage {
     const shown = parts.filter(({ group }) => group.visible);
     if (this.#town?.group.visible === true || shown.some(({ part }) => part.layer !== "walls" && !part.isBackdrop)) return "model";
     return shown.length > 0 ? "walls" : "nothing";
+  }
+
+  /** What the first picture shows instead of all, where an animal would be but a dot in it; null elsewhere. */
+  get firstLook(): FirstLook | null {
+    const stand = beginsWithAnimal(this.#place) ? firstStand(this.#place) : null;
+    if (stand === null) return null;
+    const now = this.animals.first;
+    const at = now === null ? stand : { ...stand, at: now.place, ahead: now.ahead };
+    const sight = (from: Vec3, along: Vec3): number => this.solid.firstHit(from, along, () => true)?.distance_m ?? Infinity;
+    return lookAtAnimal(at, this.#place.start, sight);
   }
 
   /** Who walks here. */
