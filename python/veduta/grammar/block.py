@@ -14,7 +14,7 @@ import numpy as np
 from veduta import _core
 from veduta.formats.cityjson_text import CLASSES, KINDS, feature_line, forms_of
 from veduta.formats.tiles import Tile
-from veduta.grammar.building import NothingBuiltError, build_part
+from veduta.grammar.building import Building, NothingBuiltError, build
 from veduta.grammar.deriving import Deriver, attributes_of, deriver, rings_of
 from veduta.grammar.failures import Failures
 from veduta.grammar.levels import FULL, PANELS, PLAIN, VOLUME
@@ -277,13 +277,14 @@ def _models(
         for one, row in zip(built, rows, strict=True):
             columns = lots.columns(row)
             try:
-                part = build_part(columns, one.lot.id, by.library.assets_of(columns), textures)
+                building = build(columns, one.lot.id, by.library.assets_of(columns), textures)
             except NothingBuiltError as fault:
                 _fail(job, one.lot, str(fault), result)
                 continue
             with writing_to(job.out):
-                Place().add(part, file=ModelFile(f"{one.lot.id}.glb")).save(job.work)
-            result.rows.append(_summary(one.lot, part, job.block.name))
+                model = ModelFile(f"{one.lot.id}.glb")
+                Place().add(building.part, file=model).save(job.work)
+            result.rows.append(_summary(one.lot, building, job.block.name))
             made.append(one)
     return made
 
@@ -302,7 +303,8 @@ def _bounds_row(one: Built) -> dict[str, Any]:
     return {"anchor_m": list(one.lot.anchor_m), "bounds": [list(one.low), list(one.high)]}
 
 
-def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:
+def _summary(lot: Lot, building: Building, folder: str) -> dict[str, Any]:
+    part = building.part
     low, high = part.bounds_m
     classes = part.features.class_code
     return {
@@ -317,7 +319,8 @@ def _summary(lot: Lot, part: Part, folder: str) -> dict[str, Any]:
             part.features.semantic(row).value: int((classes == classes[row]).sum())
             for row in sorted({int((classes == code).argmax()) for code in set(classes.tolist())})
         },
-        "notes": list(part.notes),
+        "notes": list(building.said),
+        "left_out": {one.rule: one.count for one in building.left_out},
     }
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import PurePath
 from types import MappingProxyType
 
@@ -20,7 +21,7 @@ from veduta import _core
 from veduta.grammar.assets.asset import Asset
 from veduta.grammar.dissolving import dissolved
 from veduta.grammar.instancing import instances_of
-from veduta.grammar.left_out import left_out_notes
+from veduta.grammar.left_out import LeftOut, left_out_by_rule
 from veduta.place.material import Material, Texture
 from veduta.place.part import NO_PARENT, PLANE_TOLERANCE_M, Features, Part
 from veduta.place.semantics import Provenance, SemanticClass
@@ -40,12 +41,34 @@ class NothingBuiltError(ValueError):
     """The rules left no surface on the lot."""
 
 
+@dataclass(frozen=True)
+class Building:
+    """A part, and what it does not show of what the rules made.
+
+    said: notes without those on `left_out`. The notes of the part are both.
+    """
+
+    part: Part
+    said: tuple[str, ...]
+    left_out: tuple[LeftOut, ...]
+
+
 def build_part(
     derived: _core.DerivedLot,
     part_id: str,
     assets: Mapping[str, Asset] = MappingProxyType({}),
     textures: Mapping[str, Texture] = MappingProxyType({}),
 ) -> Part:
+    """The part of `build`; NothingBuiltError where there is no surface."""
+    return build(derived, part_id, assets, textures).part
+
+
+def build(
+    derived: _core.DerivedLot,
+    part_id: str,
+    assets: Mapping[str, Asset] = MappingProxyType({}),
+    textures: Mapping[str, Texture] = MappingProxyType({}),
+) -> Building:
     """The part, about the lot's anchor; NothingBuiltError where there is no surface.
 
     `assets` are those that stand in the lot, by name; `textures` by the names that the rules have
@@ -56,13 +79,18 @@ def build_part(
     has_assets = len(derived.instance_feature) > 0
     if not every.any() and not has_assets:
         raise NothingBuiltError("the rules leave nothing on it")
-    part = _joined(_part(derived, part_id, every, assets, textures), derived)
+    said = _said(derived, textures)
+    whole = _part(derived, part_id, every, assets, textures, said)
+    part = _joined(whole, derived)
     if _has_triangles(part):
-        return part
-    kept = _sound(part)
+        return Building(part, said, ())
+    kept = _sound(whole)
     if not kept.any() and not has_assets:
         raise NothingBuiltError("the rules leave no surface on it")
-    return _part(derived, part_id, kept, assets, textures)
+    dropped = derived.polygon_feature[~kept]
+    left_out = left_out_by_rule(derived.feature_name[row] for row in dropped.tolist())
+    notes = (*said, *(one.told() for one in left_out))
+    return Building(_part(derived, part_id, kept, assets, textures, notes), said, left_out)
 
 
 def _part(
@@ -71,6 +99,7 @@ def _part(
     kept: NDArray[np.bool_],
     assets: Mapping[str, Asset],
     textures: Mapping[str, Texture],
+    notes: tuple[str, ...],
 ) -> Part:
     """The part of the (p,) polygons that are kept, and of all instances."""
     vertices, rings, polygons = _select(derived.ring_offsets, derived.polygon_offsets, kept)
@@ -90,8 +119,8 @@ def _part(
         polygon_material=material_of_look[derived.polygon_look[kept]],
         features=_features(derived, used, part_id),
         materials=tuple(number_of),
+        notes=notes,
         instances=instances,
-        notes=_notes(derived, derived.polygon_feature[~kept], textures),
     )
 
 
@@ -192,14 +221,9 @@ def _materials(
     return number_of, np.array(rows, dtype=np.int32)
 
 
-def _notes(
-    derived: _core.DerivedLot, dropped: NDArray[np.int32], textures: Mapping[str, Texture]
-) -> tuple[str, ...]:
-    """What the building does not show, and what the rules said; dropped: the features of surfaces
-    that are left out.
-    """
+def _said(derived: _core.DerivedLot, textures: Mapping[str, Texture]) -> tuple[str, ...]:
+    """What the rules said, and what of it is shown otherwise."""
     notes = list(dict.fromkeys(derived.messages))[:20]
-    notes += left_out_notes(derived.feature_name[row] for row in dropped.tolist())
     unknown = sorted({name for name in derived.feature_class if name and name not in _KNOWN})
     if unknown:
         notes.append(f"material.name is no class that is known, so `other`: {', '.join(unknown)}")

@@ -5,45 +5,49 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import PurePath
 
 _WHY = "too thin, or their lines cross"
-_NOTE = re.compile(rf"(\d+) surfaces of (\S+) were left out: {_WHY}")
 MOST_TOLD = 10
 
 
-def left_out_notes(rules: Iterable[str]) -> list[str]:
-    """For one building, by the rule of each surface that is left out."""
+@dataclass(frozen=True)
+class LeftOut:
+    """Surfaces of one rule that are left out of a building, or of all buildings."""
+
+    rule: str
+    count: int
+
+    def told(self, place: str = "") -> str:
+        """For people. place: where the rule is defined, such as ` (shop.cga:5)`."""
+        return f"{self.count} surfaces of {self.rule}{place} were left out: {_WHY}"
+
+
+def left_out_by_rule(rules: Iterable[str]) -> tuple[LeftOut, ...]:
+    """For one building, by the rule of each surface that is left out, most first."""
     counts = Counter(rules)
-    return [
-        f"{count} surfaces of {rule} were left out: {_WHY}"
-        for rule, count in sorted(counts.items(), key=lambda item: (-item[1], item[0]))
-    ]
-
-
-def is_left_out(note: str) -> bool:
-    """Whether a note is one of `left_out_notes`."""
-    return _NOTE.fullmatch(note) is not None
+    ordered = sorted(counts.items(), key=lambda item: (-item[1], item[0]))
+    return tuple(LeftOut(rule, count) for rule, count in ordered)
 
 
 def told_of_all(
-    notes: Iterable[Iterable[str]], dropped: int, files: Sequence[tuple[str, str]]
+    buildings: Iterable[Mapping[str, int]], dropped: int, files: Sequence[tuple[str, str]]
 ) -> list[str]:
     """For the terminal: each rule with the line that defines it, of all buildings together.
 
-    notes: of each building that has a file of its own. dropped: surfaces of all buildings; where
-    they have no files nothing says which rules made them. files: names and texts of the rules.
+    buildings: of each that has a file of its own, how many surfaces of a rule are left out.
+    dropped: surfaces of all buildings; where they have no files nothing says which rules made them.
+    files: names and texts of the rules.
     """
     counts: Counter[str] = Counter()
-    for of_lot in notes:
-        for note in of_lot:
-            if (found := _NOTE.fullmatch(note)) is not None:
-                counts[found[2]] += int(found[1])
+    for of_lot in buildings:
+        counts.update(of_lot)
     if not counts:
         return [f"{dropped} surfaces were left out: {_WHY}"] if dropped else []
     places = _places(files)
     return [
-        f"{count} surfaces of {rule}{places.get(rule, '')} were left out: {_WHY}"
+        LeftOut(rule, count).told(places.get(rule, ""))
         for rule, count in counts.most_common(MOST_TOLD)
     ]
 

@@ -49,7 +49,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "10"
+VERSION = "11"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
@@ -328,7 +328,8 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
         for step in summary["steps"]:
             _add_step(result.steps, StepRecord(**step))
     whole = result.built
-    result.notes += told_of_all((row["notes"] for row in whole.rows), whole.dropped, call.files)
+    lost = (row["left_out"] for row in whole.rows)
+    result.notes += told_of_all(lost, whole.dropped, call.files)
     names = {square.name for square in call.squares.every}
     files = [path for path in folder.record.files if path.startswith("parts/")]
     folders = {"/".join(path.split("/")[:2]) for path in files}

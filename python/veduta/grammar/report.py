@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from typing import Any
 
 from veduta.grammar.failures import Failures
-from veduta.grammar.left_out import is_left_out
+from veduta.grammar.left_out import LeftOut
 from veduta.grammar.options import GrammarOptions
 from veduta.grammar.reported import FILE, Sum, as_json, joined
 from veduta.grammar.same_faults import told_once
@@ -116,17 +116,15 @@ def summary_line(found: Mapping[str, Any]) -> str:
 
 
 def _result(lot: Mapping[str, Any]) -> dict[str, Any]:
-    return {name: lot[name] for name in ("name", "model", "polygons", "triangles", "notes")}
+    told = {name: lot[name] for name in ("name", "model", "polygons", "triangles")}
+    lost = [LeftOut(rule, count).told() for rule, count in lot["left_out"].items()]
+    return {**told, "notes": [*lot["notes"], *lost], "left_out": lot["left_out"]}
 
 
 def _notes(whole: Whole) -> list[str]:
-    """What several buildings say is said once."""
+    """What several buildings say is said once; of surfaces left out `told_of_all` says it."""
     said = whole.notes + Counter(note for lot in whole.rows for note in set(lot["notes"]))
-    told = [
-        f"{note} ({count} lots)" if count > 1 else note
-        for note, count in said.items()
-        if not is_left_out(note)  # of all lots together, with lines, it is told for itself
-    ]
+    told = [f"{note} ({count} lots)" if count > 1 else note for note, count in said.items()]
     return told[:50]
 
 

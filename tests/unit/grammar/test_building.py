@@ -7,7 +7,7 @@ import pytest
 from closed_shells import assert_closed, shells
 
 from veduta import _core
-from veduta.grammar.building import NothingBuiltError, build_part
+from veduta.grammar.building import NothingBuiltError, build, build_part
 from veduta.place.part import Part
 from veduta.place.semantics import Provenance, SemanticClass
 
@@ -74,9 +74,20 @@ def test_nothing_left_is_a_failure() -> None:
 def test_slivers_are_left_out_and_told() -> None:
     sliver = "[ t(5, 0, 0) s(0.0000001, 0, 5) Rest ]"
     text = f'Lot --> {sliver} Rest\nRest --> set(material.name, "ground")'
-    part = build_part(derived(text), "lot")
-    assert areas(part) == pytest.approx({"ground": 60.0})
-    assert any("1 surfaces of " in note and "left out" in note for note in part.notes)
+    building = build(derived(text), "lot")
+    assert areas(building.part) == pytest.approx({"ground": 60.0})
+    (lost,) = building.left_out
+    assert (lost.rule, lost.count) == ("Rest", 1)
+    assert building.said == ()
+    assert building.part.notes == (lost.told(),)
+    assert build_part(derived(text), "lot").notes == building.part.notes
+
+
+def test_what_rules_print_is_never_taken_for_what_is_left_out() -> None:
+    said = "3 surfaces of Rest were left out: too thin, or their lines cross"
+    building = build(derived(f'Lot --> print("{said}") set(material.name, "ground")'), "lot")
+    assert building.left_out == ()
+    assert any(said in note for note in building.said)
 
 
 NAMED = """
