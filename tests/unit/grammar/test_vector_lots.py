@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
 from pathlib import Path
 
 import numpy as np
@@ -119,14 +122,36 @@ def test_files_that_are_cut_are_refused_by_name(tmp_path: Path, name: str, conte
 @pytest.mark.parametrize("suffix", [".kml", ".osm", ".geojsonl"])
 def test_nothing_is_read_that_a_file_names(tmp_path: Path, suffix: str) -> None:
     """GDAL tells formats by their content, and a VRT reads whatever other file it names."""
-    secret = written(tmp_path / "secret.fgb")
-    path = tmp_path / f"lots{suffix}"
+    path = naming_another(tmp_path / f"lots{suffix}")
+    with pytest.raises(InputError, match=f"lots{suffix}"):
+        read_lots(path)
+
+
+def naming_another(path: Path) -> Path:
+    """A VRT under another name."""
+    secret = written(path.with_name("secret.fgb"))
     path.write_text(
         f'<OGRVRTDataSource><OGRVRTLayer name="secret"><SrcDataSource>{secret}</SrcDataSource>'
         "</OGRVRTLayer></OGRVRTDataSource>"
     )
-    with pytest.raises(InputError, match=f"lots{suffix}"):
-        read_lots(path)
+    return path
+
+
+def test_nor_where_gdal_was_loaded_before_veduta(tmp_path: Path) -> None:
+    """GDAL settles its formats when it is loaded, here by the caller; another process reads."""
+    path = naming_another(tmp_path / "lots.kml")
+    script = (
+        "import pathlib, sys, pyogrio; path = pathlib.Path(sys.argv[1]);"
+        "print(len(pyogrio.list_layers(path)));"
+        "from veduta.grammar.lots import read_lots; read_lots(path)"
+    )
+    clean = {name: value for name, value in os.environ.items() if name != "GDAL_SKIP"}
+    done = subprocess.run(
+        [sys.executable, "-c", script, str(path)], env=clean, capture_output=True, text=True
+    )
+    assert done.stdout == "1\n"  # GDAL by itself reads it
+    assert "InputError" in done.stderr
+    assert "lots.kml" in done.stderr
 
 
 def test_a_file_of_points_has_no_lots(tmp_path: Path) -> None:
