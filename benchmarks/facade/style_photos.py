@@ -2,7 +2,8 @@
 
     python benchmarks/facade/style_photos.py [ecp | cmp] [--images 20] [--rows FILE]
 
-ECP val is Haussmann, by what the set is; its pictures were never trained or tuned on. CMP, of which
+ECP val is Haussmann, by what the set is; its pictures were not trained on. (What the
+front without a style counts was set by looking at one picture of ECP's other part.) CMP, of which
 pictures are taken that the eyes were not trained on, has fronts of many kinds and towns: told is
 the share that is none of the styles. All styles are compared, with none of them.
 """

@@ -40,7 +40,7 @@ NEAR_NATS, NEAR_STEPS = 60.0, 150
 NONE_COUNTS = 0.65
 """What the likelihood of the best front without a style counts. It may have any sizes, a style's
 are those of its rules, which no real house of the style has quite: set so that one Parisian front
-of the style (in no set that is measured on) is taken for it, whose style explained 0.75 of that.
+(of ECP's part that is not measured on) is taken for its style, which explained 0.75 of that.
 """
 _SEED = 20
 Heard = Callable[[str, float], None]
