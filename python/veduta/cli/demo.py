@@ -50,13 +50,13 @@ def _animal(out: Path, *, quiet: bool, force: bool) -> int:
 
 def _walk(call: DemoCall) -> int:
     """The walk through a gorge."""
+    from veduta.cli.told import tell_result
     from veduta.run.progress import Progress
     from veduta.walk.demo import run_walk_demo
 
     done = run_walk_demo(call.out, call.demo.seed, Progress(quiet=call.quiet), force=call.force)
     if done.call.failure is not None:
-        print(f"error: {done.call.failure.subject}: {done.call.failure.reason}", file=sys.stderr)
-        return done.call.exit_code
+        return tell_result(done.call, quiet=call.quiet)
     if call.quiet:
         return 0
     print(f"A gorge from seed {call.demo.seed}: {done.call.summary}")

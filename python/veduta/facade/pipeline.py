@@ -16,7 +16,7 @@ from PIL import Image
 from veduta.facade.analyse import analyse
 from veduta.facade.cleared import BEFORE, before_png, hidden_kinds, load_before
 from veduta.facade.document import FacadeDocument, Source
-from veduta.facade.eyes import look
+from veduta.facade.eyes import Seen, look
 from veduta.facade.load import DOCUMENT, PHOTO, load_document, load_photo
 from veduta.facade.model import Model, build_model
 from veduta.facade.options import FacadeOptions, ModelOptions, StyleOptions
@@ -85,7 +85,7 @@ def reconstruct(
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _sized(document, options.model)
     jpeg, pixels = _stored(rectified.pixels)
-    document, style = _styled(document, pixels, options.style, steps, progress)
+    document, style = _styled(document, pixels, seen, options.style, steps, progress)
     before = np.zeros(pixels.shape[:2], np.uint8) if seen is None else hidden_kinds(seen)
     model = _model(document, pixels, before, part_id, steps, progress)
     return Building(document, jpeg, pixels, before, model, style)
@@ -165,6 +165,7 @@ def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:
 def _styled(
     document: FacadeDocument,
     pixels: NDArray[np.uint8],
+    seen: Seen | None,
     options: StyleOptions,
     steps: list[StepRecord],
     progress: StepProgress,
@@ -173,7 +174,7 @@ def _styled(
         return document, None
     from veduta.facade.style import find_style  # loaded where it is used: few calls ask for it
 
-    return find_style(document, pixels, options, steps, progress)
+    return find_style(document, pixels, seen, options, steps, progress)
 
 
 def _model(

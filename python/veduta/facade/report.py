@@ -215,7 +215,13 @@ def _wall_note(building: Building) -> str:
     shares = sorted(building.model.cleared.shares.items(), key=lambda item: -item[1])
     told = ", ".join(f"{name} {100 * share:.0f} %" for name, share in shares if share >= 0.005)
     copied = f"{100 * building.model.cleared.copied:.0f} % of that is copied from elsewhere"
-    return f"Without what stands before it ({told}); {copied}." if told else "As the photo has it."
+    if told:
+        return f"Without what stands before it ({told}); {copied}."
+    return (
+        "; ".join(building.model.cleared.notes).capitalize() + "."
+        if (building.model.cleared.notes)
+        else "As the photo has it."
+    )
 
 
 def _taken_out(building: Building) -> dict[str, Any]:

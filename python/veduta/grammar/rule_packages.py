@@ -11,6 +11,7 @@ import atexit
 import shutil
 import tempfile
 import zipfile
+import zlib
 from functools import lru_cache
 from pathlib import Path, PurePosixPath
 
@@ -24,18 +25,25 @@ _SEVEN = b"7z\xbc\xaf\x27\x1c"
 _SOURCE, _COMPILED = ".cga", ".cgb"
 
 
-@lru_cache(maxsize=16)
 def unpacked(path: Path) -> Path:
-    """The main rule file of a package, unpacked; InputError says why there is none.
+    """The main rule file of a package, unpacked once; InputError says why there is none.
 
     The main one lies directly in `rules`, is called as the package or marks a start rule.
     """
     try:
         require_file(path)
-        with path.open("rb") as package:
-            head = package.read(len(_SEVEN))
+        state = path.stat()
     except FileNotFoundError as error:
         raise InputError(path, "does not exist", "Check its name.") from error
+    return _unpacked(path, state.st_mtime_ns, state.st_size)
+
+
+@lru_cache(maxsize=16)
+def _unpacked(path: Path, changed_ns: int, size: int) -> Path:
+    """As `unpacked`; a package that has changed is another one."""
+    try:
+        with path.open("rb") as package:
+            head = package.read(len(_SEVEN))
     except OSError as error:
         told = f"cannot be read ({error.strerror})"
         raise InputError(path, told, "Check its permissions.") from error
@@ -45,7 +53,7 @@ def unpacked(path: Path) -> Path:
     try:
         with zipfile.ZipFile(path) as archive:
             folder = _extracted(path, archive)
-    except (zipfile.BadZipFile, RuntimeError, EOFError) as error:
+    except (zipfile.BadZipFile, RuntimeError, EOFError, zlib.error, OSError) as error:
         fault = f"is no rule package that can be read ({error})"
         raise InputError(path, fault, "Share it anew, as a zip archive.") from error
     return _main_of(path, folder)
@@ -60,7 +68,7 @@ def _extracted(path: Path, archive: zipfile.ZipFile) -> Path:
         raise InputError(path, fault, "Unpack it, and name the .cga file in it.")
     for member in members:
         own = PurePosixPath(member.filename.replace("\\", "/"))
-        if own.is_absolute() or ".." in own.parts or ":" in own.parts[0]:
+        if not own.parts or own.is_absolute() or ".." in own.parts or ":" in own.parts[0]:
             raise InputError(path, f"holds a file outside of it ({own})", "Share it anew.")
     folder = Path(tempfile.mkdtemp(prefix="veduta-rules-"))
     atexit.register(shutil.rmtree, folder, ignore_errors=True)

@@ -102,6 +102,9 @@ def _outlines(
 def road_lines(path: Path) -> tuple[list[Road], int | None]:
     """The roads of all layers of lines of a file, and the EPSG code of its CRS."""
     layers, crs = limited(_line_layers, path, path, _REMEDY)
+    if len(set(crs)) > 1:
+        told = f"has lines in several CRSs ({', '.join(str(one) for one in dict.fromkeys(crs))})"
+        raise InputError(path, told, "Save the roads as one layer, or all in one CRS.")
     roads = [road for name in layers for road in _roads(path, name)]
     if not roads:
         raise InputError(path, "has no lines that are roads", "Give it lines of roads.")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -109,10 +110,20 @@ def test_the_files_derive_to_the_structure_that_was_found(
 def test_no_style_is_looked_for_where_none_is_asked_for() -> None:
     document = sample_document()
     pixels = np.zeros((4, 4, 3), np.uint8)
-    assert find_style(document, pixels, StyleOptions(), [], no_progress) == (document, None)
+    assert find_style(document, pixels, None, StyleOptions(), [], no_progress) == (document, None)
 
 
 @pytest.mark.parametrize("name", ["baroque", "suburban-house", "styles/haussmann.cga", ""])
 def test_an_unknown_style_is_refused(name: str) -> None:
     with pytest.raises(InputError, match=r"is no style of fronts.*Name auto or one of .*haussmann"):
         require_style(name)
+
+
+def test_a_front_without_a_style_is_never_helped_by_what_it_counts() -> None:
+    front, observed = seen_as("haussmann")
+    found = infer_style(document_of(front), observed, "haussmann", STEPS, lambda *_: None)
+    none = next(one for one in found.candidates if one.name == ANY_FRONT)
+    for likelihood in (-100.0, 100.0):
+        best = replace(none.best, log_likelihood=likelihood)
+        mass = replace(none, best=replace(none.best, log_likelihood=0.0)).log_evidence
+        assert replace(none, best=best).log_evidence - mass <= likelihood

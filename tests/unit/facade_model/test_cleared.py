@@ -67,6 +67,16 @@ def test_what_is_before_the_wall_is_filled_and_marked() -> None:
     assert not made.front.invented.any()
 
 
+def test_what_is_nearly_all_hidden_stays_and_that_is_said() -> None:
+    document = sample_document([element("window", 2.0, 1.0, 1.0, 1.5)])
+    photo = sample_photo(document)
+    before = np.full(photo.shape[:2], KINDS.index("tree"), np.uint8)
+    made = make_textures(document, photo, document.facade.height_m, before)
+    assert made.cleared.shares == {}
+    assert not made.wall.invented.any()
+    assert "hidden" in made.cleared.notes[0]
+
+
 def test_a_gradient_of_light_is_evened_on_the_wall_alone() -> None:
     fall = np.linspace(1.0, 0.6, 300)[None, :, None]
     pixels = np.broadcast_to(200 * fall, (200, 300, 3)).astype(np.uint8)

@@ -81,3 +81,28 @@ def test_what_is_no_package(tmp_path: Path) -> None:
         find_rules(str(broken))
     with pytest.raises(InputError, match="does not exist"):
         find_rules(str(tmp_path / "none.rpk"))
+
+
+def test_a_package_that_was_shared_anew_is_read_anew(tmp_path: Path) -> None:
+    path = package(tmp_path / "a.rpk", {"rules/one.cga": "Lot --> NIL"})
+    assert find_rules(str(path)).name == "one.cga"
+    package(path, {"rules/another.cga": "Lot --> NIL", "readme.txt": "longer than before"})
+    assert find_rules(str(path)).name == "another.cga"
+
+
+def test_a_damaged_package_is_named(tmp_path: Path) -> None:
+    path = package(tmp_path / "a.rpk", {"rules/one.cga": "Lot --> NIL\n" * 400})
+    with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED) as archive:
+        archive.writestr("rules/one.cga", "Lot --> NIL\n" * 400)
+    data = bytearray(path.read_bytes())
+    start = data.index(b"rules/one.cga") + len(b"rules/one.cga")
+    data[start : start + 12] = b"\xff" * 12
+    path.write_bytes(bytes(data))
+    with pytest.raises(InputError, match=r"a\.rpk"):
+        find_rules(str(path))
+
+
+def test_a_file_where_a_folder_should_be_is_named(tmp_path: Path) -> None:
+    path = package(tmp_path / "a.rpk", {"rules": "x", "rules/one.cga": "Lot --> NIL"})
+    with pytest.raises(InputError, match=r"a\.rpk"):
+        find_rules(str(path))

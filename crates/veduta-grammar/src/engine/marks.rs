@@ -229,24 +229,22 @@ fn holds(mesh: &Mesh, face: Face<'_>, normal: DVec3, point: DVec3) -> bool {
 /// Whether a tag is one that a query asks for: the same, or one below it. `?` stands for one part
 /// between dots, `*` for one or more.
 pub fn is_asked(tag: &str, query: &str) -> bool {
-    fn fits(tag: &[&str], query: &[&str]) -> bool {
-        match (query.first(), tag.first()) {
-            (None, _) => true,
-            (Some(_), None) => false,
-            (Some(&"*"), Some(_)) => (1..=tag.len()).any(|k| fits(&tag[k..], &query[1..])),
-            (Some(part), Some(own)) => {
-                let same = *part == "?" || fits_part(own, part);
-                same && fits(&tag[1..], &query[1..])
-            }
+    let tag: Vec<&str> = tag.split('.').collect();
+    // Which numbers of the tag's parts those of the query so far can stand for.
+    let mut reached = vec![false; tag.len() + 1];
+    reached[0] = true;
+    for part in query.split('.') {
+        let mut next = vec![false; tag.len() + 1];
+        for (end, own) in tag.iter().enumerate() {
+            next[end + 1] = match part {
+                "*" => reached[..=end].contains(&true),
+                "?" => reached[end],
+                part => reached[end] && fits_part(own, part),
+            };
         }
+        reached = next;
     }
-    let parts = |text: &'_ str| text.split('.').map(str::to_string).collect::<Vec<_>>();
-    let (tag, query) = (parts(tag), parts(query));
-    let (tag, query): (Vec<&str>, Vec<&str>) = (
-        tag.iter().map(String::as_str).collect(),
-        query.iter().map(String::as_str).collect(),
-    );
-    fits(&tag, &query)
+    reached.contains(&true)
 }
 
 /// A part of a tag; `*` at an end of the query's part stands for anything there.

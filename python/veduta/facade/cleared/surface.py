@@ -30,7 +30,8 @@ class Cleared:
     """pixels (h, w, 3) uint8 sRGB; filled (h, w) bool, what was before the wall.
 
     shares: of the picture, by what was there. copied: share of the filled that other places of the
-    front gave, the rest is interpolated. evened: the largest change of light, as a share.
+    front gave, the rest is interpolated. evened: the largest change of light, as a share. notes:
+    what was left as it is, and why.
     """
 
     pixels: Pixels
@@ -38,6 +39,7 @@ class Cleared:
     shares: dict[str, float]
     copied: float
     evened: float
+    notes: tuple[str, ...] = ()
 
 
 def clear_surface(
@@ -56,16 +58,18 @@ def clear_surface(
         if place and (kinds == place).any()
     }
     pixels, copied = crop, 0.0
+    notes: tuple[str, ...] = ()
     if holes.any() and holes.mean() <= MOST_HIDDEN:
         made = fill_front(document, crop, box, holes)
         pixels, copied = made.pixels, float(made.copied[holes].mean())
-    else:
-        holes = np.zeros_like(holes)
+    elif holes.any():
+        holes, shares = np.zeros_like(holes), {}
+        notes = (f"{kinds.astype(bool).mean():.0%} of the front is hidden: left as in the photo",)
     wall = ~holes
     for class_ in ("window", "door", "shop"):
         wall &= ~element_mask(document, box, class_)
     pixels, evened = even_light(pixels, wall, _zones(document, box)[1], storey)
-    return Cleared(pixels, holes, shares, copied, evened)
+    return Cleared(pixels, holes, shares, copied, evened, notes)
 
 
 def fill_front(document: FacadeDocument, crop: Pixels, box: PixelBox, holes: Mask) -> Repeated:

@@ -64,8 +64,11 @@ class Candidate:
         """About the logarithm of what the style gives to what was seen: the likelihood of its best
         structure, with the prior mass of those that are like it.
         """
-        counts = NONE_COUNTS if self.name == ANY_FRONT else 1.0
-        return counts * self.best.log_likelihood + log_mass(self.posterior.grammar, self.best)
+        seen = self.best.log_likelihood
+        if self.name == ANY_FRONT:
+            # Never more than it is: where all explain badly, this does no better for it.
+            seen = min(seen, NONE_COUNTS * seen)
+        return seen + log_mass(self.posterior.grammar, self.best)
 
 
 @dataclass(frozen=True)

@@ -21,6 +21,8 @@ _RANGE = re.compile(r"@Range\(min=([\d.]+),\s*max=([\d.]+)\)")
 _DRAWN = re.compile(r"([\d.]+)\s*\+\s*rand\(([\d.]+)\)")
 _CHANCE = re.compile(r"([\d.]+)%\s*:\s*(\"[^\"]*\"|[\w.]+)")
 _ELSE = re.compile(r"else\s*:\s*(\"[^\"]*\"|[\w.]+)")
+COUNTS = ("storeys", "bayStoreys")
+"""Attributes of the styles that count floors: whole numbers, where a file gives one value."""
 _LEFT_OUT = ("height", "LOD", "sides", "balconyDepth", "roofAngle", "frontYard", "houseDepth")
 ELSEWHERE = 0.2
 """Share of the probability that lies evenly over the range of an attribute."""
@@ -106,13 +108,13 @@ def distributions(text: str) -> dict[str, Distribution]:
     for notes, name, value in _ATTRIBUTE.findall(text):
         if name in _LEFT_OUT or "@Color" in notes or "@Hidden" in notes:
             continue
-        distribution = _distribution(notes, value.strip())
+        distribution = _distribution(name, notes, value.strip())
         if distribution is not None:
             found[name] = distribution
     return found
 
 
-def _distribution(notes: str, value: str) -> Distribution | None:
+def _distribution(name: str, notes: str, value: str) -> Distribution | None:
     limits = _RANGE.search(notes)
     least, most = (float(limits[1]), float(limits[2])) if limits else (math.nan, math.nan)
     chances = [(_value(word), 0.01 * float(share)) for share, word in _CHANCE.findall(value)]
@@ -129,7 +131,7 @@ def _distribution(notes: str, value: str) -> Distribution | None:
     if isinstance(alone, bool):
         return _choice({alone: 1.0 - ELSEWHERE, not alone: ELSEWHERE}, math.nan, math.nan)
     if isinstance(alone, float) and limits:
-        whole = alone.is_integer() and least.is_integer() and "floors" in notes
+        whole = name in COUNTS and alone.is_integer() and least.is_integer()
         return _choice({alone: 1.0}, least, most) if whole else Real(alone, alone, least, most)
     return None
 

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.document import FacadeDocument
-from veduta.facade.eyes import look
+from veduta.facade.eyes import Seen, look
 from veduta.facade.options import StyleOptions
 from veduta.facade.style.infer import infer_style
 from veduta.facade.style.observed import observe
@@ -22,19 +22,21 @@ from veduta.run.report import StepRecord, timed_step
 def find_style(
     document: FacadeDocument,
     rectified: NDArray[np.uint8],
+    seen: Seen | None,
     options: StyleOptions,
     steps: list[StepRecord],
     progress: StepProgress,
 ) -> tuple[FacadeDocument, StyleTold | None]:
     """The style of a front, and the document with a note of it; None where none was asked for.
 
-    rectified: (h, w, 3) uint8 sRGB, the rectified photo of the document.
+    rectified: (h, w, 3) uint8 sRGB, the rectified photo of the document. seen: what the learned
+    eyes saw of it, None where they have not looked yet.
     """
     if options.style is None:
         return document, None
     progress("style", 0.0)
     with timed_step(steps, "style") as step:
-        observed = observe(look(rectified), document)
+        observed = observe(seen or look(rectified), document)
         parameters = SearchParameters(steps=options.style_steps)
         try:
             found = infer_style(
