@@ -104,3 +104,12 @@ fn parts_without_an_asset_are_the_shape() {
                 print(size(geometry.groups)) comp(g) { all : print(geometry.nFaces) }";
     assert_eq!(said(text), ["[brick]", "1", "6"]);
 }
+
+/// Tags and queries come from files: many parts and many stars are answered at once.
+#[test]
+fn many_stars_are_soon_answered() {
+    let operations = format!("extrude(3) tag(\"{}\")", vec!["a"; 40].join("."));
+    let stars = vec!["*"; 30].join(".");
+    assert_eq!(area(&operations, &format!("{stars}.b")), 0.0);
+    assert_eq!(area(&operations, &stars), 216.0);
+}

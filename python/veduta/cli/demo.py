@@ -22,9 +22,12 @@ def run(arguments: list[str]) -> int:
     from veduta.cli.arguments import parse
     from veduta.cli.demo_call import DemoCall
     from veduta.facade.demo import run_demo
+    from veduta.run.errors import InputError
     from veduta.run.progress import Progress
 
     call = parse(DemoCall, "veduta demo", arguments)
+    if call.walk and call.animal:
+        raise InputError("--walk and --animal", "are two demos", "Make them one after the other.")
     if call.walk:
         return _walk(call)
     result = run_demo(

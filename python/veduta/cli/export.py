@@ -104,7 +104,10 @@ def _told(call: ExportCall) -> Place:
     told = Place.load(call.out)
     place = told.untiled()
     if place is not told:
-        print("its buildings are those of its city model: tiles hold many of them in one")
+        print(
+            "its buildings are those of its city model, without pictures and without the ground"
+            " between lots: tiles hold many of them in one. Derive it with --separate to keep both."
+        )
     for name, words in call.about.given().items():
         setattr(place, name, words)
     return place

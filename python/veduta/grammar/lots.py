@@ -306,7 +306,11 @@ def _read_json(path: Path) -> dict[str, Any]:
         raise InputError(path, "is nested too deep", "Check that it is GeoJSON.") from error
     except ValueError as error:  # bad JSON, bad UTF-8, a number that is none
         remedy = f"Save it as GeoJSON or GeoPackage; read are also {', '.join(VECTORS)}."
-        raise InputError(path, f"is not JSON ({error})", remedy) from error
+        is_text = not isinstance(error, UnicodeDecodeError)
+        fault = (
+            f"is not JSON ({error})" if is_text else "is no text, and no file of lots that is read"
+        )
+        raise InputError(path, fault, remedy) from error
     if not isinstance(document, dict):
         raise InputError(path, "is not GeoJSON: it is no object", "Save it as GeoJSON.")
     return document

@@ -218,3 +218,33 @@ def test_things_stand_where_they_are_drawn() -> None:
     assert toilets[0].turn_rad == pytest.approx(0.0, abs=1e-6)
     assert all(one.origin == "invented" for one in made if one is not toilets[0])
     assert [entries[one.object].type for one in made if one.room == bathroom.id].count("basin") <= 1
+
+
+def test_what_is_drawn_near_each_other_stands_near_each_other() -> None:
+    document = sample_plan()
+    storey = document.storeys[0]
+    bathroom = next(one for one in storey.rooms if one.use == "bathroom")
+    xs, ys = zip(*bathroom.outline_m, strict=True)
+    # A toilet at the upper wall, and a basin right before it at the side: within its free space.
+    places = {
+        "toilet": ((max(xs) - 0.9, max(ys) - 0.36), 0.0, (0.4, 0.66)),
+        "basin": ((max(xs) - 0.26, max(ys) - 0.95), -math.pi / 2, (0.55, 0.45)),
+    }
+    drawn = [
+        Fitting(
+            id=kind,
+            kind=kind,
+            room=bathroom.id,
+            at_m=at,
+            turn_rad=turn,
+            size_m=size,
+            score=0.9,  # type: ignore[arg-type]
+        )
+        for kind, (at, turn, size) in places.items()
+    ]
+    asked = document.model_copy(
+        update={"storeys": [storey.model_copy(update={"fittings": drawn}), *document.storeys[1:]]}
+    )
+    made = furnish(asked, builtin_catalogue(), 0, 0.25)[0].storeys[0].furniture or []
+    measured = [one for one in made if one.origin == "measured"]
+    assert len(measured) == 2

@@ -47,20 +47,20 @@ SERVE: dict[str, frozenset[str]] = {
 
 
 def place_drawn(
-    fittings: Iterable[Fitting], layout: Layout, choice: Choice, first_group: int
+    fittings: Iterable[Fitting], layout: Layout, choice: Choice, group: int
 ) -> list[str]:
     """Put the fittings of the room into it; returns the kinds that found no place where drawn.
 
-    first_group: of the numbers that things of one group share.
+    group: of all of them, so that they may stand as near to each other as they are drawn.
     """
     missing: list[str] = []
-    for number, one in enumerate(fittings):
+    for one in fittings:
         if one.kind not in OBJECTS:
             continue
         if not any(
             _stands(thing, layout)
             for kind in _types(one)
-            for thing in _tries(one, kind, layout.space, choice, first_group + number)
+            for thing in _tries(one, kind, layout.space, choice, group)
         ):
             missing.append(one.kind)
     return missing

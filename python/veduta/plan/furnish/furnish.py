@@ -47,7 +47,7 @@ INSTEAD: dict[str, str] = {"shower": "bathtub", "fridge": "fridge-small"}
 AS: dict[RoomUse, RoomUse] = {"other": "storage"}
 RESTARTS = 3
 DRAWN_GROUP = 1000
-"""Groups of what is drawn begin here: what a room wants has lower numbers."""
+"""The group of what is drawn: what a room wants has lower numbers."""
 MOST_THINGS = 60
 """In a room."""
 
@@ -126,7 +126,9 @@ def furnish_room(
     best, missing, left = min(reversed(tried), key=lack)
     place_upon(best, choice, np.random.default_rng([*seeds, 1]))
     full = f"has {MOST_THINGS} things, which are the most; {left} wishes were not looked at"
-    notes = [f"has its {kind} elsewhere than drawn: it would be in the way" for kind in elsewhere]
+    notes = [
+        f"the {kind} that is drawn has no place there: it would be in the way" for kind in elsewhere
+    ]
     if left:
         notes.append(full)
     return FurnishedRoom(space.room, tuple(best.stood), tuple(missing), tuple(notes))
