@@ -227,8 +227,8 @@ def test_what_is_drawn_near_each_other_stands_near_each_other() -> None:
     xs, ys = zip(*bathroom.outline_m, strict=True)
     # A toilet at the upper wall, and a basin right before it at the side: within its free space.
     places = {
-        "toilet": ((max(xs) - 0.9, max(ys) - 0.36), 0.0, (0.4, 0.66)),
-        "basin": ((max(xs) - 0.26, max(ys) - 0.95), -math.pi / 2, (0.55, 0.45)),
+        "toilet": ((max(xs) - 0.6, max(ys) - 0.36), 0.0, (0.4, 0.66)),
+        "basin": ((max(xs) - 0.26, max(ys) - 1.02), -math.pi / 2, (0.55, 0.45)),
     }
     drawn = [
         Fitting(
@@ -248,3 +248,5 @@ def test_what_is_drawn_near_each_other_stands_near_each_other() -> None:
     made = furnish(asked, builtin_catalogue(), 0, 0.25)[0].storeys[0].furniture or []
     measured = [one for one in made if one.origin == "measured"]
     assert len(measured) == 2
+    # As it stands against its wall, it moves along its depth and not along the wall.
+    assert measured[1].at_m[1] == pytest.approx(places["basin"][0][1], abs=0.01)
