@@ -248,5 +248,6 @@ def test_what_is_drawn_near_each_other_stands_near_each_other() -> None:
     made = furnish(asked, builtin_catalogue(), 0, 0.25)[0].storeys[0].furniture or []
     measured = [one for one in made if one.origin == "measured"]
     assert len(measured) == 2
-    # As it stands against its wall, it moves along its depth and not along the wall.
+    # No smaller one aside, which would leave the free space before the toilet.
+    assert measured[1].size_m[0] == pytest.approx(0.55)
     assert measured[1].at_m[1] == pytest.approx(places["basin"][0][1], abs=0.01)
