@@ -900,6 +900,13 @@ def extract_surface(
     values (x, y, z) pass the level; less is inside, NaN is not known.
     """
 
+def distances_from_mesh(
+    points: _Array2[np.float64], positions: _Array2[np.float64], triangles: _Array2[np.uint32]
+) -> tuple[_Array1[np.float64], _Array1[np.uint32]]:
+    """Signed distances of points (n, 3) from a mesh, above 0 on the side from which its triangles (m, 3)
+    run counter-clockwise, and the nearest triangle of each.
+    """
+
 # surroundings.rs
 class Surroundings:
     """The shapes that lots put in the way of others: those that the first of the two passes makes."""

@@ -1,11 +1,12 @@
-//! `veduta_surface` for Python: a grid of values in, a mesh out, the GIL released in between.
+//! `veduta_surface` for Python: a grid of values in, a mesh out; points and a mesh in, distances out.
+//! The GIL is released in between.
 
 use numpy::ndarray::Array2;
-use numpy::{IntoPyArray, PyArray2, PyReadonlyArray3};
+use numpy::{IntoPyArray, PyArray1, PyArray2, PyReadonlyArray2, PyReadonlyArray3};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use veduta_surface::{surface_nets, Grid, Surface, SurfaceError};
+use veduta_surface::{nearest_on_mesh, surface_nets, Grid, Surface, SurfaceError};
 
 create_exception!(_core, SurfaceFault, PyValueError);
 
@@ -39,8 +40,43 @@ fn extract_surface<'py>(
     Ok(arrays_of(py, made.map_err(fault_of)?))
 }
 
+pub type Nearest<'py> = (Bound<'py, PyArray1<f64>>, Bound<'py, PyArray1<u32>>);
+
+/// Signed distances of points (n, 3) from a mesh, above 0 on the side from which its triangles (m, 3)
+/// run counter-clockwise, and the nearest triangle of each.
+#[pyfunction]
+fn distances_from_mesh<'py>(
+    py: Python<'py>,
+    points: PyReadonlyArray2<'py, f64>,
+    positions: PyReadonlyArray2<'py, f64>,
+    triangles: PyReadonlyArray2<'py, u32>,
+) -> PyResult<Nearest<'py>> {
+    let points = rows_of(&points)?;
+    let positions = rows_of(&positions)?;
+    let triangles = rows_of(&triangles)?;
+    let found = py.detach(|| nearest_on_mesh(&points, &positions, &triangles));
+    let found = found.map_err(fault_of)?;
+    Ok((
+        found.distances.into_pyarray(py),
+        found.triangles.into_pyarray(py),
+    ))
+}
+
+fn rows_of<T: numpy::Element + Copy>(array: &PyReadonlyArray2<'_, T>) -> PyResult<Vec<[T; 3]>> {
+    let view = array.as_array();
+    if view.ncols() != 3 {
+        return Err(PyValueError::new_err("rows must have three columns"));
+    }
+    Ok(view
+        .rows()
+        .into_iter()
+        .map(|row| [row[0], row[1], row[2]])
+        .collect())
+}
+
 /// Adds the functions and errors of this file to the module.
 pub fn register(m: &Bound<'_, PyModule>) -> PyResult<()> {
     m.add("SurfaceFault", m.py().get_type::<SurfaceFault>())?;
-    m.add_function(wrap_pyfunction!(extract_surface, m)?)
+    m.add_function(wrap_pyfunction!(extract_surface, m)?)?;
+    m.add_function(wrap_pyfunction!(distances_from_mesh, m)?)
 }

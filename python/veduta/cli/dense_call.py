@@ -13,6 +13,7 @@ from veduta.cli.run_arguments import Force, Out, Quiet
 from veduta.dense.options import (
     DenseOptions,
     DepthOptions,
+    ModelOptions,
     RandomOptions,
     SurfaceOptions,
     ViewOptions,
@@ -53,6 +54,7 @@ class DenseCall:
     views: ViewOptions = field(default_factory=ViewOptions)
     depth: DepthOptions = field(default_factory=DepthOptions)
     surface: SurfaceOptions = field(default_factory=SurfaceOptions)
+    city: ModelOptions = field(default_factory=ModelOptions)
     random: RandomOptions = field(default_factory=RandomOptions)
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     device: DeviceOptions = field(default_factory=DeviceOptions)
@@ -65,6 +67,7 @@ class DenseCall:
             views=self.views,
             depth=self.depth,
             surface=self.surface,
+            city=self.city,
             random=self.random,
             scale=self.scale,
             device=self.device,

@@ -17,12 +17,14 @@ from veduta.dense.build.composing import compose
 from veduta.dense.build.standing import place_from_cameras
 from veduta.dense.build.surface import RawSurface, build_surface, cut_surface, natural_voxel_m
 from veduta.dense.build.texturing import textured
+from veduta.dense.comparing import compare_with_model
 from veduta.dense.depths import Matching, all_depth_maps
-from veduta.dense.document import DepthMap, Elevation, Views
+from veduta.dense.document import CityMesh, DepthMap, Elevation, Views
 from veduta.dense.linked_depths import Linking, all_linked_depths
 from veduta.dense.maps import write_maps_of
 from veduta.dense.options import DenseOptions
 from veduta.dense.parameters import DenseParameters
+from veduta.dense.read.city_model import read_city_mesh
 from veduta.dense.read.neighbours import Comparison, choose_neighbours
 from veduta.dense.read.pictures import (
     open_views,
@@ -32,6 +34,7 @@ from veduta.dense.read.pictures import (
 )
 from veduta.dense.read.sparse import SparsePoints, match_points
 from veduta.dense.read.walls import WALLS, read_elevations
+from veduta.dense.single import require_view, single_mesh
 from veduta.dense.telling import (
     middle_depths_m,
     tell_depths,
@@ -63,6 +66,7 @@ class _Given:
     usable: list[Camera]
     left: list[str]
     walls: list[Elevation]
+    city: CityMesh | None
     digests: JsonValue
 
 
@@ -84,14 +88,18 @@ def run_dense(
     chosen = options or DenseOptions()
     found = in_metres(read_cameras(cameras, images), chosen.scale)
     usable, left = usable_cameras(found)
+    require_view(chosen.surface, usable)
     name = cameras.resolve().name
     grown = chosen.scale.metres_per_unit or 1.0
     walls = [one.grown(grown) for one in read_elevations(cameras)] if cameras.is_dir() else []
     digests: JsonValue = [cameras_digest(found, usable)]
     if walls:
         digests = [cameras_digest(found, usable), file_digest(cameras / WALLS)]
-    given = _Given(name, found, usable, left, walls, digests)
-    call = VerbCall("dense", VERSION, given.name, chosen, given.digests)
+    model = chosen.city.model
+    city = None if model is None else read_city_mesh(model, found)
+    given = _Given(name, found, usable, left, walls, city, digests)
+    inputs: JsonValue = digests if model is None else [digests, file_digest(model)]
+    call = VerbCall("dense", VERSION, given.name, chosen, inputs)
     return run_verb(
         call,
         out,
@@ -136,12 +144,17 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
         pictures = write_depths(work, views, comparisons, depth_map)
     cloud = _cloud(work, views, comparisons, depth_map, options, parameters)
     write_maps_of(work, cloud, given.cameras, given.walls, parameters.elevation)
+    tints = None
+    if given.city is not None:
+        reach, rule = options.city.model_reach_m, parameters.distance
+        tints = compare_with_model(work, cloud, given.cameras, given.city, reach, rule)
     mesh = None
     if not options.surface.no_mesh:
-        mesh = _mesh(work, views, comparisons, depth_map, options, parameters)
+        make = _mesh if options.surface.single_view is None else single_mesh
+        mesh = make(work, views, comparisons, depth_map, options, parameters)
     with work.step("place"):
         middle = middle_depths_m(comparisons, depth_map)
-        place = compose(given.name, given.cameras, cloud, mesh, options.random.seed)
+        place = compose(given.name, given.cameras, cloud, mesh, options.random.seed, tints)
         stand = place_from_cameras(given.cameras, cloud.points_m)
         tell_standing(work, stand)
         write_place(work, place, views, pictures, middle, stand)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
@@ -57,11 +58,33 @@ class SurfaceOptions(Options):
     max_triangles: Annotated[int, Field(ge=1000, le=20_000_000)] = Field(
         default=400_000, description="triangles of the mesh at most; it is simplified to them"
     )
+    single_view: str | None = Field(
+        default=None,
+        description=(
+            "the mesh of one photo alone, by its name, in place of that of all (the thesis's way):"
+            " its depths triangulated in the picture"
+        ),
+    )
     no_texture: bool = Field(
         default=False, description="give each vertex of the mesh a colour, in place of a texture"
     )
     max_atlas_px: Annotated[int, Field(ge=256, le=16_384)] = Field(
         default=4096, description="longest side of the mesh's texture (px)"
+    )
+
+
+class ModelOptions(Options):
+    """What the cloud is held against."""
+
+    model: Path | None = Field(
+        default=None,
+        description=(
+            "a city model (CityJSON) that the cloud is held against, where the cameras lie in a"
+            " coordinate system of the earth: `veduta photos --model`"
+        ),
+    )
+    model_reach_m: Annotated[float, Field(gt=0.0, le=100.0)] = Field(
+        default=2.0, description="points farther from the city model are not compared with it (m)"
     )
 
 
@@ -79,6 +102,7 @@ class DenseOptions(Options):
     views: ViewOptions = ViewOptions()
     depth: DepthOptions = DepthOptions()
     surface: SurfaceOptions = SurfaceOptions()
+    city: ModelOptions = ModelOptions()
     random: RandomOptions = RandomOptions()
     scale: ScaleOptions = ScaleOptions()
     device: DeviceOptions = DeviceOptions()

@@ -6,6 +6,8 @@ from dataclasses import dataclass, field
 
 from veduta.dense.build.cloud import CloudParameters
 from veduta.dense.build.elevation import ElevationParameters
+from veduta.dense.build.model_distance import DistanceParameters
+from veduta.dense.build.single_view import SingleViewParameters
 from veduta.dense.build.surface import SurfaceParameters
 from veduta.dense.read.agreeing import AgreeParameters
 from veduta.dense.read.linking import LinkParameters
@@ -25,4 +27,6 @@ class DenseParameters:
     agree: AgreeParameters = field(default_factory=AgreeParameters)
     cloud: CloudParameters = field(default_factory=CloudParameters)
     elevation: ElevationParameters = field(default_factory=ElevationParameters)
+    distance: DistanceParameters = field(default_factory=DistanceParameters)
+    single: SingleViewParameters = field(default_factory=SingleViewParameters)
     surface: SurfaceParameters = field(default_factory=SurfaceParameters)

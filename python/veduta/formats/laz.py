@@ -8,7 +8,7 @@ writes it; `untwine` or PDAL make it of this file.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping
 from datetime import date
 from pathlib import Path
 from typing import Any
@@ -40,10 +40,12 @@ def write_laz(
     crs: str | None = None,
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0),
     classes: NDArray[np.uint8] | None = None,
+    extra: Mapping[str, NDArray[np.float32]] | None = None,
 ) -> None:
     """Write (n, 3) points and their (n, 3) sRGB colours.
 
     classes: (n,) ASPRS's numbers (2 ground, 6 building; from 64 on the user's); None: not known.
+    extra: (n,) each: further columns by their names (32 letters at most), as extra bytes.
 
     crs: what `pyproj` understands (`EPSG:25832`), with metres along the axes; None where the place
     in the world is not known. origin_m: what is added to the points, in that CRS.
@@ -53,8 +55,13 @@ def write_laz(
     places = points + np.asarray(origin_m)
     offset = np.floor(np.median(places, axis=0)) if len(places) else np.zeros(3)
     scale = _scale(places, offset, surveyed=crs is not None)
-    cloud = laspy.LasData(_header(offset, scale, crs))
+    header = _header(offset, scale, crs)
+    columns = extra or {}
+    header.add_extra_dims([laspy.ExtraBytesParams(name, np.float32) for name in columns])
+    cloud = laspy.LasData(header)
     _fill(cloud, places, colours, classes)
+    for name, values in columns.items():
+        cloud[name] = values
     with path.open("wb") as file:
         cloud.write(file, do_compress=True, laz_backend=laspy.LazBackend.Lazrs)
 

@@ -179,7 +179,8 @@ def load_place(folder: Path) -> Place:
     for cloud in told.points:
         points, colours = read_points(folder / cloud.file)
         matrix = np.array(cloud.transform).reshape(4, 4).T
-        place.clouds.append(Cloud(cloud.id, points @ matrix[:3, :3].T + matrix[:3, 3], colours))
+        world = points @ matrix[:3, :3].T + matrix[:3, 3]
+        place.clouds.append(Cloud(cloud.id, world, colours, layer=cloud.layer))
     return place
 
 
@@ -273,7 +274,10 @@ def _cloud_row(cloud: Cloud, name: str) -> manifest.PlacePoints:
     elif len(cloud.points_m):
         seen = np.quantile(cloud.points_m, CORE_QUANTILES, axis=0)
     bounds = manifest.Bounds(min=_vector(seen[0]), max=_vector(seen[1]))
-    return manifest.PlacePoints(id=cloud.id, file=name, count=len(cloud.points_m), bounds=bounds)
+    count = len(cloud.points_m)
+    return manifest.PlacePoints(
+        id=cloud.id, file=name, layer=cloud.layer, count=count, bounds=bounds
+    )
 
 
 def _placed(row: manifest.PlacePart, folder: Path) -> PlacedPart:

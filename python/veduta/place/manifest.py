@@ -93,6 +93,10 @@ class PlacePoints(_Record):
 
     id: str = Field(min_length=1, max_length=256)
     file: RelativePath = Field(description="PLY with colours")
+    layer: Literal["points", "distances"] = Field(
+        default="points",
+        description="distances: the points again, coloured by how far they lie from a model",
+    )
     transform: Matrix = Field(
         default=IDENTITY, description="world_from_points, 4x4, column-major, metres"
     )

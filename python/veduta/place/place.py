@@ -137,7 +137,9 @@ class Cloud:
     """Points of the place. points_m: (n, 3) float64, world. colours: (n, 3) uint8 sRGB.
 
     classes: (n,) uint8, ASPRS's numbers; None where nothing is known. seen_m: lower and upper
-    corner around what is to be looked at; None: around nearly all points.
+    corner around what is to be looked at; None: around nearly all points. layer: `distances` are
+    other points again, in colours that show how far they lie from a model; they are shown in their
+    place.
     """
 
     id: str
@@ -145,6 +147,7 @@ class Cloud:
     colours: NDArray[np.uint8]
     classes: NDArray[np.uint8] | None = None
     seen_m: tuple[Vector, Vector] | None = None
+    layer: Literal["points", "distances"] = "points"
 
 
 @dataclass(eq=False)

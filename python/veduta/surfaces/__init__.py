@@ -1,6 +1,7 @@
-"""Surfaces: extraction, simplification, directions, textures from photos, holes filled."""
+"""Surfaces: extraction, simplification, directions, distances, textures from photos, holes."""
 
 from veduta.surfaces.adjacency import neighbours
+from veduta.surfaces.distances import distances_from_mesh
 from veduta.surfaces.extraction import surface_nets
 from veduta.surfaces.filling.options import FillParameters, RepeatParameters
 from veduta.surfaces.filling.repeating import Repeated, fill_by_repeats
@@ -21,6 +22,7 @@ __all__ = [
     "TextureOptions",
     "TextureParameters",
     "TexturedMesh",
+    "distances_from_mesh",
     "face_normals",
     "fill_by_repeats",
     "fill_holes",

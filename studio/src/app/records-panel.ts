@@ -9,6 +9,7 @@ const NAMES: Readonly<Record<Layer, string>> = {
   model: "Model",
   walls: "Walls found",
   points: "Points",
+  distances: "Distances from the model",
   cameras: "Cameras",
   backdrop: "Panorama",
 };

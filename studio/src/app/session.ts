@@ -170,11 +170,12 @@ function mean(values: readonly number[]): number {
   return values.reduce((sum, value) => sum + value, 0) / Math.max(1, values.length);
 }
 
-/** Walls and a model of the same buildings lie in one another: the model is seen first. */
-function firstOff({ parts, tileset, hidden }: Place): ReadonlySet<Layer> {
+/** What lies in one another is not seen at once: first the model, and points in their own colours. */
+function firstOff({ parts, clouds, tileset, hidden }: Place): ReadonlySet<Layer> {
   const hasModel = tileset !== null || parts.some(({ layer }) => layer === "model");
   const asked = (["points", "cameras"] as const).filter((layer) => hidden.has(layer));
-  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...asked]);
+  const doubled = clouds.some(({ layer }) => layer === "distances") ? (["distances"] as const) : [];
+  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...doubled, ...asked]);
 }
 
 function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
@@ -182,11 +183,12 @@ function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
   const has: Readonly<Record<Layer, boolean>> = {
     model: hasTown || parts.some(({ layer }) => layer === "model"),
     walls: !hasTown && parts.some(({ layer }) => layer === "walls"),
-    points: clouds.length > 0,
+    points: clouds.some(({ layer }) => layer === "points"),
+    distances: clouds.some(({ layer }) => layer === "distances"),
     cameras: shots.length > 0,
     backdrop: false, // a switch of the house's own panel
   };
-  return (["model", "walls", "points", "cameras"] as const).filter((layer) => has[layer]);
+  return (["model", "walls", "points", "distances", "cameras"] as const).filter((layer) => has[layer]);
 }
 
 /** Nothing can be drawn in space. */

@@ -55,6 +55,8 @@ export interface SunDay {
 export interface Cloud {
   /** PLY, relative to `place.json`. */
   readonly file: string;
+  /** Distances are other points again, in colours that show how far they lie from a model. */
+  readonly layer: "points" | "distances";
   readonly worldFromPoints: readonly number[];
   /** Around nearly all of the points, in their own frame. */
   readonly bounds: Box;
@@ -299,7 +301,9 @@ function readCloud(value: unknown, which: string, broken: (fault: string) => Fau
   const min = readVec3(bounds.min, () => bad("bounds"));
   const max = readVec3(bounds.max, () => bad("bounds"));
   if (min.some((low, axis) => low > (max[axis] ?? low))) throw bad("bounds");
-  return { file: cloud.file, worldFromPoints: transform, bounds: { min, max } };
+  const layer: unknown = cloud.layer ?? "points";
+  if (layer !== "points" && layer !== "distances") throw bad("layer");
+  return { file: cloud.file, layer, worldFromPoints: transform, bounds: { min, max } };
 }
 
 function readShot(value: unknown, which: string, broken: (fault: string) => Fault): Shot {

@@ -7,7 +7,7 @@ import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
-export type Layer = "points" | "cameras" | "walls" | "model" | "backdrop";
+export type Layer = "points" | "distances" | "cameras" | "walls" | "model" | "backdrop";
 /** Doors open for whoever comes and close behind him, or all stand open. */
 export type DoorHabit = "approach" | "open";
 /** Lamps go on in the room that one comes into, or all are on, or off. */

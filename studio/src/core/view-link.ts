@@ -27,7 +27,7 @@ export interface View {
   readonly picked: string | null;
 }
 
-const LAYERS = ["points", "cameras", "walls", "model", "backdrop"] as const;
+const LAYERS = ["points", "distances", "cameras", "walls", "model", "backdrop"] as const;
 const LOOKS = ["picture", "geometry", "psi"] as const;
 const COLOURINGS = ["photo", "class", "provenance"] as const;
 /** Nobody writes a longer one. */

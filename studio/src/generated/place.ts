@@ -207,6 +207,10 @@ export interface PlacePoints {
    */
   file: string;
   /**
+   * distances: the points again, coloured by how far they lie from a model
+   */
+  layer?: "points" | "distances";
+  /**
    * world_from_points, 4x4, column-major, metres
    *
    * @minItems 16

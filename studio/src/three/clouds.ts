@@ -4,6 +4,7 @@ import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
 import { Fault } from "../core/fault.ts";
 import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
+import type { Layer } from "../core/state.ts";
 import { fetchBytes } from "./fetch.ts";
 
 const MAGIC = "ply";
@@ -25,10 +26,20 @@ export async function loadClouds(
     const placed = new Group();
     placed.matrix.fromArray(drawnFromModel(cloud.worldFromPoints));
     placed.matrixAutoUpdate = false;
+    placed.userData.layer = cloud.layer;
     placed.add(points);
     group.add(placed);
   }
   return group;
+}
+
+/** Distances are shown in place of the points whose places they have. */
+export function showClouds(clouds: Group, off: ReadonlySet<Layer>): void {
+  const layers = new Set(clouds.children.map(({ userData }) => userData.layer as Layer));
+  const distances = layers.has("distances") && !off.has("distances");
+  for (const cloud of clouds.children) {
+    cloud.visible = cloud.userData.layer === "distances" ? distances : !distances && !off.has("points");
+  }
 }
 
 /** `px` CSS pixels; points keep their size, so that a cloud is dense from afar and open from near. */

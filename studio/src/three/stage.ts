@@ -15,7 +15,7 @@ import { type Body, DEFAULT_WALK, INDOOR_BODY, type Walker } from "../core/walki
 import { Animals } from "./animals.ts";
 import { Appearance } from "./appearance.ts";
 import { Backdrop } from "./backdrop.ts";
-import { samplePoints, sizePoints } from "./clouds.ts";
+import { samplePoints, showClouds, sizePoints } from "./clouds.ts";
 import type { Frusta } from "./frusta.ts";
 import type { MorphShow } from "./morph-show.ts";
 import { Household, type LoadedHouse } from "./household.ts";
@@ -156,7 +156,7 @@ export class Stage {
     for (const { part, group } of parts) group.visible = part.layer === null || !state.off.has(part.layer);
     if (this.#town !== null) this.#town.group.visible = !state.off.has("model");
     if (frusta !== null) frusta.group.visible = state.shot !== null || !state.off.has("cameras");
-    clouds.visible = !state.off.has("points");
+    showClouds(clouds, state.off);
     sizePoints(clouds, state.point_px);
     this.photos?.lookAgain();
     this.#scenery.sun.shadow.needsUpdate = true;

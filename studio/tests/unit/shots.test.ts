@@ -68,6 +68,7 @@ describe("the pyramids", () => {
   it("lie in the box of the place", () => {
     const cloud = {
       file: "points.ply",
+      layer: "points",
       worldFromPoints: [...IDENTITY.slice(0, 12), 10, 0, 0, 1],
       bounds: { min: [0, 0, 0], max: [1, 2, 3] },
     } as const;
@@ -124,6 +125,11 @@ describe("reading a place of photos", () => {
     expect(place.shots[0]?.focal_px).toEqual([500, 510]);
     expect(place.clouds[0]?.worldFromPoints).toEqual(IDENTITY);
     expect(place.scaleKnown).toBe(false);
+    expect(place.clouds[0]?.layer).toBe("points");
+  });
+
+  it("has points again by their distances", () => {
+    expect(readPlace(text({}, { layer: "distances" }), "place.json").clouds[0]?.layer).toBe("distances");
   });
 
   it.each([
@@ -134,6 +140,7 @@ describe("reading a place of photos", () => {
     ["points elsewhere", {}, { file: "/etc/passwd" }, "file"],
     ["a box inside out", {}, { bounds: { min: [2, 0, 0], max: [1, 1, 1] } }, "bounds"],
     ["no box", {}, { bounds: null }, "bounds"],
+    ["a layer that is none", {}, { layer: "walls" }, "layer"],
   ])("refuses %s", (_, cameraChange, cloudChange, words) => {
     expect(() => readPlace(text(cameraChange, cloudChange), "place.json")).toThrow(Fault);
     expect(() => readPlace(text(cameraChange, cloudChange), "place.json")).toThrow(words);

@@ -17,7 +17,7 @@ from veduta.place.place import Cloud, Place, Standing
 
 MOST_SHOWN_POINTS = 1_500_000
 """Points of the cloud in the place; the files of the cloud have all of them."""
-MESH, POINTS = "surface", "points"
+MESH, POINTS, DISTANCES = "surface", "points", "distances"
 
 
 def compose(
@@ -26,8 +26,11 @@ def compose(
     cloud: DenseCloud,
     mesh: tuple[Mesh, NDArray[np.float64]] | None,
     seed: int,
+    tints: NDArray[np.uint8] | None = None,
 ) -> Place:
-    """mesh: about its own origin, and where that lies (m)."""
+    """mesh: about its own origin, and where that lies (m). tints: (n, 3) the cloud's colours by its
+    distances from a city model, where there is one.
+    """
     place = Place(title=title, crs=cameras.crs, origin_m=cameras.origin_m)
     place.scale = "metres" if cameras.scale == "metres" else "unknown"
     if mesh is not None:
@@ -39,7 +42,10 @@ def compose(
         draw = np.random.default_rng(seed)
         kept = np.sort(draw.choice(len(points), MOST_SHOWN_POINTS, replace=False))
         points, colours = points[kept], colours[kept]
+        tints = None if tints is None else tints[kept]
     place.clouds.append(Cloud(POINTS, points, colours))
+    if tints is not None:
+        place.clouds.append(Cloud(DISTANCES, points, tints, layer="distances"))
     return place
 
 

@@ -104,15 +104,20 @@ def _without_crumbs(surface: RawSurface, parameters: SurfaceParameters) -> RawSu
     if not len(faces):
         reason = "no surface is seen by enough photos at one spot"
         raise NotFoundError("a surface", reason, "Give more photos, or --agree 1.")
-    count = len(surface.points_m)
-    edges = np.concatenate([faces[:, :2], faces[:, 1:]])
-    links = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(count, count))
-    _, part = connected_components(links, directed=False)
-    sizes = np.bincount(part[faces[:, 0]], minlength=part.max() + 1)
+    sizes = part_sizes(faces, len(surface.points_m))
     least = max(parameters.least_triangles, parameters.least_share * len(faces))
-    kept = faces[sizes[part[faces[:, 0]]] >= min(least, sizes.max())]
+    kept = faces[sizes >= min(least, sizes.max())]
     points, triangles = compact(surface.points_m, kept)
     return RawSurface(points, triangles, surface.voxel_m, len(faces) - len(kept))
+
+
+def part_sizes(faces: NDArray[np.int64], vertices: int) -> NDArray[np.int64]:
+    """(m,) how many triangles hang together with each, by vertices that they share."""
+    edges = np.concatenate([faces[:, :2], faces[:, 1:]])
+    links = coo_matrix((np.ones(len(edges), dtype=np.int8), edges.T), shape=(vertices, vertices))
+    _, part = connected_components(links, directed=False)
+    own = part[faces[:, 0]]
+    return np.asarray(np.bincount(own, minlength=part.max() + 1)[own], dtype=np.int64)
 
 
 def cut_surface(surface: RawSurface, box: tuple[float, ...]) -> RawSurface:
