@@ -7,7 +7,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy import ndimage
 
-from veduta.drive.read.rivals import margin_of
+from veduta.drive.read.rivals import Margin, margin_of
 from veduta.drive.read.surface_model import SurfaceModel
 
 CELL_M = 0.5
@@ -65,3 +65,22 @@ def test_off_the_map_nothing_fits() -> None:
     away = margin_of(poses + np.array([500.0, 0.0, 0.0]), scans, _model(edge))
     assert away.own == 0.0
     assert away.rival == 0.0
+    assert away.share == 0.0
+
+
+@pytest.mark.parametrize(
+    ("own", "rival", "share"),
+    [
+        (0.8, 0.2, 0.75),
+        (0.4, 0.8, -1.0),
+        (0.5, -0.1, 1.2),
+        (-0.2, -0.1, 0.0),
+        (-0.2, 0.3, 0.0),
+        (0.0, 0.0, 0.0),
+        (float("nan"), 0.1, 0.0),
+        (0.5, float("nan"), 0.0),
+    ],
+)
+def test_a_path_that_fits_nowhere_has_no_share(own: float, rival: float, share: float) -> None:
+    """Beams through what stands make a fit less than 0: no margin, however bad its rivals are."""
+    assert Margin(own, rival, (8.0, 0.0)).share == pytest.approx(share)

@@ -52,8 +52,12 @@ class Margin:
 
     @property
     def share(self) -> float:
-        """What of the path's fit no rival has: near 0, another place does as well."""
-        return 1.0 - self.rival / max(self.own, 1e-9)
+        """What of the path's fit no rival has: near 0, another place does as well; 0, too, where the
+        path does not fit at all, or nothing is known.
+        """
+        if not self.own > 0.0 or not np.isfinite(self.rival):
+            return 0.0
+        return 1.0 - self.rival / self.own
 
 
 def margin_of(
