@@ -13,7 +13,7 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.drive.build.beside import column_spacing
-from veduta.drive.build.bodies import bodies_of
+from veduta.drive.build.bodies import Body, bodies_of
 from veduta.drive.build.body_file import BUILDINGS, write_bodies
 from veduta.drive.build.edited import with_document
 from veduta.drive.build.facade_files import FACADES, write_facade_list
@@ -179,12 +179,16 @@ def _bodies(record: DriveRecord, outcomes: Sequence[Outcome], path: Path, work: 
     if grid is None:
         work.note(f"no {BUILDINGS}: the log names no surface model, so that roofs are unknown")
         return 0
-    bodies = [
-        body
-        for one in outcomes
-        for name, plane, _ in one.planes
-        for body in bodies_of(name, plane, grid)
-    ]
+    bodies: list[Body] = []
+    for one in outcomes:
+        for name, plane, _ in one.planes:
+            behind = bodies_of(name, plane, grid)
+            bodies += behind.found
+            for begin, end in behind.roofless:
+                work.doubt(
+                    f"the house {begin:.0f} to {end:.0f} m along {name} is left out: the surface"
+                    " model has too few heights of its roof"
+                )
     left_out = write_bodies(bodies, path, record.name, record.crs, record.origin_m)
     if left_out:
         work.doubt(f"{len(left_out)} houses do not close and are left out: {', '.join(left_out)}")

@@ -49,35 +49,49 @@ GABLE = np.array([[0.0, 6.0], [5.0, 10.0], [10.0, 6.0]])
 
 
 def test_a_flat_roof_ends_where_the_house_does() -> None:
-    (body,) = bodies_of("a", _plane(0.0, 14.0), _grid([(0.0, 14.0, 12.0, FLAT)]))
+    (body,) = bodies_of("a", _plane(0.0, 14.0), _grid([(0.0, 14.0, 12.0, FLAT)])).found
     np.testing.assert_allclose(body.profile, FLAT, atol=0.3)
     np.testing.assert_allclose(body.inward, [-1.0, 0.0], atol=1e-9)
     assert body.off_m < 0.15
 
 
 def test_a_gable_is_found() -> None:
-    (body,) = bodies_of("a", _plane(0.0, 14.0), _grid([(0.0, 14.0, 10.0, GABLE)]))
+    (body,) = bodies_of("a", _plane(0.0, 14.0), _grid([(0.0, 14.0, 10.0, GABLE)])).found
     np.testing.assert_allclose(body.profile, GABLE, atol=0.45)
 
 
 def test_two_heights_are_two_houses() -> None:
     higher = FLAT + np.array([0.0, 4.0])
     grid = _grid([(0.0, 9.0, 12.0, FLAT), (9.0, 20.0, 12.0, higher)])
-    low, high = bodies_of("a", _plane(0.0, 20.0), grid)
+    low, high = bodies_of("a", _plane(0.0, 20.0), grid).found
     assert low.front[1, 1] == pytest.approx(9.0, abs=1.01)
     np.testing.assert_array_equal(low.front[1], high.front[0])
     assert high.profile[0, 1] - low.profile[0, 1] == pytest.approx(4.0, abs=0.3)
 
 
 def test_without_a_roof_there_is_no_house() -> None:
-    assert not bodies_of("a", _plane(0.0, 14.0), _grid([]))
+    assert not bodies_of("a", _plane(0.0, 14.0), _grid([])).found
     away = HeightGrid(np.full((5, 5), 9.0, dtype=np.float32), (500.0, 500.0), 1.0)
-    assert not bodies_of("a", _plane(0.0, 14.0), away)
+    assert not bodies_of("a", _plane(0.0, 14.0), away).found
+
+
+def test_a_house_whose_roof_has_no_heights_is_left_out_and_said() -> None:
+    """Known are only the rims of the second roof, 0.5 and 4.5 m behind the front."""
+    grid = _grid([(0.0, 9.5, 12.0, FLAT)])
+    heights = grid.heights_m.copy()
+    heights[29:] = GROUND_M
+    heights[29:, [30, 34]] += 12.0
+    heights[29:, 31:34] = np.nan
+    rimmed = HeightGrid(heights, grid.low, grid.cell_m)
+    assert not bodies_of("a", _plane(0.0, 8.0), rimmed).roofless
+    houses = bodies_of("a", _plane(10.0, 20.0), rimmed)
+    assert not houses.found
+    assert houses.roofless == ((0.0, 10.0),)
 
 
 def test_bodies_are_closed_and_hold_what_the_houses_hold(tmp_path: Path) -> None:
     grid = _grid([(0.0, 9.0, 12.0, FLAT), (9.0, 20.0, 10.0, GABLE + np.array([0.0, 2.0]))])
-    bodies = bodies_of("a", _plane(0.0, 20.0), grid)
+    bodies = bodies_of("a", _plane(0.0, 20.0), grid).found
     path = tmp_path / "buildings.city.json"
     assert not write_bodies(bodies, path, "Street", "EPSG:25832", (5e5, 5e6, 30.0))
     city = json.loads(path.read_text())
@@ -113,6 +127,6 @@ def test_the_surface_of_a_street_has_its_houses(tmp_path: Path) -> None:
         if z0 > 0.0 or y0 < 0.0 or y1 > 60.0:
             continue
         left, right = (np.array([front - 100.0, y, GROUND_M]) for y in (y0 + 0.5, y1 - 0.5))
-        (body,) = bodies_of("a", FacadePlane(0, 10, left, right, 5.0), grid)
+        (body,) = bodies_of("a", FacadePlane(0, 10, left, right, 5.0), grid).found
         assert body.profile[:, 1].max() == pytest.approx(z1, abs=0.5)
         assert body.profile[-1, 0] == pytest.approx(10.0, abs=1.3)

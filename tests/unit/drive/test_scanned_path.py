@@ -166,10 +166,18 @@ def test_surface_model_that_is_missing_or_has_no_start_is_refused(folder: Path) 
         read_own(folder)
 
 
-@pytest.mark.parametrize(("share", "doubted"), [(0.95, False), (0.6, True)])
+@pytest.mark.parametrize(
+    ("share", "own", "rival", "doubted"),
+    [
+        (0.95, 0.8, 0.4, ""),
+        (0.6, 0.8, 0.78, "nearly as well 9 m away"),
+        (0.6, -0.2, -0.1, "nowhere"),
+    ],
+)
 def test_over_an_aerial_photo_the_road_is_level(
-    folder: Path, monkeypatch: pytest.MonkeyPatch, share: float, doubted: bool
-) -> None:
+    folder: Path, monkeypatch: pytest.MonkeyPatch, share: float, own: float, rival: float,
+    doubted: str,
+) -> None:  # fmt: skip
     """A photo tells no heights; what was corrected is told in metres, not in coordinates. A place
     where few points lie on edges is doubted.
     """
@@ -185,7 +193,7 @@ def test_over_an_aerial_photo_the_road_is_level(
         moved[-1] = 0.3, -0.4
         sure = np.ones(count, dtype=bool)
         fit = np.full(count, share)
-        margin = Margin(0.8, 0.78 if doubted else 0.4, (9.0, 0.0))
+        margin = Margin(own, rival, (9.0, 0.0))
         return Localised(poses, moved, fit, np.zeros(count), sure, np.zeros(count), margin)
 
     monkeypatch.setattr("veduta.drive.read.scanned_path.localise", found)
@@ -198,3 +206,4 @@ def test_over_an_aerial_photo_the_road_is_level(
     assert "localised" in why
     assert any("taken for level" in note for note in record.notes)
     assert [doubt[:4] for doubt in record.doubts] == (["60 %", "the "] if doubted else [])
+    assert all(doubted in doubt for doubt in record.doubts[1:])

@@ -27,6 +27,8 @@ class BodyParameters:
     known: share of cells behind a front that must have a height. better: a roof of two slopes is
     taken where it lies so many times nearer to the surface than one of one slope, steep: and rises
     by so much per metre. edge_m: so much of the roof's rim is not looked at: cells there are mixed.
+    near_m: so far behind its front a house's height is taken. reach_m: along the front on each side
+    of a step, whose median heights are compared. least_heights: a roof is not fitted to fewer.
     """
 
     deepest_m: float = 20.0
@@ -38,6 +40,9 @@ class BodyParameters:
     better: float = 0.7
     steep: float = 0.15
     edge_m: float = 0.7
+    near_m: float = 6.0
+    reach_m: float = 2.0
+    least_heights: int = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,10 +80,22 @@ class Body:
         return np.column_stack([corner[:2] + away[:, None] * self.inward, corner[2] + height])
 
 
+@dataclass(frozen=True, eq=False)
+class Bodies:
+    """The houses behind a facade plane, from left to right.
+
+    roofless: where along the front (m from its left end) a house stands whose roof the model has no
+    heights of.
+    """
+
+    found: tuple[Body, ...]
+    roofless: tuple[tuple[float, float], ...]
+
+
 def bodies_of(
     name: str, plane: FacadePlane, grid: HeightGrid, parameters: BodyParameters | None = None
-) -> list[Body]:
-    """The houses behind a facade plane, from left to right; none where the model has no roof."""
+) -> Bodies:
+    """The houses behind a facade plane; none where the model has no roof."""
     chosen = parameters or BodyParameters()
     axis = (plane.right[:2] - plane.left[:2]) / max(plane.width_m, 1e-9)
     inward = np.array([-axis[1], axis[0]])
@@ -88,26 +105,31 @@ def bodies_of(
     places = plane.left[:2] + across[:, None, None] * axis + behind[:, None] * inward
     heights = grid.at(places.reshape(-1, 2)).reshape(len(across), len(behind)) - plane.left[2]
     found: list[Body] = []
+    roofless: list[tuple[float, float]] = []
     for first, last in _houses(heights, step, chosen):
         piece = heights[first:last]
         deep = _depth(piece, behind, step, chosen)
         wide = (last - first) * step
         if deep is None or wide < chosen.narrowest_m:
             continue
-        profile, off = _roof(piece, behind, deep, chosen)
         ends = (first * step, min(last * step, plane.width_m))
         if last == len(heights):
             ends = (ends[0], plane.width_m)
+        roof = _roof(piece, behind, deep, chosen)
+        if roof is None:
+            roofless.append(ends)
+            continue
+        profile, off = roof
         front = np.array([[*(plane.left[:2] + end * axis), plane.left[2]] for end in ends])
         found.append(Body(f"{name}-{len(found) + 1}", front, profile, inward, off))
-    return found
+    return Bodies(tuple(found), tuple(roofless))
 
 
 def _houses(
     heights: Floats, step: float, chosen: BodyParameters
 ) -> Iterator[tuple[int, int]]:
     """First and one past the last column of roofs of one height along the front."""
-    near = heights[:, : max(int(6.0 / step), 2)]
+    near = heights[:, : max(int(chosen.near_m / step), 2)]
     known = np.isfinite(near).mean(axis=1) >= chosen.known
     level = np.full(len(heights), np.nan)
     if known.any():
@@ -115,7 +137,7 @@ def _houses(
     stands = known & (np.nan_to_num(level) > chosen.standing_m)
     if not stands.any():
         return
-    reach = max(int(round(2.0 / step)), 1)
+    reach = max(int(round(chosen.reach_m / step)), 1)
     filled = np.interp(np.arange(len(level)), np.flatnonzero(stands), level[stands])
     before = ndimage.median_filter(filled, reach, origin=(reach - 1) // 2, mode="nearest")
     after = ndimage.median_filter(filled, reach, origin=-(reach // 2), mode="nearest")
@@ -140,8 +162,8 @@ def _depth(piece: Floats, behind: Floats, step: float, chosen: BodyParameters) -
 
 def _roof(
     piece: Floats, behind: Floats, deep: float, chosen: BodyParameters
-) -> tuple[Floats, float]:
-    """(k, 2) the roof's profile, and how far the surface lies from it (m).
+) -> tuple[Floats, float] | None:
+    """(k, 2) the roof's profile, and how far the surface lies from it (m); None: too few heights.
 
     One slope, or two with the ridge where they fit best; each by its median residual after a robust
     fit (three rounds of least squares without the worst third).
@@ -151,6 +173,8 @@ def _roof(
     height = piece[:, inside].ravel()
     kept = np.isfinite(height) & (height > chosen.standing_m)
     away, height = away[kept], height[kept]
+    if len(height) < chosen.least_heights:
+        return None
     one = _fitted(np.column_stack([np.ones_like(away), away]), height)
     ends = np.array([0.0, deep])
     single: Floats = np.column_stack([ends, one[0][0] + ends * one[0][1]])

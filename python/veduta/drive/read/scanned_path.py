@@ -114,10 +114,12 @@ def find_path(
     )  # fmt: skip
     if placed.margin.share < _LEAST_MARGIN:
         metres = float(np.hypot(*placed.margin.away))
-        doubts += (
-            f"the path fits {log.surface.file} nearly as well {metres:.0f} m away: it may be the"
-            " model of another place",
+        how_well = (
+            f"the path fits {log.surface.file} nearly as well {metres:.0f} m away"
+            if placed.margin.own > 0.0
+            else f"the path fits {log.surface.file} nowhere, beams go through what stands there"
         )
+        doubts += (f"{how_well}: it may be the model of another place",)
     return ScannedPath(
         times,
         _matrices(local, ground - origin[2], slope),
