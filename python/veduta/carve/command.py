@@ -39,7 +39,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "3"
+VERSION = "4"
 MODEL, POINTS = "object.glb", "object.ply"
 
 

@@ -10,7 +10,7 @@ import numpy as np
 
 from veduta.cameras import Camera, CameraSet
 from veduta.carve.options import PoseOptions
-from veduta.carve.read.turntable import Focal, Found, find_turns
+from veduta.carve.read.turntable import Focal, Found, find_turns, seem_uneven
 from veduta.carve.views import View
 from veduta.imaging.read import image_size, read_image
 from veduta.run.page import Table
@@ -69,7 +69,9 @@ def _tell(work: Work, views: Sequence[View], found: Found) -> None:
     degrees = np.degrees(np.abs(table.angles - table.angles[0]))
     sure = np.degrees(found.deviations)
     work.measure("turns_deg", [round(float(one), 2) for one in degrees])
-    work.measure("turns_deviation_deg", round(float(sure.max()), 2))
+    known = bool(np.isfinite(sure).all())
+    if known:
+        work.measure("turns_deviation_deg", round(float(sure.max()), 2))
     work.measure("outlines_miss_px", round(found.miss_px, 2))
     work.measure("focal_px", round(table.focal_px, 1))
     work.measure("tilt_deg", round(float(np.degrees(table.tilt)), 2))
@@ -80,9 +82,18 @@ def _tell(work: Work, views: Sequence[View], found: Found) -> None:
         f" {views[0].camera.width_px} x {views[0].camera.height_px} px. The unit of length is its"
         " distance from the turntable's axis."
     )
+    size = (views[0].camera.width_px, views[0].camera.height_px)
+    if seem_uneven(found, size):
+        work.doubt(
+            f"taken as even, the turns leave the outlines {found.miss_px:.1f} px apart: they may be"
+            " uneven, or no full turn; try without --even-turns"
+        )
+    elif not known:
+        work.note("The turns are even as --even-turns says: how sure they are was not looked at.")
     rows: list[list[float | int | str | None]] = [
-        [view.name, round(float(angle), 2), round(float(one), 2)]
+        [view.name, round(float(angle), 2)] + ([round(float(one), 2)] if known else [])
         for view, angle, one in zip(views, degrees, sure, strict=True)
     ]
-    columns = ["photo", "turned since the first (degrees)", "deviation (degrees)"]
+    columns = ["photo", "turned since the first (degrees)"]
+    columns += ["deviation (degrees)"] if known else []
     work.table(Table("Turns of the table", columns, rows))

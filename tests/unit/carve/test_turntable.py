@@ -14,7 +14,7 @@ from turned_object import body, silhouettes
 from veduta.carve import CarveOptions, ColourOptions, VolumeOptions, run_carve
 from veduta.carve.options import PoseOptions, TextureOptions
 from veduta.carve.read.turning import Table, misses, outlines_of
-from veduta.carve.read.turntable import Focal, TurntableRule, find_turns
+from veduta.carve.read.turntable import Focal, TurntableRule, find_turns, seem_uneven
 from veduta.place.place import Place
 from veduta.run.errors import InputError, NotFoundError
 from veduta.run.progress import Progress
@@ -30,6 +30,14 @@ def _table(count: int, *, sign: float = 1.0, roll: float = 0.02, uneven: float =
     steps = 2.0 * np.pi / count * (1.0 + uneven * rng.uniform(-1.0, 1.0, count))
     angles = sign * np.concatenate([[0.0], np.cumsum(steps)[:-1]])
     return Table(FOCAL, float(np.radians(20.0)), roll, 0.01, angles)
+
+
+def _photos_of(table: Table, folder: Path) -> Path:
+    folder.mkdir()
+    for number, mask in enumerate(silhouettes(table, SIZE)):
+        photo = np.where(mask[..., None], (60, 120, 200), 15).astype(np.uint8)
+        cv2.imwrite(str(folder / f"turn{number:02d}.png"), photo)
+    return folder
 
 
 def test_rays_of_the_right_table_miss_nothing_and_others_do() -> None:
@@ -62,6 +70,36 @@ def test_a_vase_does_not_say_how_far_it_turned_but_takes_even_turns() -> None:
         find_turns(masks, GUESS, rule=RULE)
     found = find_turns(masks, Focal(FOCAL, 1e-3), even=True, rule=RULE)
     assert np.diff(np.abs(found.table.angles)) == pytest.approx(2.0 * np.pi / 12)
+    assert np.isnan(found.deviations).all()
+    assert not seem_uneven(found, SIZE, RULE)
+
+
+def test_a_silhouette_that_vanishes_in_a_small_photo_is_refused() -> None:
+    masks = [np.zeros((240, 320), dtype=bool) for _ in range(4)]
+    for mask in masks:
+        mask[90:150, 120:200] = True
+    masks[2][:] = False
+    masks[2][100, 150] = True
+    with pytest.raises(InputError, match="photo 3 shows no silhouette at 80 px") as raised:
+        outlines_of(masks, 16, 80)
+    assert "larger" in str(raised.value)
+
+
+def test_uneven_turns_that_are_taken_as_even_are_doubted(tmp_path: Path) -> None:
+    """Steps as of a ring that is no full turn: what the report says is no certainty."""
+    truth = replace(_table(16), angles=np.radians(23.48) * np.arange(16))
+    folder = _photos_of(truth, tmp_path / "piece")
+    options = CarveOptions(
+        poses=PoseOptions(turntable=True, even_turns=True, focal_px=FOCAL),
+        volume=VolumeOptions(levels=6),
+        colour=ColourOptions(carve=False),
+        texture=TextureOptions(no_texture=True),
+    )
+    result = run_carve(folder, tmp_path / "out", options, Progress(quiet=True))
+    assert result.failure is None
+    assert "turns_deviation_deg" not in result.measures
+    assert any("try without --even-turns" in doubt for doubt in result.doubts)
+    assert "deviation (degrees)" not in (tmp_path / "out" / "report.json").read_text()
 
 
 def test_photos_in_another_order_are_refused() -> None:
@@ -83,11 +121,7 @@ def test_photos_of_several_sizes_and_cut_ones_are_refused() -> None:
 def test_the_verb_carves_a_turntable(tmp_path: Path) -> None:
     """The volume is known but for the scale: metres in the camera's distance."""
     truth = _table(16, uneven=0.0)
-    folder = tmp_path / "piece"
-    folder.mkdir()
-    for number, mask in enumerate(silhouettes(truth, SIZE)):
-        photo = np.where(mask[..., None], (60, 120, 200), 15).astype(np.uint8)
-        cv2.imwrite(str(folder / f"turn{number}.png"), photo)
+    folder = _photos_of(truth, tmp_path / "piece")
     options = CarveOptions(
         poses=PoseOptions(turntable=True),
         volume=VolumeOptions(levels=6),

@@ -15,6 +15,8 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from veduta.run.errors import InputError
+
 Floats = NDArray[np.float64]
 Field = NDArray[np.float32]
 Mask = NDArray[np.bool_]
@@ -84,7 +86,10 @@ class Outlines:
 
 
 def outlines_of(masks: Sequence[Mask], count: int, largest_px: int) -> tuple[Outlines, float]:
-    """Outlines with `count` points each, photos made as small as `largest_px`; by what factor."""
+    """Outlines with `count` points each, photos made as small as `largest_px`; by what factor.
+
+    InputError where a silhouette vanishes in so small a photo.
+    """
     height, width = masks[0].shape
     factor = min(1.0, largest_px / max(height, width))
     size = (round(width * factor), round(height * factor))
@@ -92,6 +97,10 @@ def outlines_of(masks: Sequence[Mask], count: int, largest_px: int) -> tuple[Out
     for number, mask in enumerate(masks):
         soft = cv2.resize(mask.astype(np.float32), size, interpolation=cv2.INTER_AREA)
         small = (soft > 0.5).astype(np.uint8)
+        if not small.any():
+            fault = f"photo {number + 1} shows no silhouette at {max(size)} px"
+            remedy = "Take photos in which the object is larger, or crop all of them alike."
+            raise InputError("--turntable", fault, remedy)
         inner = cv2.distanceTransform(small, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
         outer = cv2.distanceTransform(1 - small, cv2.DIST_L2, cv2.DIST_MASK_PRECISE)
         fields.append(np.where(small > 0, 0.5 - inner, outer - 0.5).astype(np.float32))

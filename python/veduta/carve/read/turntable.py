@@ -36,7 +36,8 @@ class TurntableRule:
     silhouettes' union, below which their difference is nothing. most_cut: share of the photos
     that may cut the object. unsure_deg: a deviation of an angle
     beyond which nothing is known. poor_px: misses (root mean square, px of the photos looked at)
-    beyond which this was no turntable.
+    beyond which this was no turntable. uneven_px: the same beyond which turns that were taken as
+    even may not be: true ones leave 0.5 px, ones that are 4.5 degrees off 1.5 px and more.
     """
 
     largest_px: int = 480
@@ -53,6 +54,7 @@ class TurntableRule:
     most_cut: float = 0.34
     unsure_deg: float = 10.0
     poor_px: float = 4.0
+    uneven_px: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -65,8 +67,9 @@ class Focal:
 
 @dataclass(frozen=True, eq=False)
 class Found:
-    """table: of photos at full size. deviations: (n,) rad, how sure each angle is. miss_px: root
-    mean square of what the outlines' rays miss, px at full size.
+    """table: of photos at full size. deviations: (n,) rad, how sure each angle is; NaN where they
+    were taken as even, not found. miss_px: root mean square of what the outlines' rays miss, px at
+    full size.
     """
 
     table: Table
@@ -101,6 +104,16 @@ def find_turns(
     )
     _refuse_unsure(found, fit.miss_px(), rule)
     return found
+
+
+def seem_uneven(found: Found, size: tuple[int, int], rule: TurntableRule | None = None) -> bool:
+    """Whether turns that were taken as even leave the outlines further apart than rounding does.
+
+    size: of the photos (px).
+    """
+    rule = rule or TurntableRule()
+    factor = min(1.0, rule.largest_px / max(size))
+    return bool(np.isnan(found.deviations).all()) and found.miss_px * factor > rule.uneven_px
 
 
 def _refuse(masks: Sequence[Mask], rule: TurntableRule, *, even: bool) -> None:
@@ -213,9 +226,9 @@ class _Fit:
         return float(np.sqrt(np.square(np.maximum(self.found.miss_px, 0.0)).mean()))
 
     def deviations(self) -> Floats:
-        """(n,) rad of the angles, the first of which is 0 by choice."""
+        """(n,) rad of the angles, the first of which is 0 by choice; NaN where they are even."""
         if self.free == GLOBALS:
-            return np.zeros(len(self.table.angles))
+            return np.full(len(self.table.angles), np.nan)
         # A ray that comes just within would miss if its photo turned: it holds the angle, too.
         near = self.found.miss_px > -1.0
         slopes = self._slopes()
