@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
@@ -35,7 +36,7 @@ def pins_of(
         markers = read_markers(record.markers, names)
         if moved and any(one.at is not None for one in markers):
             _refuse_moved(record.markers)
-        markers = tuple(_in_frames(marker, footage) for marker in markers)
+        markers = tuple(in_frames(marker, footage, record.markers) for marker in markers)
         with work.step("markers") as step:
             tracked = tracked_markers(
                 footage.frames, found.masks, found.rows, markers, MarkerLooks(), record.path.name
@@ -62,12 +63,20 @@ def pins_of(
     return pins
 
 
-def _in_frames(marker: Marker, footage: Footage) -> Marker:
-    """The same with its frame and place as the footage has them, not the record."""
-    row = int(np.abs(footage.number - marker.frame).argmin())
+def in_frames(marker: Marker, footage: Footage, path: Path) -> Marker:
+    """The same with its frame and place as the footage has them, not the record.
+
+    path: where the marker was told; InputError where its frame was not read.
+    """
     if marker.at is None:
-        return replace(marker, frame=row)
-    (left, top), (x, y) = footage.corner, marker.at
+        return marker
+    rows = np.flatnonzero(footage.number == marker.frame)
+    if not len(rows):
+        near = int(footage.number[np.abs(footage.number - marker.frame).argmin()])
+        fault = f"says where {marker.joint} is in frame {marker.frame}, which is not read"
+        every = f"Frames from {footage.number[0]} to {footage.number[-1]} are read"
+        raise InputError(path, fault, f"{every}; frame {near} is the next one that is.")
+    row, (left, top), (x, y) = int(rows[0]), footage.corner, marker.at
     return replace(marker, frame=row, at=(x - left, y - top))
 
 

@@ -9,6 +9,8 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
+from veduta.fauna.pins_recipe import in_frames
+from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.markers import Marker, MarkerLooks, read_markers, tracked_markers
 from veduta.run.errors import InputError, NotFoundError
 from veduta.synthetic.animals import Filmed, film_quadruped
@@ -94,6 +96,11 @@ def test_without_any_marker_the_footage_is_refused(filmed: Filmed) -> None:
         ('nose = { colour = "#ff0000", at = [1] }', "by something else than"),
         ('nose = { colour = "#ff0000", frame = -1 }', "no number of one"),
         ('nose = { colour = "#ff0000", size = 3 }', "has no colour"),
+        (
+            'nose = { colour = "#ff0000", at = [1, 2], frame = 3 }\n'
+            'hip = { colour = "#ff0000", at = [3, 4], frame = 5 }',
+            "nose in frame 3 and hip, of the same colour, in frame 5",
+        ),
     ],
 )
 def test_a_list_of_markers_that_cannot_be_used_is_refused(
@@ -112,3 +119,18 @@ def test_a_list_of_markers_is_read(tmp_path: Path) -> None:
         Marker("nose", (255, 128, 0)),
         Marker("hip", (0, 0, 255), (3.0, 4.5), 2),
     )
+
+
+def test_a_marker_is_told_in_a_frame_that_is_read() -> None:
+    """Of a long film every other frame is read, and a piece of each."""
+    frames = np.zeros((4, 8, 8, 3), dtype=np.uint8)
+    footage = Footage(frames, np.array([0, 2, 4, 6]), 0.1, False, corner=(10, 20))
+    red, path = (255, 0, 0), Path("markers.toml")
+    here = in_frames(Marker("nose", red, (13.0, 24.0), 4), footage, path)
+    assert (here.frame, here.at) == (2, (3.0, 4.0))
+    assert in_frames(Marker("nose", red), footage, path) == Marker("nose", red)
+    for frame in (3, 90):
+        with pytest.raises(InputError, match=f"frame {frame}, which is not read") as raised:
+            in_frames(Marker("nose", red, (3.0, 4.0), frame), footage, path)
+        assert "markers.toml" in str(raised.value)
+        assert f"frame {2 if frame == 3 else 6} is the next" in str(raised.value)

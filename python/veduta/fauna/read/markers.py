@@ -22,6 +22,7 @@ from veduta.run.inputs import require_file
 
 _MOST_BYTES = 1_000_000
 _REMEDY = 'Write a line for each joint, such as `nose = "#ff3020"`; docs/fauna.md says how.'
+_ONE_FRAME = "Say where each of them is in one frame: `at = [x, y]`, `frame = 0`."
 _UNSEEN = 1e6
 """More than any distance in a picture: what is too far away is not the same marker."""
 
@@ -76,8 +77,11 @@ def read_markers(path: Path, joints: Sequence[str]) -> tuple[Marker, ...]:
         alike = [one for one in markers if one.colour == marker.colour]
         if len(alike) > 1 and any(one.at is None for one in alike):
             fault = f"has several markers of one colour, {marker.joint} and {alike[-1].joint}"
-            remedy = "Say where each of them is in one frame: `at = [x, y]`, `frame = 0`."
-            raise InputError(path, fault, remedy)
+            raise InputError(path, fault, _ONE_FRAME)
+        other = next((one for one in alike if one.frame != marker.frame), None)
+        if other is not None:
+            fault = f"has {marker.joint} in frame {marker.frame} and {other.joint}, of the same colour"
+            raise InputError(path, f"{fault}, in frame {other.frame}", _ONE_FRAME)
     return markers
 
 
