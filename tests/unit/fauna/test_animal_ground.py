@@ -22,13 +22,18 @@ from veduta.place.place import Place
 from veduta.run.errors import InputError
 
 
-def _tiff(path: Path, heights: np.ndarray, *, crs: str = "EPSG:32631", cell: float = 0.5) -> Path:
+def _tiff(
+    path: Path, heights: np.ndarray, *, crs: str = "EPSG:32631", cell: float = 0.5,
+    nodata: float | None = -9999.0, unit: str | None = None,
+) -> Path:  # fmt: skip
     """Row 0 is the northernmost."""
     with rasterio.open(
         path, "w", driver="GTiff", width=heights.shape[1], height=heights.shape[0], count=1,
-        dtype="float32", crs=crs, nodata=-9999.0, transform=from_origin(500.0, 900.0, cell, cell),
+        dtype="float32", crs=crs, nodata=nodata, transform=from_origin(500.0, 900.0, cell, cell),
     ) as file:  # fmt: skip
         file.write(heights.astype(np.float32), 1)
+        if unit is not None:
+            file.units = [unit]
     return path
 
 
@@ -70,6 +75,9 @@ def test_a_mesh_that_is_all_ground_is_one(tmp_path: Path) -> None:
     [
         ("EPSG:4326", 0.5, np.zeros((9, 9)), "has degrees"),
         ("EPSG:32631", 0.5, np.full((9, 9), -9999.0), "has no heights"),
+        ("EPSG:2229", 0.5, np.zeros((9, 9)), "has lengths in US survey foot"),
+        ("EPSG:32631", 0.5, np.zeros((1, 9)), "has 1 rows and 9 columns"),
+        ("EPSG:32631", 0.5, np.zeros((9, 1)), "has 9 rows and 1 columns"),
     ],
 )
 def test_heights_that_are_none_are_refused(
@@ -77,6 +85,24 @@ def test_heights_that_are_none_are_refused(
 ) -> None:
     with pytest.raises(InputError, match=fault):
         ground_of(_tiff(tmp_path / "x.tif", heights, crs=crs, cell=cell), 0.8)
+
+
+def test_what_stands_for_no_height_is_no_ground(tmp_path: Path) -> None:
+    heights = np.full((9, 9), 12.0)
+    heights[2, 3] = -9999.0
+    with pytest.raises(InputError, match="has 1 heights such as -9999 m") as raised:
+        ground_of(_tiff(tmp_path / "x.tif", heights, nodata=None), 0.8)
+    assert "nodata" in str(raised.value)
+
+
+@pytest.mark.parametrize(("unit", "refused"), [("ft", True), ("metre", False)])
+def test_heights_in_feet_are_refused(tmp_path: Path, unit: str, refused: bool) -> None:
+    path = _tiff(tmp_path / "x.tif", np.full((9, 9), 12.0), unit=unit)
+    if refused:
+        with pytest.raises(InputError, match="has lengths in ft"):
+            ground_of(path, 0.8)
+    else:
+        assert ground_of(path, 0.8)[0].origin_m[2] == 12.0
 
 
 def test_a_file_that_is_no_grid_is_refused(tmp_path: Path) -> None:

@@ -27,6 +27,9 @@ GRIDS = (".tif", ".tiff")
 _MOST_BYTES = 4_000_000_000
 _MOST_READ = 100_000_000
 """Cells of a file; what has more than a million is planned on larger ones."""
+_METRES = ("m", "metre", "metres", "meter", "meters")
+_LOWEST_M, _HIGHEST_M = -500.0, 9000.0
+"""Of dry ground on Earth, with some room."""
 _SHOWN = 400
 """Vertices along a side of the mesh that is shown: feet stand on that."""
 
@@ -129,6 +132,7 @@ def _read(path: Path) -> tuple[Floats, tuple[float, float], float, str | None]:
                 raise InputError(path, fault, f"{remedy} At most {_MOST_READ:,} cells.")
             crs = None if file.crs is None else file.crs.to_string()
             degrees = file.crs is not None and file.crs.is_geographic
+            unit = _unit(file)
             data = file.read(1, masked=True)
     except FileNotFoundError as error:
         raise InputError(path, "there is no such file", remedy) from error
@@ -140,9 +144,30 @@ def _read(path: Path) -> tuple[Floats, tuple[float, float], float, str | None]:
         raise InputError(path, fault, "Warp it (gdalwarp -tr 1 1).")
     if degrees:
         raise InputError(path, f"has degrees ({crs})", "Project it to a CRS in metres.")
+    if unit is not None:
+        fault = f"has lengths in {unit}, not in metres"
+        raise InputError(path, fault, "Warp it to a CRS in metres, and its heights to metres.")
+    if min(data.shape) < 2:
+        fault = f"has {data.shape[0]} rows and {data.shape[1]} columns"
+        raise InputError(path, fault, "Give a grid of two of each at least.")
     values = np.ma.filled(data.astype(np.float64), np.nan)[::-1]
+    odd = (values < _LOWEST_M) | (values > _HIGHEST_M)
+    if odd.any():
+        fault = f"has {odd.sum():,} heights such as {values[odd][0]:g} m"
+        raise InputError(path, fault, "Say what stands for no height (gdal_edit.py -a_nodata).")
     low = (float(place.c), float(place.f + place.e * values.shape[0]))
     return values, low, float(place.a), crs
+
+
+def _unit(file: rasterio.DatasetReader) -> str | None:
+    """The unit of the file's CRS, or of its heights, where that is told and is no metre."""
+    crs = file.crs
+    if crs is not None and crs.is_projected:
+        name, factor = crs.linear_units_factor
+        if abs(factor - 1.0) > 1e-9:
+            return str(name)
+    told = (file.units[0] or "").strip()
+    return told if told and told.lower() not in _METRES else None
 
 
 def _coarser(heights: Floats, by: int) -> Floats:
