@@ -1,4 +1,4 @@
-"""The animal on its path as a clip of its own: `on-path.glb` and `on-path.x3d`."""
+"""The animal on its path as a clip of its own: `on-path.glb` and `animal.x3d`."""
 
 from __future__ import annotations
 

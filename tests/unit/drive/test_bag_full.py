@@ -19,7 +19,8 @@ from rosbags.rosbag2 import Writer as Writer2
 from rosbags.typesys import Stores, get_types_from_msg, get_typestore
 from scipy.spatial.transform import Rotation
 
-from veduta.drive.read.bag_rows import points_of
+from veduta.drive.document.log import Bag
+from veduta.drive.read.bag_rows import BagRows, points_of
 from veduta.drive.read.own import read_own
 from veduta.run.errors import InputError
 
@@ -186,6 +187,24 @@ def test_scans_that_are_no_points_are_told() -> None:
         points_of(_cloud("xyi", 2, rows), path)
     with pytest.raises(InputError, match="3 points in 24 bytes"):
         points_of(_cloud("xyz", 3, rows), path)
+
+
+def test_two_scans_of_one_microsecond_are_two_files(tmp_path: Path) -> None:
+    full: Any = SimpleNamespace(table="full.parquet")
+    log: Any = SimpleNamespace(vertical=None, horizontal=None, full=full, path=None)
+    rows = BagRows(
+        log, Bag(file="a.bag", topics={"full.parquet": "/points"}), tmp_path / "a.bag", tmp_path
+    )
+    names = []
+    for value in (1.0, 2.0):
+        points = np.full(3, value, dtype=">f4")
+        message = _cloud("xyz", 1, points.tobytes())
+        message.header = SimpleNamespace(stamp=SimpleNamespace(sec=7, nanosec=100))
+        row = rows.row("full.parquet", "sensor_msgs/msg/PointCloud2", message, 0.0)
+        assert row is not None
+        names.append(row["file"])
+    read = [np.load(tmp_path / name)[0, 0] for name in names]
+    assert read == [1.0, 2.0]
 
 
 def _files(folder: Path, places: NDArray[np.float64]) -> None:

@@ -30,6 +30,7 @@ class BagRows:
         }
         self._full = None if log.full is None else log.full.table
         self._bag, self._path, self._scratch = bag, path, scratch
+        self._written: set[Path] = set()
         frames = None if log.path is None else log.path.tf
         self._transforms = None if frames is None else Transforms(*frames)
 
@@ -56,7 +57,7 @@ class BagRows:
                 "latitude_deg": float(message.latitude),
             }  # fmt: skip
         if name == "CompressedImage":
-            return {"time_s": time_s, "file": _image(message, table, time_s, self._scratch)}
+            return {"time_s": time_s, "file": self._image(message, table, time_s)}
         fault = f"has {kind} in {self._bag.topics[table]}, which cannot become {table}"
         raise InputError(self._path, fault, "LaserScan, PointCloud2, Odometry, PoseStamped, tf,"
                          " NavSatFix and CompressedImage are read.")  # fmt: skip
@@ -88,11 +89,27 @@ class BagRows:
 
     def _cloud(self, message: Any, table: str, time_s: float) -> str:
         points = points_of(message, self._path)
+        file = self._file(table, time_s, "npy")
+        np.save(file, points, allow_pickle=False)
+        return f"{file.parent.name}/{file.name}"
+
+    def _image(self, message: Any, table: str, time_s: float) -> str:
+        data = bytes(message.data)
+        file = self._file(table, time_s, "png" if data.startswith(b"\x89PNG") else "jpg")
+        file.write_bytes(data)
+        return f"{file.parent.name}/{file.name}"
+
+    def _file(self, table: str, time_s: float, suffix: str) -> Path:
+        """Called by the microsecond, and by a number where that one has several of a table."""
         folder = self._scratch / f"{Path(table).stem}-files"
         folder.mkdir(exist_ok=True)
-        file = folder / f"{round(time_s * 1e6)}.npy"
-        np.save(file, points, allow_pickle=False)
-        return f"{folder.name}/{file.name}"
+        stem = f"{round(time_s * 1e6)}"
+        file, count = folder / f"{stem}.{suffix}", 1
+        while file in self._written:
+            count += 1
+            file = folder / f"{stem}-{count}.{suffix}"
+        self._written.add(file)
+        return file
 
 
 def points_of(message: Any, path: Path) -> NDArray[np.float32]:
@@ -152,13 +169,3 @@ def _pose(place: Any, turn: Any) -> list[float]:
         2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w), float(place.y),
         2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y), float(place.z),
     ]  # fmt: skip
-
-
-def _image(message: Any, table: str, time_s: float, scratch: Path) -> str:
-    data = bytes(message.data)
-    suffix = "png" if data.startswith(b"\x89PNG") else "jpg"
-    folder = scratch / f"{Path(table).stem}-files"
-    folder.mkdir(exist_ok=True)
-    file = folder / f"{round(time_s * 1e6)}.{suffix}"
-    file.write_bytes(data)
-    return f"{folder.name}/{file.name}"

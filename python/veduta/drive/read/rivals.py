@@ -52,8 +52,8 @@ class Margin:
 
     @property
     def share(self) -> float:
-        """What of the path's fit no rival has: near 0, another place does as well; 0, too, where the
-        path does not fit at all, or nothing is known.
+        """What of the path's fit no rival has: near 0, another place does as well; 0, too, where
+        the path does not fit at all, or nothing is known.
         """
         if not self.own > 0.0 or not np.isfinite(self.rival):
             return 0.0
