@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import shutil
 from pathlib import Path
 
 import cv2
@@ -9,6 +10,8 @@ import cv2
 from veduta.fauna.command import run_fauna
 from veduta.fauna.options import AnimalOptions, FaunaOptions
 from veduta.fauna.recipe import Record
+from veduta.run.atomic import atomic_folder
+from veduta.run.outputs import writing_to
 from veduta.run.progress import Progress
 from veduta.run.verb import VerbResult
 from veduta.synthetic.animals import film_quadruped
@@ -25,11 +28,22 @@ def run_demo_animal(out: Path, progress: Progress, *, force: bool) -> VerbResult
     The film is of 22 frames of 360 x 640, with noise and grass; its background is estimated.
     """
     film = out / FILM
-    if not film.is_dir() or force:
-        film.mkdir(parents=True, exist_ok=True)
-        filmed = film_quadruped(_SEED, frames=_FRAMES, cycle=_CYCLE)
-        for row, frame in enumerate(filmed.frames):
-            cv2.imwrite(str(film / f"{row:03d}.png"), frame[..., ::-1])
+    if force and film.is_dir():
+        shutil.rmtree(film)
+    if not film.is_dir():
+        out.mkdir(parents=True, exist_ok=True)
+        with writing_to(out), atomic_folder(film) as folder:
+            _write_film(folder)
     options = FaunaOptions(animal=AnimalOptions(kind="quadruped", length_m=_LENGTH_M))
     record = Record(film, place=out)
     return run_fauna(record, out / ANIMAL, options, progress, force=force)
+
+
+def _write_film(folder: Path) -> None:
+    """A PNG for each frame; OSError where one cannot be written."""
+    filmed = film_quadruped(_SEED, frames=_FRAMES, cycle=_CYCLE)
+    for row, frame in enumerate(filmed.frames):
+        done, content = cv2.imencode(".png", frame[..., ::-1])
+        if not done:
+            raise OSError(f"frame {row} of the film is no PNG")
+        (folder / f"{row:03d}.png").write_bytes(content.tobytes())
