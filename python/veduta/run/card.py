@@ -36,8 +36,8 @@ class Engine:
     """Where the heavy steps of a run are computed.
 
     card: the open graphics card, or None: the processor. told: how it was chosen, for the report.
-    lost: why the card was given up in the middle, or None. slower: the steps that a trial showed to
-    be slower on the card, with what it showed.
+    lost: why the card was given up in the middle, or None. tried: of the steps that were computed
+    on both, what that showed. slower: those of them that are slower on the card.
     """
 
     def __init__(self, device: Device, card: _core.GraphicsCard | None, told: str) -> None:
@@ -45,8 +45,8 @@ class Engine:
         self.card = card
         self.told = told
         self.lost: str | None = None
-        self.slower: dict[str, str] = {}
-        self._tried: set[str] = set()
+        self.tried: dict[str, str] = {}
+        self.slower: set[str] = set()
 
     def run(
         self,
@@ -62,7 +62,7 @@ class Engine:
         """
         if self.card is None or step in self.slower:
             return on_cores()
-        if self.device == "auto" and step is not None and step not in self._tried:
+        if self.device == "auto" and step is not None and step not in self.tried:
             return self.trial(step, on_card, on_cores)
         return self._on_card(on_card, on_cores)
 
@@ -70,7 +70,6 @@ class Engine:
         self, step: str, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]
     ) -> T:
         """What the processor finds; `slower` has the step where the card took longer."""
-        self._tried.add(step)
         began = perf_counter()
         found = on_cores()
         cores_s = perf_counter() - began
@@ -78,8 +77,10 @@ class Engine:
         began = perf_counter()
         self._on_card(on_card, lambda: found)
         card_s = perf_counter() - began
-        if self.card is not None and card_s >= cores_s:
-            self.slower[step] = f"{step}: {card_s:.3f} s on the card, {cores_s:.3f} s on the cores"
+        if self.card is not None:
+            self.tried[step] = f"{step}: {card_s:.3f} s on the card, {cores_s:.3f} s on the cores"
+            if card_s >= cores_s:
+                self.slower.add(step)
         return found
 
     def _on_card(self, on_card: Callable[[_core.GraphicsCard], T], on_cores: Callable[[], T]) -> T:
@@ -118,11 +119,9 @@ def choose_engine(device: Device, *, software: bool = False) -> Engine:
 def tell_engine(work: Work, engine: Engine) -> None:
     """In the report: what computed, and that the card was given up where it was."""
     work.fact("Computed by", engine.told)
-    if engine.slower:
-        work.note(
-            f"{engine.told} was slower in a trial, so that the processor computed: "
-            + "; ".join(engine.slower.values())
-        )
+    for step, shown in engine.tried.items():
+        faster = "the processor" if step in engine.slower else "the card"
+        work.note(f"Tried on both, of which {faster} was faster and went on: {shown}.")
     if engine.lost is not None:
         work.doubt(f"{engine.lost}; from there on the processor computed")
 
