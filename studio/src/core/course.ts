@@ -39,6 +39,17 @@ export class Course {
     return this.#pace;
   }
 
+  /** At the end of an open path: it goes on only when it is led. */
+  get standing(): boolean {
+    return this.#pace === 0 && this.#left === 0;
+  }
+
+  /** Metres to the end of an open path; less than a hair is none. */
+  get #left(): number {
+    const left = this.#curve.closed ? Infinity : this.#curve.length_m - 0.5 * this.#length_m - this.#arc;
+    return left < 1e-6 ? 0 : left;
+  }
+
   /** Beside the body's middle, so many metres ahead of it. */
   at(ahead_m: number): OnCurve {
     return this.#curve.at(this.#arc + ahead_m);
@@ -49,7 +60,7 @@ export class Course {
    * that. At the end of an open path it stands.
    */
   advance(speed: number, wants: boolean, seconds: number): number {
-    const left = this.#curve.closed ? Infinity : this.#curve.length_m - 0.5 * this.#length_m - this.#arc;
+    const left = this.#left;
     const stops = speed * EASE_S * 0.5;
     const wish = !wants || left <= 0 ? 0 : Math.min(1, 0.08 + left / Math.max(stops, 1e-9));
     const change = seconds / EASE_S;

@@ -6,6 +6,8 @@ export interface Goer {
   /** Unit vector along its path. */
   readonly ahead: Vec3;
   readonly length_m: number;
+  /** It has come to the end of its way, and goes nowhere by itself: waiting for it would never end. */
+  readonly standing: boolean;
 }
 
 /** Bodies keep so much of both lengths' mean between their middles, looked at from the front. */
@@ -14,16 +16,34 @@ const APART = 0.75;
 const BESIDE = 0.45;
 
 /**
- * Whether an animal waits for another: that one is close before it, and of two that are before each
- * other the later one waits.
+ * Whether an animal waits for another: that one is close before it and on its way. Of several that wait
+ * for each other in a ring, two or more, the first goes.
  */
 export function waits(which: number, all: readonly (Goer | null)[]): boolean {
+  return inTheWay(which, all).some((other) => !comesBack(other, which, all));
+}
+
+/** Those that are close before one, and on their way. */
+function inTheWay(which: number, all: readonly (Goer | null)[]): number[] {
   const own = all[which];
-  if (own === null || own === undefined) return false;
-  return all.some((other, index) => {
-    if (other === null || index === which || !isBefore(own, other)) return false;
-    return !isBefore(other, own) || index < which;
+  if (own === null || own === undefined) return [];
+  return [...all.keys()].filter((index) => {
+    const other = all[index];
+    return index !== which && other !== null && other !== undefined && !other.standing && isBefore(own, other);
   });
+}
+
+/** Whether what one waits for leads to the first of a ring, over later ones only. */
+function comesBack(one: number, first: number, all: readonly (Goer | null)[]): boolean {
+  const seen = new Set<number>();
+  const open = [one];
+  for (let at = open.pop(); at !== undefined; at = open.pop()) {
+    if (at === first) return true;
+    if (at < first || seen.has(at)) continue;
+    seen.add(at);
+    open.push(...inTheWay(at, all));
+  }
+  return false;
 }
 
 function isBefore(own: Goer, other: Goer): boolean {

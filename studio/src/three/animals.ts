@@ -61,7 +61,7 @@ class LivingAnimal {
   /** Where it is, and where it goes. */
   get goer(): Goer {
     const { point, ahead } = this.course.at(0);
-    return { place: point, ahead, length_m: this.animal.length_m };
+    return { place: point, ahead, length_m: this.animal.length_m, standing: this.course.standing };
   }
 
   /** True while it moves. */

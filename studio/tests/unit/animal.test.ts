@@ -81,8 +81,10 @@ describe("a course", () => {
     const course = new Course(animal(), () => null);
     for (let i = 0; i < 20; i += 1) course.advance(0.5, true, 0.05);
     expect(course.pace).toBe(1);
+    expect(course.standing).toBe(false);
     for (let i = 0; i < 2000; i += 1) course.advance(0.5, true, 0.05);
     expect(course.pace).toBe(0);
+    expect(course.standing).toBe(true);
     expect(length(subtract(course.at(0.25).point, [4, 4, 1]))).toBeLessThan(0.02);
   });
 
@@ -91,6 +93,7 @@ describe("a course", () => {
     for (let i = 0; i < 20; i += 1) course.advance(0.5, true, 0.05);
     for (let i = 0; i < 20; i += 1) course.advance(0.5, false, 0.05);
     expect(course.pace).toBe(0);
+    expect(course.standing).toBe(false);
   });
 
   it("is led to a point from where it is, on the ground", () => {
