@@ -80,8 +80,9 @@ def read_markers(path: Path, joints: Sequence[str]) -> tuple[Marker, ...]:
             raise InputError(path, fault, _ONE_FRAME)
         other = next((one for one in alike if one.frame != marker.frame), None)
         if other is not None:
-            fault = f"has {marker.joint} in frame {marker.frame} and {other.joint}, of the same colour"
-            raise InputError(path, f"{fault}, in frame {other.frame}", _ONE_FRAME)
+            first = f"has {marker.joint} in frame {marker.frame}"
+            fault = f"{first} and {other.joint}, of the same colour, in frame {other.frame}"
+            raise InputError(path, fault, _ONE_FRAME)
     return markers
 
 
