@@ -90,10 +90,11 @@ def _tell(work: Work, views: Sequence[View], found: Found) -> None:
         )
     elif not known:
         work.note("The turns are even as --even-turns says: how sure they are was not looked at.")
-    rows: list[list[float | int | str | None]] = [
-        [view.name, round(float(angle), 2)] + ([round(float(one), 2)] if known else [])
-        for view, angle, one in zip(views, degrees, sure, strict=True)
-    ]
+    rows: list[list[float | int | str | None]] = []
+    for view, angle, one in zip(views, degrees, sure, strict=True):
+        rows.append([view.name, round(float(angle), 2)])
+        if known:
+            rows[-1].append(round(float(one), 2))
     columns = ["photo", "turned since the first (degrees)"]
     columns += ["deviation (degrees)"] if known else []
     work.table(Table("Turns of the table", columns, rows))
