@@ -47,6 +47,7 @@ def _tell_failures(result: CallResult) -> None:
 
 
 def _tell_results(result: CallResult) -> None:
+    from veduta.facade.arrangement import wall_line
     from veduta.facade.label_pictures import labels_note
     from veduta.facade.report import adjusted_line, summary_line
 
@@ -55,6 +56,8 @@ def _tell_results(result: CallResult) -> None:
     for name in done:
         print(f"{name}: {summary_line(result.summaries[name])}{_state(name, result)}")
         adjusted = adjusted_line(result.summaries[name])
+        if wall := wall_line(result.summaries[name]):
+            print(f"{' ' * len(name)}  {wall}")
         if adjusted:
             print(f"{' ' * len(name)}  {adjusted}: {out / name / 'report.html'}")
     for path in _edited(result):

@@ -13,6 +13,7 @@ from veduta.facade.options import (
     EyesOptions,
     FacadeOptions,
     ModelOptions,
+    OntoOptions,
     RectifyOptions,
     ScaleOptions,
     StyleOptions,
@@ -46,6 +47,7 @@ class FacadeCall:
     scale: ScaleOptions = field(default_factory=ScaleOptions)
     model: ModelOptions = field(default_factory=ModelOptions)
     style: StyleOptions = field(default_factory=StyleOptions)
+    onto: OntoOptions = field(default_factory=OntoOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False
@@ -61,4 +63,5 @@ class FacadeCall:
             scale=self.scale,
             model=self.model,
             style=self.style,
+            onto=self.onto,
         )

@@ -10,12 +10,12 @@ from typing import cast
 
 from pydantic import JsonValue
 
-from veduta.facade.arrangement import Placed, Vector, arrange
+from veduta.facade.arrangement import Placed, Vector, arrange, stand_of
 from veduta.facade.call import Call, Input, Kind, plan_call
 from veduta.facade.job import Job, JobResult, memory_of, run_job
 from veduta.facade.label_pictures import labels_note
 from veduta.facade.load import DOCUMENT, load_document, load_photo
-from veduta.facade.options import FacadeOptions
+from veduta.facade.options import FacadeOptions, OntoOptions
 from veduta.facade.pipeline import VERSION
 from veduta.facade.report import call_report
 from veduta.run.digests import file_digest, result_key
@@ -94,8 +94,14 @@ def run_call(
             f"are those of one facade, but {len(call.inputs)} photos are named",
             "Make a call for each photo.",
         )
+    elif options.onto.onto is not None and len(call.inputs) > 1:
+        raise InputError(
+            "--onto",
+            f"has a wall for one front, but {len(call.inputs)} photos are named",
+            "Make a call for each photo.",
+        )
     if call.kind == "photo":
-        options = options.of_photo()
+        options = _on_wall(options).of_photo()
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
@@ -123,6 +129,15 @@ def run_call(
             _write_call(folder, options, key, result)
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
+
+
+def _on_wall(options: FacadeOptions) -> FacadeOptions:
+    """The options with the wall that the front is put on, where one is asked for."""
+    if options.onto == OntoOptions():
+        return options
+    from veduta.facade.footprint import on_wall  # slow to load, and few calls ask for it
+
+    return on_wall(options)
 
 
 def _outdate(folder: OutFolder, before: dict[str, str | None]) -> None:
@@ -160,6 +175,7 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
         (options.rectify, mend),
         (options.scale, mend_scale),
         (options.style, mend),
+        (options.onto, mend),
     )
     for given, remedy in remedies:
         for name in type(given).model_fields:
@@ -310,7 +326,12 @@ def _write_call(folder: OutFolder, options: FacadeOptions, key: str, result: Cal
     """The place of all that is done, and the report of the call."""
     work = folder.work_folder(CALL)
     placed = [
-        Placed(name, _vector(summary["bounds_min"]), _vector(summary["bounds_max"]))
+        Placed(
+            name,
+            _vector(summary["bounds_min"]),
+            _vector(summary["bounds_max"]),
+            stand_of(summary),
+        )
         for name, summary in result.summaries.items()
     ]
     notes = [f"{name}/ is left from an earlier call" for name in result.left]

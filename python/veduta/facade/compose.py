@@ -65,7 +65,8 @@ def compose(
     rows = [round(b * k.down, 2) for b in parse.floors.boundaries]
     left, right = (round(x * k.across, 2) for x in (parse.sides.left, parse.sides.right))
     bottom = round(parse.sides.bottom * k.down, 2)
-    scale = metres(rows, bottom, options.scale, parse.floors.storey_px * k.down)
+    storey = parse.floors.storey_px * k.down
+    scale = metres(rows, bottom, options.scale, storey, right - left)
     m = scale.metres_per_px
     facade = FacadeBox(
         x_px=left,
@@ -75,7 +76,7 @@ def compose(
         width_m=(right - left) * m,
         height_m=(bottom - rows[0]) * m,
     )
-    require_possible(facade, record)
+    require_possible(facade, record, scale.basis)
     elements = [_element(b, k, facade, m) for b in parse.boxes]
     rules = rule_parameters(rows, parse.skyline.level * k.down, facade, elements, m)
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]

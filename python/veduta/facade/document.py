@@ -12,6 +12,7 @@ from typing import Literal
 from pydantic import BaseModel, ConfigDict, Field
 
 from veduta.facade.options import ModelSizes
+from veduta.facade.wall import Wall
 from veduta.place.semantics import LABELS, Label
 
 FacadeClass = Label
@@ -60,7 +61,7 @@ class Scale(_Record):
     """Metres per rectified pixel, the same in x and y."""
 
     metres_per_px: float
-    basis: Literal["height", "storey", "assumed-storey", "edited"]
+    basis: Literal["height", "storey", "width", "assumed-storey", "edited"]
 
 
 class FacadeBox(_Record):
@@ -155,6 +156,9 @@ class FacadeDocument(_Record):
     facade: FacadeBox
     model: ModelSizes = Field(
         default=ModelSizes(), description="what the model has that no photo shows, in metres"
+    )
+    wall: Wall | None = Field(
+        default=None, description="of an existing building, that the front stands on"
     )
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")

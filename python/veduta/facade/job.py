@@ -10,6 +10,7 @@ from PIL import Image
 from pydantic import JsonValue
 
 from veduta.facade.adjusted import count_adjusted
+from veduta.facade.arrangement import stands
 from veduta.facade.call import Input
 from veduta.facade.load import PHOTO
 from veduta.facade.options import FacadeOptions, RectifyOptions
@@ -119,6 +120,7 @@ def _summary(building: Building, steps: list[StepRecord]) -> dict[str, JsonValue
         "scale",
     )
     return {
+        **stands(building.document),
         **{name: found[name] for name in kept},
         **count_adjusted(building.part.notes),
         "seconds": round(sum(step.seconds for step in steps), 3),

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Literal
 
 from pydantic import Field
 
+from veduta.facade.wall import Wall
 from veduta.run.options import Options
 
 Metres = Annotated[float, Field(gt=0)]
@@ -40,6 +42,14 @@ class ScaleOptions(Options):
     storey_m: Annotated[float, Field(ge=2.0, le=8.0)] | None = Field(
         default=None, description="mean storey height (m); assumed 3.0 where nothing is given"
     )
+    width_m: Annotated[float, Field(ge=0.5, le=1000.0)] | None = Field(
+        default=None, description="width of the front (m), between the sides that are found"
+    )
+
+    @property
+    def is_given(self) -> bool:
+        """Whether something says how large the front is."""
+        return any(size is not None for size in (self.height_m, self.storey_m, self.width_m))
 
 
 class ModelSizes(Options):
@@ -67,6 +77,28 @@ class ModelOptions(Options):
     def over(self, known: ModelSizes) -> ModelSizes:
         """The sizes that are known, with those that were asked for in their place."""
         return known.model_copy(update=self.model_dump(exclude_none=True))
+
+
+class OntoOptions(Options):
+    """Which wall of an existing building the front is put on."""
+
+    onto: Path | None = Field(
+        default=None,
+        description=(
+            "footprint of an existing building, a file that `veduta grammar` reads lots from:"
+            " the front is put on one of its walls"
+        ),
+    )
+    edge: Annotated[int, Field(ge=0)] | None = Field(
+        default=None,
+        description=(
+            "the wall: edge of the footprint, counter-clockwise, 0 joins its first two"
+            " corners; that on the street, or the longest, if not given"
+        ),
+    )
+    lot: str | None = Field(
+        default=None, description="name of the footprint, where the file has several"
+    )
 
 
 class EyesOptions(Options):
@@ -101,6 +133,8 @@ class FacadeOptions(Options):
     scale: ScaleOptions = ScaleOptions()
     model: ModelOptions = ModelOptions()
     style: StyleOptions = StyleOptions()
+    onto: OntoOptions = OntoOptions()
+    wall: Wall | None = None
 
     def of_photo(self) -> FacadeOptions:
         """The effective options of a photo: nothing is known of its model but what is asked."""

@@ -6,6 +6,7 @@ An edited document takes the second way in: load, model, write.
 from __future__ import annotations
 
 import io
+import math
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -26,6 +27,7 @@ from veduta.facade.quantities import QUANTITIES, quantities_csv
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
 from veduta.facade.style_told import StyleTold
+from veduta.facade.wall import Wall
 from veduta.formats.cityjson import write_cityjson
 from veduta.imaging.encode import jpeg_bytes
 from veduta.imaging.read import Photo, read_image
@@ -34,7 +36,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "13"
+VERSION = "14"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -83,7 +85,7 @@ def reconstruct(
     document, analysis = analyse(rectified, _source(photo), options, progress, seen)
     steps.extend(analysis)
     document = _with_notes(document, (*photo.notes, *rectified.notes))
-    document = _sized(document, options.model)
+    document = _on_wall(_sized(document, options.model), options.wall)
     jpeg, pixels = _stored(rectified.pixels)
     document, style = _styled(document, pixels, seen, options.style, steps, progress)
     before = np.zeros(pixels.shape[:2], np.uint8) if seen is None else hidden_kinds(seen)
@@ -149,6 +151,19 @@ def _with_notes(document: FacadeDocument, notes: tuple[str, ...]) -> FacadeDocum
 def _sized(document: FacadeDocument, asked: ModelOptions) -> FacadeDocument:
     """The document with the sizes that the model gets, so that a rebuild has them too."""
     return document.model_copy(update={"model": asked.over(document.model)})
+
+
+def _on_wall(document: FacadeDocument, wall: Wall | None) -> FacadeDocument:
+    """The document with the wall that its front stands on, and what was chosen of it."""
+    if wall is None:
+        return document
+    said = wall.notes(
+        document.facade.width_m,
+        document.model.depth_m,
+        is_scaled=document.scale.basis == "width"
+        and math.isclose(document.facade.width_m, wall.width_m, rel_tol=1e-9),
+    )
+    return document.model_copy(update={"wall": wall, "notes": [*document.notes, *said]})
 
 
 def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:

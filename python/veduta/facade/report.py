@@ -53,6 +53,7 @@ FOUND_NOTE = (
 _BASIS = {
     "height": "from the height given",
     "storey": "from the storey given",
+    "width": "from the width given",
     "assumed-storey": "assumed",
     "edited": "as edited",
 }

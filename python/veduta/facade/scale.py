@@ -1,4 +1,4 @@
-"""How many metres a pixel is: from the facade's height, its mean storey, or an assumed storey."""
+"""How many metres a pixel is: from the facade's height, storey or width, or an assumed storey."""
 
 from __future__ import annotations
 
@@ -19,13 +19,17 @@ _MEND_ASPECT = {
 
 
 def metres(
-    rows: list[float], bottom: float, options: ScaleOptions, storey_px: float | None = None
+    rows: list[float],
+    bottom: float,
+    options: ScaleOptions,
+    storey_px: float | None = None,
+    width_px: float = 0.0,
 ) -> Scale:
     """Metres per rectified pixel.
 
     `rows` are the boundaries of the floors above the ground floor, eaves first, and `bottom` is
     the street, all in rectified pixels from the top. `storey_px` is how high a storey would be
-    where the rows have no floor.
+    where the rows have no floor. `width_px` is the front's.
     """
     if options.height_m is not None:
         return Scale(metres_per_px=options.height_m / (bottom - rows[0]), basis="height")
@@ -33,6 +37,8 @@ def metres(
         storey_px = (rows[-1] - rows[0]) / (len(rows) - 1)
     if options.storey_m is not None:
         return Scale(metres_per_px=options.storey_m / storey_px, basis="storey")
+    if options.width_m is not None and width_px > 0:
+        return Scale(metres_per_px=options.width_m / width_px, basis="width")
     return Scale(metres_per_px=ASSUMED_STOREY_M / storey_px, basis="assumed-storey")
 
 
@@ -41,6 +47,8 @@ def scale_notes(scale: Scale, options: ScaleOptions) -> list[str]:
     notes = []
     if options.height_m is not None and options.storey_m is not None:
         notes.append("scale: --height-m decides; --storey-m beside it is not used")
+    if options.width_m is not None and scale.basis != "width":
+        notes.append(f"scale: --{scale.basis}-m decides; --width-m beside it is not used")
     if scale.basis == "assumed-storey":
         notes.append(ASSUMED_STOREY)
     return notes
@@ -51,18 +59,21 @@ def is_possible(side_m: float) -> bool:
     return SMALLEST_SIDE_M <= side_m <= LARGEST_SIDE_M
 
 
-def require_possible(facade: FacadeBox, record: Rectification) -> None:
+def require_possible(facade: FacadeBox, record: Rectification, basis: str = "height") -> None:
     """Refuse a facade of a size that none has, by what its height or its proportions come from.
 
-    InputError names the option that gives the height. Where the width alone is at fault, the
-    photo was rectified wrongly, or shows no facade: NotFoundError.
+    basis: that of the scale. InputError names the option that gives the height. Where the width
+    alone is at fault, the photo was rectified wrongly, or shows no facade: NotFoundError.
     """
     bounds = f"not between {SMALLEST_SIDE_M:g} and {LARGEST_SIDE_M:g} m"
     if not is_possible(facade.height_m):
+        by_width = basis == "width"
         raise InputError(
-            "--height-m",
+            "--width-m" if by_width else "--height-m",
             f"makes the facade {facade.height_m:g} m high, {bounds}",
-            "Give the metres from the ground to the eaves.",
+            "Check the width, or the wall that has it, or give --height-m."
+            if by_width
+            else "Give the metres from the ground to the eaves.",
         )
     if not is_possible(facade.width_m):
         size = f"{facade.width_m:.3g} m wide and {facade.height_m:.3g} m high"

@@ -5,10 +5,11 @@ from __future__ import annotations
 import itertools
 from pathlib import Path
 
+import numpy as np
 from hypothesis import given
 from hypothesis import strategies as st
 
-from veduta.facade.arrangement import EYE_M, GAP_M, Placed, arrange
+from veduta.facade.arrangement import EYE_M, GAP_M, Placed, Stand, arrange
 
 size = st.floats(0.5, 60.0)
 
@@ -37,3 +38,27 @@ def test_no_two_touch(boxes: list[tuple[float, float, float, float, float]]) -> 
     assert z == EYE_M
     assert y < min(building.low[1] for building in buildings)
     assert edges[0][0] <= x <= edges[-1][1]
+
+
+def test_fronts_on_walls_of_one_frame_stand_there() -> None:
+    turned = np.eye(4)
+    turned[:2, :2], turned[:3, 3] = [[0, -1], [1, 0]], (20.0, 5.0, 3.0)
+    stands = [Stand(tuple(m.T.ravel().tolist()), "EPSG:25832", (7e5, 5e6, 0.0))
+              for m in (np.eye(4), turned)]  # fmt: skip
+    buildings = [
+        Placed(f"b{number}", (0.0, -0.5, 0.0), (10.0, 8.0, 12.0), stand)
+        for number, stand in enumerate(stands)
+    ]
+    place = arrange(buildings, Path())
+    assert (place.crs, place.origin_m) == ("EPSG:25832", (7e5, 5e6, 0.0))
+    assert np.array_equal(place.parts["b1"].standing.transform, turned)
+    assert place.parts["b1"].standing.arrangement == "single"
+    alone = arrange(buildings[1:], Path())
+    # The visitor stands before the front, which looks along +x here, at eye height above its foot.
+    assert alone.start is not None
+    assert np.allclose(alone.start.eye, (20.5 + 1.3 * 12.0, 10.0, 3.0 + EYE_M))
+
+    other = Placed("b2", (0.0, 0.0, 0.0), (5.0, 5.0, 5.0))
+    mixed = arrange([*buildings, other], Path())
+    assert mixed.crs is None
+    assert {placed.standing.arrangement for placed in mixed.parts.values()} == {"invented"}

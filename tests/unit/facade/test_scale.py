@@ -5,7 +5,8 @@ from __future__ import annotations
 import pytest
 
 from veduta.facade.document import FacadeBox, Rectification
-from veduta.facade.scale import is_possible, require_possible
+from veduta.facade.options import ScaleOptions
+from veduta.facade.scale import is_possible, metres, require_possible, scale_notes
 from veduta.run.errors import InputError, NotFoundError
 
 
@@ -48,3 +49,18 @@ def test_a_width_is_that_of_the_proportions(width_m: float, aspect: str, remedy:
     with pytest.raises(NotFoundError, match=remedy) as caught:
         require_possible(box(width_m, 15.0), rectified(aspect))
     assert f"{width_m:.3g} m wide and 15 m high" in caught.value.evidence
+
+
+def test_a_width_gives_the_scale_where_nothing_else_does() -> None:
+    rows, bottom = [100.0, 160.0, 220.0], 300.0
+    wide = metres(rows, bottom, ScaleOptions(width_m=12.0), width_px=240.0)
+    assert (wide.basis, wide.metres_per_px) == ("width", 0.05)
+    both = ScaleOptions(width_m=12.0, storey_m=3.6)
+    scale = metres(rows, bottom, both, width_px=240.0)
+    assert (scale.basis, scale.metres_per_px) == ("storey", 3.6 / 60.0)
+    assert scale_notes(scale, both) == [
+        "scale: --storey-m decides; --width-m beside it is not used"
+    ]
+    with pytest.raises(InputError, match="1001 m high") as caught:
+        require_possible(box(20.0, 1001.0), rectified("given"), "width")
+    assert caught.value.subject == "--width-m"
