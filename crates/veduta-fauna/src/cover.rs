@@ -124,6 +124,8 @@ struct Felt {
     inside: f32,
     share: f32,
     away: [f32; 2],
+    /// How its radius at the nearest point changes as that moves along it with each of its ends.
+    thicker: [[f32; 2]; 2],
 }
 
 fn laid(capsules: &Capsules<'_>, pose: &[[f32; 2]], soft: f32) -> Vec<Laid> {
@@ -168,13 +170,14 @@ fn one_frame(
             // By the distance occupancy falls by (1 - occupancy) * inside / soft.
             let all = one.inside * pull;
             let late = all * one.share;
-            for (joint, part) in [
-                (capsules.start[one.segment], all - late),
-                (capsules.end[one.segment], late),
+            for (joint, part, thicker) in [
+                (capsules.start[one.segment], all - late, one.thicker[0]),
+                (capsules.end[one.segment], late, one.thicker[1]),
             ] {
                 by_deep[joint] -= f64::from(part);
-                by_joint[joint][0] -= f64::from(part * one.away[0]);
-                by_joint[joint][1] -= f64::from(part * one.away[1]);
+                for axis in 0..2 {
+                    by_joint[joint][axis] -= f64::from(part * one.away[axis] + all * thicker[axis]);
+                }
             }
         }
     }
@@ -186,7 +189,14 @@ fn felt(capsules: &[Laid], place: [f32; 2], soft: f32, near: &mut [Felt]) -> (us
     let (mut count, mut empty) = (0, 1.0f32);
     for (segment, one) in capsules.iter().enumerate() {
         let (mut x, mut y) = (place[0] - one.from[0], place[1] - one.from[1]);
-        let share = ((x * one.along[0] + y * one.along[1]) * one.per_square).clamp(0.0, 1.0);
+        let free = (x * one.along[0] + y * one.along[1]) * one.per_square;
+        let share = free.clamp(0.0, 1.0);
+        let taper = if free == share {
+            one.taper * one.per_square
+        } else {
+            0.0
+        };
+        let late = [0, 1].map(|axis| taper * ([x, y][axis] - 2.0 * share * one.along[axis]));
         x -= share * one.along[0];
         y -= share * one.along[1];
         let square = x * x + y * y;
@@ -202,6 +212,10 @@ fn felt(capsules: &[Laid], place: [f32; 2], soft: f32, near: &mut [Felt]) -> (us
             inside,
             share,
             away: [x / far, y / far],
+            thicker: [
+                [0, 1].map(|axis| -late[axis] - taper * one.along[axis]),
+                late,
+            ],
         };
         count += 1;
     }

@@ -33,7 +33,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "1"
+VERSION = "2"
 MODEL = "animal.glb"
 
 
