@@ -42,4 +42,4 @@ def test_the_turns_of_a_ring_that_nothing_was_tuned_by(veduta_data: Path) -> Non
     error = turned - 23.48 * np.arange(16)  # as its cameras' rotations say
     error -= np.median(error)
     assert 0.05 < np.sqrt(np.square(error).mean()) < 1.0
-    assert found.table.focal_px == pytest.approx(cameras.cameras[0].focal_px[0], rel=0.06)
+    assert found.table.focal_px == pytest.approx(cameras.cameras[0].focal_px[0], rel=0.12)

@@ -22,7 +22,7 @@ HELP = f"""usage: veduta grammar check RULES
                              [--max-faces INT] [--max-parts INT] [--max-work INT]
                              [--max-memory INT]
                              [--layer TEXT] [--crs TEXT] [--map ATTR=PROPERTY] [--up y|z]
-                             [--terrain PATH] [--ground lowest|mean]
+                             [--roads PATH] [--terrain PATH] [--ground lowest|mean]
                              [--project DIR] [--library DIR]
                              [--separate] [--no-city] [--force] [--jobs N] [--quiet]
        veduta grammar sample RULES -o SHEET [--count N] [--lots LOTS] [--lot ID]

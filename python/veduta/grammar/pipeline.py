@@ -332,7 +332,8 @@ def _collect(folder: OutFolder, call: _Call, result: DeriveResult) -> None:
     result.notes += told_of_all(lost, whole.dropped, call.files)
     names = {square.name for square in call.squares.every}
     files = [path for path in folder.record.files if path.startswith("parts/")]
-    folders = {"/".join(path.split("/")[:2]) for path in files}
+    # What lies in `parts` itself, as the streets do, is of this call.
+    folders = {"/".join(path.split("/")[:2]) for path in files if path.count("/") > 1}
     result.notes += [f"{name}/ is left from an earlier call" for name in sorted(folders - names)]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import cv2
 import numpy as np
@@ -13,7 +14,9 @@ from veduta.facade.cleared.light import even_light
 from veduta.facade.cleared.repeats import own_repeats
 from veduta.facade.document import FacadeDocument
 from veduta.facade.photo_masks import Mask, PixelBox, element_mask, pixels_of
-from veduta.surfaces import Repeated, fill_by_repeats
+
+if TYPE_CHECKING:
+    from veduta.surfaces import Repeated
 
 Pixels = NDArray[np.uint8]
 _ROOF, _UPPER, _GROUND = range(3)
@@ -74,6 +77,8 @@ def clear_surface(
 
 def fill_front(document: FacadeDocument, crop: Pixels, box: PixelBox, holes: Mask) -> Repeated:
     """Fill the holes (h, w) of a crop by what the windows of the document say of repeats."""
+    from veduta.surfaces import fill_by_repeats  # brings scipy, which not all calls need
+
     own = own_repeats(_boxes(document, box, "window"))
     storey = own.storey_px or _mean_storey(document)
     return fill_by_repeats(crop, holes, own.offsets, storey, _zones(document, box)[0])
