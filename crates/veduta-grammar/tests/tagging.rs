@@ -39,6 +39,37 @@ fn faces_are_tagged_by_what_made_them() {
 }
 
 #[test]
+fn another_geometry_has_no_tags_of_the_one_before() {
+    let union = "union { t(2, 1, 1) primitiveCube(2, 2, 2) }";
+    let top = "comp(f) { isTagged(\"extrude.top\") : Top | all : NIL } Top --> tag(\"own\")";
+    for replaced in [
+        "primitiveCube()",
+        "primitiveQuad()",
+        "primitiveDisk(8)",
+        "primitiveCylinder(8, 1, 2)",
+        "primitiveCone()",
+        "primitiveSphere(8, 4)",
+        "resetGeometry()",
+    ] {
+        for made in ["extrude(3)", "taper(3)", "roofGable(30)", union] {
+            for query in ["extrude", "taper", "roof", "bool"] {
+                let found = area(&format!("{made} {replaced}"), query);
+                assert_eq!(found, 0.0, "{made} {replaced} {query}");
+            }
+        }
+        // A face has its tags for itself; what rules tag stays.
+        assert_eq!(
+            area(&format!("extrude(3) {top} {replaced}"), "extrude"),
+            0.0
+        );
+        let own = area(&format!("extrude(3) {top} {replaced}"), "own");
+        assert!(own > 1.0, "{replaced}: {own}");
+        let again = area(&format!("taper(3) {replaced} extrude(2)"), "extrude.top");
+        assert!(again > 1.0, "{replaced}: {again}");
+    }
+}
+
+#[test]
 fn booleans_tag_what_is_left_of_both() {
     // A cube of 2 m of which 1 m lies in a corner of the block of 10 x 3 x 6 m.
     let cube = "{ t(9, 2, 5) primitiveCube(2, 2, 2) tag(\"cube\") }";

@@ -18,6 +18,9 @@ const ALONG: f64 = 1e-4;
 /// How far from a surface a face lies on it, as a share of the surface's extent.
 const NEAR: f64 = 1e-6;
 
+/// What the tags begin with that operations give.
+const AUTOMATIC: &[&str] = &["roof", "extrude", "taper", "envelope", "bool"];
+
 pub type Tags = BTreeSet<Arc<str>>;
 
 /// An operation whose faces have tags by where they look.
@@ -82,6 +85,22 @@ impl State {
         let extra = self.extra_mut();
         extra.tags.retain(|tag| !is_within(tag, by.stem()));
         extra.made = Some(Made { by, along });
+    }
+
+    /// Says that the shape has another geometry, which nothing was said of yet: the tags that
+    /// operations gave to the one before are gone, those of rules stay.
+    pub fn replaced(&mut self) {
+        let is_marked = |extra: &Arc<Extra>| {
+            let tagged = extra.tags.iter().any(|tag| is_automatic(tag));
+            tagged || extra.made.is_some() || !extra.marks.is_empty()
+        };
+        if !self.extra.as_ref().is_some_and(is_marked) {
+            return;
+        }
+        let extra = self.extra_mut();
+        extra.made = None;
+        extra.marks.clear();
+        extra.tags.retain(|tag| !is_automatic(tag));
     }
 
     /// Takes surfaces along that are moved with the shape.
@@ -255,6 +274,11 @@ fn fits_part(own: &str, part: &str) -> bool {
         (None, Some(start)) => own.starts_with(start),
         (None, None) => own == part,
     }
+}
+
+/// Whether a tag is one that operations give.
+fn is_automatic(tag: &str) -> bool {
+    AUTOMATIC.iter().any(|stem| is_within(tag, stem))
 }
 
 /// Whether a tag is a name or below it.

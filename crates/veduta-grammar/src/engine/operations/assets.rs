@@ -60,6 +60,7 @@ pub fn insert(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<()
         ..scope.moved(by)
     };
     frame.state.form.geometry = Geometry::Instance(instance);
+    frame.state.replaced();
     frame.changed();
     Ok(())
 }

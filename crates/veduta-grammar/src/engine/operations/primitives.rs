@@ -119,6 +119,7 @@ fn insert(
             frame.state.form.geometry = Geometry::of(whole, solid);
         }
     }
+    frame.state.replaced();
     frame.changed();
     Ok(())
 }

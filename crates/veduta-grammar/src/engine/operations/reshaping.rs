@@ -19,6 +19,7 @@ pub fn reset(run: &mut Run<'_>, _: &Operation, frame: &mut Frame) -> Result<(), 
         extra.pivot = None;
         extra.trims.clear();
     }
+    frame.state.replaced();
     frame.changed();
     Ok(())
 }

@@ -121,6 +121,7 @@ pub fn cube(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     }
     frame.state.form.scope.size = size;
     frame.state.form.geometry = Geometry::Box;
+    frame.state.replaced();
     frame.changed();
     Ok(())
 }
@@ -136,6 +137,7 @@ pub fn quad(run: &mut Run<'_>, op: &Operation, frame: &mut Frame) -> Result<(), 
     }
     frame.state.form.scope.size = size;
     frame.state.form.geometry = Geometry::Rectangle(1);
+    frame.state.replaced();
     frame.changed();
     Ok(())
 }
