@@ -78,7 +78,8 @@ def test_flags_with_the_name_of_a_number_elsewhere_pass() -> None:
 
 def test_every_number_of_a_verb_is_known() -> None:
     flags = {option.flag for option in number_options(FacadeCall)}
-    numbers = "corners focal-mm35 max-side-px height-m storey-m depth-m setback-m style-steps jobs"
+    numbers = "edge corners focal-mm35 max-side-px height-m storey-m width-m depth-m"
+    numbers += " setback-m style-steps jobs"
     assert flags == {f"--{name}" for name in numbers.split()}
 
 
