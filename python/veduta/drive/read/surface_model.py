@@ -19,6 +19,7 @@ from rasterio.errors import RasterioError, RasterioIOError
 from scipy import ndimage
 
 from veduta.drive.record import HeightGrid
+from veduta.formats.geotiff_grid import require_grid
 from veduta.run.errors import InputError
 from veduta.run.inputs import require_file
 from veduta.run.limits import Limits, limited
@@ -134,20 +135,14 @@ def _read(path: Path) -> tuple[NDArray[np.float32], tuple[float, float], float, 
                 fault = f"has {file.count} bands"
                 raise InputError(path, fault, "Give one band of heights, or a photo of three.")
             place = file.transform
-            crs = None if file.crs is None else file.crs.to_string()
-            geographic = file.crs is not None and file.crs.is_geographic
+            system = file.crs
             data = file.read(masked=True)
     except (RasterioError, RasterioIOError) as error:
         raise InputError(path, "is no GeoTIFF that can be read", "Copy it again.") from error
-    upright = place.b == 0.0 and place.d == 0.0 and place.a > 0.0 and place.e < 0.0
-    if not upright or abs(place.a + place.e) > 1e-6 * place.a:
-        fault = "has cells that are not square, or that do not lie along north"
-        raise InputError(path, fault, "Warp it (gdalwarp -tr 1 1).")
-    if geographic:
-        raise InputError(path, f"has degrees ({crs})", "Project it to a CRS in metres.")
+    require_grid(path, place, system)
     values = np.ma.filled(data.astype(np.float32), np.nan)[:, ::-1]
     low = (float(place.c), float(place.f + place.e * values.shape[1]))
-    return values, low, float(place.a), crs
+    return values, low, float(place.a), None if system is None else system.to_string()
 
 
 def _of_heights(

@@ -13,6 +13,7 @@ from rasterio.errors import RasterioError, RasterioIOError
 
 from veduta.fauna.motion.angles import Floats
 from veduta.fauna.path.terrain import MOST_CELLS, Terrain, terrain_of, terrain_of_heights
+from veduta.formats.geotiff_grid import require_grid
 from veduta.place.material import Material
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, Standing
@@ -130,20 +131,14 @@ def _read(path: Path) -> tuple[Floats, tuple[float, float], float, str | None]:
             if size > _MOST_READ or file.count != 1:
                 fault = f"has {size:,} cells and {file.count} bands"
                 raise InputError(path, fault, f"{remedy} At most {_MOST_READ:,} cells.")
-            crs = None if file.crs is None else file.crs.to_string()
-            degrees = file.crs is not None and file.crs.is_geographic
+            system = file.crs
             unit = _unit(file)
             data = file.read(1, masked=True)
     except FileNotFoundError as error:
         raise InputError(path, "there is no such file", remedy) from error
     except (RasterioError, RasterioIOError) as error:
         raise InputError(path, "is no GeoTIFF that can be read", "Copy it again.") from error
-    upright = place.b == 0.0 and place.d == 0.0 and place.a > 0.0 and place.e < 0.0
-    if not upright or abs(place.a + place.e) > 1e-6 * place.a:
-        fault = "has cells that are not square, or that do not lie along north"
-        raise InputError(path, fault, "Warp it (gdalwarp -tr 1 1).")
-    if degrees:
-        raise InputError(path, f"has degrees ({crs})", "Project it to a CRS in metres.")
+    require_grid(path, place, system)
     if unit is not None:
         fault = f"has lengths in {unit}, not in metres"
         raise InputError(path, fault, "Warp it to a CRS in metres, and its heights to metres.")
@@ -156,7 +151,7 @@ def _read(path: Path) -> tuple[Floats, tuple[float, float], float, str | None]:
         fault = f"has {odd.sum():,} heights such as {values[odd][0]:g} m"
         raise InputError(path, fault, "Say what stands for no height (gdal_edit.py -a_nodata).")
     low = (float(place.c), float(place.f + place.e * values.shape[0]))
-    return values, low, float(place.a), crs
+    return values, low, float(place.a), None if system is None else system.to_string()
 
 
 def _unit(file: rasterio.DatasetReader) -> str | None:
