@@ -218,11 +218,8 @@ def _wall_note(building: Building) -> str:
     copied = f"{100 * building.model.cleared.copied:.0f} % of that is copied from elsewhere"
     if told:
         return f"Without what stands before it ({told}); {copied}."
-    return (
-        "; ".join(building.model.cleared.notes).capitalize() + "."
-        if (building.model.cleared.notes)
-        else "As the photo has it."
-    )
+    notes = building.model.cleared.notes or ("as the photo has it",)
+    return "; ".join(notes).capitalize() + "."
 
 
 def _taken_out(building: Building) -> dict[str, Any]:

@@ -52,7 +52,7 @@ def clear_surface(
 
     crop: (h, w, 3), the part `box` of the photo. before: (h, w) of the crop, places in `KINDS`.
     """
-    storey = own_repeats(_boxes(document, box, "window")).storey_px or _mean_storey(document)
+    _, storey = _repeats(document, box)
     kinds = _with_balconies(document, box, before, storey)
     holes = kinds > 0
     shares = {
@@ -79,9 +79,14 @@ def fill_front(document: FacadeDocument, crop: Pixels, box: PixelBox, holes: Mas
     """Fill the holes (h, w) of a crop by what the windows of the document say of repeats."""
     from veduta.surfaces import fill_by_repeats  # brings scipy, which not all calls need
 
+    offsets, storey = _repeats(document, box)
+    return fill_by_repeats(crop, holes, offsets, storey, _zones(document, box)[0])
+
+
+def _repeats(document: FacadeDocument, box: PixelBox) -> tuple[NDArray[np.int64], float]:
+    """Offsets (n, 2) between the windows of the document, and the height of a storey (px)."""
     own = own_repeats(_boxes(document, box, "window"))
-    storey = own.storey_px or _mean_storey(document)
-    return fill_by_repeats(crop, holes, own.offsets, storey, _zones(document, box)[0])
+    return own.offsets, own.storey_px or _mean_storey(document)
 
 
 def _boxes(document: FacadeDocument, box: PixelBox, wanted: str) -> NDArray[np.float64]:

@@ -76,9 +76,8 @@ def find_fittings(drawn: Drawn, metres_per_px: float) -> tuple[DrawnFitting, ...
         if room.outdoors:
             continue
         cells = cells_of(room.polygon(), mask, drawn.cleaned.line_px, metres_per_px)
-        chosen = list(_chosen(room, symbols_in(cells, metres_per_px), metres_per_px))
-        kinds = {one.kind for one in chosen}
-        cooks = "hob" in kinds and not kinds & WET
+        chosen = _chosen(room, symbols_in(cells, metres_per_px), metres_per_px)
+        cooks = _cooks(chosen)
         for one in chosen:
             found.append(
                 DrawnFitting(
@@ -96,7 +95,13 @@ def find_fittings(drawn: Drawn, metres_per_px: float) -> tuple[DrawnFitting, ...
     return tuple(found)
 
 
-def _chosen(room: DrawnRoom, symbols: Sequence[Symbol], metres_per_px: float) -> Iterable[_Placed]:
+def _cooks(placed: Iterable[_Placed]) -> bool:
+    """Whether these are the things of a kitchen."""
+    kinds = {one.kind for one in placed}
+    return "hob" in kinds and not kinds & WET
+
+
+def _chosen(room: DrawnRoom, symbols: Sequence[Symbol], metres_per_px: float) -> list[_Placed]:
     """The surest symbols that stand in the room, and in no other's place."""
     floor = room.polygon()
     taken: list[_Placed] = []
@@ -104,9 +109,7 @@ def _chosen(room: DrawnRoom, symbols: Sequence[Symbol], metres_per_px: float) ->
     for symbol in symbols:
         if symbol.cells & used:
             continue
-        kinds = {one.kind for one in taken}
-        cooks = "hob" in kinds and not kinds & WET
-        placed = _placed(symbol, floor, metres_per_px, cooks=cooks)
+        placed = _placed(symbol, floor, metres_per_px, cooks=_cooks(taken))
         if placed is None or placed.shape.difference(floor).area > OUTSIDE * placed.shape.area:
             continue
         if any(
