@@ -12,6 +12,7 @@ from veduta.facade.evidence import Evidence, Float, gather
 from veduta.facade.extent import Skyline, find_skyline, row_histograms
 from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
+from veduta.facade.heads import with_heads
 from veduta.facade.options import FacadeOptions
 from veduta.facade.presence import REMEDY, require_building
 from veduta.facade.rectify import Rectified
@@ -100,6 +101,8 @@ def analyse_seen(
     with timed_step(steps, "openings") as step:
         columns = columns_of(elements)
         boxes = boxes_of(elements, storeys.floors.boundaries, columns)
+        boxes = with_heads(boxes, inner.lab)
+        step.counts["arched"] = sum(bool(box.outline) for box in boxes)
         for kind in seen.kinds:
             step.counts[kind] = sum(box.kind == kind for box in boxes)
     with timed_step(steps, "document"):

@@ -12,7 +12,10 @@ _CERTAINTY = 2.0
 
 @dataclass(frozen=True)
 class Box:
-    """A rectangle in analysis pixels, with what says that it is there (0..1)."""
+    """A rectangle in analysis pixels, with what says that it is there (0..1).
+
+    outline: its shape where that is no rectangle, corners in order.
+    """
 
     kind: str
     x: int
@@ -22,6 +25,7 @@ class Box:
     floor: int | None
     column: int | None
     score: float
+    outline: tuple[tuple[float, float], ...] = ()
 
     def part(self, top: int = 0) -> tuple[slice, slice]:
         """Rows and columns of the box in an image whose first row is `top`."""

@@ -140,11 +140,27 @@ def _element(box: Box, k: _Enlargement, facade: FacadeBox, m: float) -> Element:
             "width_m": width * m,
             "height_m": height * m,
             "score": box.score,
+            "outline_px": _outline(box, k, facade) or None,
             "floor": box.floor,
             "column": box.column,
             "provenance": "measured" if box.score >= SURE_SCORE else "inferred",
         }
     )
+
+
+def _outline(box: Box, k: _Enlargement, facade: FacadeBox) -> list[tuple[float, float]]:
+    """The outline in rectified pixels, within the element's rectangle."""
+    left, right = facade.x_px + box.x * k.across, facade.x_px + facade.width_px
+    right = min(right, left + box.width * k.across)
+    top, foot = box.y * k.down, facade.y_px + facade.height_px
+    foot = min(foot, top + box.height * k.down)
+    return [
+        (
+            round(min(max(facade.x_px + x * k.across, left), right), 2),
+            round(min(max(y * k.down, top), foot), 2),
+        )
+        for x, y in box.outline
+    ]
 
 
 def _extents(

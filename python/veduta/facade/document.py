@@ -96,6 +96,10 @@ class Element(_Record):
     width_m: float
     height_m: float
     score: float = Field(ge=0.0, le=1.0)
+    outline_px: list[tuple[float, float]] | None = Field(
+        default=None,
+        description="its shape where that is no rectangle: corners in order, within the rectangle",
+    )
     floor: int | None = Field(default=None, description="0 is the ground floor, None the roof")
     column: int | None = None
     provenance: Provenance = Field(

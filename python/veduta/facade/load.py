@@ -28,7 +28,7 @@ MAX_BYTES = 20_000_000
 MAX_ELEMENTS = 20_000
 MAX_EXTENTS = 64
 MAX_POINTS = 20_000
-"""Of the polygons of all extents together."""
+"""Of the polygons of all extents together, and of the outlines of all elements."""
 MAX_FLOORS = 200
 MAX_PAINTED = 200
 """How often all elements together may cover the picture, each by what of it lies there."""
@@ -93,9 +93,26 @@ def _faults(document: FacadeDocument) -> list[str]:
             if getattr(sized, side) <= 0:
                 found.append(f"{name}.{side}: must be above zero")
     found += _extent_faults(document.extents)
+    found += _outline_faults(document.elements)
     found += _painting_faults(document)
     found += _size_faults(document)
     return found + _rule_faults(document.rules)
+
+
+def _outline_faults(elements: list[Element]) -> list[str]:
+    sizes = [len(item.outline_px or ()) for item in elements]
+    found = [
+        f"elements[{index}].outline_px: needs at least three points"
+        for index, (size, item) in enumerate(zip(sizes, elements, strict=True))
+        if item.outline_px is not None and size < 3
+    ]
+    if sum(sizes) > MAX_POINTS:
+        largest = sizes.index(max(sizes))
+        found.append(
+            f"elements[{largest}].outline_px: {sizes[largest]} points, {sum(sizes)} with the other"
+            f" outlines, more than {MAX_POINTS}"
+        )
+    return found
 
 
 def _extent_faults(extents: list[Extent]) -> list[str]:

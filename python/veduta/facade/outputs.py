@@ -1,9 +1,10 @@
 """The pictures of a facade document: the label image, and what was found drawn over the photo.
 
 `labels.png` follows from `facade.json` alone. Extents are painted in order as polygons, then the
-elements in order as rectangles; a shape owns a pixel when the pixel's centre is inside it. A
-centre on a left or upper border is inside, one on a right or lower border is not, so that shapes
-which share a border never both own a pixel. What no shape owns is `other`.
+elements in order as rectangles, or as the polygons of their outlines; a shape owns a pixel when the
+pixel's centre is inside it. A centre on a left or upper border is inside, one on a right or lower
+border is not, so that shapes which share a border never both own a pixel. What no shape owns is
+`other`.
 """
 
 from __future__ import annotations
@@ -37,6 +38,9 @@ def rasterise(document: FacadeDocument) -> NDArray[np.uint8]:
     for extent in document.extents:
         _paint_polygon(labels, np.array(extent.polygon_px), place[extent.class_])
     for element in document.elements:
+        if element.outline_px:
+            _paint_polygon(labels, np.array(element.outline_px), place[element.class_])
+            continue
         rows = _centres_between(element.y_px, element.y_px + element.height_px)
         columns = _centres_between(element.x_px, element.x_px + element.width_px)
         labels[rows, columns] = place[element.class_]

@@ -13,6 +13,7 @@ from PIL import Image, ImageDraw, ImageFont
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.outputs import COLOURS, coloured, rasterise
 from veduta.facade.overlay_numbers import FONT_PX, draw_tags
+from veduta.facade.shape import corners_px
 from veduta.imaging.encode import png_bytes
 
 MIN_HEIGHT_PX = 1400
@@ -84,16 +85,9 @@ def _tinted(document: FacadeDocument, pixels: NDArray[np.uint8], scale: float) -
 
 
 def _outline(picture: NDArray[np.uint8], element: Element, scale: float) -> None:
-    corners = np.array(
-        [
-            (element.x_px, element.y_px),
-            (element.x_px + element.width_px, element.y_px),
-            (element.x_px + element.width_px, element.y_px + element.height_px),
-            (element.x_px, element.y_px + element.height_px),
-        ]
-    )
+    corners = np.array(corners_px(element))
     edges = zip(corners, np.roll(corners, -1, axis=0), strict=True)
-    lines = [corners[[0, 1, 2, 3, 0]]]
+    lines = [np.vstack([corners, corners[:1]])]
     if element.is_doubtful:
         lines = [dash for start, end in edges for dash in _dashes(start, end, DASH_PX / scale)]
     points = [_fixed_point(line, scale) for line in lines]

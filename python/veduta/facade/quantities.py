@@ -9,6 +9,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from veduta.facade.document import Element, FacadeDocument
+from veduta.facade.shape import area_share
 from veduta.place.part import Part
 
 QUANTITIES = "facade.csv"
@@ -92,7 +93,7 @@ def _covered(document: FacadeDocument, kinds: tuple[str, ...]) -> float:
 
 
 def _line(kind: str, floor: str, elements: list[Element], front_m2: float) -> list[str | float]:
-    area = sum(element.width_m * element.height_m for element in elements)
+    area = sum(e.width_m * e.height_m * area_share(e) for e in elements)
     width = float(np.mean([element.width_m for element in elements]))
     height = float(np.mean([element.height_m for element in elements]))
     ratio = area / max(front_m2, 1e-9)

@@ -24,6 +24,7 @@ from veduta.facade.document import (
     Split,
 )
 from veduta.facade.edit_notes import Edits, told
+from veduta.facade.shape import fitted_outline
 
 TOLERANCE = 0.01
 """Metres that differ from what the pixels say by no more than this are left alone."""
@@ -157,12 +158,13 @@ def _with_metres(document: FacadeDocument, before: _Before) -> tuple[FacadeDocum
     elements = []
     for index, item in enumerate(document.elements):
         name = f"{item.class_} (elements[{index}])"
-        metres = {
+        metres: dict[str, object] = {
             "x_m": agreed(name, item.x_m, item.x_px - box.x_px),
             "y_m": agreed(name, item.y_m, below - item.y_px - item.height_px),
             "width_m": agreed(name, item.width_m, item.width_px),
             "height_m": agreed(name, item.height_m, item.height_px),
         }
+        metres |= {"outline_px": fitted_outline(item)}
         elements.append(item.model_copy(update=metres))
     return document.model_copy(update={"facade": facade, "elements": elements}), moved
 

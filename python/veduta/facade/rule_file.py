@@ -30,6 +30,7 @@ from veduta.facade.rule_head import (
     floor_foot,
     rule_head,
 )
+from veduta.facade.shape import Cut, cuts_of
 from veduta.facade.textures import FacadeTextures
 from veduta.place.semantics import Provenance
 
@@ -132,31 +133,42 @@ class _Writer:
         attribute = floor_attribute(band)
         rule = attribute[0].upper() + attribute[1:]
         region = Rectangle(0.0, band.foot_m, self.plan.width_m, band.top_m)
-        cells = [self._opening(opening, "setback", 1.0, rules) for opening in band.openings]
+        cells = [
+            self._opening(opening, "setback", 1.0, rules, "Wall.") for opening in band.openings
+        ]
         rules.append(f"{rule} --> {splits(cells, region, 'Wall.')}\n")
         return f"{attribute} : {rule}"
 
-    def _opening(self, opening: Opening, deep: str, share: float, rules: list[str]) -> Cell:
+    def _opening(
+        self, opening: Opening, deep: str, share: float, rules: list[str], around: str
+    ) -> Cell:
         """The call that builds an opening; a shop front with doors gets a rule of its own.
 
-        deep: how far it lies back, a share of the setback.
+        deep: how far it lies back, a share of the setback. around: what it is cut out of.
         """
         kind, place = opening.element.class_, opening.rectangle
         name, said = self._name(opening), provenance(opening)
         self._reveal(name, place, share)
         if opening.children:
-            inside = [self._opening(o, "setback / 2", 0.5, rules) for o in opening.children]
+            inside = [
+                self._opening(o, "setback / 2", 0.5, rules, "Panel.") for o in opening.children
+            ]
             cut, rule = splits(inside, place, "Panel."), name.title().replace(" ", "")
             rules.append(_SHOP.format(rule=rule, name=name, said=said, cut=cut))
             return Cell(place, rule)
         self.parts |= {"panel"}
+        cuts = cuts_of(opening.element, place)
+        if kind == "window" and cuts:
+            self.parts |= {"window", "shaped"}
+            return Cell(place, _cut_out(cuts, f'Shaped("{name}", "{said}", {deep})', around))
         if kind == "window":
             self.parts |= {"window"}
             call = f'Window("{name}", "{said}", {deep})'
             column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if share == 1.0 else ""
             return Cell(place, call, column)
         self.parts |= {"opening"}
-        return Cell(place, f'Opening("{kind}", "{name}", "{said}", {deep})')
+        call = f'Opening("{kind}", "{name}", "{said}", {deep})'
+        return Cell(place, _cut_out(cuts, call, around))
 
     def _reveal(self, name: str, place: Rectangle, share: float) -> None:
         self.parts |= {"reveal"}
@@ -207,13 +219,24 @@ class _Writer:
         return self.plan.eaves_m if mansard is None else mansard.break_m
 
 
+def _cut_out(cuts: Sequence[Cut], call: str, rest: str) -> str:
+    """The call within what the cuts leave; what they take off is `rest`."""
+    text = (
+        call if not cuts else f"rotateScope(0, 0, {-sum(cut.turn_deg for cut in cuts):.9g}) {call}"
+    )
+    for cut in reversed(cuts):
+        inside = f"{metres(cut.keep_m)} : {text} | ~1 : {rest}"
+        text = f"rotateScope(0, 0, {cut.turn_deg:.9g}) split(x) {{ {inside} }}"
+    return text
+
+
 @cache
 def _part(name: str) -> str:
     return (PARTS / f"{name}.cga").read_text(encoding="utf-8")
 
 
 _ORDER: Sequence[str] = (
-    "window", "column", "opening", "panel", "reveal", "balcony", "mansard", "dormer",
+    "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "mansard", "dormer",
     "slope_column", "chimney",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}

@@ -23,6 +23,7 @@ from veduta.facade.repeat.pattern import (
     Tolerances,
 )
 from veduta.facade.repeat.series import series
+from veduta.facade.shape import head_rise_m
 
 T = TypeVar("T")
 # Of the columns, so many must have a window on a floor (or a dormer above it, or a balcony) for
@@ -118,7 +119,9 @@ def _floor(
     high = float(np.median([r.height for r in places]))
     own, unread = _matched(places, columns, plan.width_m, tolerances)
     balconies = _balconies(band, plan, own or columns, notes)
-    return Floor(height, max(0.0, sill), min(high, height - max(0.0, sill)), balconies, unread, own)
+    rise = float(np.median([head_rise_m(o.element) for o in _windows(band)]))
+    low = max(0.0, sill)
+    return Floor(height, low, min(high, height - low), balconies, unread, own, rise)
 
 
 def _matched(
@@ -244,6 +247,8 @@ def _floors_alike(a: Floor, b: Floor, own: Tolerances) -> bool:
         apart = max(abs(one.foot_m - other.foot_m), abs(one.high_m - other.high_m))
         if one.kind != other.kind or apart > own.up_m:
             return False
+    if (a.rise_m > 0.0) != (b.rise_m > 0.0):
+        return False
     up = max(abs(a.sill_m - b.sill_m), abs(a.high_m - b.high_m))
     taller = max(a.height_m, b.height_m)
     return up <= own.up_m and abs(a.height_m - b.height_m) <= own.floor_share * taller
@@ -258,4 +263,5 @@ def _mean_floor(floors: Sequence[Floor]) -> Floor:
         foot, tall, beside = np.mean([(b.foot_m, b.high_m, b.beside_m) for b in balconies], axis=0)
         mean = Balconies(balconies[0].kind, float(foot), float(tall), float(beside))
     unread = tuple(sorted({k for f in floors for k in f.unread}))
-    return Floor(float(height), float(sill), float(high), mean, unread, floors[0].own)
+    rise = float(np.mean([f.rise_m for f in floors]))
+    return Floor(float(height), float(sill), float(high), mean, unread, floors[0].own, rise)

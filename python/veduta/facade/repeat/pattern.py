@@ -80,7 +80,8 @@ class Balconies:
 class Floor:
     """A floor with a window at each column, begun `sill_m` above its foot and `high_m` high.
 
-    unread: the columns whose window the photo does not show; it follows the others.
+    unread: the columns whose window the photo does not show; it follows the others. rise_m: of the
+    arch over each window, 0 for level heads.
     own: the floor's own columns where they are not those of the front.
     """
 
@@ -90,6 +91,7 @@ class Floor:
     balconies: Balconies | None = None
     unread: tuple[int, ...] = ()
     own: Columns | None = None
+    rise_m: float = 0.0
 
 
 @dataclass(frozen=True)

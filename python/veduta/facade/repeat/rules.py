@@ -96,7 +96,7 @@ class _Writer:
         unread = "".join(f" {k + first}" for k in floor.unread)
         unread = f"{unread} " if unread else ""
         sizes = f"{metres(floor.sill_m)}, {metres(floor.high_m)}"
-        windows = f'{row}("windows", {sizes}, 0, "{unread}")'
+        windows = f'{row}("windows", {sizes}, {metres(floor.rise_m)}, "{unread}")'
         balconies = floor.balconies
         if balconies is None:
             return f"Floor{number} --> {windows}\n"

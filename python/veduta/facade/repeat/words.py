@@ -16,6 +16,7 @@ HEAD = """/*
 version "2024.0"
 
 import openings : "styles/parts/openings.cga"
+import arches : "styles/parts/arches.cga"
 import shops : "styles/parts/shops.cga"
 import railings : "styles/parts/railings.cga"
 import dormers : "styles/parts/dormers.cga"
@@ -89,11 +90,11 @@ Roof --> NIL
 WINDOWS = """
 // ---- columns --------------------------------------------------------------------------------
 
-// At the k-th cell: a window `a` above the floor and `b` high, or a balcony from `a` on, `b` high
-// and `c` wider than the window on each side, or a dormer of that size.
+// At the k-th cell: a window `a` above the floor and `b` high, with an arch of `c`; or a balcony
+// from `a` on, `b` high and `c` wider than the window on each side; or a dormer of that size.
 Bay(what, before, wide, after, a, b, c, unread, k) -->
     case what == "windows" :
-        split(x) { ~before : Wall. | wide : Upright(a, b, said(unread, k)) | ~after : Wall. }
+        split(x) { ~before : Wall. | wide : Upright(a, b, c, said(unread, k)) | ~after : Wall. }
     else :
         split(x) {
             ~max(0.01, before - c) : NIL
@@ -108,8 +109,13 @@ Beside(what) -->
 // The windows that the photo does not show are as those beside them.
 said(unread, k) = case find(unread, " " + str(k) + " ", 0) >= 0 : "inferred" else : seen
 
-Upright(sill, high, said) --> split(y) { sill : Wall. | high : Window(said) | ~1 : Wall. }
-Window(said) --> set(provenance, said) openings.OpeningCasement(setback, frame)
+Upright(sill, high, rise, said) -->
+    split(y) { sill : Wall. | high : set(provenance, said) Window(rise) | ~1 : Wall. }
+
+Window(rise) -->
+    case rise > 0.4 * scope.sx : arches.OpeningRound("casement", setback, frame)
+    case rise > 0 : arches.OpeningSegmental("casement", setback, frame, rise)
+    else : openings.OpeningCasement(setback, frame)
 """
 BALCONIES = """
 // ---- balconies ------------------------------------------------------------------------------
