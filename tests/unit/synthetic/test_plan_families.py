@@ -1,0 +1,84 @@
+"""The pages of letting agents and surveys: their truth is sound, and it is what is drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from shapely.geometry import LineString, Point, Polygon
+
+from veduta.synthetic.plans import curves
+from veduta.synthetic.plans.brochure import brochure_page
+from veduta.synthetic.plans.canvas import Image
+from veduta.synthetic.plans.measured import measured_sheet
+from veduta.synthetic.plans.truth_file import SheetTruth
+
+Make = Callable[[int], tuple[Image, list[SheetTruth]]]
+MAKERS = (brochure_page, measured_sheet)
+
+
+@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_openings_lie_in_their_walls_clear_of_each_other(make: Make, seed: int) -> None:
+    for truth in make(seed)[1]:
+        for wall in truth.storey.walls:
+            ends = sorted(
+                (one.along_m, one.along_m + one.width_m)
+                for one in truth.storey.openings
+                if one.wall == wall.id
+            )
+            flat = [0.0, *(end for pair in ends for end in pair), curves.wall_length(wall)]
+            assert flat == sorted(flat)
+
+
+@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize("seed", [1, 2, 3])
+def test_every_room_is_reached(make: Make, seed: int) -> None:
+    for truth in make(seed)[1]:
+        storey = truth.storey
+        reached, ways = set(), [
+            {storey.wall(one.wall).left, storey.wall(one.wall).right}
+            for one in storey.openings
+            if one.kind != "window"
+        ]  # fmt: skip
+        edge = {None} if storey.number == 0 else {"r0"}  # upstairs one comes by the landing
+        while edge:
+            reached |= edge
+            edge = set().union(*(way for way in ways if way & reached)) - reached
+        assert {room.id for room in storey.rooms} <= reached
+
+
+@pytest.mark.parametrize("make", MAKERS)
+@pytest.mark.parametrize("seed", [1, 2])
+def test_walls_are_dark_or_hatched_and_rooms_are_light_where_the_truth_says(
+    make: Make, seed: int
+) -> None:
+    picture, truths = make(seed)
+    grey = picture.mean(axis=2)
+    for truth in truths:
+        walls = [LineString([one.start_m, one.end_m]) for one in truth.storey.walls]
+        free = [Polygon(one.outline_m) for one in truth.storey.rooms]
+        gaps = {one.wall for one in truth.storey.openings}
+        solid = [
+            _mean(grey, truth, line.interpolate(share, normalized=True), 0.05)
+            for line, wall in zip(walls, truth.storey.walls, strict=True)
+            if wall.id not in gaps and line.length > 1.0
+            for share in (0.3, 0.5, 0.7)
+        ]
+        light = [_mean(grey, truth, room.representative_point(), 0.05) for room in free]
+        assert np.median(solid) < np.median(light) - 10.0
+
+
+def _mean(grey: np.ndarray, truth: SheetTruth, at: Point, reach_m: float) -> float:
+    x, y = truth.px_from_m[:2] @ (at.x, at.y, 1.0)
+    reach = round(reach_m / truth.metres_per_px)
+    box = grey[round(y) - reach : round(y) + reach + 1, round(x) - reach : round(x) + reach + 1]
+    return float(box.mean())
+
+
+@pytest.mark.parametrize("make", MAKERS)
+def test_a_seed_gives_the_same_sheet_again_and_another_seed_another(make: Make) -> None:
+    first, again, other = make(5)[0], make(5)[0], make(6)[0]
+    assert np.array_equal(first, again)
+    assert first.shape != other.shape or not np.array_equal(first, other)
