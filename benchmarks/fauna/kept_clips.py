@@ -1,0 +1,29 @@
+"""Rows of clips that are done, kept in a file: a long run that was broken off goes on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+
+from record import Value
+
+Row = dict[str, Value]
+
+
+class KeptClips:
+    """Rows by the names of their clips; without a file nothing is kept."""
+
+    def __init__(self, file: Path | None) -> None:
+        self._file = file
+        self._rows: dict[str, Row] = {}
+        if file is not None and file.exists():
+            self._rows = json.loads(file.read_text())
+
+    def row(self, name: str, make: Callable[[], Row]) -> Row:
+        """The row of a clip, made where it is not there yet."""
+        if name not in self._rows:
+            self._rows[name] = make()
+            if self._file is not None:
+                self._file.write_text(json.dumps(self._rows, indent=1) + "\n")
+        return self._rows[name]
