@@ -31,6 +31,8 @@ from veduta.fauna.read.silhouettes import SilhouetteLooks, Silhouettes, silhouet
 Floats = NDArray[np.float64]
 Row = dict[str, Value]
 DATA = Path(os.environ.get("VEDUTA_DATA", Path(__file__).parents[3] / "shared" / "data"))
+ANNOTATED_PX = 1080.0
+"""The dog's joints were marked in pictures so high (the README beside them)."""
 NEAR = 0.08
 """Of the body's length: the bound of the issue."""
 
@@ -44,9 +46,8 @@ def main() -> None:
     footage = read_footage(folder / "frames", None)
     found = silhouettes_of(read_masks(folder / "masks", footage), SilhouetteLooks(), "dog")
     plan = load_plan("quadruped")
-    marked = read_annotated(
-        folder / "badja_dog.json", len(footage.frames), figure_of(plan).names, footage.size[0]
-    ).px
+    own = read_annotated(folder / "badja_dog.json", len(footage.frames), figure_of(plan).names).px
+    marked = {name: at * (footage.size[0] / ANNOTATED_PX) for name, at in own.items()}
     frames = np.flatnonzero(np.any([np.isfinite(at[:, 0]) for at in marked.values()], axis=0))
     rows: list[Row] = []
     for name, held in (

@@ -33,7 +33,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "2"
+VERSION = "3"
 MODEL = "animal.glb"
 
 
@@ -94,12 +94,15 @@ def _make(work: Work, record: Record, options: FaunaOptions) -> None:
             place_of(goer).save(work.folder)
         else:
             place, path, _ = goal
-            place_into(place, goer, path.points_m, closed=path.closed).save(work.folder)
+            goes = goer.along(path.points_m, closed=path.closed, corners=path.corners)
+            place_into(place, goer, goes).save(work.folder)
     if goal is None:
         write_on_path(work, goer, round_path(goer.length_m), None, closed=True)
     else:
         path, terrain = goal[1:]
-        write_on_path(work, goer, path.points_m, terrain.footing, closed=path.closed)
+        write_on_path(
+            work, goer, path.points_m, terrain.footing, closed=path.closed, corners=path.corners
+        )
     for name, meaning in (
         (MODEL, "the animal with its skeleton and clips (glTF)"),
         (DOCUMENT, "what was found, to edit and to build from again"),

@@ -58,14 +58,14 @@ def plan_for(record: Record, options: FaunaOptions) -> BodyPlan:
 def read_limbed(work: Work, record: Record, options: FaunaOptions) -> ReadLimbed:
     """The document of the animal in footage, and its coat."""
     plan = plan_for(record, options)
-    footage, moved = still_footage(work, record, options)
+    footage = still_footage(work, record, options)
     with work.step("silhouettes") as step:
         found, _ = silhouettes_in(footage, record.masks, record.background, record.path.name)
         step.counts["good"] = len(found.rows)
         left_out = [f"frame {footage.number[row]}: {why}" for row, why in found.left_out]
         step.rejected.extend(left_out)
     found = _fewer(found)
-    pins = pins_of(work, record, footage, found, plan, options.footage.individual, moved=moved)
+    pins = pins_of(work, record, footage, found, plan, options.footage)
     with work.step("figure") as step:
         seen = fit_limbed(
             found.masks, footage.number[found.rows], plan, LimbedLooks(),

@@ -60,6 +60,13 @@ class FootageOptions(Options):
         max_length=256,
         description="which animal of a CSV of joints that has several",
     )
+    joints_height: float | None = Field(
+        default=None,
+        gt=0.0,
+        le=100_000.0,
+        description="how high the pictures were in which joints were marked, px; else as the"
+        " frames",
+    )
 
 
 class MotionOptions(Options):

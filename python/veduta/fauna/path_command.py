@@ -22,14 +22,22 @@ _SLIDES, _SINKS_M = 0.01, 0.02
 
 
 def write_on_path(
-    work: Work, goer: Goer, path: Floats, ground: Heights | None, *, closed: bool
-) -> None:
-    """The animal as it goes along a path (n, 3); ground: of the terrain, else it is flat."""
+    work: Work, goer: Goer, path: Floats, ground: Heights | None, *, closed: bool,
+    corners: tuple[int, ...] = (),
+) -> None:  # fmt: skip
+    """The animal as it goes along a path (n, 3); ground: of the terrain, else it is flat.
+
+    corners: rows of the path at which it turns on the spot.
+    """
     clips = goer.mesh.clips
     if goer.walker is not None:
         with work.step("transfer") as step:
             path, closed, cut = _first_part(goer, path, closed=closed)
-            done = walked(goer.walker, path, ground or _flat, closed=closed, looks=TransferLooks())
+            kept = [row for row in corners if row < len(path) - 1]
+            done = walked(
+                goer.walker, path, ground or _flat, closed=closed, looks=TransferLooks(),
+                corners=kept,
+            )  # fmt: skip
             step.counts["keys"] = len(done.clip.times_s)
         _tell(work, goer, done)
         if cut:

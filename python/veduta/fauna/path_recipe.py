@@ -34,6 +34,7 @@ def planned(
         found = _found(work, place, terrain, points, goer)
         step.counts["cells"] = int(terrain.blocked.size)
         step.counts["free cells"] = int(found.ways.free.sum())
+        step.counts["turns on the spot"] = len(found.corners)
     apart = np.linalg.norm(np.diff(found.points_m, axis=0), axis=1)
     work.measure("path_m", float(apart.sum()))
     work.picture(
@@ -49,14 +50,15 @@ def _found(
     work: Work, place: Place, terrain: Terrain, points: Floats | None, goer: Goer
 ) -> FoundPath:
     """The path, clear of those of other animals where it can be."""
+    turns = goer.walker is not None and bool(goer.walker.legs)
     others = [animal.name for animal in place.animals if animal.id != goer.name]
     if others:
         clear = around_others(terrain, place, goer.name, goer.length_m)
         try:
-            return path_through(clear, points, PathLimits(), goer.length_m)
+            return path_through(clear, points, PathLimits(), goer.length_m, turns=turns)
         except (InputError, NotFoundError):
             work.doubt(
                 f"the path crosses that of {', '.join(others[:3])}: no way leads around it; where"
                 " they meet, one waits in the studio"
             )
-    return path_through(terrain, points, PathLimits(), goer.length_m)
+    return path_through(terrain, points, PathLimits(), goer.length_m, turns=turns)

@@ -9,6 +9,7 @@ import numpy as np
 
 from veduta.fauna.document.plan import BodyPlan
 from veduta.fauna.motion.figure import Floats, figure_of
+from veduta.fauna.options import FootageOptions
 from veduta.fauna.read.annotated import read_annotated
 from veduta.fauna.read.footage import Footage, pictures_in
 from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
@@ -19,23 +20,22 @@ from veduta.run.errors import InputError
 from veduta.run.work import Work
 
 JOINTS = "joints.csv"
+_MOST_BESIDE = 0.1
+"""Of the places: more of them beside the frames are those of other pictures."""
 
 
 def pins_of(
     work: Work, record: Record, footage: Footage, found: Silhouettes, plan: BodyPlan,
-    individual: str | None, *, moved: bool,
+    options: FootageOptions,
 ) -> dict[str, Floats]:  # fmt: skip
     """(t, 2) px by joint in the frames of the footage; none where nothing is given.
 
-    moved: whether the frames were laid on a canvas: places in the record are no places there.
     A joint that is marked is taken from there, if it has a painted marker, too.
     """
     names = figure_of(plan).names
     pins: dict[str, Floats] = {}
     if record.markers is not None:
         markers = read_markers(record.markers, names)
-        if moved and any(one.at is not None for one in markers):
-            _refuse_moved(record.markers)
         markers = tuple(in_frames(marker, footage, record.markers) for marker in markers)
         with work.step("markers") as step:
             tracked = tracked_markers(
@@ -45,16 +45,20 @@ def pins_of(
             step.rejected.extend(f"{name}: its colour is never seen" for name in tracked.unknown)
         pins |= tracked.px
     if record.joints is not None:
-        if moved:
-            _refuse_moved(record.joints)
         with work.step("joints") as step:
-            marked = _marked(record, footage, names, individual)
+            marked = _marked(record, footage, names, options)
             step.counts["joints"] = len(marked.px)
             step.rejected.extend(f"{name}: no joint of the body plan" for name in marked.unknown)
         corner = np.array(footage.corner, dtype=np.float64)
-        pins |= {name: places[footage.number] - corner for name, places in marked.px.items()}
+        pins |= {
+            name: footage.at_canvas((places[footage.number] - corner)[:, None])[:, 0]
+            for name, places in marked.px.items()
+        }
     if pins:
-        whole = {name: at + np.array(footage.corner) for name, at in pins.items()}
+        whole = {
+            name: footage.from_canvas(at[:, None])[:, 0] + np.array(footage.corner)
+            for name, at in pins.items()
+        }
         text = written_joints(MarkedJoints(whole, ()), footage.number)
         seen = float(np.mean([np.isfinite(at[:, 0]).mean() for at in pins.values()]))
         work.measure("joints_marked_share", seen)
@@ -77,17 +81,15 @@ def in_frames(marker: Marker, footage: Footage, path: Path) -> Marker:
         every = f"Frames from {footage.number[0]} to {footage.number[-1]} are read"
         raise InputError(path, fault, f"{every}; frame {near} is the next one that is.")
     row, (left, top), (x, y) = int(rows[0]), footage.corner, marker.at
-    return replace(marker, frame=row, at=(x - left, y - top))
-
-
-def _refuse_moved(path: object) -> None:
-    fault = "has places in the pictures, and the camera of these moves"
-    raise InputError(str(path), fault, "Give masks (--masks), too.")
+    in_frame = np.tile(np.array([[x - left, y - top]]), (len(footage.number), 1, 1))
+    there = footage.at_canvas(in_frame)[row, 0]
+    return replace(marker, frame=row, at=(float(there[0]), float(there[1])))
 
 
 def _marked(
-    record: Record, footage: Footage, names: tuple[str, ...], individual: str | None
+    record: Record, footage: Footage, names: tuple[str, ...], options: FootageOptions
 ) -> MarkedJoints:
+    """The joints in the record's pictures; InputError where they lie beside those."""
     joints = record.joints
     if joints is None:
         return MarkedJoints({}, ())
@@ -95,6 +97,21 @@ def _marked(
     if record.path.is_dir():
         files = [picture.name for picture in pictures_in(record.path)]
     count = max(len(files), int(footage.number[-1]) + 1)
+    height, width = footage.whole or footage.framed or footage.size
     if joints.suffix.lower() == ".json":
-        return read_annotated(joints, count, names, (footage.whole or footage.size)[0])
-    return read_joints(joints, count, names, files, individual)
+        found = read_annotated(joints, count, names)
+    else:
+        found = read_joints(joints, count, names, files, options.individual)
+    scale = 1.0 if options.joints_height is None else height / options.joints_height
+    places = {name: at * scale for name, at in found.px.items()}
+    every = np.concatenate(list(places.values()))
+    every = every[np.isfinite(every).all(axis=1)]
+    beside = ((every < 0.0) | (every > [width, height])).any(axis=1)
+    if len(every) and float(beside.mean()) > _MOST_BESIDE:
+        raise InputError(
+            joints,
+            f"has {int(beside.sum())} of {len(every)} places beside the frames, which are"
+            f" {width} x {height} px",
+            "Say how high the pictures were in which they were marked (--joints-height).",
+        )
+    return MarkedJoints(places, found.unknown)

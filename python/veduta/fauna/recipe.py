@@ -14,7 +14,7 @@ from veduta.fauna.motion.angles import angles_of
 from veduta.fauna.options import FaunaOptions
 from veduta.fauna.pictures import angles_over_time, angles_picture, axes_picture
 from veduta.fauna.read.coat import coat_from_above
-from veduta.fauna.read.footage import Footage, cropped, read_footage
+from veduta.fauna.read.footage import Footage, cropped, read_footage, read_masks
 from veduta.fauna.read.limbless import Seen, axes_in, silhouettes_in, tracked_axes
 from veduta.fauna.read.midlines import read_midlines
 from veduta.fauna.read.overlap import drawn_body, overlap
@@ -23,6 +23,7 @@ from veduta.fauna.read.tracked import SAMPLES, Described, Tracked, describe
 from veduta.fauna.seen_pictures import silhouettes_picture
 from veduta.place.material import Texture
 from veduta.run.digests import file_digest
+from veduta.run.errors import NotFoundError
 from veduta.run.work import Work
 
 
@@ -91,8 +92,8 @@ def _described(record: Record, tracked: Tracked, options: FaunaOptions) -> Descr
     return describe(tracked, path.stem, source, options)
 
 
-def still_footage(work: Work, record: Record, options: FaunaOptions) -> tuple[Footage, bool]:
-    """The frames as of a camera that stands still, and whether it moved."""
+def still_footage(work: Work, record: Record, options: FaunaOptions) -> Footage:
+    """The frames as of a camera that stands still, on a canvas where it moved."""
     with work.step("frames") as step:
         footage = read_footage(record.path, options.footage.fps)
         footage = cropped(footage, options.footage.crop, record.path.name)
@@ -102,17 +103,27 @@ def still_footage(work: Work, record: Record, options: FaunaOptions) -> tuple[Fo
             f"nothing tells how fast the frames follow: {1.0 / footage.frame_s:g} a second were"
             " assumed (--fps)"
         )
-    if record.masks is None and record.background is None:
-        with work.step("camera") as step:
-            still = stilled(footage, CameraLooks(), record.path.name)
-            moved = still is not footage
-            step.counts["moves"] = int(moved)
-        return still, moved
-    return footage, False
+    if record.background is not None:
+        return footage
+    animal = None if record.masks is None else read_masks(record.masks, footage)
+    with work.step("camera") as step:
+        try:
+            still = stilled(footage, CameraLooks(), record.path.name, animal)
+        except NotFoundError as error:
+            if animal is None:
+                raise
+            # Silhouettes alone do for the animal's shape.
+            work.doubt(
+                f"how the camera moved was not found ({error.evidence}): the animal's way is"
+                " that in the pictures"
+            )
+            return footage
+        step.counts["moves"] = int(still is not footage)
+    return still
 
 
 def _from_footage(work: Work, record: Record, options: FaunaOptions) -> Read:
-    footage, _ = still_footage(work, record, options)
+    footage = still_footage(work, record, options)
     with work.step("silhouettes") as step:
         found, background = silhouettes_in(
             footage, record.masks, record.background, record.path.name

@@ -195,6 +195,12 @@ class PlaceAnimal(_Record):
         min_length=2, max_length=100_000, description="on the ground, in its order (m, world frame)"
     )
     closed: bool = Field(default=False, description="whether the path ends where it begins")
+    turns: list[Annotated[int, Field(ge=0)]] | None = Field(
+        default=None,
+        max_length=1000,
+        description="numbers of the path's points at which it turns on the spot, from 0; null: it"
+        " goes in curves alone, as animals without legs do",
+    )
 
 
 class WalkKey(_Record):

@@ -394,6 +394,10 @@ export interface PlaceAnimal {
    * whether the path ends where it begins
    */
   closed?: boolean;
+  /**
+   * numbers of the path's points at which it turns on the spot, from 0; null: it goes in curves alone, as animals without legs do
+   */
+  turns?: number[] | null;
 }
 /**
  * A motion of an animal, straight along +x of its part.

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 
 from veduta.fauna.build.body import slices_along
 from veduta.fauna.build.build import build_animal, goer_of
-from veduta.fauna.build.going import place_of
+from veduta.fauna.build.going import Goer, place_of
 from veduta.fauna.build.into_place import place_into
 from veduta.fauna.document.load import load_animal, save_animal
 from veduta.fauna.document.schema import Animal, Body, Length, Motion, Source
@@ -149,6 +149,10 @@ def test_a_place_keeps_its_animals(tmp_path: Path) -> None:
     assert [clip.name for clip in content.clips] == ["swim", "roam", "footage"]
 
 
+def _into(place: Place, goer: Goer, path: np.ndarray) -> Place:
+    return place_into(place, goer, goer.along(path, closed=False))
+
+
 def test_an_animal_in_a_place_leaves_the_place_its_files(tmp_path: Path) -> None:
     animal = sample_animal()
     built = build_animal(animal, MotionOptions(seconds=1.0, states=20))
@@ -163,7 +167,7 @@ def test_an_animal_in_a_place_leaves_the_place_its_files(tmp_path: Path) -> None
         (folder / name).write_text(name)
     place.save(folder)
     path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    into = place_into(Place.load(folder), goer_of(animal, built), path, closed=False)
+    into = _into(Place.load(folder), goer_of(animal, built), path)
     into.save(tmp_path / "out")
     assert (tmp_path / "out/walk/k.jpg").read_text() == "walk/k.jpg"
     assert (tmp_path / "out/walk.json").read_text() == "walk.json"
@@ -181,7 +185,7 @@ def test_another_animal_keeps_its_document(tmp_path: Path, twice: bool) -> None:
         (where / "animal.json").write_text(where.name)
     place.save(folder)
     path = np.array([[0.0, 0.0, 0.0], [5.0, 0.0, 0.0]])
-    place_into(Place.load(folder), goer_of(animal, built), path, closed=False).save(out)
+    _into(Place.load(folder), goer_of(animal, built), path).save(out)
     told = {
         name: (out / str(part.standing.document)).read_text()
         for name, part in Place.load(out).parts.items()

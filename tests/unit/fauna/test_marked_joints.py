@@ -11,11 +11,18 @@ import pytest
 
 from veduta.fauna.document.plan import load_plan
 from veduta.fauna.motion.figure import figure_of
+from veduta.fauna.options import FootageOptions
+from veduta.fauna.pins_recipe import pins_of
 from veduta.fauna.read.annotated import read_annotated
 from veduta.fauna.read.fit import Fit, FitLooks, spline_basis
+from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.joints import MarkedJoints, read_joints, written_joints
+from veduta.fauna.read.silhouettes import Silhouettes
 from veduta.fauna.read.windows import windows_of
+from veduta.fauna.recipe import Record
 from veduta.run.errors import InputError
+from veduta.run.progress import Progress
+from veduta.run.verb import VerbCall, Work, run_verb
 
 NAMES = figure_of(load_plan("quadruped")).names
 HEAD = """scorer,me,me,me,me,me,me
@@ -107,12 +114,15 @@ def _annotated(**changed: object) -> str:
     return json.dumps([entry | changed])
 
 
-def test_annotations_are_scaled_to_the_frames(tmp_path: Path) -> None:
+@pytest.mark.parametrize("folder", ["Full-Resolution", "480p"])
+def test_annotations_are_of_their_pictures_whatever_those_are_called(
+    tmp_path: Path, folder: str
+) -> None:
     path = tmp_path / "dog.json"
-    path.write_text(_annotated())
-    found = read_annotated(path, 4, NAMES, 480)
-    np.testing.assert_allclose(found.px["nose"][2], [1000.0 * 480 / 1080, 240.0])
-    np.testing.assert_allclose(found.px["elbow_right"][2], [400.0 * 480 / 1080, 300 * 480 / 1080])
+    path.write_text(_annotated(image_path=f"a/{folder}/dog/00002.jpg"))
+    found = read_annotated(path, 4, NAMES)
+    np.testing.assert_allclose(found.px["nose"][2], [1000.0, 540.0])
+    np.testing.assert_allclose(found.px["elbow_right"][2], [400.0, 300.0])
     assert np.isnan(found.px["nose"][[0, 1, 3]]).all()
 
 
@@ -131,4 +141,29 @@ def test_annotations_of_another_layout_are_refused(tmp_path: Path, text: str, fa
     path = tmp_path / "dog.json"
     path.write_text(text)
     with pytest.raises(InputError, match=fault):
-        read_annotated(path, 4, NAMES, 480)
+        read_annotated(path, 4, NAMES)
+
+
+def test_places_of_larger_pictures_are_refused_until_their_height_is_told(tmp_path: Path) -> None:
+    path = tmp_path / "joints.csv"
+    path.write_text("bodyparts,nose,nose\ncoords,x,y\n0,150,90\n1,60,40\n2,170,100\n")
+    mask = np.zeros((5, 60, 100), dtype=np.bool_)
+    footage = Footage(np.zeros((5, 60, 100, 3), np.uint8), np.arange(5), 0.04, assumed=False)
+    found = Silhouettes(mask, np.arange(5), np.ones(5), ())
+    record = Record(tmp_path, joints=path)
+    at: list[np.ndarray] = []
+
+    def run(height: float | None) -> None:
+        options = FootageOptions(joints_height=height)
+
+        def make(work: Work) -> None:
+            plan = load_plan("quadruped")
+            at.append(pins_of(work, record, footage, found, plan, options)["nose"])
+
+        call = VerbCall("fauna", "0", "x", options, [])
+        run_verb(call, tmp_path / f"out{height}", make, Progress(quiet=True))
+
+    with pytest.raises(InputError, match=r"2 of 3 places beside the frames.*--joints-height"):
+        run(None)
+    run(120.0)
+    np.testing.assert_allclose(at[0][0], [75.0, 45.0])

@@ -9,13 +9,17 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from veduta.fauna import Record, run_fauna
-from veduta.fauna.options import AnimalOptions, FaunaOptions
+from veduta.fauna.document.plan import load_plan
+from veduta.fauna.options import FaunaOptions, FootageOptions
+from veduta.fauna.pins_recipe import pins_of
 from veduta.fauna.read.footage import Footage
 from veduta.fauna.read.limbless import silhouettes_in
 from veduta.fauna.read.registered import CameraLooks, stilled
-from veduta.run.errors import InputError, NotFoundError
+from veduta.fauna.read.silhouettes import SilhouetteLooks, silhouettes_of
+from veduta.fauna.recipe import Record
+from veduta.run.errors import NotFoundError
 from veduta.run.progress import Progress
+from veduta.run.verb import VerbCall, Work, run_verb
 
 
 def _footage(frames: NDArray[np.uint8]) -> Footage:
@@ -52,17 +56,70 @@ def test_a_panning_camera_is_stilled_and_the_animal_found_where_it_went() -> Non
     assert np.abs(middles - wanted - offset).max() < 3.0
 
 
-def test_joints_in_the_pictures_of_a_moving_camera_are_refused(tmp_path: Path) -> None:
+def test_given_silhouettes_go_onto_the_canvas_with_their_frames(tmp_path: Path) -> None:
+    footage, places = _pan(12.0)
+    dark = (footage.frames.max(axis=3) < 40) & (np.arange(200)[None, :, None] // 30 == 3)
+    still = stilled(footage, CameraLooks(), "pan", dark)
+    (tmp_path / "masks").mkdir()
+    for row, mask in enumerate(dark):
+        cv2.imwrite(str(tmp_path / "masks" / f"{row:02d}.png"), mask.astype(np.uint8) * 255)
+    found, _ = silhouettes_in(still, tmp_path / "masks", None, "pan")
+    middles = np.array([np.argwhere(mask).mean(axis=0)[::-1] for mask in found.masks])
+    wanted = np.array([places[int(row)] for row in found.rows])
+    assert np.abs(middles - wanted - (middles - wanted).mean(axis=0)).max() < 1.5
+
+
+def test_places_in_frames_go_onto_the_canvas_and_back() -> None:
+    footage, places = _pan(12.0)
+    still = stilled(footage, CameraLooks(), "pan")
+    in_frames = np.array([[[x - 12.0 * row, y]] for row, (x, y) in enumerate(places)])
+    in_frames[3] = np.nan
+    laid = still.at_canvas(in_frames)
+    assert np.isnan(laid[3]).all()
+    np.testing.assert_allclose(still.from_canvas(laid), in_frames, atol=1e-6)
+    steps = np.diff(laid[[0, 5, 10, 15], 0, 0])
+    np.testing.assert_allclose(steps, 70.0, atol=1.5)
+
+
+@pytest.mark.parametrize("degrees", [0.0, 12.0])
+def test_an_animal_that_the_moving_frame_cuts_is_left_out(degrees: float) -> None:
+    turn = cv2.getRotationMatrix2D((150.0, 90.0), degrees, 1.0)
+    frame = np.array([[40.5, 20.5], [259.5, 20.5], [259.5, 159.5], [40.5, 159.5]])
+    corners = frame @ turn[:, :2].T + turn[:, 2]
+    shown = np.zeros((180, 320), np.uint8)
+    cv2.fillConvexPoly(shown, np.round((corners - 0.5) * 16).astype(np.int32), 1, shift=4)
+    raw = np.zeros((6, 180, 320), dtype=np.bool_)
+    for row in range(6):
+        body = np.zeros((180, 320), np.uint8)
+        middle = np.array([80.0 + 32.0 * row, 90.0]) @ turn[:, :2].T + turn[:, 2]
+        cv2.ellipse(body, (middle, (52.0, 26.0), -degrees), 1, -1)
+        raw[row] = (body > 0) & (shown > 0)
+    found = silhouettes_of(raw, SilhouetteLooks(), "pan", np.tile(corners, (6, 1, 1)))
+    assert list(found.rows) == [0, 1, 2, 3, 4]
+    assert found.left_out == ((5, "the frame's border cuts the animal"),)
+    whole = silhouettes_of(raw, SilhouetteLooks(), "pan")
+    assert len(whole.rows) == 6 or "as large" in whole.left_out[0][1]
+
+
+def test_joints_in_the_pictures_of_a_moving_camera_go_with_them(tmp_path: Path) -> None:
     footage, _ = _pan(12.0)
-    (tmp_path / "frames").mkdir()
-    for row, frame in enumerate(footage.frames):
-        cv2.imwrite(str(tmp_path / "frames" / f"{row:02d}.png"), frame[..., ::-1])
+    still = stilled(footage, CameraLooks(), "pan")
     joints = tmp_path / "joints.csv"
-    joints.write_text("bodyparts,nose,nose\ncoords,x,y\n0,10,20\n")
-    record = Record(tmp_path / "frames", joints=joints)
-    options = FaunaOptions(animal=AnimalOptions(kind="quadruped"))
-    with pytest.raises(InputError, match=r"the camera of these moves.*--masks"):
-        run_fauna(record, tmp_path / "out", options, Progress(quiet=True))
+    rows = "".join(f"{row},{100 + row},20\n" for row in range(16))
+    joints.write_text("bodyparts,nose,nose\ncoords,x,y\n" + rows)
+    record = Record(tmp_path, joints=joints)
+    plan = load_plan("quadruped")
+    found, _ = silhouettes_in(still, None, None, "pan")
+    at: list[NDArray[np.float64]] = []
+
+    def make(work: Work) -> None:
+        at.append(pins_of(work, record, still, found, plan, FootageOptions())["nose"])
+
+    call = VerbCall("fauna", "0", "pan", FaunaOptions(), [])
+    run_verb(call, tmp_path / "out", make, Progress(quiet=True))
+    np.testing.assert_allclose(np.diff(at[0][:, 0]), 13.0, atol=0.5)
+    told = (tmp_path / "out" / "joints.csv").read_text().splitlines()
+    assert told[5].startswith("2,102.00,20.00")
 
 
 def test_a_camera_that_stands_still_is_left_alone() -> None:

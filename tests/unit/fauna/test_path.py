@@ -13,7 +13,7 @@ import pytest
 from veduta.fauna.path.given import read_path
 from veduta.fauna.path.plan import PathLimits, free_cells, planned_way
 from veduta.fauna.path.terrain import terrain_of, terrain_of_heights
-from veduta.fauna.path.through import path_through
+from veduta.fauna.path.through import FoundPath, path_through
 from veduta.place.mesh import Mesh
 from veduta.place.place import Place, Standing
 from veduta.place.semantics import SemanticClass
@@ -212,3 +212,26 @@ def test_bad_geojson_is_refused(tmp_path: Path, text: str, fault: str) -> None:
     path.write_text(text)
     with pytest.raises(InputError, match=fault):
         read_path(path)
+
+
+def _back_and_forth(heights: np.ndarray, *, turns: bool) -> FoundPath:
+    terrain = terrain_of_heights(heights, 0.25, (0.0, 0.0))
+    points = np.array([[3.0, 10.0], [15.0, 10.0], [4.0, 12.0]])
+    return path_through(terrain, points, LIMITS, 1.0, turns=turns)
+
+
+def test_what_has_legs_turns_on_the_spot_where_it_goes_back() -> None:
+    found = _back_and_forth(np.zeros((80, 80)), turns=True)
+    (corner,) = found.corners
+    np.testing.assert_allclose(found.points_m[corner, :2], [15.0, 10.0], atol=0.2)
+    came = found.points_m[corner] - found.points_m[corner - 3]
+    goes = found.points_m[corner + 3] - found.points_m[corner]
+    assert came @ goes < -0.9 * np.linalg.norm(came) * np.linalg.norm(goes)
+    # Without legs it goes round in a curve.
+    assert _back_and_forth(np.zeros((80, 80)), turns=False).corners == ()
+
+
+def test_nobody_turns_where_a_wall_is_in_the_way() -> None:
+    heights = np.zeros((80, 80))
+    heights[:, 62:64] = np.nan  # the point is on the ground, the nose would be in the wall
+    assert _back_and_forth(heights, turns=True).corners == ()

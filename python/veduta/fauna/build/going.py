@@ -33,11 +33,16 @@ class Goer:
         """How it stands in a place."""
         return Standing(name=self.name, document=DOCUMENT, arrangement="invented")
 
-    def along(self, path: Floats, *, closed: bool) -> PlaceAnimal:
-        """How it goes along a path (n, 3) m, for the place's manifest."""
+    def along(
+        self, path: Floats, *, closed: bool, corners: tuple[int, ...] = ()
+    ) -> PlaceAnimal:
+        """How it goes along a path (n, 3) m, for the place's manifest; it turns on the spot at the
+        rows `corners`.
+        """
         return PlaceAnimal(
             id=self.name, name=self.name, part=self.mesh.id, root=ROOT, length=self.length_m,
             swims=self.swims, clips=list(self.clips), path=path.tolist(), closed=closed,
+            turns=list(corners) if self.walker is not None and self.walker.legs else None,
         )  # fmt: skip
 
 

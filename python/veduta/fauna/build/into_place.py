@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+
 from veduta.fauna.build.going import Goer, first_view
 from veduta.fauna.document.load import DOCUMENT
-from veduta.fauna.motion.angles import Floats
+from veduta.place.manifest import PlaceAnimal
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 
@@ -18,7 +20,7 @@ def require_place(place: Place, folder: Path) -> None:
         raise InputError(folder, fault, "Name a smaller place.")
 
 
-def place_into(place: Place, goer: Goer, path: Floats, *, closed: bool) -> Place:
+def place_into(place: Place, goer: Goer, goes: PlaceAnimal) -> Place:
     """The place with the animal in it; its document lies where the place will be saved.
 
     One animal of the same id is replaced: the same record twice is one animal.
@@ -31,7 +33,7 @@ def place_into(place: Place, goer: Goer, path: Floats, *, closed: bool) -> Place
     place = alone.with_names_apart(place)  # another animal's document has the same name
     place.files.pop(DOCUMENT, None)  # the animal's own lies where the place is saved
     place.add(goer.mesh, standing)
-    place.animals.append(goer.along(path, closed=closed))
-    place.start = first_view(path, goer.length_m)
+    place.animals.append(goes)
+    place.start = first_view(np.array(goes.path), goer.length_m)
     return place
 

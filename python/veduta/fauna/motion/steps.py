@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.fauna.motion.figure import Floats
-from veduta.fauna.motion.whole_path import Curve
 
 _ROUNDS = 12
 Heights = Callable[[Floats], Floats]
@@ -60,18 +59,16 @@ class Steps:
 
 
 def stands_along(
-    foot: Footing, phase: Floats, way_m: Floats, stride_m: float, curve: Curve
+    foot: Footing, first: float, last: float, spots_at: Callable[[Floats], Floats]
 ) -> Stands:
-    """One foot's stands. phase: (t,) strides since the beginning, rising. way_m: (t,) on the curve.
+    """One foot's stands between two phases, strides since the beginning.
 
-    A foot that swings where the animal starts or stops begins or ends under its body.
+    spots_at: (n, 2) m where it stands, by the phases of its stands' middles. A foot that swings
+    where the animal starts or stops begins or ends under its body.
     """
-    first, last = float(phase[0]), float(phase[-1])
     duty = (foot.up - foot.down) % 1.0
     begin, end, middle = _stands(foot, duty, first, last)
-    arcs = float(way_m[0]) + (middle - first) * stride_m
-    arcs = np.clip(arcs, float(way_m[0]), float(way_m[-1])) + foot.ahead_m
-    return Stands(begin, end, _beside(curve, arcs, foot.beside_m))
+    return Stands(begin, end, spots_at(middle))
 
 
 def within_reach(
@@ -161,12 +158,6 @@ def _stands(foot: Footing, duty: float, first: float, last: float) -> tuple[Floa
         begin, end = np.concatenate([begin, [last]]), np.concatenate([end, [last]])
         middle = np.concatenate([middle, [last]])
     return begin, end, middle
-
-
-def _beside(curve: Curve, arcs: Floats, beside_m: float) -> Floats:
-    """(n, 2) places beside the curve, to its left."""
-    ahead = curve.heading(arcs)
-    return np.asarray(curve.at(arcs) + beside_m * np.stack([-ahead[:, 1], ahead[:, 0]], axis=1))
 
 
 def _on(ground: Heights, places: Floats) -> Floats:

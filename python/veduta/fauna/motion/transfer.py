@@ -8,7 +8,9 @@ limbs is carried joint by joint along the curve's normals.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +18,8 @@ from scipy.ndimage import gaussian_filter1d, maximum_filter1d
 
 from veduta.fauna.motion.carried import Joints, against_parents, joints_in
 from veduta.fauna.motion.figure import Floats
+from veduta.fauna.motion.pieces import Piece, pieces_of, spots_on
+from veduta.fauna.motion.pivot import Pivot
 from veduta.fauna.motion.reach import reached_in_space
 from veduta.fauna.motion.steps import (
     Footing,
@@ -26,7 +30,7 @@ from veduta.fauna.motion.steps import (
     steps_of,
     within_reach,
 )
-from veduta.fauna.motion.whole_path import Curve, Pace, curve_of, going
+from veduta.fauna.motion.whole_path import Curve, Pace
 from veduta.place.skin import Clip, Contact, Skin
 
 
@@ -90,27 +94,28 @@ class Walked:
 
 
 def walked(
-    walker: Walker, path_m: Floats, ground: Heights, *, closed: bool, looks: TransferLooks
-) -> Walked:
-    """The clip `path`: the animal goes along a path (n, 3) from where it stands to where it
-    stops.
+    walker: Walker, path_m: Floats, ground: Heights, *, closed: bool, looks: TransferLooks,
+    corners: Sequence[int] = (),
+) -> Walked:  # fmt: skip
+    """The clip `path`: the animal goes along a path (n, 3) from where it stands to where it stops.
+
+    corners: rows of the path at which it turns on the spot; it needs legs for that.
     """
-    curve = curve_of(path_m, closed=closed)
-    half = min(0.5 * walker.length_m, 0.25 * curve.length_m)
-    whole = curve.length_m if closed else curve.length_m - 2.0 * half
-    seconds = float(walker.clip.times_s[-1])
-    times, way, pace = going(whole, Pace(max(walker.stride_m, 1e-6) / seconds))
-    phase = way / max(walker.stride_m, 1e-6)
-    way = way + (0.0 if closed else half)
-    share = np.clip(pace / 0.35, 0.0, 1.0)
-    share = share * share * (3.0 - 2.0 * share)
-    joints = joints_in(walker.skin, walker.clip, phase % 1.0 * seconds, share)
-    frame, origin = _frames(walker, curve, ground, way, looks)
-    if walker.legs:
-        laid = _bent(walker, joints, curve, way, frame, origin)
-    else:
-        laid = _carried(walker, joints, curve, way, ground)
-    plans = [stands_along(leg.foot, phase, way, walker.stride_m, curve) for leg in walker.legs]
+    stride = max(walker.stride_m, 1e-6)
+    pace = Pace(stride / float(walker.clip.times_s[-1]))
+    pieces = pieces_of(
+        path_m, corners if walker.legs else (), pace, stride, walker.length_m, closed=closed
+    )
+    laid = _one_after_the_other([_laid(walker, piece, ground, looks) for piece in pieces])
+    times, phase = (
+        np.concatenate([getattr(piece, name) for piece in pieces]) for name in ("times", "phase")
+    )
+    plans = [
+        stands_along(
+            leg.foot, float(phase[0]), float(phase[-1]), partial(spots_on, pieces, leg.foot)
+        )
+        for leg in walker.legs
+    ]
     laid = _lowered(walker, laid, plans, phase, times, ground, looks)
     steps = []
     for leg, plan in zip(walker.legs, plans, strict=True):
@@ -121,12 +126,29 @@ def walked(
     slides, sinks, contacts = _planted(walker, laid, steps, times, ground)
     turns, moves = against_parents(walker.skin, laid)
     clip = Clip("path", times, moves, turns, False, tuple(contacts))
-    aside = _aside(walker, laid, curve, way)
-    return Walked(clip, slides, sinks, aside)
+    return Walked(clip, slides, sinks, _aside(walker, laid, pieces))
+
+
+def _laid(walker: Walker, piece: Piece, ground: Heights, looks: TransferLooks) -> Joints:
+    """The body on one piece of its way, its legs as in its clip."""
+    share = np.clip(piece.pace / 0.35, 0.0, 1.0)
+    share = share * share * (3.0 - 2.0 * share)
+    seconds = float(walker.clip.times_s[-1])
+    joints = joints_in(walker.skin, walker.clip, piece.phase % 1.0 * seconds, share)
+    if isinstance(piece.line, Curve) and not walker.legs:
+        return _carried(walker, joints, piece.line, piece.way, ground)
+    frame, origin = _frames(walker, piece.line, ground, piece.way, looks)
+    return _bent(walker, joints, piece.line, piece.way, frame, origin)
+
+
+def _one_after_the_other(laid: list[Joints]) -> Joints:
+    return Joints(
+        np.concatenate([one.turns for one in laid]), np.concatenate([one.places for one in laid])
+    )
 
 
 def _frames(
-    walker: Walker, curve: Curve, ground: Heights, way: Floats, looks: TransferLooks
+    walker: Walker, curve: Curve | Pivot, ground: Heights, way: Floats, looks: TransferLooks
 ) -> tuple[Floats, Floats]:
     """(t, 3, 3) axes ahead, left and up of the body, and (t, 3) the ground under its middle."""
     ahead = curve.heading(way)
@@ -163,8 +185,9 @@ def _turned(angle: Floats) -> Floats:
 
 
 def _bent(
-    walker: Walker, joints: Joints, curve: Curve, way: Floats, frame: Floats, origin: Floats
-) -> Joints:
+    walker: Walker, joints: Joints, curve: Curve | Pivot, way: Floats, frame: Floats,
+    origin: Floats,
+) -> Joints:  # fmt: skip
     """The body in its frame, its spine turned with the curve; bones keep their lengths."""
     skin = walker.skin
     here = curve.heading(way)
@@ -288,12 +311,13 @@ def _planted(
     return slides, sinks, contacts
 
 
-def _aside(walker: Walker, laid: Joints, curve: Curve, way: Floats) -> float:
+def _aside(walker: Walker, laid: Joints, pieces: tuple[Piece, ...]) -> float:
     """How far the body's middle is from the path at worst, on the flat.
 
     It is that of where its legs hang, or of all joints of a body without legs.
     """
     rows = [leg.joints[0] for leg in walker.legs] or np.flatnonzero(walker.spine).tolist()
-    arcs = way[:, None] + walker.skin.rest[rows, 0, 3][None]
-    away = (laid.places[:, rows, :2] - curve.at(arcs)).mean(axis=1)
+    ahead = walker.skin.rest[rows, 0, 3]
+    there = np.concatenate([piece.line.at(piece.way[:, None] + ahead) for piece in pieces])
+    away = (laid.places[:, rows, :2] - there).mean(axis=1)
     return float(np.linalg.norm(away, axis=1).max())

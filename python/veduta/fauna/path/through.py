@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta.fauna.motion.angles import Floats
+from veduta.fauna.path.corners import parted_path
 from veduta.fauna.path.plan import PathLimits, Ways, free_cells, planned_way
 from veduta.fauna.path.smooth import smooth_path
 from veduta.fauna.path.terrain import Terrain
@@ -21,23 +22,36 @@ _CORNERS = 6
 
 @dataclass(frozen=True, eq=False)
 class FoundPath:
-    """points_m: (n, 3) on the ground. through_m: (k, 2) the points that were asked for."""
+    """points_m: (n, 3) on the ground. through_m: (k, 2) the points that were asked for. corners:
+    rows of points_m at which the animal turns on the spot.
+    """
 
     points_m: Floats
     through_m: Floats
     closed: bool
     ways: Ways
+    corners: tuple[int, ...] = ()
 
 
 def path_through(
-    terrain: Terrain, points_m: Floats | None, limits: PathLimits, length_m: float
-) -> FoundPath:
-    """The path through the points (k, 2); None: a round in the middle of the open ground."""
+    terrain: Terrain, points_m: Floats | None, limits: PathLimits, length_m: float, *,
+    turns: bool = False,
+) -> FoundPath:  # fmt: skip
+    """The path through the points (k, 2); None: a round in the middle of the open ground.
+
+    turns: whether the animal can turn on the spot. It does so at points from which it goes back
+    the way it came, more or less, and where there is room for its body all around.
+    """
     ways = free_cells(terrain, limits, length_m)
     closed = points_m is None
     through = _round(terrain, ways, length_m) if points_m is None else points_m
     way = planned_way(terrain, ways, through, limits, length_m)
-    found = smooth_path(terrain, ways, way, terrain.cell_of(through), length_m, closed=closed)
+    cells = terrain.cell_of(through)
+    if turns and not closed:
+        parted = parted_path(terrain, ways, way, cells, length_m)
+        if parted is not None:
+            return FoundPath(parted.points_m, through, closed, ways, parted.corners)
+    found = smooth_path(terrain, ways, way, cells, length_m, closed=closed)
     return FoundPath(found, through, closed, ways)
 
 

@@ -17,8 +17,6 @@ from veduta.run.inputs import require_file
 
 _MOST_BYTES = 50_000_000
 _REMEDY = "Give a JSON list of frames with `image_path`, `joints` (row, column) and `visibility`."
-_FULL_HEIGHT = 1080.0
-"""Joints of `Full-Resolution` pictures are of pictures so high; frames may be smaller ones."""
 _JOINTS = {
     8: "elbow_right", 9: "wrist_right", 10: "front_paw_right",
     12: "elbow_left", 13: "wrist_left", 14: "front_paw_left",
@@ -29,8 +27,8 @@ _JOINTS = {
 """Numbers of that model's joints, and those of the quadruped's body plan that lie there."""
 
 
-def read_annotated(path: Path, frames: int, names: Sequence[str], height_px: int) -> MarkedJoints:
-    """The visible joints for footage of so many frames, so high (px).
+def read_annotated(path: Path, frames: int, names: Sequence[str]) -> MarkedJoints:
+    """The visible joints for footage of so many frames, in the pictures that were annotated (px).
 
     names: the joints of the body plan. A frame is told by the number in its picture's name.
     InputError where the file is of another layout, or names no joint of the plan.
@@ -46,7 +44,7 @@ def read_annotated(path: Path, frames: int, names: Sequence[str], height_px: int
         raise InputError(path, "is no list of frames", _REMEDY)
     places: dict[str, Floats] = {}
     for entry in content:
-        frame, spots, seen = _entry(path, entry, height_px)
+        frame, spots, seen = _entry(path, entry)
         if frame >= frames:
             raise InputError(path, f"has joints of frame {frame}, of {frames} frames", _REMEDY)
         for number, name in _JOINTS.items():
@@ -59,8 +57,8 @@ def read_annotated(path: Path, frames: int, names: Sequence[str], height_px: int
     return MarkedJoints(places, tuple(sorted(unknown)))
 
 
-def _entry(path: Path, entry: Any, height_px: int) -> tuple[int, Floats, list[bool]]:
-    """A frame's number, its joints (j, 2) by row and column in the footage, and which are seen."""
+def _entry(path: Path, entry: Any) -> tuple[int, Floats, list[bool]]:
+    """A frame's number, its joints (j, 2) by row and column, and which are seen."""
     try:
         picture = str(entry["image_path"])
         spots = np.array(entry["joints"], dtype=np.float64).reshape(-1, 2)
@@ -70,5 +68,4 @@ def _entry(path: Path, entry: Any, height_px: int) -> tuple[int, Floats, list[bo
     digits = re.findall(r"\d+", Path(picture).stem)
     if not digits or len(seen) != len(spots) or not np.isfinite(spots).all():
         raise InputError(path, f"has a frame that cannot be used ({picture})", _REMEDY)
-    scale = height_px / _FULL_HEIGHT if "Full-Resolution" in picture else 1.0
-    return int(digits[-1]), spots * scale, seen
+    return int(digits[-1]), spots, seen

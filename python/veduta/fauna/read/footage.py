@@ -39,6 +39,8 @@ class Footage:
     assumed: bool
     whole: tuple[int, int] | None = None
     corner: tuple[int, int] = (0, 0)
+    onto: NDArray[np.float64] | None = None
+    framed: tuple[int, int] | None = None
 
     @property
     def size(self) -> tuple[int, int]:
@@ -47,10 +49,46 @@ class Footage:
 
     def piece(self, pixels: NDArray[np.uint8]) -> NDArray[np.uint8]:
         """The piece of a picture of the record that the frames are; one of their size stays."""
-        if self.whole is None or pixels.shape[:2] != self.whole or self.whole == self.size:
+        size = self.framed or self.size
+        if self.whole is None or pixels.shape[:2] != self.whole or self.whole == size:
             return pixels
-        (left, top), (height, width) = self.corner, self.size
+        (left, top), (height, width) = self.corner, size
         return pixels[top : top + height, left : left + width]
+
+    def on_canvas(self, masks: NDArray[np.bool_]) -> NDArray[np.bool_]:
+        """Masks of the frames (t, h, w) where the frames are."""
+        if self.onto is None:
+            return masks
+        size = (self.size[1], self.size[0])
+        found = np.empty((len(masks), *self.size), dtype=np.bool_)
+        for row, (mask, matrix) in enumerate(zip(masks, self.onto, strict=True)):
+            whole = mask.astype(np.uint8) * 255
+            found[row] = cv2.warpPerspective(whole, matrix, size, flags=cv2.INTER_LINEAR) > 127
+        return found
+
+    def at_canvas(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Places (t, n, 2) px in the frames where the frames are; gaps stay."""
+        if self.onto is None:
+            return places
+        flat = np.concatenate([places, np.ones((*places.shape[:2], 1))], axis=2)
+        moved = np.einsum("tij,tnj->tni", self.onto, flat)
+        return np.asarray(moved[..., :2] / moved[..., 2:])
+
+    def from_canvas(self, places: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Places (t, n, 2) px on the canvas as the frames had them before they were laid there."""
+        if self.onto is None:
+            return places
+        return replace(self, onto=np.asarray(np.linalg.inv(self.onto), np.float64)).at_canvas(
+            places
+        )
+
+    def corners(self) -> NDArray[np.float64] | None:
+        """(t, 4, 2) px of each frame's corners on the canvas; None where the camera stood still."""
+        if self.onto is None or self.framed is None:
+            return None
+        height, width = self.framed
+        rim = [[0.5, 0.5], [width - 0.5, 0.5], [width - 0.5, height - 0.5], [0.5, height - 0.5]]
+        return self.at_canvas(np.tile(np.array(rim), (len(self.onto), 1, 1)))
 
 
 def read_footage(path: Path, fps: float | None) -> Footage:
@@ -83,7 +121,9 @@ def cropped(footage: Footage, crop: tuple[int, int, int, int] | None, name: str)
 
 
 def read_masks(folder: Path, footage: Footage) -> NDArray[np.bool_]:
-    """(t, h, w) the silhouettes in a folder of masks, white on black, one for each frame."""
+    """(t, h, w) the silhouettes in a folder of masks, white on black, one for each frame, as the
+    record has them: not on a canvas.
+    """
     remedy = "Give a mask of the frame's size for each frame, white where the animal is."
     files = pictures_in(folder)
     if not files:
@@ -95,7 +135,7 @@ def read_masks(folder: Path, footage: Footage) -> NDArray[np.bool_]:
     for number in footage.number:
         file = files[int(number)]
         pixels = footage.piece(read_image(file).pixels)
-        if pixels.shape[:2] != footage.size:
+        if pixels.shape[:2] != (footage.framed or footage.size):
             sizes = f"is {pixels.shape[1]} x {pixels.shape[0]} px, and its frame is not"
             raise InputError(file, sizes, remedy)
         masks.append(pixels.max(axis=2) > 127)

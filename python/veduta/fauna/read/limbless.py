@@ -42,7 +42,8 @@ def silhouettes_in(
     """The animal's silhouettes: from masks, against a given background, or an estimated one."""
     looks = SilhouetteLooks()
     if masks is not None:
-        return silhouettes_of(read_masks(masks, footage), looks, name), None
+        given = footage.on_canvas(read_masks(masks, footage))
+        return silhouettes_of(given, looks, name, footage.corners()), None
     if background is not None:
         pixels = footage.piece(read_image(background).pixels)
         if pixels.shape[:2] != footage.size:
@@ -53,7 +54,7 @@ def silhouettes_in(
         _require_motion(footage, name)
         behind = estimated_background(footage.frames, BackgroundLooks())
     raw = differing(footage.frames, behind, looks)
-    return silhouettes_of(raw, looks, name), behind
+    return silhouettes_of(raw, looks, name, footage.corners()), behind
 
 
 def axes_in(silhouettes: Silhouettes) -> tuple[Axis | None, ...]:

@@ -15,6 +15,8 @@ Floats = NDArray[np.float64]
 _MOST_BYTES = 3_000_000_000
 _FOR_MEDIAN, _BAND = 21, 64
 """Frames that the median is taken of, and rows of the canvas at a time."""
+_AROUND = 5
+"""So near to the animal (px) nothing is followed where its silhouettes are known."""
 
 
 @dataclass(frozen=True)
@@ -34,15 +36,18 @@ class CameraLooks:
     """The canvas has so many times a frame's pixels at most, along each side."""
 
 
-def stilled(footage: Footage, looks: CameraLooks, name: str) -> Footage:
+def stilled(
+    footage: Footage, looks: CameraLooks, name: str, animal: NDArray[np.bool_] | None = None
+) -> Footage:
     """The footage as a camera that stands still would have it, where it moves; else as it is.
 
     Points are followed from each frame to the next (Lucas and Kanade) and a homography is found
-    that most of them agree with: the background's, for the animal has fewer. Where a frame does not
+    that most of them agree with: the background's, for the animal has fewer, and none where its
+    silhouettes (t, h, w) are known. Where a frame does not
     reach, the canvas has the median of the others. NotFoundError where the picture's rim changes
     and nothing can be followed, or where the pan is too wide.
     """
-    steps = _steps(footage.frames, looks, name)
+    steps = _steps(footage.frames, looks, name, animal)
     middle = len(footage.frames) // 2
     onto = _chained(steps, middle)
     height, width = footage.size
@@ -60,15 +65,27 @@ def stilled(footage: Footage, looks: CameraLooks, name: str) -> Footage:
             "Give masks (--masks), or a shorter piece of the footage.",
         )
     shift = np.array([[1.0, 0.0, -low[0]], [0.0, 1.0, -low[1]], [0.0, 0.0, 1.0]])
-    return replace(footage, frames=_on_canvas(footage.frames, shift @ onto, (size[0], size[1])))
+    laid = shift @ onto
+    return replace(
+        footage,
+        frames=_on_canvas(footage.frames, laid, (size[0], size[1])),
+        onto=laid,
+        framed=footage.size,
+    )
 
 
-def _steps(frames: NDArray[np.uint8], looks: CameraLooks, name: str) -> Floats:
+def _steps(
+    frames: NDArray[np.uint8], looks: CameraLooks, name: str, animal: NDArray[np.bool_] | None
+) -> Floats:
     """(t, 3, 3) from each frame to the one before it; the first is no motion."""
+    reach = np.ones((2 * _AROUND + 1, 2 * _AROUND + 1), np.uint8)
     grey = [np.asarray(cv2.cvtColor(frame, cv2.COLOR_RGB2GRAY), dtype=np.uint8) for frame in frames]
     found = np.tile(np.eye(3), (len(frames), 1, 1))
     for row in range(1, len(grey)):
-        matrix = _between(grey[row], grey[row - 1], looks)
+        free: NDArray[np.uint8] | None = None
+        if animal is not None:
+            free = np.asarray(255 - 255 * cv2.dilate(animal[row].astype(np.uint8), reach), np.uint8)
+        matrix = _between(grey[row], grey[row - 1], looks, free)
         if matrix is not None:
             found[row] = matrix
         elif _rim_changes(grey[row], grey[row - 1]) > looks.changed:
@@ -82,9 +99,10 @@ def _steps(frames: NDArray[np.uint8], looks: CameraLooks, name: str) -> Floats:
 
 
 def _between(
-    here: NDArray[np.uint8], before: NDArray[np.uint8], looks: CameraLooks
-) -> Floats | None:
-    places = cv2.goodFeaturesToTrack(here, looks.points, looks.quality, 7.0)
+    here: NDArray[np.uint8], before: NDArray[np.uint8], looks: CameraLooks,
+    free: NDArray[np.uint8] | None,
+) -> Floats | None:  # fmt: skip
+    places = cv2.goodFeaturesToTrack(here, looks.points, looks.quality, 7.0, mask=free)
     if places is None or len(places) < looks.fewest:
         return None
     there, good, _ = cv2.calcOpticalFlowPyrLK(here, before, places, places.copy(), winSize=(21, 21))

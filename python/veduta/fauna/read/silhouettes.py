@@ -76,10 +76,13 @@ def differing(frames: NDArray[np.uint8], background: Background, looks: Silhouet
     return found
 
 
-def silhouettes_of(raw: Masks, looks: SilhouetteLooks, what: str) -> Silhouettes:
+def silhouettes_of(
+    raw: Masks, looks: SilhouetteLooks, what: str, corners: NDArray[np.float64] | None = None
+) -> Silhouettes:
     """The animal's own silhouette in each frame; NotFoundError where there is no such thing.
 
-    raw: (t, h, w), everything that differs, or masks that somebody made.
+    raw: (t, h, w), everything that differs, or masks that somebody made. corners: (t, 4, 2) px of
+    what each frame shows of a canvas; None: all of it.
     """
     area_px = raw.shape[1] * raw.shape[2]
     masks = np.zeros_like(raw)
@@ -90,7 +93,7 @@ def silhouettes_of(raw: Masks, looks: SilhouetteLooks, what: str) -> Silhouettes
         clean, second = _animal(mask, before)
         masks[row], areas[row] = clean, float(clean.sum())
         seconds[row] = second / max(areas[row], 1.0)
-        cut[row] = _touches_border(clean, looks.border)
+        cut[row] = _touches_border(clean, looks.border, None if corners is None else corners[row])
         before = clean if areas[row] > looks.smallest * area_px else before
     seen = areas > looks.smallest * area_px
     _require_one_animal(seen, seconds, cut, looks, what)
@@ -160,7 +163,12 @@ def _animal(mask: Masks, before: Masks | None) -> tuple[Masks, float]:
     return filled.astype(np.bool_), float(rest.max()) if len(rest) else 0.0
 
 
-def _touches_border(mask: Masks, share: float) -> bool:
-    border = sum(int(edge.sum()) for edge in (mask[0], mask[-1], mask[:, 0], mask[:, -1]))
+def _touches_border(mask: Masks, share: float, corners: NDArray[np.float64] | None = None) -> bool:
     outline = np.sqrt(float(mask.sum())) * 4.0
-    return bool(border > share * outline)
+    if corners is None:
+        edges = (mask[0], mask[-1], mask[:, 0], mask[:, -1])
+        return bool(sum(int(edge.sum()) for edge in edges) > share * outline)
+    rim = np.zeros(mask.shape, np.uint8)
+    # Two pixels wide: what is cut by a turned border ends within its pixels, not on them.
+    cv2.polylines(rim, [np.round(corners - 0.5).astype(np.int32)], True, 1, 2)
+    return bool(0.5 * float((mask & (rim > 0)).sum()) > share * outline)
