@@ -242,10 +242,14 @@ def _add_clip(root: dict[str, Any], skin: Skin, clip: Clip, binary: GltfBin) -> 
 
 def _contacts(clip: Clip) -> dict[str, Any]:
     """When each foot stands (s), for who plays the clip; nothing where that is not known."""
-    found = [
-        {"foot": one.foot, "joint": one.joint, "down_s": [list(pair) for pair in one.down_s]}
-        for one in clip.contacts
-    ]
+    found: list[dict[str, Any]] = []
+    for one in clip.contacts:
+        told: dict[str, Any] = {"foot": one.foot, "joint": one.joint}
+        told["down_s"] = [list(pair) for pair in one.down_s]
+        if one.leg and one.end_m is not None:
+            told["leg"] = list(one.leg)
+            told["end"] = [one.end_m[0], one.end_m[2], -one.end_m[1]]
+        found.append(told)
     return {"contacts": found} if found else {}
 
 

@@ -133,9 +133,14 @@ def _clips(glb: Glb, skin: Skin) -> list[Clip]:
             into[:, joint] = keys
         more = told.get("extras", {}).get("veduta", {})
         loops = bool(more.get("loops", False))
-        contacts = tuple(
-            Contact(one["foot"], one["joint"], tuple((a, b) for a, b in one["down_s"]))
-            for one in more.get("contacts", [])
-        )
+        contacts = tuple(_contact(one) for one in more.get("contacts", []))
         clips.append(Clip(told["name"], times, translations, rotations, loops, contacts))
     return clips
+
+
+def _contact(told: dict[str, Any]) -> Contact:
+    spans = tuple((a, b) for a, b in told["down_s"])
+    if "end" not in told:
+        return Contact(told["foot"], told["joint"], spans)
+    x, y, z = told["end"]
+    return Contact(told["foot"], told["joint"], spans, tuple(told["leg"]), (x, -z, y))

@@ -58,11 +58,17 @@ class Skin:
 
 @dataclass(frozen=True)
 class Contact:
-    """When a foot stands in a clip. joint: its last one. down_s: from when to when, in order."""
+    """When a foot stands in a clip. joint: its last one. down_s: from when to when, in order.
+
+    leg: its joints from the body on, if they are known. end_m: where its leg ends, in the frame of
+    the last of them.
+    """
 
     foot: str
     joint: str
     down_s: tuple[tuple[float, float], ...]
+    leg: tuple[str, ...] = ()
+    end_m: tuple[float, float, float] | None = None
 
 
 @dataclass(frozen=True, eq=False)

@@ -22,6 +22,8 @@ export interface Animal {
   readonly clips: readonly AnimalClip[];
   readonly path: readonly Vec3[];
   readonly closed: boolean;
+  /** Points of the path at which it turns on the spot, in order; null: it goes in curves alone. */
+  readonly turns: readonly number[] | null;
 }
 
 /** What the person does with the animals. */
@@ -51,7 +53,7 @@ export function readAnimal(
   const bad = (field: string): Fault => broken(`${which} has no proper "${field}"`);
   if (typeof value !== "object" || value === null) throw broken(`${which} is not a record`);
   const animal = value as Fields<PlaceAnimal>;
-  const { id, name, root = "root", length, clips, path } = animal;
+  const { id, name, root = "root", length, clips, path, turns = null } = animal;
   if (typeof id !== "string") throw bad("id");
   if (typeof name !== "string") throw bad("name");
   if (typeof root !== "string") throw bad("root");
@@ -61,6 +63,7 @@ export function readAnimal(
   if (!Array.isArray(clips) || clips.length === 0 || clips.length > MOST_CLIPS) throw bad("clips");
   const isPath = Array.isArray(path) && path.length >= 2 && path.length <= MOST_POINTS && path.every(isPoint);
   if (!isPath) throw bad("path");
+  if (turns !== null && !isInOrder(turns, path.length)) throw bad("turns");
   return {
     id,
     name,
@@ -71,6 +74,7 @@ export function readAnimal(
     clips: clips.map((clip) => readClip(clip, () => bad("clips"))),
     path,
     closed: animal.closed === true,
+    turns: animal.closed === true && turns !== null ? [] : turns,
   };
 }
 
@@ -87,4 +91,9 @@ function isPositive(value: unknown): value is number {
 
 function isPoint(value: unknown): value is Vec3 {
   return Array.isArray(value) && value.length === 3 && value.every((v) => Number.isFinite(v));
+}
+
+/** Whether these are numbers of inner points of a path, each once, in their order. */
+function isInOrder(value: unknown, count: number): value is number[] {
+  return Array.isArray(value) && value.every((one, i: number) => Number.isInteger(one) && one > (i > 0 ? value[i - 1] : 0) && one < count - 1);
 }

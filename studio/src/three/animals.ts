@@ -3,17 +3,27 @@
  * carried over to the curve that the animal goes along: arc length for the way ahead, the curve's normal
  * for what is beside it. So the whole body bends where the path does.
  */
-import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, SkinnedMesh, Vector3 } from "three";
+import { type AnimationAction, AnimationMixer, type Bone, LoopOnce, LoopRepeat, Matrix4, Mesh, Quaternion, SkinnedMesh, Vector3 } from "three";
 import type { Animal, AnimalState } from "../core/animal.ts";
 import { Course, type Ground } from "../core/course.ts";
+import { readFootings } from "../core/footing.ts";
 import { type Goer, waits } from "../core/giving-way.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { Vec3 } from "../core/vector.ts";
+import { Footwork } from "./footwork.ts";
 import type { LoadedPart } from "./load.ts";
 import type { PartSlot } from "./part-slot.ts";
 
 /** Nobody waits longer for a frame than so (s). */
 const MOST_SECONDS = 0.1;
+/** What has legs moves them wholly from this pace on; below, it stands more and more as at rest. */
+const WHOLE_PACE = 0.35;
+
+/** A joint against its parent. */
+interface Rest {
+  readonly place: Vector3;
+  readonly turn: Quaternion;
+}
 
 class LivingAnimal {
   readonly animal: Animal;
@@ -23,6 +33,8 @@ class LivingAnimal {
   readonly #bones: readonly Bone[];
   readonly #root: Bone | null;
   readonly #inModel = new Map<Bone, Matrix4>();
+  readonly #rest: ReadonlyMap<Bone, Rest>;
+  readonly #footwork: Footwork | null;
   readonly #actions: readonly (AnimationAction | null)[];
   #clip = -1;
   #time_s = 0;
@@ -44,13 +56,18 @@ class LivingAnimal {
     this.#bones = [...bones];
     for (const bone of this.#bones) bone.matrixWorldAutoUpdate = false;
     this.#root = this.#bones.find(({ name }) => name === animal.root) ?? null;
+    this.#rest = new Map(this.#bones.map((bone) => [bone, { place: bone.position.clone(), turn: bone.quaternion.clone() }]));
+    this.#compose(0);
+    const told = animal.clips.map(({ name }) => readFootings(animations.find((one) => one.name === name)?.userData));
+    const atRest = new Map([...this.#inModel].map(([bone, matrix]) => [bone, matrix.clone()]));
+    this.#footwork = animal.turns === null ? null : new Footwork(told, this.#bones, atRest, ground);
     this.#mixer = new AnimationMixer(group);
     this.#actions = animal.clips.map(({ name }) => {
       const clip = animations.find((one) => one.name === name);
       return clip === undefined ? null : this.#mixer.clipAction(clip);
     });
     this.#play(0);
-    this.#pose();
+    this.#pose(0);
   }
 
   /** World frame. */
@@ -71,7 +88,7 @@ class LivingAnimal {
     const share = this.course.advance(stride_m / duration, wants, seconds);
     if (share <= 0) return false;
     this.#time_s = (this.#time_s + share * seconds) % duration;
-    this.#pose();
+    this.#pose(seconds);
     return true;
   }
 
@@ -83,19 +100,32 @@ class LivingAnimal {
     action?.reset().setLoop(this.animal.clips[clip]?.loops === true ? LoopRepeat : LoopOnce, Infinity).play();
   }
 
-  /** Where the clip has each joint, straight ahead; then bent along the course. */
-  #pose(): void {
-    this.#mixer.setTime(this.#time_s);
-    const at = new Vector3();
+  /** Where each joint is in the model: in the clip by a share, else at rest. Returns how far the root is. */
+  #compose(share: number): number {
+    const [place, turn, scale] = [new Vector3(), new Quaternion(), new Vector3(1, 1, 1)];
     for (const bone of this.#bones) {
-      bone.updateMatrix();
+      const rest = this.#rest.get(bone);
+      place.copy(bone.position);
+      turn.copy(bone.quaternion);
+      if (rest !== undefined && share < 1) {
+        place.lerpVectors(rest.place, bone.position, share);
+        turn.slerpQuaternions(rest.turn, bone.quaternion, share);
+      }
+      const own = (this.#inModel.get(bone) ?? new Matrix4()).compose(place, turn, scale);
       const above = this.#inModel.get(bone.parent as Bone);
-      const own = this.#inModel.get(bone) ?? new Matrix4();
-      if (above === undefined) own.copy(bone.matrix);
-      else own.multiplyMatrices(above, bone.matrix);
+      if (above !== undefined) own.premultiply(above);
       this.#inModel.set(bone, own);
     }
-    const start = this.#root?.position.x ?? 0;
+    const root = this.#root === null ? undefined : this.#inModel.get(this.#root);
+    return root?.elements[12] ?? 0;
+  }
+
+  /** Where the clip has each joint, straight ahead; then bent along the course, its feet on the ground. */
+  #pose(seconds: number): void {
+    this.#mixer.setTime(this.#time_s);
+    const at = new Vector3();
+    const { pace } = this.course;
+    const start = this.#compose(this.#footwork === null ? 1 : smooth(Math.min(1, pace / WHOLE_PACE)));
     for (const bone of this.#bones) {
       const own = this.#inModel.get(bone);
       if (own === undefined) continue;
@@ -104,6 +134,10 @@ class LivingAnimal {
       bone.matrixWorld.multiplyMatrices(this.#frameAt(ahead), straight);
     }
     if (!this.animal.swims) this.#lay();
+    const { seconds: duration = 1 } = this.animal.clips[this.#clip] ?? {};
+    const motion = { frame: this.#frameAt(0), spin: this.course.spin, turning: this.course.isTurning, pace };
+    const inModel = (bone: Bone): Matrix4 => this.#inModel.get(bone) ?? bone.matrix;
+    this.#footwork?.plant(this.#clip, this.#time_s, duration, motion, seconds, inModel);
   }
 
   /** A body lies on the ground beside its path, too: each joint is as high over it as over the path. */
@@ -197,4 +231,8 @@ export class Animals {
     });
     return moves.includes(true) || (state.playing && this.#living.some(({ course }) => course.pace > 0));
   }
+}
+
+function smooth(share: number): number {
+  return share * share * (3 - 2 * share);
 }

@@ -35,6 +35,10 @@ describe("reading an animal", () => {
     ["clips", [{ name: "swim", seconds: -1, stride: 1 }]],
     ["path", [[0, 0, 0]]],
     ["path", [[0, 0, 0], [1, Number.NaN, 0]]],
+    ["turns", [0]],
+    ["turns", [1, 1]],
+    ["turns", [2]],
+    ["turns", "all"],
   ])("refuses a wrong %s", (field, value) => {
     expect(() => animal({ [field]: value })).toThrow(`has no proper "${field}"`);
   });

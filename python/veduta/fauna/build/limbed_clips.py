@@ -43,7 +43,10 @@ def joined_clip(joined: Joined, bones: Bones, animal: LimbedAnimal) -> Clip:
 
 
 def _contact(bones: Bones, limb: Limb, spans: list[tuple[float, float]]) -> Contact:
-    return Contact(limb.name, bones.figure.segments[limb.segments[-1]], tuple(spans))
+    names, last = bones.figure.segments, limb.segments[-1]
+    x, y, z = (round(float(value), 6) for value in bones.end_m[last] - bones.start_m[last])
+    leg = tuple(names[segment] for segment in limb.segments)
+    return Contact(limb.name, names[last], tuple(spans), leg, (x, y, z))
 
 
 def _spans_of(step: tuple[float, float], end_s: float) -> list[tuple[float, float]]:
