@@ -74,8 +74,8 @@ describe("footwork", () => {
     for (let frame = 0; frame < 10; frame += 1) {
       const [time, x] = [0.8 + frame * 0.01, frame * 0.01];
       const frameAt = new Matrix4().makeTranslation(x, 0, 0);
-      for (const bone of [upper, lower]) bone.matrixWorld.multiplyMatrices(frameAt, at(bone, 0));
-      work.plant(0, time, 1, { frame: frameAt, spin: 0, turning: false, pace: 1 }, 0.01, (bone) => at(bone, 0));
+      for (const bone of [upper, lower]) bone.matrixWorld.multiplyMatrices(frameAt, at(bone, 0.15));
+      work.plant(0, time, 1, { frame: frameAt, spin: 0, turning: false, pace: 1 }, 0.01, (bone) => at(bone, 0.15));
       spot ??= end();
       expect(end().distanceTo(spot)).toBeLessThan(0.005);
     }
