@@ -10,6 +10,7 @@ import tyro
 
 from veduta.cli.run_arguments import Force, Jobs, Out, Quiet
 from veduta.facade.options import (
+    DepthOptions,
     EyesOptions,
     FacadeOptions,
     ModelOptions,
@@ -48,6 +49,7 @@ class FacadeCall:
     model: ModelOptions = field(default_factory=ModelOptions)
     style: StyleOptions = field(default_factory=StyleOptions)
     onto: OntoOptions = field(default_factory=OntoOptions)
+    depth: DepthOptions = field(default_factory=DepthOptions)
     force: Force = False
     jobs: Jobs = None
     quiet: Quiet = False
@@ -64,4 +66,5 @@ class FacadeCall:
             model=self.model,
             style=self.style,
             onto=self.onto,
+            depth=self.depth,
         )

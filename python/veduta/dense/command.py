@@ -21,7 +21,7 @@ from veduta.dense.comparing import compare_with_model
 from veduta.dense.depths import Matching, all_depth_maps
 from veduta.dense.document import CityMesh, DepthMap, Elevation, Views
 from veduta.dense.linked_depths import Linking, all_linked_depths
-from veduta.dense.maps import write_maps_of
+from veduta.dense.maps import Lenses, write_maps_of
 from veduta.dense.options import DenseOptions
 from veduta.dense.parameters import DenseParameters
 from veduta.dense.read.city_model import read_city_mesh
@@ -51,7 +51,7 @@ from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 from veduta.surfaces import Simplified, simplify, vertex_normals
 
-VERSION = "3"
+VERSION = "4"
 SURFACE = "surface"
 MEMORY_OF_VOLUME = 0.5
 """Share of the memory that the volume may take."""
@@ -143,7 +143,8 @@ def _make(work: Work, given: _Given, options: DenseOptions) -> None:
     with work.step("depth files"):
         pictures = write_depths(work, views, comparisons, depth_map)
     cloud = _cloud(work, views, comparisons, depth_map, options, parameters)
-    write_maps_of(work, cloud, given.cameras, given.walls, parameters.elevation)
+    lenses = Lenses(views.cameras, parameters.match.window_px)
+    write_maps_of(work, cloud, given.cameras, given.walls, lenses, parameters.elevation)
     tints = None
     if given.city is not None:
         reach, rule = options.city.model_reach_m, parameters.distance

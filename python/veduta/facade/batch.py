@@ -100,8 +100,14 @@ def run_call(
             f"has a wall for one front, but {len(call.inputs)} photos are named",
             "Make a call for each photo.",
         )
+    elif options.depth.depth_map is not None and len(call.inputs) > 1:
+        raise InputError(
+            "--depth-map",
+            f"is of one wall, but {len(call.inputs)} photos are named",
+            "Make a call for each photo.",
+        )
     if call.kind == "photo":
-        options = _on_wall(options).of_photo()
+        options = _with_elevation(_on_wall(options), call).of_photo()
     key = _key("call", [source.identity for source in call.inputs], call, options)
     amend = all(_is_in_place(source, out) for source in call.inputs)
     with open_out(out, COMMAND[call.kind], key, force=force, amend=amend) as folder:
@@ -129,6 +135,16 @@ def run_call(
             _write_call(folder, options, key, result)
         result.foreign = sorted(set(folder.kept) - set(folder.record.files))
     return result
+
+
+def _with_elevation(options: FacadeOptions, call: Call) -> FacadeOptions:
+    """The options with what the depth map is of; InputError where it is not of the photo."""
+    if options.depth.depth_map is None:
+        return options
+    from veduta.facade.measured import of_photo  # few calls ask for it
+
+    elevation = of_photo(options.depth.depth_map, call.inputs[0].path)
+    return options.model_copy(update={"elevation": elevation})
 
 
 def _on_wall(options: FacadeOptions) -> FacadeOptions:
@@ -176,6 +192,7 @@ def _check_documents(call: Call, options: FacadeOptions) -> None:
         (options.scale, mend_scale),
         (options.style, mend),
         (options.onto, mend),
+        (options.depth, mend),
     )
     for given, remedy in remedies:
         for name in type(given).model_fields:

@@ -22,6 +22,7 @@ from veduta.facade.document import (
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
+from veduta.facade.measured.elevation import metres_per_px
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
 from veduta.facade.scale import metres, require_possible, scale_notes
@@ -66,7 +67,8 @@ def compose(
     left, right = (round(x * k.across, 2) for x in (parse.sides.left, parse.sides.right))
     bottom = round(parse.sides.bottom * k.down, 2)
     storey = parse.floors.storey_px * k.down
-    scale = metres(rows, bottom, options.scale, storey, right - left)
+    known = metres_per_px(options.elevation, record)
+    scale = metres(rows, bottom, options.scale, storey, right - left, known)
     m = scale.metres_per_px
     facade = FacadeBox(
         x_px=left,

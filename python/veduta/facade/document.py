@@ -11,6 +11,7 @@ from typing import Literal
 
 from pydantic import BaseModel, ConfigDict, Field
 
+from veduta.facade.measured_depths import MeasuredDepths
 from veduta.facade.options import ModelSizes
 from veduta.facade.wall import Wall
 from veduta.place.semantics import LABELS, Label
@@ -61,7 +62,7 @@ class Scale(_Record):
     """Metres per rectified pixel, the same in x and y."""
 
     metres_per_px: float
-    basis: Literal["height", "storey", "width", "assumed-storey", "edited"]
+    basis: Literal["height", "storey", "width", "depth-map", "assumed-storey", "edited"]
 
 
 class FacadeBox(_Record):
@@ -104,6 +105,13 @@ class Element(_Record):
     column: int | None = None
     provenance: Provenance = Field(
         default="inferred", description="what the analysis found says measured"
+    )
+    depth_m: float | None = Field(
+        default=None,
+        ge=-100.0,
+        le=100.0,
+        exclude_if=lambda depth: depth is None,
+        description="before the wall's surface above 0, behind it below, as a depth map has it",
     )
 
     @property
@@ -163,6 +171,11 @@ class FacadeDocument(_Record):
     )
     wall: Wall | None = Field(
         default=None, description="of an existing building, that the front stands on"
+    )
+    depths: MeasuredDepths | None = Field(
+        default=None,
+        exclude_if=lambda depths: depths is None,
+        description="what a depth map said of the front",
     )
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")

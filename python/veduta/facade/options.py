@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from veduta.facade.measured_depths import Elevation
 from veduta.facade.wall import Wall
 from veduta.run.options import Options
 
@@ -125,6 +126,18 @@ class StyleOptions(Options):
     )
 
 
+class DepthOptions(Options):
+    """Depths of the front that photos from several sides have measured."""
+
+    depth_map: Path | None = Field(
+        default=None,
+        description=(
+            "walls/ID_depth.tif of `veduta dense` for the photo walls/ID.png of `veduta photos`:"
+            " recesses and projections are measured, and the scale is where none is given"
+        ),
+    )
+
+
 class FacadeOptions(Options):
     """All options of the verb that change its result."""
 
@@ -135,6 +148,8 @@ class FacadeOptions(Options):
     style: StyleOptions = StyleOptions()
     onto: OntoOptions = OntoOptions()
     wall: Wall | None = None
+    depth: DepthOptions = DepthOptions()
+    elevation: Elevation | None = None
 
     def of_photo(self) -> FacadeOptions:
         """The effective options of a photo: nothing is known of its model but what is asked."""

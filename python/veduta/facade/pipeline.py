@@ -86,6 +86,7 @@ def reconstruct(
     steps.extend(analysis)
     document = _with_notes(document, (*photo.notes, *rectified.notes))
     document = _on_wall(_sized(document, options.model), options.wall)
+    document = _measured(document, options, steps)
     jpeg, pixels = _stored(rectified.pixels)
     document, style = _styled(document, pixels, seen, options.style, steps, progress)
     before = np.zeros(pixels.shape[:2], np.uint8) if seen is None else hidden_kinds(seen)
@@ -164,6 +165,20 @@ def _on_wall(document: FacadeDocument, wall: Wall | None) -> FacadeDocument:
         and math.isclose(document.facade.width_m, wall.width_m, rel_tol=1e-9),
     )
     return document.model_copy(update={"wall": wall, "notes": [*document.notes, *said]})
+
+
+def _measured(
+    document: FacadeDocument, options: FacadeOptions, steps: list[StepRecord]
+) -> FacadeDocument:
+    """The document with the depths of a depth map, where one is given."""
+    if options.depth.depth_map is None or options.elevation is None:
+        return document
+    from veduta.facade.measured import with_depths  # loaded where it is used: few calls ask for it
+
+    with timed_step(steps, "depth map") as step:
+        found = with_depths(document, options.depth.depth_map, options.elevation)
+        step.counts["measured"] = sum(one.depth_m is not None for one in found.elements)
+    return found
 
 
 def _stored(pixels: NDArray[np.uint8]) -> tuple[bytes, NDArray[np.uint8]]:

@@ -15,6 +15,8 @@ from veduta.facade.chimneys import Chimney, plan_chimneys
 from veduta.facade.document import FacadeDocument
 from veduta.facade.dormers import Dormer, plan_dormers, reach_m
 from veduta.facade.layout import Layout, Opening, lay_out
+from veduta.facade.ledges import PlannedLedge, plan_ledges
+from veduta.facade.measured_depths import MeasuredDepths
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.roof import Mansard, plan_mansard
 
@@ -55,6 +57,8 @@ class Plan:
     dormers: tuple[Dormer, ...]
     chimneys: tuple[Chimney, ...]
     notes: tuple[str, ...]
+    depths: MeasuredDepths | None = None
+    ledges: tuple[PlannedLedge, ...] = ()
 
 
 def plan_building(document: FacadeDocument) -> Plan:
@@ -75,19 +79,28 @@ def plan_building(document: FacadeDocument) -> Plan:
     dormers = _on_the_slope(plan_dormers(layout.dormers, mansard, notes), mansard, notes)
     chimneys = plan_chimneys(layout.chimneys, (width, depth, eaves), mansard, notes)
     balconies = _snapped(layout.balconies)
+    ledges = plan_ledges(document, [opening.rectangle for opening in openings], eaves, notes)
     return Plan(
         width_m=width,
         depth_m=depth,
         eaves_m=eaves,
         top_m=_top_m(layout, mansard, eaves),
-        setback_m=_rounded(min(document.model.setback_m, DEEPEST_SHARE * depth)),
+        setback_m=_rounded(min(_setback_m(document), DEEPEST_SHARE * depth)),
         bands=_bands(document.rules.facade.sizes_m, eaves, openings),
         balconies=balconies,
         mansard=mansard,
         dormers=dormers,
         chimneys=chimneys,
         notes=tuple(notes),
+        depths=document.depths,
+        ledges=ledges,
     )
+
+
+def _setback_m(document: FacadeDocument) -> float:
+    """How far openings lie back that have no depth of their own: as windows do, where measured."""
+    measured = None if document.depths is None else document.depths.median_m("window")
+    return document.model.setback_m if measured is None else max(0.0, -measured)
 
 
 def _rounded(value_m: float) -> float:

@@ -54,6 +54,7 @@ _BASIS = {
     "height": "from the height given",
     "storey": "from the storey given",
     "width": "from the width given",
+    "depth-map": "from the depth map",
     "assumed-storey": "assumed",
     "edited": "as edited",
 }

@@ -16,6 +16,7 @@ import numpy as np
 
 from veduta import _core
 from veduta.facade.cells import LEAST_M, Cell, metres, splits
+from veduta.facade.depth_words import depth_of_balcony, depth_of_opening
 from veduta.facade.document import Element
 from veduta.facade.dormers import LID_M, LID_SIDE_M, Dormer
 from veduta.facade.layout import Opening
@@ -23,9 +24,6 @@ from veduta.facade.plan import Band, Plan
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import (
     CELLS,
-    DEEP_M,
-    SHALLOW_M,
-    WIDE_M,
     floor_attribute,
     floor_foot,
     rule_head,
@@ -103,8 +101,11 @@ class _Writer:
         rules: list[str] = []
         floors = " | ".join(self._floor(band, rules) for band in self.plan.bands)
         calls = "\n".join(map(self._balcony, self.plan.balconies))
+        ledges = "\n".join(self._ledges())
         walls = "texture(wallPhoto) projectUV(0) Floors"
-        front = _FRONT.format(floors=floors, inside=f"[ {walls} ] Balconies" if calls else walls)
+        before = (" Balconies" if calls else "") + (" Ledges" if ledges else "")
+        front = _FRONT.format(floors=floors, inside=f"[ {walls} ]{before}" if before else walls)
+        rules += [f"Ledges -->\n{ledges}\n"] if ledges else []
         return [front, f"Balconies -->\n{calls}\n" if calls else "", *rules]
 
     def slope(self, said: Provenance) -> str:
@@ -148,40 +149,55 @@ class _Writer:
         """
         kind, place = opening.element.class_, opening.rectangle
         name, said = self._name(opening), provenance(opening)
-        self._reveal(name, place, share)
+        own = depth_of_opening(opening, self.plan, deep, share)
+        self._reveal(name, place, own.m)
         if opening.children:
             inside = [
                 self._opening(o, "setback / 2", 0.5, rules, "Panel.") for o in opening.children
             ]
             cut, rule = splits(inside, place, "Panel."), name.title().replace(" ", "")
-            rules.append(_SHOP.format(rule=rule, name=name, said=said, cut=cut))
-            return Cell(place, rule)
+            rules.append(_SHOP.format(rule=rule, name=name, said=said, cut=cut, deep=own.words))
+            return Cell(place, own.before + rule)
         self.parts |= {"panel"}
         cuts = cuts_of(opening.element, place)
         if kind == "window" and cuts:
             self.parts |= {"window", "shaped"}
-            return Cell(place, _cut_out(cuts, f'Shaped("{name}", "{said}", {deep})', around))
+            call = f'{own.before}Shaped("{name}", "{said}", {own.words})'
+            return Cell(place, _cut_out(cuts, call, around))
         if kind == "window":
             self.parts |= {"window"}
-            call = f'Window("{name}", "{said}", {deep})'
-            column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if share == 1.0 else ""
+            call = f'{own.before}Window("{name}", "{said}", {own.words})'
+            is_column = share == 1.0 and own.is_usual
+            column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if is_column else ""
             return Cell(place, call, column)
         self.parts |= {"opening"}
-        call = f'Opening("{kind}", "{name}", "{said}", {deep})'
+        call = f'{own.before}Opening("{kind}", "{name}", "{said}", {own.words})'
         return Cell(place, _cut_out(cuts, call, around))
 
-    def _reveal(self, name: str, place: Rectangle, share: float) -> None:
+    def _reveal(self, name: str, place: Rectangle, deep_m: float) -> None:
         self.parts |= {"reveal"}
-        self.known[f"reveal of {name}"] = Known((share * self.plan.setback_m, place.height))
+        self.known[f"reveal of {name}"] = Known((deep_m, place.height))
 
     def _balcony(self, balcony: Opening) -> str:
         self.parts |= {"balcony"}
         name, place = self._name(balcony), balcony.rectangle
-        out = DEEP_M if place.width >= WIDE_M else SHALLOW_M
-        self.known[f"floor and sides of {name}"] = Known((place.width, out))
+        out = depth_of_balcony(balcony, self.plan)
+        self.known[f"floor and sides of {name}"] = Known((place.width, out.m))
         x, w, h = map(metres, (place.x0, place.width, place.height))
         said = balcony.element.provenance
-        return f'Balcony("{name}", "{said}", {x}, {self._height(place.z0)}, {w}, {h})'
+        sizes = f'"{name}", "{said}", {x}, {self._height(place.z0)}, {w}, {h}'
+        return f"Balcony({sizes})" if out.is_usual else f"{out.before}Jutting({sizes}, {out.words})"
+
+    def _ledges(self) -> list[str]:
+        calls = []
+        for number, ledge in enumerate(self.plan.ledges, start=1):
+            self.parts |= {"ledge"}
+            name, high = f"cornice {number}", ledge.top_m - ledge.foot_m
+            self.known[name] = Known((self.plan.width_m, high))
+            self.known[f"sides of {name}"] = Known((self.plan.width_m, ledge.out_m))
+            sizes = f"{self._height(ledge.foot_m)}, {metres(high)}, {metres(ledge.out_m)}"
+            calls.append(f'Ledge("{name}", {sizes})')
+        return calls
 
     def _height(self, z_m: float) -> str:
         """A height over the ground, told from the foot of its floor or from the eaves."""
@@ -193,7 +209,7 @@ class _Writer:
     def _dormer(self, number: int, dormer: Dormer) -> Cell:
         self.parts |= {"dormer", "window", "panel", "reveal"}
         name, window = f"dormer {number}", self._name(dormer.window)
-        self._reveal(window, dormer.window.rectangle, 1.0)
+        self._reveal(window, dormer.window.rectangle, self.plan.setback_m)
         self.known[name] = Known((dormer.front.width, dormer.front.height))
         self.known[f"lid of {name}"] = Known((dormer.front.width + 2 * LID_SIDE_M, LID_M))
         call = f'Dormer("{name}", "{window}", "{provenance(dormer.window)}")'
@@ -236,7 +252,8 @@ def _part(name: str) -> str:
 
 
 _ORDER: Sequence[str] = (
-    "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "mansard", "dormer",
+    "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "ledge", "mansard",
+    "dormer",
     "slope_column", "chimney",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
@@ -280,7 +297,7 @@ FrontSlope -->
 """
 _SHOP = """
 {rule} -->
-    case setback > 0 : [ Reveal("{name}", setback) ] t(0, 0, -setback) {rule}Front
+    case {deep} > 0 : [ Reveal("{name}", {deep}) ] t(0, 0, -{deep}) {rule}Front
     else : {rule}Front
 
 {rule}Front -->

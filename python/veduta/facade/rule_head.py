@@ -132,6 +132,9 @@ attr surface = ""
 attr solid = ""
 @Hidden
 attr provenance = "invented"
+// Where the depth of a recess or a balcony comes from: inferred, or measured in a depth map.
+@Hidden
+attr depthFrom = "inferred"
 
 // The front as the photo shows it, and without what stands before the wall. Both begin so far left
 // of the front and below it.

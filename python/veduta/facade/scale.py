@@ -24,12 +24,14 @@ def metres(
     options: ScaleOptions,
     storey_px: float | None = None,
     width_px: float = 0.0,
+    known: float | None = None,
 ) -> Scale:
     """Metres per rectified pixel.
 
     `rows` are the boundaries of the floors above the ground floor, eaves first, and `bottom` is
     the street, all in rectified pixels from the top. `storey_px` is how high a storey would be
-    where the rows have no floor. `width_px` is the front's.
+    where the rows have no floor. `width_px` is the front's. `known`: metres per rectified pixel of
+    a depth map, which are taken where the options say nothing.
     """
     if options.height_m is not None:
         return Scale(metres_per_px=options.height_m / (bottom - rows[0]), basis="height")
@@ -39,6 +41,8 @@ def metres(
         return Scale(metres_per_px=options.storey_m / storey_px, basis="storey")
     if options.width_m is not None and width_px > 0:
         return Scale(metres_per_px=options.width_m / width_px, basis="width")
+    if known is not None:
+        return Scale(metres_per_px=known, basis="depth-map")
     return Scale(metres_per_px=ASSUMED_STOREY_M / storey_px, basis="assumed-storey")
 
 
@@ -49,6 +53,8 @@ def scale_notes(scale: Scale, options: ScaleOptions) -> list[str]:
         notes.append("scale: --height-m decides; --storey-m beside it is not used")
     if options.width_m is not None and scale.basis != "width":
         notes.append(f"scale: --{scale.basis}-m decides; --width-m beside it is not used")
+    if scale.basis == "depth-map":
+        notes.append("scale: that of the wall of the depth map")
     if scale.basis == "assumed-storey":
         notes.append(ASSUMED_STOREY)
     return notes

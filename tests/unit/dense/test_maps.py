@@ -8,8 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from veduta.cameras import Camera
 from veduta.dense.build.cloud import DenseCloud
-from veduta.dense.build.elevation import ElevationParameters, wall_depth
+from veduta.dense.build.elevation import ElevationParameters, wall_depth, wall_detail_m
 from veduta.dense.build.ground_map import ground_map, write_maps
 from veduta.dense.document import Elevation
 from veduta.dense.read.walls import read_elevations
@@ -52,6 +53,24 @@ def test_windows_lie_behind_the_wall_and_balconies_before(turn: float, spacing: 
     assert at(1.0, 3.0) == pytest.approx(0.0, abs=1e-5)
     assert np.isnan(at(-0.15, 4.15))
     assert np.isfinite(found.depths_m[20:200, 20:400]).mean() > 0.99
+
+
+def test_detail_is_how_long_a_window_is_on_the_wall() -> None:
+    wall = Elevation(
+        "w", np.zeros(3), np.array([1.0, 0, 0]), np.array([0.0, -1, 0]),
+        0.0, 4.0, 0.02, (200, 400), 4.0,
+    )  # fmt: skip
+    spot = np.array([[4.0, 0.0, 2.0]])
+    for aside, far in ((0.0, 5.0), (8.0, 6.0)):
+        eye = np.array([4.0 - aside, -far, 2.0])
+        ahead = (spot[0] - eye) / np.hypot(aside, far)
+        right = np.cross(ahead, [0.0, 0, 1])
+        turn = np.stack([right, [0.0, 0, -1], ahead])
+        camera = Camera("a", 640, 480, (500.0, 500.0), (320.0, 240.0), np.c_[turn, -turn @ eye])
+        behind = Camera("b", 640, 480, (9.0, 9.0), (320.0, 240.0), np.c_[-turn, turn @ eye])
+        found = wall_detail_m(spot, wall, [camera, behind], 9.0, RULE)
+        away = np.hypot(aside, far)
+        assert found == pytest.approx(9.0 * away / 500.0 / (far / away))
 
 
 def test_a_wall_without_points_has_no_depth() -> None:

@@ -2,23 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 from scipy import ndimage
 
+from veduta.cameras import Camera
 from veduta.dense.document import Elevation
 
 
 @dataclass(frozen=True)
 class ElevationParameters:
     """reach: depth before and behind the plane that belongs to a wall, times its height.
-    gap_cells: a hole so many cells wide is filled from around it.
+    gap_cells: a hole so many cells wide is filled from around it. most_points: of a wall that are
+    looked at for how fine its depths are. least_cosine: of the angle between a ray and the wall's
+    normal that counts.
     """
 
     reach: float = 0.25
     gap_cells: int = 2
+    most_points: int = 2000
+    least_cosine: float = 0.1
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,6 +61,36 @@ def wall_depth(
     closed = _closed(cells, parameters.gap_cells)
     whole = np.kron(closed, np.ones((cell, cell), dtype=np.float32))
     return WallDepth(np.ascontiguousarray(whole[:height, :width], dtype=np.float32), cell)
+
+
+def wall_detail_m(
+    points_m: NDArray[np.float64],
+    wall: Elevation,
+    cameras: Sequence[Camera],
+    window_px: float,
+    parameters: ElevationParameters,
+) -> float:
+    """How long the windows that depths are found by are along the wall: the median over its points
+    and the cameras that have them in view. What is smaller is smoothed away.
+    """
+    column = (points_m - wall.start_m) @ wall.along - wall.left_m
+    on = np.abs((points_m - wall.start_m) @ wall.outward) <= parameters.reach * wall.height_m
+    on &= (column >= 0.0) & (column < wall.pixel_m * wall.shape[1])
+    points = points_m[on]
+    points = points[:: max(1, -(-len(points) // parameters.most_points))]
+    found = [np.zeros(0)]
+    for camera in cameras:
+        pixels, depth = camera.project(points)
+        size = np.array([camera.width_px, camera.height_px])
+        seen = (depth > 0.0) & (pixels > 0.0).all(axis=1) & (pixels < size).all(axis=1)
+        ray = points[seen] - camera.centre()
+        away = np.linalg.norm(ray, axis=1)
+        cosine = -(ray @ wall.outward) / away
+        before = cosine > 0.0  # a camera behind the wall sees something else
+        aslant = np.maximum(cosine[before], parameters.least_cosine)
+        found.append(away[before] / (camera.focal_px[0] * aslant))
+    every = np.concatenate(found)
+    return window_px * float(np.median(every)) if len(every) else wall.pixel_m
 
 
 def _cells(shape: tuple[int, int], cell: int) -> tuple[int, int]:

@@ -59,6 +59,11 @@ class MatchParameters:
     )
     fine: tuple[float, int, float, float] = (1.0, 2, 0.004, 0.2)
 
+    @property
+    def window_px(self) -> float:
+        """Side of the window at full size (px)."""
+        return 4.0 * self.step_px + 1.0
+
 
 def match_coarse(
     views: Views, comparison: Comparison, seed: int, parameters: MatchParameters, engine: Engine

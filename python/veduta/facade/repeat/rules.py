@@ -122,6 +122,7 @@ class _Writer:
 
 def _head(plan: Plan, colours: Colours, photo: str) -> str:
     roof = plan.mansard
+    measured = None if plan.depths is None else plan.depths.median_m("balcony")
     return HEAD.format(
         photo=photo.replace("*/", "* /"),
         rules=RULES,
@@ -135,8 +136,8 @@ def _head(plan: Plan, colours: Colours, photo: str) -> str:
         angle="72" if roof is None else f"{roof.slope_deg:.4g}",
         wall=hex_colour(colours.wall),
         roof=hex_colour(colours.roof),
-        shallow=metres(SHALLOW_M),
-        deep=metres(DEEP_M),
+        shallow=metres(SHALLOW_M if measured is None else measured),
+        deep=metres(DEEP_M if measured is None else measured),
     )
 
 
