@@ -102,7 +102,7 @@ def sample_document(
             width_m=facade_m[0],
             height_m=facade_m[1],
         ),
-        model=sizes or ModelSizes(),
+        model=sizes or ModelSizes(detail="photo"),
         extents=extents,
         elements=sample_elements() if elements is None else elements,
         storeys=5,

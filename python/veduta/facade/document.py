@@ -84,6 +84,22 @@ class Extent(_Record):
     provenance: Provenance = "measured"
 
 
+class Moulding(_Record):
+    """What projects all along a part of the front: a cornice, or a narrower course.
+
+    `x_px, y_px` is its upper left corner, `x_m, y_m` its lower left. `modillions`: a cornice over a
+    row of brackets.
+    """
+
+    kind: Literal["cornice", "modillions", "string-course"]
+    x_px: float
+    y_px: float
+    width_px: float
+    height_px: float
+    score: float = Field(ge=0.0, le=1.0)
+    provenance: Provenance = "inferred"
+
+
 class Element(_Record):
     """A rectangle of one class. `x_px, y_px` is its upper left, `x_m, y_m` its lower left."""
 
@@ -180,6 +196,9 @@ class FacadeDocument(_Record):
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")
     elements: list[Element] = Field(description="painted in order")
+    mouldings: list[Moulding] = Field(
+        default=[], description="cornices and courses along the front, from above"
+    )
     storeys: int = Field(description="the ground floor and the full floors below the eaves")
     storeys_doubtful: bool = Field(
         default=False, description="whether the floors may be other ones; a note says why"

@@ -12,15 +12,15 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta import _core
 from veduta.facade.cleared import Cleared
 from veduta.facade.document import Element, FacadeDocument
 from veduta.facade.plan import Plan, plan_building
 from veduta.facade.repeat import repeating_rules
 from veduta.facade.rule_file import Known, write_rules
-from veduta.facade.rule_head import CELLS, PHOTO_TEXTURE, WALL_TEXTURE
+from veduta.facade.rule_head import CELLS, PHOTO_TEXTURE, SIDE_TEXTURE, WALL_TEXTURE
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.textures import make_textures
+from veduta.grammar.brought import derive_text
 from veduta.grammar.building import build_part as part_of
 from veduta.place.material import Texture
 from veduta.place.part import Features, Part
@@ -71,6 +71,7 @@ def build_model(
         (),
     )
     images = {PHOTO_TEXTURE: textures.front, WALL_TEXTURE: textures.wall}
+    images[SIDE_TEXTURE] = textures.side
     part = _derived(rules.text, plan, images, part_id)
     facade = document.facade
     wall_px = (facade.x_px, facade.y_px, facade.width_px, facade.height_px)
@@ -98,10 +99,11 @@ def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str)
     """The part on a lot of the plan's size."""
     x, y = plan.width_m, plan.depth_m
     lot = [(0.0, 0.0, 0.0), (x, 0.0, 0.0), (x, y, 0.0), (0.0, y, 0.0)]
-    (derived,) = _core.GrammarRules([(CELLS, text)]).derive([[lot]], [0])
-    if not isinstance(derived, _core.DerivedLot):
-        raise ValueError(f"the rules of {part_id} do not derive: {derived}")
-    part = part_of(derived, part_id, textures=images)
+    made = derive_text(CELLS, text, lot)
+    if isinstance(made, str):
+        raise ValueError(f"the rules of {part_id} do not derive: {made}")
+    derived, assets = made
+    part = part_of(derived, part_id, assets, images)
     # What lies a little beside the photo takes its border: the sides of a narrow balcony.
     return replace(part, uv=np.clip(part.uv, 0.0, 1.0))
 

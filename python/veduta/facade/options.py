@@ -53,11 +53,21 @@ class ScaleOptions(Options):
         return any(size is not None for size in (self.height_m, self.storey_m, self.width_m))
 
 
+Detail = Literal["library", "photo"]
+
+
 class ModelSizes(Options):
     """Sizes of a building that no photo of its front shows, as the document keeps them."""
 
     depth_m: Metres = Field(default=10.0, description="depth of the footprint")
     setback_m: Setback = Field(default=0.2, description="how far openings are set back")
+    detail: Detail = Field(
+        default="library",
+        description=(
+            "railings, door leaves, dormers, cornices and chimneys: those of the asset library, or"
+            " the photo on plain boxes"
+        ),
+    )
 
 
 class ModelOptions(Options):
@@ -72,6 +82,14 @@ class ModelOptions(Options):
         description=(
             "how far openings are set back into the wall (m);"
             " 0.2, or what the document has, if not given"
+        ),
+    )
+    detail: Detail | None = Field(
+        default=None,
+        description=(
+            "what railings, door leaves, dormers, cornices and chimneys are made of: things of the"
+            " asset library in the photo's colours, or the photo on plain boxes; library, or what"
+            " the document has, if not given"
         ),
     )
 

@@ -26,6 +26,7 @@ from veduta.facade.overlay import overlay, png
 from veduta.facade.quantities import QUANTITIES, quantities_csv
 from veduta.facade.rectify import rectify
 from veduta.facade.rule_outputs import write_rule_files
+from veduta.facade.seen_mouldings import seen_mouldings
 from veduta.facade.style_told import StyleTold
 from veduta.facade.wall import Wall
 from veduta.formats.cityjson import write_cityjson
@@ -36,7 +37,7 @@ from veduta.place.place import ModelFile, Place
 from veduta.run.progress import StepProgress, no_progress
 from veduta.run.report import StepRecord, timed_step
 
-VERSION = "15"
+VERSION = "16"
 """Raised when any step changes its result: no older result is then taken for a new one's."""
 JPEG_QUALITY = 95
 
@@ -85,6 +86,11 @@ def reconstruct(
     document, analysis = analyse(rectified, _source(photo), options, progress, seen)
     steps.extend(analysis)
     document = _with_notes(document, (*photo.notes, *rectified.notes))
+    if seen is not None:
+        found = seen_mouldings(
+            seen, rectified.pixels, document.facade, document.scale.metres_per_px
+        )
+        document = document.model_copy(update={"mouldings": found})
     document = _on_wall(_sized(document, options.model), options.wall)
     document = _measured(document, options, steps)
     jpeg, pixels = _stored(rectified.pixels)

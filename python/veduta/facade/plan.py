@@ -17,6 +17,7 @@ from veduta.facade.dormers import Dormer, plan_dormers, reach_m
 from veduta.facade.layout import Layout, Opening, lay_out
 from veduta.facade.ledges import PlannedLedge, plan_ledges
 from veduta.facade.measured_depths import MeasuredDepths
+from veduta.facade.mouldings import PlannedMoulding, plan_mouldings
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.roof import Mansard, plan_mansard
 
@@ -43,6 +44,7 @@ class Band:
 class Plan:
     """The building of a document.
 
+    library: whether things of the asset library stand on it, or the photo on plain boxes.
     eaves_m: height of the front wall. top_m: the highest point that the photo has to show.
     """
 
@@ -56,6 +58,8 @@ class Plan:
     mansard: Mansard | None
     dormers: tuple[Dormer, ...]
     chimneys: tuple[Chimney, ...]
+    mouldings: tuple[PlannedMoulding, ...]
+    library: bool
     notes: tuple[str, ...]
     depths: MeasuredDepths | None = None
     ledges: tuple[PlannedLedge, ...] = ()
@@ -91,6 +95,8 @@ def plan_building(document: FacadeDocument) -> Plan:
         mansard=mansard,
         dormers=dormers,
         chimneys=chimneys,
+        mouldings=plan_mouldings(document, width, ledges),
+        library=document.model.detail == "library",
         notes=tuple(notes),
         depths=document.depths,
         ledges=ledges,

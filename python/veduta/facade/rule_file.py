@@ -20,12 +20,14 @@ from veduta.facade.depth_words import depth_of_balcony, depth_of_opening
 from veduta.facade.document import Element
 from veduta.facade.dormers import LID_M, LID_SIDE_M, Dormer
 from veduta.facade.layout import Opening
+from veduta.facade.mouldings import PlannedMoulding
 from veduta.facade.plan import Band, Plan
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import (
     CELLS,
     floor_attribute,
     floor_foot,
+    hex_colour,
     rule_head,
 )
 from veduta.facade.shape import Cut, cuts_of
@@ -61,7 +63,7 @@ def write_rules(
     plan: Plan, textures: FacadeTextures, roof_said: Provenance, photo: str
 ) -> RuleFile:
     """The rule file of a plan; `photo` is the name of the photo, for the people who read it."""
-    writer = _Writer(plan)
+    writer = _Writer(plan, textures)
     front = writer.front()
     slope = writer.slope(roof_said)
     building = writer.building()
@@ -82,8 +84,8 @@ def provenance(opening: Opening) -> Provenance:
 class _Writer:
     """The rules of one building, as they are written."""
 
-    def __init__(self, plan: Plan) -> None:
-        self.plan = plan
+    def __init__(self, plan: Plan, textures: FacadeTextures) -> None:
+        self.plan, self.textures = plan, textures
         self.known: dict[str, Known] = {"front wall": Known((plan.width_m, plan.eaves_m))}
         self.counts: Counter[str] = Counter()
         self.parts: set[str] = set()
@@ -103,9 +105,12 @@ class _Writer:
         calls = "\n".join(map(self._balcony, self.plan.balconies))
         ledges = "\n".join(self._ledges())
         walls = "texture(wallPhoto) projectUV(0) Floors"
-        before = (" Balconies" if calls else "") + (" Ledges" if ledges else "")
+        mouldings = "\n".join(map(self._moulding, self.plan.mouldings))
+        apart = {"Balconies": calls, "Ledges": ledges, "Mouldings": mouldings}
+        before = "".join(f" {name}" for name, text in apart.items() if text)
         front = _FRONT.format(floors=floors, inside=f"[ {walls} ]{before}" if before else walls)
         rules += [f"Ledges -->\n{ledges}\n"] if ledges else []
+        rules += [f"Mouldings -->\n{mouldings}\n"] if mouldings else []
         return [front, f"Balconies -->\n{calls}\n" if calls else "", *rules]
 
     def slope(self, said: Provenance) -> str:
@@ -170,6 +175,9 @@ class _Writer:
             is_column = share == 1.0 and own.is_usual
             column = f'Column({{}}, {{}}, {{}}, "{name}", "{said}")' if is_column else ""
             return Cell(place, call, column)
+        if kind == "door" and not cuts:
+            self.parts |= {"library_door"}
+            return Cell(place, f'{own.before}Door("{name}", "{said}", {own.words})')
         self.parts |= {"opening"}
         call = f'{own.before}Opening("{kind}", "{name}", "{said}", {own.words})'
         return Cell(place, _cut_out(cuts, call, around))
@@ -179,7 +187,7 @@ class _Writer:
         self.known[f"reveal of {name}"] = Known((deep_m, place.height))
 
     def _balcony(self, balcony: Opening) -> str:
-        self.parts |= {"balcony"}
+        self.parts |= {"balcony", "library_railing"}
         name, place = self._name(balcony), balcony.rectangle
         out = depth_of_balcony(balcony, self.plan)
         self.known[f"floor and sides of {name}"] = Known((place.width, out.m))
@@ -199,6 +207,16 @@ class _Writer:
             calls.append(f'Ledge("{name}", {sizes})')
         return calls
 
+    def _moulding(self, planned: PlannedMoulding) -> str:
+        """The call of a cornice or a course."""
+        self.parts |= {"library_cornice"}
+        place, told, name = planned.place, planned.moulding, f"moulding {planned.number + 1}"
+        self.known[name] = Known((place.width, place.height))
+        x, w, h = map(metres, (place.x0, place.width, place.height))
+        stone = hex_colour(self.textures.colours.mouldings[planned.number])
+        kind = f'"{name}", "{told.provenance}", "{told.kind}", "{stone}"'
+        return f"[ Cornice({kind}, {x}, {self._height(place.z0)}, {w}, {h}) ]"
+
     def _height(self, z_m: float) -> str:
         """A height over the ground, told from the foot of its floor or from the eaves."""
         levels = [(band.foot_m, floor_foot(band)) for band in self.plan.bands]
@@ -207,7 +225,7 @@ class _Writer:
         return metres(z_m) if name == "0" else f"{name} + {metres(z_m - foot_m)}"
 
     def _dormer(self, number: int, dormer: Dormer) -> Cell:
-        self.parts |= {"dormer", "window", "panel", "reveal"}
+        self.parts |= {"dormer", "library_dormer", "window", "panel", "reveal"}
         name, window = f"dormer {number}", self._name(dormer.window)
         self._reveal(window, dormer.window.rectangle, self.plan.setback_m)
         self.known[name] = Known((dormer.front.width, dormer.front.height))
@@ -221,7 +239,7 @@ class _Writer:
     def _chimneys(self) -> str:
         calls = ""
         for number, chimney in enumerate(self.plan.chimneys, start=1):
-            self.parts |= {"chimney"}
+            self.parts |= {"chimney", "library_chimney"}
             name, place = f"chimney {number}", chimney.front
             self.known[name] = Known((place.width, place.height), chimney.element)
             self.known[f"sides and back of {name}"] = Known(_NO_SIZE)
@@ -253,8 +271,8 @@ def _part(name: str) -> str:
 
 _ORDER: Sequence[str] = (
     "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "ledge", "mansard",
-    "dormer",
-    "slope_column", "chimney",
+    "dormer", "slope_column", "chimney", "library_railing", "library_door", "library_dormer",
+    "library_chimney", "library_cornice",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
 
@@ -274,7 +292,11 @@ Body -->
     comp(f) {{ front : Front | right : Blind("right wall") | back : Blind("back wall")
         | left : Blind("left wall") | bottom : Ground | top : {top} }}
 
-Blind(name) --> set(surface, name) Wall.
+// The front's wall goes on around the corners, without its openings.
+Blind(name) -->
+    set(surface, name) color(1) texture(sidePhoto)
+    setupProjection(0, scope.xy, '1, photoHeight, 0, photoFoot) projectUV(0)
+    Wall.
 Ground --> set(material.name, "ground") set(surface, "footprint") Ground.
 """
 _FLAT_ROOF = """

@@ -14,6 +14,7 @@ from veduta.place.material import Colour
 
 CELLS, RULES, LOT = "cells.cga", "rules.cga", "lot.geojson"
 PHOTO_TEXTURE, WALL_TEXTURE = "textures/front.jpg", "textures/wall.jpg"
+SIDE_TEXTURE = "textures/side.jpg"
 # How far a balcony juts out (m): one before a single window, and one that people stand on.
 SHALLOW_M, DEEP_M = 0.30, 0.60
 # From this width on, a balcony serves more than one window (m).
@@ -41,6 +42,7 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
         photo=photo.replace("*/", "* /"),
         lot=LOT,
         rules=CELLS,
+        imports=_imports(parts),
         width=metres(plan.width_m),
         depth=metres(plan.depth_m),
         floors="".join(
@@ -50,12 +52,14 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
         feet=_feet(plan),
         front=PHOTO_TEXTURE,
         wall=WALL_TEXTURE,
+        side=SIDE_TEXTURE,
         photo_width=f"{textures.width_m:.7g}",
         photo_height=f"{textures.height_m:.7g}",
         photo_left=_small(textures.left_m),
         photo_foot=_small(textures.foot_m),
     )
     text += _colours(textures.colours, parts)
+    text += _library(plan, textures.colours, parts)
     if "reveal" in parts:
         text += _RECESS.format(setback=metres(plan.setback_m))
     if "window" in parts:
@@ -73,6 +77,30 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
     if "chimney" in parts:
         edge = "eaves" if plan.mansard is None else "eaves + lowerRoof"
         text += _CHIMNEY.format(edge=edge)
+    return text
+
+
+IMPORTS = {
+    "library_railing": "railings",
+    "library_door": "doors",
+    "library_dormer": "dormers",
+    "library_cornice": "mouldings",
+}
+"""What the parts that take things of the asset library import, of `styles/parts`."""
+
+
+def _imports(parts: Set[str]) -> str:
+    names = [name for part, name in IMPORTS.items() if part in parts]
+    return "".join(f'import {name} : "styles/parts/{name}.cga"\n' for name in names)
+
+
+def _library(plan: Plan, colours: Colours, parts: Set[str]) -> str:
+    """The attributes of what may come from the asset library."""
+    if not any(part.startswith("library") for part in parts):
+        return ""
+    text = _LIBRARY.format(library=str(plan.library).lower())
+    if "library_railing" in parts:
+        text += f'attr railingKind = "{colours.railing_kind}"\n'
     return text
 
 
@@ -95,6 +123,10 @@ def _colours(colours: Colours, parts: Set[str]) -> str:
         named["railingColor"] = colours.balcony
     if "chimney" in parts:
         named["chimneyColor"] = colours.chimney
+    if "library_door" in parts:
+        named["doorColor"] = colours.door
+    if "library_dormer" in parts:
+        named["dormerColor"] = colours.wall
     return "".join(f'attr {name} = "{hex_colour(colour)}"\n' for name, colour in named.items())
 
 
@@ -118,7 +150,7 @@ _HEAD = """/*
  * What has a size of its own keeps it; what has ~ before it takes what is left.
  */
 version "2024.0"
-
+{imports}
 attr width = {width}
 attr depth = {depth}
 {floors}
@@ -137,15 +169,23 @@ attr provenance = "invented"
 attr depthFrom = "inferred"
 
 // The front as the photo shows it, and without what stands before the wall. Both begin so far left
-// of the front and below it.
+// of the front and below it. The third is the wall alone, as it is at each height.
 const photo = "{front}"
 const wallPhoto = "{wall}"
+const sidePhoto = "{side}"
 const photoWidth = {photo_width}
 const photoHeight = {photo_height}
 const photoLeft = {photo_left}
 const photoFoot = {photo_foot}
 
 // Of what the photo does not show.
+"""
+_LIBRARY = """
+// Railings, door leaves, dormers, cornices and chimneys: things of the asset library, or what the
+// photo shows of them on plain boxes.
+attr library = {library}
+@Range(min=0, max=3)
+attr LOD = 2
 """
 _RECESS = """
 // How far openings lie back in the wall.

@@ -9,13 +9,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import ceil, floor
+from typing import Literal
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
 from veduta.facade.cleared import Cleared, clear_surface
-from veduta.facade.document import FacadeDocument
+from veduta.facade.document import FacadeDocument, Moulding
 from veduta.facade.photo_masks import (
     Mask,
     PixelBox,
@@ -23,6 +24,7 @@ from veduta.facade.photo_masks import (
     extent_mask,
     seen_mask,
 )
+from veduta.facade.side_wall import side_of
 from veduta.place.material import Colour, Texture
 
 # Longest edge of a texture (px).
@@ -32,7 +34,11 @@ LONGEST_PX = 4096
 _STONE: Colour = (0.78, 0.73, 0.65)
 _SLATE: Colour = (0.30, 0.33, 0.37)
 _IRON: Colour = (0.12, 0.12, 0.13)
+_WOOD: Colour = (0.29, 0.23, 0.17)
 _BRICK: Colour = (0.55, 0.36, 0.29)
+
+# Railings with this share of the wall's lightness are stone.
+_STONE_SHARE = 0.72
 
 Pixels = NDArray[np.uint8]
 
@@ -45,18 +51,28 @@ class Colours:
     roof: Colour
     balcony: Colour
     chimney: Colour
+    door: Colour = (0.29, 0.23, 0.17)
+    mouldings: tuple[Colour, ...] = ()
+
+    @property
+    def railing_kind(self) -> Literal["iron", "stone"]:
+        """Railings about as light as the wall are of stone."""
+        light, wall = sum(self.balcony), sum(self.wall)
+        return "stone" if light > _STONE_SHARE * wall else "iron"
 
 
 @dataclass(frozen=True)
 class FacadeTextures:
-    """Both textures, and where they lie on the facade.
+    """The textures, and where they lie on the facade.
 
-    Both cover the metres from `left_m` and `foot_m` (at most a pixel below 0) by `width_m` and
+    side: the wall as it is at each height, for the other sides of the building. The two others
+    cover the metres from `left_m` and `foot_m` (at most a pixel below 0) by `width_m` and
     `height_m`. What the photo does not reach is filled from its border, and marked as invented.
     """
 
     front: Texture
     wall: Texture
+    side: Texture
     left_m: float
     foot_m: float
     width_m: float
@@ -96,6 +112,7 @@ def make_textures(
     return FacadeTextures(
         front=_fitted(crop, unseen, box, whole),
         wall=_fitted(cleared.pixels, invented | unseen, box, whole),
+        side=_fitted_side(document, cleared.pixels, box, whole, colours.wall),
         left_m=(whole.x0 - facade.x_px) * scale,
         foot_m=(bottom - whole.y1) * scale,
         width_m=(whole.x1 - whole.x0) * scale,
@@ -117,7 +134,11 @@ def _colours(document: FacadeDocument, crop: Pixels, box: PixelBox, seen: Mask) 
     return Colours(
         wall=_typical(crop, extent_mask(document, box, "wall") & seen, _STONE),
         roof=_typical(crop, extent_mask(document, box, "roof") & seen, _SLATE),
-        balcony=_typical(crop, element_mask(document, box, "balcony") & seen, _IRON),
+        balcony=_darker(crop, element_mask(document, box, "balcony") & seen, _IRON),
+        door=_typical(crop, element_mask(document, box, "door") & seen, _WOOD),
+        mouldings=tuple(
+            _typical(crop, _strip_mask(each, box) & seen, _STONE) for each in document.mouldings
+        ),
         chimney=_typical(crop, element_mask(document, box, "chimney") & seen, _BRICK),
     )
 
@@ -139,6 +160,25 @@ def _typical(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
     return float(median[0]), float(median[1]), float(median[2])
 
 
+def _strip_mask(moulding: Moulding, box: PixelBox) -> Mask:
+    """Where a moulding lies in the crop."""
+    mask = np.zeros((box.size[1], box.size[0]), dtype=np.bool_)
+    x, y = moulding.x_px - box.x0, moulding.y_px - box.y0
+    rows = slice(max(0, round(y)), max(0, round(y + moulding.height_px)))
+    mask[rows, max(0, round(x)) : max(0, round(x + moulding.width_px))] = True
+    return mask
+
+
+def _darker(pixels: Pixels, mask: Mask, otherwise: Colour) -> Colour:
+    """Median colour of the darkest third under the mask: bars, and not what is between them."""
+    if not mask.any():
+        return otherwise
+    found = pixels[mask]
+    light = found.sum(axis=1)
+    median = np.median(found[light <= np.quantile(light, 1.0 / 3.0)], axis=0) / 255.0
+    return float(median[0]), float(median[1]), float(median[2])
+
+
 def _surface_layer(
     document: FacadeDocument, crop: Pixels, box: PixelBox, roof: Colour, before: NDArray[np.uint8]
 ) -> tuple[Cleared, Mask]:
@@ -148,6 +188,18 @@ def _surface_layer(
     surface[invented] = np.round(np.array(roof) * 255.0).astype(np.uint8)
     cleared = clear_surface(document, surface, box, before)
     return cleared, invented | cleared.filled
+
+
+def _fitted_side(
+    document: FacadeDocument, pixels: Pixels, box: PixelBox, whole: PixelBox, wall: Colour
+) -> Texture:
+    """The side's texture as high as the others; all of it is invented."""
+    openings = np.zeros(pixels.shape[:2], dtype=np.bool_)
+    for class_ in ("window", "door", "shop", "balcony"):
+        openings |= element_mask(document, box, class_)
+    eaves = min(max(round(document.facade.y_px) - box.y0, 0), len(pixels))
+    side = side_of(pixels, ~openings, slice(eaves, len(pixels)), wall)
+    return _fitted(side, np.ones(side.shape[:2], np.bool_), box, whole)
 
 
 def _fitted(pixels: Pixels, mask: Mask, box: PixelBox, whole: PixelBox) -> Texture:

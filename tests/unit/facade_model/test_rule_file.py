@@ -21,6 +21,7 @@ from veduta.facade.options import ModelSizes
 from veduta.facade.plan import plan_building
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import RULES
+from veduta.grammar.brought import with_imports
 from veduta.grammar.building import build_part
 from veduta.place.material import Texture
 from veduta.place.part import Part
@@ -39,7 +40,7 @@ def derived(
     textures: Mapping[str, Texture] | None = None,
 ) -> Part:
     """The rules alone, as `veduta grammar derive` takes them."""
-    (found,) = _core.GrammarRules([(RULES, text)]).derive(
+    (found,) = _core.GrammarRules(with_imports(RULES, text)).derive(
         [[lot]], [0], attributes=[dict(attributes or {})]
     )
     assert not isinstance(found, str), found
@@ -70,7 +71,7 @@ def test_the_rules_of_any_document_are_clean(
     items: list[Element], roof_m: float, facade_m: tuple[float, float], chosen: ModelSizes
 ) -> None:
     text = build_model(sample_document(items, roof_m, facade_m, chosen), PHOTO, "any").rules
-    told, errors, warnings, underived = _core.grammar_check([(RULES, text)])
+    told, errors, warnings, underived = _core.grammar_check(with_imports(RULES, text))
     assert (told, errors, warnings, underived) == ("", 0, 0, "")
     assert _core.grammar_format(RULES, text) == text
 
@@ -215,4 +216,4 @@ def test_a_name_of_a_photo_ends_no_comment() -> None:
     document = sample_document(elements=[])
     source = document.source.model_copy(update={"image": "odd*/name.jpg"})
     text = rules_of(document.model_copy(update={"source": source}))
-    assert _core.grammar_check([(RULES, text)])[1] == 0
+    assert _core.grammar_check(with_imports(RULES, text))[1] == 0

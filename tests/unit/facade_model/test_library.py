@@ -1,0 +1,110 @@
+"""Railings, leaves, dormers, cornices and chimneys of the asset library, and the sides' wall."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from closed_shells import assert_closed
+from sample_document import EAVES_PX, METRES_PER_PX, sample_document, sample_photo
+
+from veduta.facade.document import FacadeDocument, Moulding
+from veduta.facade.model import build_model
+from veduta.facade.options import ModelSizes
+from veduta.facade.side_wall import side_of
+from veduta.place.part import Part
+from veduta.place.semantics import SemanticClass
+
+
+def _document() -> FacadeDocument:
+    mouldings = [
+        Moulding(
+            kind=kind,
+            x_px=20.0,
+            y_px=EAVES_PX + down / METRES_PER_PX,
+            width_px=480.0,
+            height_px=high / METRES_PER_PX,
+            score=0.8,
+            provenance="measured",
+        )
+        for kind, down, high in (("modillions", 0.0, 0.6), ("string-course", 12.0, 0.2))
+    ]
+    document = sample_document(sizes=ModelSizes(detail="library"))
+    return document.model_copy(update={"mouldings": mouldings})
+
+
+@pytest.fixture(scope="module")
+def part() -> Part:
+    document = _document()
+    return build_model(document, sample_photo(document), "house").part
+
+
+def _instances(part: Part) -> dict[str, int]:
+    """How often things stand in each feature."""
+    counts: dict[str, int] = {}
+    assert part.instances is not None
+    for group in part.instances.groups:
+        for row in group.feature.tolist():
+            name = part.features.name[row]
+            counts[name] = counts.get(name, 0) + 1
+    return counts
+
+
+def test_the_body_is_closed_and_all_is_there(part: Part) -> None:
+    assert_closed(part)
+    assert part.notes == ()
+    found = _instances(part)
+    assert found["balcony 1"] > found["balcony 2"] > 2
+    assert found["leaf of door 2"] == 1
+    assert found["moulding 1"] > found["moulding 2"] >= 1
+    assert {f"dormer {k}" for k in range(1, 5)} <= set(found)
+    assert "chimney 1" in found
+    classes = {
+        part.features.semantic(part.features.name.index(name))
+        for name in ("moulding 1", "dormer 1")
+    }
+    assert classes == {SemanticClass("cornice"), SemanticClass("wall")}
+
+
+def test_nothing_stands_far_from_where_the_document_has_it(part: Part) -> None:
+    low, high = part.bounds_m
+    assert low[1] > -0.75  # balconies are the furthest before the front
+    assert low[0] > -0.2
+    assert high[0] < 12.2
+
+
+def test_the_photo_on_plain_boxes_has_none_of_it() -> None:
+    document = _document()
+    photo = document.model_copy(update={"model": ModelSizes(detail="photo")})
+    made = build_model(photo, sample_photo(document), "house")
+    assert made.part.instances is None or not made.part.instances.groups
+    assert "attr library = false" in made.rules
+
+
+def test_railings_have_the_colour_of_the_photo(part: Part) -> None:
+    assert part.instances is not None
+    row = part.features.name.index("balcony 1")
+    numbers = {
+        number
+        for group in part.instances.groups
+        if row in group.feature.tolist()
+        for number in group.materials
+    }
+    colours = np.array([part.materials[number].colour for number in numbers])
+    assert (np.abs(colours - np.array([40, 40, 44]) / 255.0) < 0.06).all()
+
+
+def test_the_sides_have_the_wall_of_each_height() -> None:
+    front = np.zeros((200, 80, 3), np.uint8)
+    front[:100], front[100:] = (200, 180, 150), (150, 120, 90)
+    wall = np.ones((200, 80), np.bool_)
+    front[20:60, 20:60] = 0
+    wall[20:60, 20:60] = False
+    side = side_of(front, wall, slice(0, 200), (0.7, 0.6, 0.5))
+    assert np.abs(side[10:90].mean(axis=(0, 1)) - (200, 180, 150)).max() < 2.0
+    assert np.abs(side[110:].mean(axis=(0, 1)) - (150, 120, 90)).max() < 2.0
+
+
+def test_a_front_without_wall_has_the_usual_colour() -> None:
+    front = np.zeros((40, 30, 3), np.uint8)
+    side = side_of(front, np.zeros((40, 30), np.bool_), slice(0, 40), (0.5, 0.5, 0.5))
+    assert np.abs(side.astype(float) - 127.5).max() < 12.0
