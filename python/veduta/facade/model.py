@@ -20,7 +20,7 @@ from veduta.facade.rule_file import Known, write_rules
 from veduta.facade.rule_head import CELLS, PHOTO_TEXTURE, SIDE_TEXTURE, WALL_TEXTURE
 from veduta.facade.scale import LARGEST_SIDE_M, SMALLEST_SIDE_M, is_possible
 from veduta.facade.textures import make_textures
-from veduta.grammar.brought import derive_text
+from veduta.grammar.brought import brought_textures, derive_text
 from veduta.grammar.building import build_part as part_of
 from veduta.place.material import Texture
 from veduta.place.part import Features, Part
@@ -103,7 +103,7 @@ def _derived(text: str, plan: Plan, images: Mapping[str, Texture], part_id: str)
     if isinstance(made, str):
         raise ValueError(f"the rules of {part_id} do not derive: {made}")
     derived, assets = made
-    part = part_of(derived, part_id, assets, images)
+    part = part_of(derived, part_id, assets, {**brought_textures(assets), **images})
     # What lies a little beside the photo takes its border: the sides of a narrow balcony.
     return replace(part, uv=np.clip(part.uv, 0.0, 1.0))
 

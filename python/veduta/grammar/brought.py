@@ -16,7 +16,9 @@ from veduta.grammar.assets.asset import Asset
 from veduta.grammar.assets.library import Library
 from veduta.grammar.project import SearchPath
 from veduta.grammar.rules import STYLES
-from veduta.grammar.surfaces.catalogue import sizes_m
+from veduta.grammar.surfaces.catalogue import PREFIX, sizes_m
+from veduta.grammar.textures import Textures
+from veduta.place.material import Texture
 
 Point = tuple[float, float, float]
 
@@ -47,6 +49,13 @@ def derive_text(
     if not isinstance(derived, _core.DerivedLot):
         return str(derived)
     return derived, library.assets_of(derived)
+
+
+def brought_textures(assets: Mapping[str, Asset]) -> dict[str, Texture]:
+    """The textures that assets have, by the names that rules have for them."""
+    named = {slot.texture for asset in assets.values() for slot in asset.slots}
+    known = Textures({})
+    return {f"{PREFIX}{name}": known[f"{PREFIX}{name}"] for name in sorted(filter(None, named))}
 
 
 @cache
