@@ -20,7 +20,7 @@ from veduta.plan.clean import ink as inks
 from veduta.plan.clean.sheet import clean_sheet
 from veduta.plan.document import Text
 from veduta.plan.drawing_out import drawn_from
-from veduta.plan.drawn import Cleaned, Drawn
+from veduta.plan.drawn import Cleaned, Drawn, DrawnStairs
 from veduta.plan.openings.along import with_unbroken
 from veduta.plan.openings.classify import PLAIN_DOORS, PLAIN_WIDTH, Judged, judge
 from veduta.plan.openings.curved_gaps import gaps_on_circles
@@ -37,7 +37,7 @@ from veduta.plan.stairs.find import find_flights
 from veduta.plan.text.sheet_text import moved_texts
 from veduta.plan.walls.axes import Axis, axes_of
 from veduta.plan.walls.bays import with_bends
-from veduta.plan.walls.fence import fence_pieces
+from veduta.plan.walls.fence import fence_pieces, ring_pieces
 from veduta.plan.walls.find import Found, find_walls
 from veduta.plan.walls.pieces import Piece
 from veduta.plan.walls.ways import Way, known_way, ways_drawn
@@ -111,21 +111,60 @@ def read_cleaned(
     """
     flights = find_flights(inks.marks(cleaned.ink, cleaned.line_px), cleaned.line_px, texts)
     if known is not None and known.solid is not None:
-        return replace(_read(cleaned, texts, known_way(known.solid), known), stairs=flights)
-    ways = ways_drawn(cleaned, texts, flights)
-    labels = room_labels(texts, indoors=True)
+        sheet = Sheeted(cleaned, texts, flights, known, fenced=True)
+        return replace(_read(sheet, known_way(known.solid)), stairs=flights)
+    return replace(_likeliest_way(Sheeted(cleaned, texts, flights, known)), stairs=flights)
+
+
+@dataclass(frozen=True)
+class Sheeted:
+    """What is read: a cleaned sheet, its texts and flights in its pixels, what is known of walls.
+
+    `fenced`: the wall around the plot was taken out of it.
+    """
+
+    cleaned: Cleaned
+    texts: Sequence[Text]
+    flights: Sequence[DrawnStairs]
+    known: KnownWalls | None
+    fenced: bool = False
+
+    def without(self, found: Found, fence: Sequence[Piece]) -> Sheeted:
+        """The same without the wall around the plot."""
+        return replace(self, cleaned=without_fence(self.cleaned, found, fence)[0], fenced=True)
+
+
+def _likeliest_way(sheet: Sheeted) -> Drawn:
+    """The reading in the way of drawing walls in which most names have a room of their own."""
+    labels = room_labels(sheet.texts, indoors=True)
     tried: list[Way] = []
 
     def readings() -> Iterator[Callable[[], Drawn]]:
-        for way in ways:
+        for way in ways_drawn(sheet.cleaned, sheet.texts, sheet.flights):
             tried.append(way)
-            yield partial(_read, cleaned, texts, way, known)
+            yield partial(_read, sheet, way)
+        if not sheet.fenced and tried:
+            yield partial(_within_ring, sheet, tried[0])
 
     likely, drawn = likeliest(readings(), labels)
-    if known is None and _with_own_rooms(drawn, labels) < 1.0:
+    again = likely < len(tried) and PLOT_NOTE not in drawn.notes
+    if sheet.known is None and again and _with_own_rooms(drawn, labels) < 1.0:
         # The least invention: what thin lines close counts once it is known how walls are drawn.
-        drawn = _read(cleaned, texts, tried[likely], known, thin=True)
-    return replace(drawn, stairs=flights)
+        drawn = _read(sheet, tried[likely], thin=True)
+    return drawn
+
+
+def _within_ring(sheet: Sheeted, way: Way) -> Drawn:
+    """The house within a ring of walls that are drawn otherwise; NotFoundError without a ring."""
+    found = find_walls(sheet.cleaned, way)
+    ring = [found.pieces[one] for one in sorted(ring_pieces(found.pieces, found.thin_px))]
+    if not ring:
+        raise NotFoundError("walls", "no wall stands around the plot", "Give a floor plan.")
+    return _noted(_likeliest_way(sheet.without(found, ring)))
+
+
+def _noted(drawn: Drawn) -> Drawn:
+    return replace(drawn, notes=(PLOT_NOTE, *drawn.notes))
 
 
 def likeliest(
@@ -165,17 +204,14 @@ def _with_own_rooms(drawn: Drawn, labels: Sequence[NDArray[np.float64]]) -> floa
     return named / max(1, len(points))
 
 
-def _read(
-    cleaned: Cleaned,
-    texts: Sequence[Text],
-    way: Way,
-    known: KnownWalls | None,
-    *,
-    thin: bool = False,
-) -> Drawn:
+def _read(sheeted: Sheeted, way: Way, *, thin: bool = False) -> Drawn:
     """One reading; thin: rooms with a name are closed along any lines around them."""
+    cleaned, texts, known = sheeted.cleaned, sheeted.texts, sheeted.known
     found = find_walls(cleaned, way)
     fence = [found.pieces[one] for one in sorted(fence_pieces(found.pieces, found.thin_px))]
+    if fence and not sheeted.fenced:
+        # Without it the walls of the house may look drawn in another way.
+        return _noted(_likeliest_way(sheeted.without(found, fence)))
     if fence:
         cleaned, found = without_fence(cleaned, found, fence)
     sheet = Sheet(cleaned.ink, inks.faint_marks(cleaned.ink, cleaned.line_px))

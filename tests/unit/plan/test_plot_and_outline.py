@@ -56,6 +56,36 @@ def test_a_ring_of_walls_around_the_house_is_no_room() -> None:
     assert kinds[0] == kinds[1]
 
 
+def test_a_car_beside_the_fence_is_no_part_of_house_or_fence() -> None:
+    page = np.full((800, 1100, 3), 255, np.uint8)
+    _house(page, 240, 240)
+    alone = read_storey(page)
+    cv2.rectangle(page, (60, 60), (1040, 740), (0, 0, 0), 10)
+    cv2.rectangle(page, (1030, 500), (1050, 650), (255, 255, 255), -1)
+    for y in (300, 380):  # its two panes, dark
+        cv2.rectangle(page, (90, y), (165, y + 12), (0, 0, 0), -1)
+    walled = read_storey(page)
+    assert PLOT_NOTE in walled.notes
+    assert _sized(walled) == pytest.approx(_sized(alone), rel=0.02)
+
+
+def test_a_house_that_is_drawn_otherwise_than_the_ring_around_it_is_found_within() -> None:
+    """A hatched house in a ring of solid grey: by the ring alone the plot would be one room."""
+    solid = np.full((900, 1200, 3), 255, np.uint8)
+    _house(solid, 300, 280)
+    dark = (solid[..., 0] < 128).astype(np.uint8)
+    walls = cv2.morphologyEx(dark, cv2.MORPH_OPEN, np.ones((6, 6), np.uint8))
+    rim = cv2.dilate(walls, np.ones((3, 3), np.uint8)) - cv2.erode(walls, np.ones((3, 3), np.uint8))
+    stripes = np.add.outer(np.arange(900), np.arange(1200)) % 9 < 2
+    page = np.full_like(solid, 255)
+    page[(rim > 0) | ((walls > 0) & stripes) | ((dark > 0) & (walls == 0))] = 0
+    cv2.rectangle(page, (60, 60), (1140, 840), (150, 150, 150), 20)
+    names = {"Zimmer": (440, 380), "Flur": (440, 480), "Bad": (780, 380), "Abst.": (780, 480)}
+    drawn = read_storey(page, [written(name, *at) for name, at in names.items()])
+    assert PLOT_NOTE in drawn.notes
+    assert _sized(drawn) == pytest.approx([300.0 * 306.0] * 2, rel=0.1)
+
+
 def test_a_room_that_is_outlined_by_a_thin_line_is_closed_by_it() -> None:
     """Three sides are a line of 2 px, the fourth is a wall: its room is known by its name."""
     page = np.full((1000, 1000, 3), 255, np.uint8)

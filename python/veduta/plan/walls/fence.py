@@ -23,21 +23,27 @@ class PlotRule:
     of all walls, so near to it. free: it leaves so much on all sides. house: the walls within are
     so many times as long as it. inside: and the house covers so much of the plot, as a share.
     closed: and stands along so much of its own hull, which a core within a house does not.
+    things: walls that hang together but are less than this part of the largest such group, and lie
+    outside of all others, are things on the plot; so are those that cover less within a ring.
     """
 
-    joined: float = 1.0
+    joined: float = 0.4
     along: float = 3.0
     free: float = 3.0
     house: float = 0.5
     inside: tuple[float, float] = (0.2, 0.92)
     closed: float = 0.5
+    things: float = 0.15
 
 
 PLOT = PlotRule()
 
 
 def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) -> set[int]:
-    """Indices of the pieces that stand around a plot with a house in it; none without one."""
+    """Indices of the pieces around a plot with a house in it, and of things beside that house.
+
+    None without such a fence.
+    """
     lines = [LineString([one.start, one.end]) for one in pieces]
     if len(lines) < 5:
         return set()
@@ -49,7 +55,7 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
         if all(border.contains(lines[other]) for other in group)
         for index in group
     }
-    house = [index for index in range(len(lines)) if index not in fence]
+    house = _house(groups, lines, fence, rule)
     if not fence or not house:
         return set()
     walls = unary_union([lines[index] for index in house])
@@ -61,7 +67,42 @@ def fence_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT)
     sized = rule.inside[0] <= share <= rule.inside[1]
     beside = walls.buffer(rule.along * thin_px).intersection(hull.boundary).length
     sized = sized and beside >= rule.closed * hull.boundary.length
-    return fence if enough and sized and free >= rule.free * thin_px else set()
+    around = enough and sized and free >= rule.free * thin_px
+    return set(range(len(lines))) - house if around else set()
+
+
+def ring_pieces(pieces: Sequence[Piece], thin_px: float, rule: PlotRule = PLOT) -> set[int]:
+    """Indices of the pieces of a ring, where there is hardly another in it; none without one.
+
+    The house is then drawn in another way than the wall around its plot.
+    """
+    lines = [LineString([one.start, one.end]) for one in pieces]
+    if not lines:
+        return set()
+    border = unary_union(lines).convex_hull.boundary
+    near = border.buffer(rule.along * thin_px)
+    ring = {index for index, line in enumerate(lines) if near.contains(line)}
+    cover = [one.length_px * one.thickness_px for one in pieces]
+    inside = sum(cover) - sum(cover[index] for index in ring)
+    walls = unary_union([lines[index] for index in ring])
+    whole = walls.buffer(rule.along * thin_px).intersection(border).length
+    alone = inside <= rule.things * sum(cover)
+    return ring if ring and alone and whole >= rule.closed * border.length else set()
+
+
+def _house(
+    groups: Sequence[set[int]], lines: Sequence[LineString], fence: set[int], rule: PlotRule
+) -> set[int]:
+    """The pieces that hang together in large groups, and what lies among those.
+
+    What else stands on the plot, a car or a shed, is no part of it.
+    """
+    rest = [group - fence for group in groups if group - fence]
+    sizes = [sum(lines[index].length for index in group) for group in rest]
+    least = rule.things * max(sizes, default=0.0)
+    large = [group for group, size in zip(rest, sizes, strict=True) if size >= least]
+    hull = unary_union([lines[index] for group in large for index in group]).convex_hull
+    return {index for group in rest for index in group if hull.intersects(lines[index])}
 
 
 def _groups(
