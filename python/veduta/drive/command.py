@@ -37,7 +37,7 @@ from veduta.run.report import Count
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "8"
+VERSION = "9"
 POINTS = "points.laz"
 _JPEG_QUALITY = 90
 
@@ -157,6 +157,7 @@ def _write(
     files = [
         ("place.json", "the place: `veduta view` shows it"),
         ("parts/", "a textured mesh of each segment (GLB)"),
+        ("raw/", "the same as it was scanned"),
         (POINTS, "scan points: 2 ground, 6 building, 64 foreground, 65 glass, 66 filled"),
         (DOCUMENT, "the path and its segments"),
     ]

@@ -15,7 +15,6 @@ from pydantic import JsonValue
 
 from veduta.drive.build.backdrop import backdrop_of
 from veduta.drive.build.beside import points_beside
-from veduta.drive.build.facade_files import FACADES
 from veduta.drive.build.near_images import NearImages
 from veduta.drive.build.outcome import Outcome, outcome_of
 from veduta.drive.build.pictures import (
@@ -164,7 +163,7 @@ def texture_segments(
             made = load()
             found.append(outcome_of(
                 made, load, seen, options.texture.texel_m,
-                max(MOST_TAKEN_OUT // len(layered), 1), work.folder / FACADES,
+                max(MOST_TAKEN_OUT // len(layered), 1), work.folder,
             ))  # fmt: skip
             _show(made, work)
             step.counts[f"{one.segment.id}: triangles"] = len(made.surface.triangles)

@@ -240,6 +240,7 @@ def _part_row(placed: PlacedPart, model: str) -> manifest.PlacePart:
         city_model=standing.city_model,
         document=standing.document,
         photo=standing.photo,
+        raw=standing.raw,
         arrangement=standing.arrangement,
         bounds=bounds,
         core=core,

@@ -24,7 +24,10 @@ def write_place(place: Place, path: Path) -> None:
 def manifest_bytes(place: Place) -> bytes:
     """The manifest as indented JSON."""
     unsaid: dict[str, Any] = {name: True for name in LATER if not getattr(place, name)}
-    unsaid["parts"] = {n: {"core"} for n, part in enumerate(place.parts) if part.core is None}
+    unsaid["parts"] = {
+        n: {name for name in ("core", "raw") if getattr(part, name) is None}
+        for n, part in enumerate(place.parts)
+    }
     text = place.model_dump_json(by_alias=True, indent=2, exclude=unsaid)
     return (text + "\n").encode()
 

@@ -30,6 +30,8 @@ class _Documented(Protocol):
     def photo(self) -> str | None: ...
     @property
     def city_model(self) -> str | None: ...
+    @property
+    def raw(self) -> str | None: ...
 
 
 def drawn_files(walks: Iterable[Walk]) -> list[str]:
@@ -47,7 +49,8 @@ def files_beside(
     """Pictures of cameras, and what parts and walks were made from."""
     names = [camera.picture for camera in cameras]
     for part in parts:
-        names += [name for name in (part.photo, part.city_model, part.document) if name]
+        files = (part.photo, part.city_model, part.document, part.raw)
+        names += [name for name in files if name]
     return names + [walk.document for walk in walks if walk.document]
 
 

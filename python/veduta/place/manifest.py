@@ -64,6 +64,10 @@ class PlacePart(_Record):
     city_model: RelativePath | None = Field(default=None, description="CityJSON")
     document: RelativePath | None = Field(default=None, description="what it was built from")
     photo: RelativePath | None = Field(default=None, description="the photo that textures it")
+    raw: RelativePath | None = Field(
+        default=None,
+        description="glTF binary: the same as it was recorded, with what stood before it",
+    )
     transform: Matrix = Field(
         default=IDENTITY, description="world_from_part, 4x4, column-major, metres"
     )
@@ -340,7 +344,7 @@ LATER = frozenset(
 so that places that say nothing of it are written as they were."""
 
 Item = TypeVar("Item", PlacePart, PlacePoints, PlaceCamera, Tour, PlaceAnimal, Walk)
-_FILES = {"model", "city_model", "document", "photo", "file", "picture", "forth", "back"}
+_FILES = {"model", "city_model", "document", "photo", "raw", "file", "picture", "forth", "back"}
 
 
 def merge(first: Place, second: Place, second_folder: str = "") -> Place:

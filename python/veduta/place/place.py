@@ -52,7 +52,8 @@ class Standing:
     """Where a part stands in the place, and what it is there.
 
     transform: (4, 4) float64, world_from_part. document, photo, city_model: files in the place's
-    folder. ground: whether one walks on it. backdrop: a picture around the others.
+    folder; raw: there, a model of the part as it was recorded. ground: whether one walks on it.
+    backdrop: a picture around the others.
     """
 
     name: str = ""
@@ -63,6 +64,7 @@ class Standing:
     document: str | None = None
     photo: str | None = None
     city_model: str | None = None
+    raw: str | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -98,7 +100,7 @@ class PlacedPart:
         """As a row of a manifest says; read: brings the content of its model."""
         standing = Standing(
             row.name, np.array(row.transform).reshape(4, 4).T, row.arrangement, row.ground,
-            row.backdrop, row.document, row.photo, row.city_model,
+            row.backdrop, row.document, row.photo, row.city_model, row.raw,
         )  # fmt: skip
         return PlacedPart(row.id, standing, read, row)
 
@@ -311,6 +313,7 @@ class Place:
                 document=own.document and name(own.document),
                 photo=own.photo and name(own.photo),
                 city_model=own.city_model and name(own.city_model),
+                raw=own.raw and name(own.raw),
             )
             parts[placed.id] = replace(placed, standing=standing)
         return replace(

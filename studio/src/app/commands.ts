@@ -24,6 +24,7 @@ export interface Told extends Record<Command, undefined> {
   readonly layer: { readonly kind: SemanticClass; readonly visible: boolean };
   readonly record: { readonly layer: Layer; readonly visible: boolean };
   readonly "point-size": number;
+  readonly wipe: number;
   readonly fade: boolean;
   readonly colour: Colouring;
   readonly house: Partial<StudioState>;
@@ -96,7 +97,7 @@ export class Commands {
     };
   }
 
-  #ofSurfaces(): Pick<Handlers, "colouring" | "colour" | "select" | "layer" | "record" | "point-size"> {
+  #ofSurfaces(): Pick<Handlers, "colouring" | "colour" | "select" | "layer" | "record" | "point-size" | "wipe"> {
     return {
       colouring: () => {
         const colouring = NEXT_COLOURING[this.#store.value.colouring];
@@ -108,6 +109,7 @@ export class Commands {
       layer: (change) => this.#layer(change),
       record: ({ layer, visible }) => this.#store.update({ off: withLayer(this.#store.value.off, layer, visible), selected: null }),
       "point-size": (point_px) => this.#store.update({ point_px }),
+      wipe: (wipe) => this.#store.update({ wipe }),
     };
   }
 

@@ -12,6 +12,7 @@ const NAMES: Readonly<Record<Layer, string>> = {
   distances: "Distances from the model",
   cameras: "Cameras",
   backdrop: "Panorama",
+  raw: "As recorded",
 };
 const SMALLEST_PX = 1;
 const LARGEST_PX = 8;
@@ -22,12 +23,15 @@ export class RecordsPanel extends LitElement {
     off: { attribute: false },
     point_px: { type: Number },
     fading: { type: Boolean },
+    wipe: { type: Number },
   };
   /** Those that the place has. */
   declare layers: readonly Layer[];
   declare off: ReadonlySet<Layer>;
   declare point_px: number;
   declare fading: boolean;
+  /** Up to this share of the picture's width what was recorded is shown. */
+  declare wipe: number;
 
   static override styles = [
     theme,
@@ -53,13 +57,14 @@ export class RecordsPanel extends LitElement {
     this.off = new Set();
     this.point_px = 0;
     this.fading = false;
+    this.wipe = 0;
   }
 
   override render(): TemplateResult {
     return html`
       <h2 class="eyebrow">Shown</h2>
       <ul>
-        ${this.layers.map((layer) => html`<li>${this.#layer(layer)}${layer === "points" ? this.#size() : nothing}</li>`)}
+        ${this.layers.map((layer) => html`<li>${this.#layer(layer)}${this.#slider(layer)}</li>`)}
       </ul>
       ${this.layers.includes("cameras")
         ? html`<button class="row" role="switch" aria-checked=${this.fading}
@@ -68,6 +73,17 @@ export class RecordsPanel extends LitElement {
             <span class="name">Photos fade in</span><i class="knob"></i></button>`
         : nothing}
     `;
+  }
+
+  #slider(layer: Layer): TemplateResult | typeof nothing {
+    if (layer === "points") return this.#size();
+    return layer === "raw" && !this.off.has("raw") ? this.#wiped() : nothing;
+  }
+
+  #wiped(): TemplateResult {
+    return html`<label class="row">Up to <input type="range" aria-label="How far from the left the place is shown as recorded"
+      min="0" max="1" step="0.01" .value=${String(this.wipe)}
+      @input=${(event: Event) => this.#emit("wipe", Number((event.target as HTMLInputElement).value))} /></label>`;
   }
 
   #size(): TemplateResult {
@@ -85,7 +101,7 @@ export class RecordsPanel extends LitElement {
     </button>`;
   }
 
-  #emit(name: "record" | "point-size" | "fading", detail: unknown): void {
+  #emit(name: "record" | "point-size" | "fading" | "wipe", detail: unknown): void {
     this.dispatchEvent(new CustomEvent(name, { detail }));
   }
 }

@@ -67,13 +67,14 @@ export async function openPlace(
     import("../three/part-slot.ts"),
     import("../three/shared-images.ts"),
     import("../three/photo-textures.ts"),
+    import("../three/recorded.ts"),
     import("../three/town.ts"),
     import("../three/viewer.ts"),
   ]);
   onProgress(0, "place.json");
   // The index of the place and the first models need none of it.
   const place = readPlace(await fetchText(address, "place.json"), "place.json");
-  const [{ loadClouds }, { Frusta }, { Grower }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot, stillOf }, { SharedImages }, { bitmapOf, PhotoTextures }, { Town }, { Viewer }] =
+  const [{ loadClouds }, { Frusta }, { Grower }, { loadHouse }, { loadPart }, { MorphShow }, { PartSlot, stillOf }, { SharedImages }, { bitmapOf, PhotoTextures }, { Recorded }, { Town }, { Viewer }] =
     await drawing;
   const { tileset } = place;
   const budget = budgetOf(place, { isSmall: matchMedia("(pointer: coarse)").matches });
@@ -121,7 +122,13 @@ export async function openPlace(
   store.update({ off: firstOff(place), fading: !place.hidden.has("photos"), hour: sunPath.firstHour });
   const morphs = place.walks.length === 0 ? null : new MorphShow(place.walks, address, () => viewer?.invalidate(), onFault);
   if (morphs !== null) store.update({ morph: strollFrom(0) });
-  viewer = new Viewer(canvas, place, { parts, town, clouds, frusta, textures, houses, budget, morphs }, store);
+  const recorded = new Recorded(
+    parts,
+    async (part) => (await loadPart(part, address, images, () => undefined)).group.children,
+    () => viewer?.invalidate(),
+    onFault,
+  );
+  viewer = new Viewer(canvas, place, { parts, recorded, town, clouds, frusta, textures, houses, budget, morphs }, store);
   await viewer.prepare();
   onProgress(1, "");
   return {
@@ -175,7 +182,8 @@ function firstOff({ parts, clouds, tileset, hidden }: Place): ReadonlySet<Layer>
   const hasModel = tileset !== null || parts.some(({ layer }) => layer === "model");
   const asked = (["points", "cameras"] as const).filter((layer) => hidden.has(layer));
   const doubled = clouds.some(({ layer }) => layer === "distances") ? (["distances"] as const) : [];
-  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...doubled, ...asked]);
+  const recorded = parts.some(({ raw }) => raw !== null) ? (["raw"] as const) : [];
+  return new Set<Layer>([...(hasModel ? (["walls"] as const) : []), ...doubled, ...recorded, ...asked]);
 }
 
 function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
@@ -186,9 +194,10 @@ function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
     points: clouds.some(({ layer }) => layer === "points"),
     distances: clouds.some(({ layer }) => layer === "distances"),
     cameras: shots.length > 0,
+    raw: !hasTown && parts.some(({ raw }) => raw !== null),
     backdrop: false, // a switch of the house's own panel
   };
-  return (["model", "walls", "points", "distances", "cameras"] as const).filter((layer) => has[layer]);
+  return (["model", "raw", "walls", "points", "distances", "cameras"] as const).filter((layer) => has[layer]);
 }
 
 /** Nothing can be drawn in space. */

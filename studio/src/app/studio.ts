@@ -221,6 +221,7 @@ export class Studio extends LitElement {
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
+      ${session.records.includes("raw") && !state.off.has("raw") ? html`<div class="wipe" style=${`left: ${String(100 * state.wipe)}%`}></div>` : nothing}
       ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
         html`<p class="hint ${overTour}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,
@@ -231,7 +232,7 @@ export class Studio extends LitElement {
 
   /** Classes, records and photos: those that the place has. */
   #layers(session: Session): TemplateResult {
-    const { hidden, colouring, off, point_px, fading, shot, projected } = this.#store.value;
+    const { hidden, colouring, off, point_px, fading, wipe, shot, projected } = this.#store.value;
     const { shots } = session.place;
     const { records } = session;
     return html`
@@ -240,10 +241,11 @@ export class Studio extends LitElement {
           .hasDoors=${session.viewer.household.doors !== null} .hasLamps=${session.hasLamps}
           .sunWords=${session.sunPath.words} .hasBackdrop=${session.place.parts.some(({ isBackdrop }) => isBackdrop)}
           @change-state=${this.#asks("house")}></veduta-house>
-        <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading}
+        <veduta-records ?hidden=${records.length === 0} .layers=${records} .off=${off} .point_px=${point_px} .fading=${fading} .wipe=${wipe}
           @record=${this.#asks("record")}
           @point-size=${this.#asks("point-size")}
-          @fading=${this.#asks("fade")}></veduta-records>
+          @fading=${this.#asks("fade")}
+          @wipe=${this.#asks("wipe")}></veduta-records>
         <veduta-layers ?hidden=${session.tables.length === 0} .tables=${session.tables} .counted=${this.#counted(session)}
           .hidden_=${hidden} .colouring=${colouring}
           @colouring=${this.#asks("colour")}

@@ -15,6 +15,8 @@ export interface Part {
   /** Addresses relative to `place.json`. */
   readonly model: string;
   readonly photo: string | null;
+  /** A model of the same as it was recorded. */
+  readonly raw: string | null;
   /** What it was built from. */
   readonly document: string | null;
   readonly worldFromPart: readonly number[];
@@ -232,6 +234,7 @@ function readPart(value: unknown, which: string, broken: (fault: string) => Faul
     name: text("name"),
     model: part.model,
     photo: isInside(part.photo) ? part.photo : null,
+    raw: isInside(part.raw) ? part.raw : null,
     document: isInside(part.document) ? part.document : null,
     worldFromPart: transform,
     arrangement: part.arrangement,

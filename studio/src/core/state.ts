@@ -7,7 +7,7 @@ import type { TourState } from "./tour.ts";
 
 export type Mode = "orbit" | "walk";
 /** What of a place is shown beside its classes: the records that it was made from, and the parts. */
-export type Layer = "points" | "distances" | "cameras" | "walls" | "model" | "backdrop";
+export type Layer = "points" | "distances" | "cameras" | "walls" | "model" | "backdrop" | "raw";
 /** Doors open for whoever comes and close behind him, or all stand open. */
 export type DoorHabit = "approach" | "open";
 /** Lamps go on in the room that one comes into, or all are on, or off. */
@@ -40,6 +40,8 @@ export interface StudioState {
   /** Whether photos fade in as one walks past. */
   readonly fading: boolean;
   readonly off: ReadonlySet<Layer>;
+  /** Up to this share of the picture's width, from the left, what was recorded is shown while it is on. */
+  readonly wipe: number;
   /** Size of a point, CSS pixels. */
   readonly point_px: number;
   readonly mouseLook: boolean;
@@ -65,6 +67,7 @@ export const INITIAL_STATE: StudioState = {
   cover: 1,
   fading: true,
   off: new Set(),
+  wipe: 0.5,
   point_px: 2.5,
   mouseLook: false,
   doors: "approach",

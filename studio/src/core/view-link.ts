@@ -17,7 +17,7 @@ export interface Look {
 
 /** What of the state is part of a view. */
 export type ViewState = Partial<
-  Pick<StudioState, "mode" | "colouring" | "hidden" | "off" | "shot" | "projected" | "cover" | "hour" | "tour" | "doors" | "lights" | "morph" | "animal">
+  Pick<StudioState, "mode" | "colouring" | "hidden" | "off" | "wipe" | "shot" | "projected" | "cover" | "hour" | "tour" | "doors" | "lights" | "morph" | "animal">
 >;
 
 export interface View {
@@ -27,7 +27,7 @@ export interface View {
   readonly picked: string | null;
 }
 
-const LAYERS = ["points", "distances", "cameras", "walls", "model", "backdrop"] as const;
+const LAYERS = ["points", "distances", "cameras", "walls", "model", "backdrop", "raw"] as const;
 const LOOKS = ["picture", "geometry", "psi"] as const;
 const COLOURINGS = ["photo", "class", "provenance"] as const;
 /** Nobody writes a longer one. */
@@ -45,6 +45,7 @@ export function writeView(state: StudioState, look: Look | null, picked: string 
   if (state.hidden.size > 0) fields.set("hide", [...state.hidden].toSorted().join(","));
   // Said even where it is nothing: a place may begin with layers that are off.
   fields.set("off", [...state.off].toSorted().join(","));
+  if (!state.off.has("raw") && state.wipe !== 0.5) fields.set("wipe", round(state.wipe, 2));
   fields.set("hour", round(state.hour, 2));
   if (state.doors !== "approach") fields.set("doors", state.doors);
   if (state.lights !== "auto") fields.set("lights", state.lights);
@@ -79,6 +80,7 @@ export function readView(text: string, { photos, tours, walks, animals }: Counts
   if (mode === null) return null;
   const [eye, target] = [point(fields.get("eye")), point(fields.get("to"))];
   const hour = number(fields.get("hour"), 0, 24);
+  const wipe = number(fields.get("wipe"), 0, 1);
   const shot = index(fields.get("photo"), photos);
   const off = fields.get("off");
   return {
@@ -89,6 +91,7 @@ export function readView(text: string, { photos, tours, walks, animals }: Counts
       colouring: oneOf(fields.get("colours"), COLOURINGS) ?? "photo",
       hidden: new Set((fields.get("hide") ?? "").split(",").filter(isSemanticClass)),
       ...(off === null ? {} : { off: new Set(LAYERS.filter((layer) => off.split(",").includes(layer))) }),
+      ...(wipe === null ? {} : { wipe }),
       ...(hour === null ? {} : { hour }),
       doors: oneOf(fields.get("doors"), ["approach", "open"] as const) ?? "approach",
       lights: oneOf(fields.get("lights"), ["auto", "on", "off"] as const) ?? "auto",

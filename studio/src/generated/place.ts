@@ -141,6 +141,10 @@ export interface PlacePart {
    */
   photo?: string | null;
   /**
+   * glTF binary: the same as it was recorded, with what stood before it
+   */
+  raw?: string | null;
+  /**
    * world_from_part, 4x4, column-major, metres
    *
    * @minItems 16

@@ -26,6 +26,7 @@ import { PhotoShow } from "./photo-show.ts";
 import type { PhotoTextures } from "./photo-textures.ts";
 import { PlaceSolid } from "./place-solid.ts";
 import { makeScenery, type Scenery } from "./scenery.ts";
+import type { Recorded } from "./recorded.ts";
 import type { Town } from "./town.ts";
 
 /** Of a town only what is around the person throws shadows; they move when the person has gone far. */
@@ -40,6 +41,7 @@ const USUAL_DEPTH = 0.3;
 
 export interface ViewerContent {
   readonly parts: readonly PartSlot[];
+  readonly recorded: Recorded;
   readonly town: Town | null;
   readonly clouds: Group;
   readonly frusta: Frusta | null;
@@ -151,8 +153,10 @@ export class Stage {
 
   /** Shows what the person wants to see, and hides the rest. */
   showLayers(state: StudioState): void {
-    const { parts, clouds, frusta } = this.#content;
+    const { parts, clouds, frusta, recorded } = this.#content;
     this.appearance.showLayers(state);
+    if (!state.off.has("raw")) recorded.fetch();
+    recorded.show(false);
     for (const { part, group } of parts) group.visible = part.layer === null || !state.off.has(part.layer);
     if (this.#town !== null) this.#town.group.visible = !state.off.has("model");
     if (frusta !== null) frusta.group.visible = state.shot !== null || !state.off.has("cameras");
@@ -160,6 +164,12 @@ export class Stage {
     sizePoints(clouds, state.point_px);
     this.photos?.lookAgain();
     this.#scenery.sun.shadow.needsUpdate = true;
+  }
+
+  /** What was recorded to the left, if it is wanted, and the place to the right. */
+  draw(renderer: WebGLRenderer, camera: PerspectiveCamera, { off, wipe }: StudioState): void {
+    if (off.has("raw")) renderer.render(this.scene, camera);
+    else this.#content.recorded.draw(renderer, wipe, () => renderer.render(this.scene, camera));
   }
 
   /** Moves what moves by itself; true while something does. */

@@ -325,7 +325,7 @@ export class Viewer {
     } else {
       this.#orbit.keepDepth(this.#store.value.mode);
       if (this.#stage.update(this.#camera, this.#renderer)) this.invalidate();
-      this.#renderer.render(this.#stage.scene, this.#camera);
+      this.#stage.draw(this.#renderer, this.#camera, this.#store.value);
       this.#stage.photos?.draw(this.#renderer, this.#camera, this.#stage.canvas, this.#store.value.shot !== null);
     }
     this.#frames += 1;

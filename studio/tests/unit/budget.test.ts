@@ -8,6 +8,7 @@ function parts(count: number, side_m: number): Part[] {
     name: "",
     model: "part.glb",
     photo: null,
+    raw: null,
     document: null,
     worldFromPart: [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
     arrangement: "single",

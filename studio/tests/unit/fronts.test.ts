@@ -6,7 +6,7 @@ import type { Part } from "../../src/core/place.ts";
 function facade(turn_deg: number, photo: string | null = "photo.jpg"): Part {
   const [c, s] = [Math.cos((turn_deg * Math.PI) / 180), Math.sin((turn_deg * Math.PI) / 180)];
   return {
-    id: `${turn_deg}`, name: "", model: "m.glb", photo, document: null, arrangement: "single", bounds: null, core: null,
+    id: `${turn_deg}`, name: "", model: "m.glb", photo, raw: null, document: null, arrangement: "single", bounds: null, core: null,
     isGround: false, isBackdrop: false, layer: "model",
     worldFromPart: [c, s, 0, 0, -s, c, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1],
   };

@@ -13,6 +13,7 @@ import pytest
 from veduta.drive import DriveOptions, run_drive, stages
 from veduta.drive.document.model import DriveDocument
 from veduta.drive.options import TextureOptions
+from veduta.formats.glb_mesh import read_glb_mesh
 from veduta.place.place import Place
 from veduta.run.errors import InputError
 from veduta.run.progress import Progress
@@ -214,3 +215,19 @@ def test_folder_without_a_drive_is_refused(tmp_path: Path) -> None:
         run_drive(tmp_path, tmp_path / "out", DriveOptions(), Progress(quiet=True))
     with pytest.raises(InputError, match="no such folder"):
         run_drive(tmp_path / "none", tmp_path / "out", DriveOptions(), Progress(quiet=True))
+
+
+def test_the_street_as_scanned_lies_beside_each_model(out: Path) -> None:
+    """The raw model has what stood before the facades; the mended one does not."""
+    rows = {row["id"]: row for row in json.loads((out / "place.json").read_text())["parts"]}
+    assert rows["left-001"]["raw"] == "raw/left-001.glb"
+    vertices = {}
+    for name in ("left-001", "left-001-ground"):
+        x, y, z = read_glb_mesh(out / rows[name]["raw"]).points.T
+        moved = np.array(rows[name]["transform"]).reshape(4, 4).T
+        vertices[name] = np.stack([x, -z, y], axis=1) @ moved[:3, :3].T + moved[:3, 3]
+    walls = vertices["left-001"]
+    assert ((walls[:, 0] > -9.5) & (walls[:, 2] > 0.5)).mean() > 0.05  # cars and trees
+    built = Place.load(out).parts["left-001"].triangles()[0]
+    assert ((built[:, 0] > -9.5) & (built[:, 2] > 0.5)).mean() < 0.01
+    assert abs(np.median(vertices["left-001-ground"][:, 2])) < 0.3

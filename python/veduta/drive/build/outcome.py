@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Sequence, Set
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -10,19 +10,19 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from veduta.drive.build.facade_files import Row, write_facade
+from veduta.drive.build.coloured import coloured
+from veduta.drive.build.facade_files import FACADES, Row, write_facade
 from veduta.drive.build.facade_planes import FacadePlane, facade_planes, orthophoto
 from veduta.drive.build.fill import Source
 from veduta.drive.build.layers import PointClass
 from veduta.drive.build.meshes import CLASS_COLOURS, segment_mesh
 from veduta.drive.build.pictures_of import Seen
+from veduta.drive.build.raw import raw_file, write_raw
 from veduta.drive.build.segment import Geometry, Textured
 from veduta.drive.document.model import DriveSegment
 from veduta.place.mesh import Mesh
 from veduta.place.place import Standing
 
-_HIDDEN_M = 1.0
-"""A point so far behind what hides it is not seen."""
 _SAMPLE = 20_000
 """Points of a segment that the report draws."""
 
@@ -36,6 +36,7 @@ class Outcome:
     fine: before any were joined; unseen_share: of those, error_m: by which that moved the surface.
     texels: of the atlas. looked, contradicted: filled pixels that images were asked about, and
     those where they disagree. planes: of its facades, by their names, and their rows of the list.
+    raw: the parts that have a model of what was scanned.
     """
 
     segment: DriveSegment
@@ -55,6 +56,7 @@ class Outcome:
     looked: int
     contradicted: int
     planes: tuple[tuple[str, FacadePlane, Row], ...]
+    raw: frozenset[str]
 
 
 def outcome_of(
@@ -63,33 +65,40 @@ def outcome_of(
     seen: Sequence[Seen],
     texel_m: float,
     most_taken_out: int,
-    facades: Path,
+    folder: Path,
 ) -> Outcome:
-    """seen: images near the segment, which colour what was taken out. facades: a folder for
-    pictures of its planes.
+    """seen: images near the segment, which colour what was taken out. folder: of the place, for
+    pictures of its planes and the models of it as it was scanned.
     """
     geometry, surface = textured.geometry, textured.surface
     name = geometry.segment.id
     planes = []
     for number, plane in enumerate(facade_planes(textured), 1):
         picture = orthophoto(textured, plane, texel_m)
-        row = write_facade(f"{name}-{number:02d}", name, plane, picture, facades)
+        row = write_facade(f"{name}-{number:02d}", name, plane, picture, folder / FACADES)
         planes.append((f"{name}-{number:02d}", plane, row))
     taken_out = _some(geometry.foreground(), most_taken_out)
     points, kinds = with_filled(geometry)
     ground = surface.vertices[surface.triangles[~surface.wall]][..., 2]
+    drawn = len(surface.triangles) > 0
+    raw = write_raw(geometry, surface.vertices.mean(axis=0), seen, folder) if drawn else frozenset()
     return Outcome(
-        geometry.segment, load, taken_out, coloured(taken_out, seen),
+        geometry.segment, load, taken_out, coloured(taken_out, seen, CLASS_COLOURS[PointClass.FOREGROUND]),
         np.bincount(kinds, minlength=256), _some(points, _SAMPLE), _some(kinds, _SAMPLE),
         float(ground.min()) if ground.size else float("inf"), geometry.object_count,
         len(surface.triangles), textured.fine_triangles, textured.unseen_share,
         textured.error_m, int(textured.atlas.surface.sum()), textured.consistency.looked,
         int(textured.consistency.contradicted.sum()), tuple(planes),
+        raw,
     )  # fmt: skip
 
 
-def placed_meshes(textured: Textured, lift_m: float) -> list[tuple[Mesh, Standing]]:
-    """The walls and the ground of a segment, and where they stand, `lift_m` higher."""
+def placed_meshes(
+    textured: Textured, lift_m: float, raw: Set[str] = frozenset()
+) -> list[tuple[Mesh, Standing]]:
+    """The walls and the ground of a segment, and where they stand, `lift_m` higher. raw: the ids of
+    those that have a model of what was scanned.
+    """
     surface, segment = textured.surface, textured.geometry.segment
     if not len(surface.triangles):
         return []
@@ -102,7 +111,8 @@ def placed_meshes(textured: Textured, lift_m: float) -> list[tuple[Mesh, Standin
         mesh = segment_mesh(textured, middle, wall=wall)
         told = name if wall else f"{name}, ground"
         if mesh is not None:
-            place = Standing(told, transform, ground=not wall, document="drive.json")
+            before = raw_file(mesh.id) if mesh.id in raw else None
+            place = Standing(told, transform, ground=not wall, document="drive.json", raw=before)
             meshes.append((mesh, place))
     return meshes
 
@@ -119,20 +129,3 @@ def with_filled(geometry: Geometry) -> tuple[NDArray[np.float64], NDArray[np.uin
     added = geometry.frame.vertices(background.depth)[filled]
     kinds = np.full(len(added), PointClass.FILLED, dtype=np.uint8)
     return np.concatenate([layers.points.points, added]), np.concatenate([layers.kind, kinds])
-
-
-def coloured(points: NDArray[np.float64], seen: Sequence[Seen]) -> NDArray[np.uint8]:
-    """(n, 3) the colours of foreground points in the image that shows each from nearest."""
-    plain = np.array(CLASS_COLOURS[PointClass.FOREGROUND], dtype=np.uint8)
-    colours = np.tile(plain, (len(points), 1))
-    nearest = np.full(len(points), np.inf)
-    for one in seen:
-        pixels, depth = one.shot.project(points)
-        height, width = one.hidden_m.shape
-        at = np.floor(np.clip(pixels, -1, 1e6)).astype(np.int64)
-        inside = (depth > 1.0) & (at >= 0).all(axis=1) & (at[:, 0] < width) & (at[:, 1] < height)
-        at = np.where(inside[:, None], at, 0)
-        inside &= (depth < one.hidden_m[at[:, 1], at[:, 0]] + _HIDDEN_M) & (depth < nearest)
-        colours[inside] = one.pixels[at[inside, 1], at[inside, 0]]
-        nearest[inside] = depth[inside]
-    return colours

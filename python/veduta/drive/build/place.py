@@ -39,7 +39,7 @@ def drive_place(
     x, y, z = record.origin_m
     place = Place(title=record.name, crs=record.crs, origin_m=(x, y, z - lift))
     for one in outcomes:
-        for mesh, standing in placed_meshes(one.load(), lift):
+        for mesh, standing in placed_meshes(one.load(), lift, one.raw):
             row = PlacedPart(
                 mesh.id, standing, partial(_again, one.load, mesh.id, lift),
                 file=ModelFile(f"parts/{mesh.id}.glb"),

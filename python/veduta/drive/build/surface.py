@@ -45,8 +45,19 @@ def build_surface(
     parameters: SurfaceParameters | None = None,
 ) -> Surface:
     """depth, source, wall: (r, c), NaN where nothing is."""
+    return surface_over(frame.vertices(depth), depth, source, wall, frame, parameters)
+
+
+def surface_over(
+    grid: NDArray[np.float64],
+    depth: NDArray[np.float32],
+    source: NDArray[np.uint8],
+    wall: NDArray[np.bool_],
+    frame: ColumnFrame,
+    parameters: SurfaceParameters | None = None,
+) -> Surface:
+    """grid: (r, c, 3) points that are neighbours (m), at these depths; NaN where nothing is."""
     chosen = parameters or SurfaceParameters()
-    grid = frame.vertices(depth)
     right = _joins(depth, grid, 1, chosen)[:-1]
     right_up = _joins(depth, grid, 1, chosen)[1:]
     up = _joins(depth, grid, 0, chosen)[:, :-1]
@@ -71,12 +82,6 @@ def build_surface(
     return Surface(
         grid.reshape(-1, 3)[used], pixel, triangles, worst.astype(np.uint8), majority
     )
-
-
-def raw_surface(depth: NDArray[np.float32], frame: ColumnFrame) -> Surface:
-    """What the scanner saw first, meshed as it is: the picture before."""
-    source = np.where(np.isfinite(depth), Source.MEASURED, Source.NOTHING).astype(np.uint8)
-    return build_surface(depth, source, np.isfinite(depth), frame)
 
 
 def _joins(
@@ -116,7 +121,8 @@ def _backwards(
     if not len(triangles):
         return False
     corners = grid.reshape(-1, 3)[triangles[:: max(len(triangles) // 2000, 1)]]
-    columns = triangles[:: max(len(triangles) // 2000, 1), 0] % frame.shape[1]
+    share = triangles[:: max(len(triangles) // 2000, 1), 0] % grid.shape[1] / grid.shape[1]
+    columns = (share * frame.shape[1]).astype(np.int64)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     to_scanner = frame.origins[columns] - corners[:, 0]
     return bool(((normals * to_scanner).sum(axis=1) > 0).mean() < 0.5)
