@@ -38,7 +38,7 @@ class PlaneParameters:
 class FacadePlane:
     """A wall from column `first` up to `last` of a segment. left, right: (3,) its lower corners as
     seen from the street (m, world); height_m: over them. named: what the paper's section 8.4 finds
-    hard: "glass front", "stepped", "wall across the path".
+    hard: "glass front", "stepped", "porch", "wall across the path".
     """
 
     first: int
@@ -97,7 +97,10 @@ def _names(
     steps = [abs(float(np.nanmedian(one)) - own) for one in beside if np.isfinite(one).any()]
     if any(step > chosen.back_m for step in steps):
         found.append("stepped")
-    across = layers.depths.across[plane.first : plane.last]
+    depths = layers.depths
+    across = depths.across[plane.first : plane.last] & ~depths.porch[plane.first : plane.last]
+    if depths.porch[max(plane.first - 5, 0) : plane.last + 5].any():
+        found.append("porch")
     if across.mean() > chosen.across:
         found.append("wall across the path")
     return tuple(found)

@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from scipy import ndimage
 
 from veduta.drive.build.frame import ColumnFrame, ColumnPoints
+from veduta.drive.build.porches import find_porches
 
 
 @dataclass(frozen=True)
@@ -57,12 +58,14 @@ class MainDepth:
     """main, split: (c,) m, NaN in columns without a main structure.
 
     histogram: (c, k) height that stands at each depth (m), averaged along the path. across: (c,)
-    columns in which a wall runs across the path (section 8.4): it is kept, not cut off.
+    columns in which a wall runs across the path (section 8.4): it is kept, not cut off. porch: (c,)
+    columns whose main depth is the front of a porch, with the wall behind it.
     """
 
     main: NDArray[np.float64]
     split: NDArray[np.float64]
     across: NDArray[np.bool_]
+    porch: NDArray[np.bool_]
     histogram: NDArray[np.float32]
     bin_m: float
 
@@ -92,7 +95,11 @@ def find_main_depth(
     split = np.minimum(_split(histogram, line, chosen), main - chosen.bin_m)
     split = np.where(supported, split, np.nan)
     split, across = _walls_across(raw, main, split, frame.spacing_m, chosen)
-    return MainDepth(main, split, across, histogram, chosen.bin_m)
+    front = find_porches(points, above_ground, main, frame)
+    porch = np.isfinite(front)
+    main = np.where(porch, front, main)
+    split = np.where(porch, front - 2 * chosen.bin_m, split)
+    return MainDepth(main, split, across | porch, porch, histogram, chosen.bin_m)
 
 
 def _moved(values: NDArray[np.float32], columns: int, bins: int) -> NDArray[np.float32]:

@@ -23,6 +23,7 @@ class Kind(IntEnum):
 class StreetOptions:
     """front_m: from the path to the facades. steps_m: houses stand back or forward by up to this.
     hedge: whether a hedge hides the foot of all walls. cars, trees, lamps: share of places taken.
+    porches: share of houses with a roof on two posts before the door.
     """
 
     length_m: float = 400.0
@@ -32,6 +33,7 @@ class StreetOptions:
     cars: float = 0.6
     trees: float = 0.5
     lamps: float = 1.0
+    porches: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +58,7 @@ def build_street(options: StreetOptions, seed: int) -> Street:
     """The same street for the same seed. The path of a truck is the line x = 0."""
     random = np.random.default_rng(seed)
     walls, panes, rooms = [], [], []
+    built_on = _Porches(options.porches, seed)
     place = -20.0
     while place < options.length_m + 20.0:
         width, height = random.uniform(8.0, 18.0), random.uniform(7.0, 16.0)
@@ -70,6 +73,7 @@ def build_street(options: StreetOptions, seed: int) -> Street:
                 panes.append(
                     _box(front - 0.31, front + 0.01, start, start + 1.2, storey, storey + 1.5)
                 )
+        walls += built_on.before(front, place, width)
         back = front - random.uniform(2.5, 4.5)
         rooms.append(_box(back - 0.2, back, place, place + width, 0.0, height))
         place += width + (3.0 if random.uniform() < 0.15 else 0.0)
@@ -79,6 +83,7 @@ def build_street(options: StreetOptions, seed: int) -> Street:
             away = -options.front_m + options.steps_m + 1.5
             objects.append(_box(away, away + 0.6, start, start + 5.6, 0.0, 1.3))
     cylinders, balls = _trees(options, random)
+    cylinders = np.vstack([cylinders, np.array(built_on.posts).reshape(-1, 5)])
     return Street(
         np.array(walls), np.array(objects).reshape(-1, 2, 3), cylinders, balls,
         np.array(panes), np.array(rooms), options.length_m,
@@ -89,6 +94,26 @@ def _box(
     x0: float, x1: float, y0: float, y1: float, z0: float, z1: float
 ) -> tuple[tuple[float, float, float], tuple[float, float, float]]:
     return (x0, y0, z0), (x1, y1, z1)
+
+
+class _Porches:
+    """Roofs on posts; their own draws leave the rest of the street as it is without them."""
+
+    def __init__(self, share: float, seed: int) -> None:
+        self._share, self._random = share, np.random.default_rng((seed, 1))
+        self.posts: list[tuple[float, float, float, float, float]] = []
+
+    def before(
+        self, front: float, place: float, width: float
+    ) -> list[tuple[tuple[float, float, float], tuple[float, float, float]]]:
+        """The roof before a house, and its posts among `posts`."""
+        if self._random.uniform() >= self._share:
+            return []
+        wide, deep = self._random.uniform(2.4, 3.6), self._random.uniform(1.4, 2.2)
+        start = place + self._random.uniform(1.0, width - wide - 1.0)
+        for end in (start + 0.15, start + wide - 0.15):
+            self.posts.append((front + deep - 0.15, end, 0.15, 0.0, 2.6))
+        return [_box(front - 0.1, front + deep, start, start + wide, 2.6, 2.85)]
 
 
 def _cars(
