@@ -27,6 +27,13 @@ class ColumnOptions(Options):
     )
 
 
+class OtherOptions(Options):
+    """What else than the vertical scans fills holes of facades, before they are interpolated."""
+
+    level_scans: bool = Field(default=True, description="points of the scanner that looks level")
+    stereo: bool = Field(default=True, description="points from consecutive images")
+
+
 class MeshOptions(Options):
     """How fine the meshes are."""
 
@@ -64,6 +71,7 @@ class DriveOptions(Options):
     """Everything that changes the result."""
 
     columns: ColumnOptions = Field(default_factory=ColumnOptions)
+    others: OtherOptions = Field(default_factory=OtherOptions)
     mesh: MeshOptions = Field(default_factory=MeshOptions)
     texture: TextureOptions = Field(default_factory=TextureOptions)
     seed: Annotated[int, Field(ge=0)] = Field(

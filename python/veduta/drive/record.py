@@ -102,6 +102,8 @@ class DriveRecord:
     doubts: tuple[str, ...] = ()
     roofs: Callable[[], HeightGrid | None] | None = None
     """Reads the surface model, where the record has one; None of one that is a photo."""
+    level: tuple[Sweep, ...] = ()
+    """Scans of a second scanner that looks level: they see behind some of what hides walls."""
 
     def path(self) -> NDArray[np.float64]:
         """(s, 3) where the scanner was at each sweep (m)."""

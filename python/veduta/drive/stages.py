@@ -14,7 +14,7 @@ from functools import partial
 from pydantic import JsonValue
 
 from veduta.drive.build.backdrop import backdrop_of
-from veduta.drive.build.beside import points_beside
+from veduta.drive.build.beside import others_beside, points_beside
 from veduta.drive.build.near_images import NearImages
 from veduta.drive.build.outcome import Outcome, outcome_of
 from veduta.drive.build.pictures import (
@@ -112,7 +112,8 @@ def _kept_geometry(
 ) -> Geometry:
     def make() -> Geometry:
         points = points_beside(record, segment, options)
-        return reconstruct(segment, frame_of(segment, options, road_m), points, options)
+        others = others_beside(record, segment, options)
+        return reconstruct(segment, frame_of(segment, options, road_m), points, options, others)
 
     kept: Geometry = work.kept(
         f"layers-{segment.id}", _inputs(segment, options, digests), make, save_result,

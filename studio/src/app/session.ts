@@ -187,14 +187,15 @@ function firstOff({ parts, clouds, tileset, hidden }: Place): ReadonlySet<Layer>
 }
 
 function recordsOf({ parts, clouds, shots }: Place, hasTown: boolean): Layer[] {
-  if (clouds.length + shots.length === 0) return [];
+  const isRecorded = !hasTown && parts.some(({ raw }) => raw !== null);
+  if (clouds.length + shots.length === 0 && !isRecorded) return [];
   const has: Readonly<Record<Layer, boolean>> = {
     model: hasTown || parts.some(({ layer }) => layer === "model"),
     walls: !hasTown && parts.some(({ layer }) => layer === "walls"),
     points: clouds.some(({ layer }) => layer === "points"),
     distances: clouds.some(({ layer }) => layer === "distances"),
     cameras: shots.length > 0,
-    raw: !hasTown && parts.some(({ raw }) => raw !== null),
+    raw: isRecorded,
     backdrop: false, // a switch of the house's own panel
   };
   return (["model", "raw", "walls", "points", "distances", "cameras"] as const).filter((layer) => has[layer]);

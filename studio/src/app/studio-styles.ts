@@ -151,16 +151,6 @@ export const studioStyles = css`
     box-shadow: 0 0 0 1px rgb(0 0 0 / 0.35);
     pointer-events: none;
   }
-  .wipe {
-    position: absolute;
-    top: 0;
-    bottom: 0;
-    width: 2px;
-    margin-left: -1px;
-    background: #fff;
-    box-shadow: 0 0 0 1px rgb(0 0 0 / 0.35);
-    pointer-events: none;
-  }
   veduta-joystick {
     position: absolute;
     left: calc(var(--edge) + 8px);

@@ -28,6 +28,7 @@ import type { Minimap } from "./minimap.ts";
 import "./photo-list.ts";
 import "./photo-panel.ts";
 import "./records-panel.ts";
+import "./wipe-line.ts";
 import "./plain-walk.ts";
 import { type PlainWalk, plainWalkOf } from "./plain-walk.ts";
 import { NoWebGL, openPlace, type Session } from "./session.ts";
@@ -221,7 +222,7 @@ export class Studio extends LitElement {
           ></veduta-joystick>`
         : nothing}
       ${state.mouseLook ? html`<div class="crosshair"></div>` : nothing}
-      ${session.records.includes("raw") && !state.off.has("raw") ? html`<div class="wipe" style=${`left: ${String(100 * state.wipe)}%`}></div>` : nothing}
+      ${session.records.includes("raw") && !state.off.has("raw") ? html`<veduta-wipe-line .share=${state.wipe}></veduta-wipe-line>` : nothing}
       ${(shown !== null || state.shot !== null) && this.notice === "" ? nothing : keyed(
         `${this.notice}${state.mode}${String(state.mouseLook)}`,
         html`<p class="hint ${overTour}" role="status">${this.notice === "" ? hintOf(state, coarse, session.place.shots.length > 0) : this.notice}</p>`,

@@ -87,7 +87,7 @@ def split_layers(
     behind &= kind == PointClass.UNCLASSIFIED
     kind[_through_glass(points, row, kind, behind, frame, chosen)] = PointClass.GLASS
     images = {
-        name: _image(points, row, chosen_points, frame, share)
+        name: depth_image(points, row, chosen_points, frame, share)
         for name, chosen_points, share in (
             ("first", np.ones(len(kind), dtype=bool), 0.0),
             ("building", kind == PointClass.BUILDING, 0.5),
@@ -126,7 +126,7 @@ def _through_glass(
     return np.asarray(behind & (row >= 0) & framed[np.maximum(row, 0), points.column])
 
 
-def _image(
+def depth_image(
     points: ColumnPoints,
     row: NDArray[np.int64],
     kept: NDArray[np.bool_],

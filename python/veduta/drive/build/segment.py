@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 
@@ -15,6 +16,7 @@ from veduta.drive.build.frame import ColumnFrame, column_frame, sort_into_column
 from veduta.drive.build.layers import Layers, PointClass, split_layers
 from veduta.drive.build.lighter import lighten
 from veduta.drive.build.objects import find_objects
+from veduta.drive.build.other_points import NONE, Others, compared, sort_in
 from veduta.drive.build.pictures_of import Seen
 from veduta.drive.build.roof_line import find_roof_line
 from veduta.drive.build.surface import Surface, build_surface
@@ -35,7 +37,10 @@ LOWEST_DEG, HIGHEST_DEG = -85.0, 72.0
 
 @dataclass(frozen=True, eq=False)
 class Geometry:
-    """A segment without its foreground. objects: (r, c) number of the object before each beam."""
+    """A segment without its foreground. objects: (r, c) number of the object before each beam.
+
+    others: what points of other sensors filled. seconds: what it took.
+    """
 
     segment: DriveSegment
     frame: ColumnFrame
@@ -43,6 +48,8 @@ class Geometry:
     objects: NDArray[np.int32]
     object_count: int
     background: Background
+    others: Others = NONE
+    seconds: float = 0.0
 
     def foreground(self) -> NDArray[np.float64]:
         """(n, 3) the points that were taken out (m)."""
@@ -104,9 +111,17 @@ def frame_of(segment: DriveSegment, options: DriveOptions, road_m: float) -> Col
 
 
 def reconstruct(
-    segment: DriveSegment, frame: ColumnFrame, points: NDArray[np.float64], options: DriveOptions
+    segment: DriveSegment,
+    frame: ColumnFrame,
+    points: NDArray[np.float64],
+    options: DriveOptions,
+    others: NDArray[np.float64] | None = None,
 ) -> Geometry:
-    """Sections 5 and 6. points: (n, 3) of all sweeps that saw the segment (m, world)."""
+    """Sections 5 and 6. points: (n, 3) of all sweeps that saw the segment (m, world).
+
+    others: (k, 3) of other sensors; they fill holes of walls before these are interpolated.
+    """
+    begin = time.perf_counter()
     farthest = options.columns.farthest_m
     sorted_points = sort_into_columns(points, frame, NEAREST_M, farthest)
     layers = split_layers(sorted_points, frame, farthest)
@@ -118,8 +133,21 @@ def reconstruct(
         left = segment.model_copy(update={"fate": "as-is", "reason": why})
         return _left_alone(left, frame, layers)
     objects, count = find_objects(layers.foreground)
-    background = fill_background(layers, frame)
-    return Geometry(segment, frame, layers, objects, count, background)
+    background, told = _filled(layers, frame, farthest, others)
+    seconds = time.perf_counter() - begin
+    return Geometry(segment, frame, layers, objects, count, background, told, seconds)
+
+
+def _filled(
+    layers: Layers, frame: ColumnFrame, farthest_m: float, others: NDArray[np.float64] | None
+) -> tuple[Background, Others]:
+    """With the points of other sensors, and what difference they make."""
+    alone = fill_background(layers, frame)
+    if others is None or not len(others):
+        return alone, NONE
+    more, hole = sort_in(layers, others, frame, farthest_m)
+    own = fill_background(more, frame)
+    return own, compared(hole, own, alone)
 
 
 def _left_alone(segment: DriveSegment, frame: ColumnFrame, layers: Layers) -> Geometry:

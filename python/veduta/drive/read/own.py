@@ -30,6 +30,8 @@ _MOST_BYTES = 1 << 20
 _CLOCK_SCANS = 20_000
 """Scans at the start of a drive from which clocks are compared."""
 _SAME_CLOCK_S = 0.005
+_LEVEL_SPACING_M = 1.0
+"""Of horizontal scans that fill holes; one sees nearly what the next one sees."""
 _SILENT_S = 1.0
 """A scanner that says nothing for longer leaves a gap, and that is said."""
 
@@ -101,6 +103,7 @@ def read_own(
         fault = "names neither a [path] nor a [horizontal] scanner"
         raise InputError(folder / LOG, fault, "Give poses, or scans to find them from.")
     sweeps = _sweeps(vertical, source / scanner.table, scanner, times, poses, spacing_m, notes)
+    level_sweeps = _level_sweeps(source, log.horizontal, times, poses)
     shots: tuple[Shot, ...] = ()
     if log.camera is not None:
         shots = shots_of(source, log.camera, times, poses, notes)
@@ -109,6 +112,7 @@ def read_own(
         log.name, sweeps, shots, log.path is not None, height_m, False, crs, origin, tuple(notes),
         path_from, corrections, doubts,
         None if log.surface is None else partial(read_heights, folder / log.surface.file, origin),
+        level_sweeps,
     )  # fmt: skip
 
 
@@ -166,6 +170,19 @@ def read_toml(path: Path) -> DriveLog:
         first = error.errors()[0]
         place = ".".join(str(word) for word in first["loc"]) or "the file"
         raise InputError(path, f"{place}: {first['msg']}", "docs/drive.md describes it.") from error
+
+
+def _level_sweeps(
+    source: Path,
+    scanner: Scanner | None,
+    times: NDArray[np.float64],
+    poses: NDArray[np.float64],
+) -> tuple[Sweep, ...]:
+    """The horizontal scans, a metre apart; none of a log without that scanner."""
+    if scanner is None or not (source / scanner.table).is_file():
+        return ()
+    scans = SpooledScans(source / scanner.table)
+    return _sweeps(scans, source / scanner.table, scanner, times, poses, _LEVEL_SPACING_M, [])
 
 
 def _sweeps(
