@@ -1,22 +1,22 @@
 /**
  * Walks through a town for long, and visits places one after another: does the page grow?
  *
- *   node long_walk.mjs STUDIO_FOLDER MINUTES ADDRESS [ADDRESS ...]
+ *   node long_walk.mjs STUDIO_FOLDER MINUTES STREETS ADDRESS [ADDRESS ...]
  *
- * The first address is walked: as far as a person walks in MINUTES, in steps of `STEP_M` from street to
- * street, each waited for until it is drawn. Then all addresses are opened one after another in the same
- * page, and the first again. Prints a line of JSON.
+ * The first address is walked for MINUTES of the clock as fast as a person walks: along one street, over to the
+ * next, back along that, and so on; one picture every `STEP_S`. STREETS says where they are: `X0,X1,Y0,PITCH,COUNT`
+ * (m), the ends of each, where the first one lies, how far it is to the next, and how many there are. What the page
+ * holds is asked for (after a forced collection) at each end, and where the walk began at the beginning and at the end. Then
+ * all addresses are opened one after another in the same page, twice. Prints a line of JSON; how it goes to stderr.
  */
 import { createRequire } from "node:module";
 
-const [studio, minutes, ...addresses] = process.argv.slice(2);
+const [studio, minutes, streets, ...addresses] = process.argv.slice(2);
 const { chromium } = createRequire(`${studio}/package.json`)("playwright-core");
 const PATIENCE_MS = 240_000;
 const SPEED_M_S = 1.4;
-const STEP_M = 25;
+const STEP_S = 6;
 const EYE_M = 1.7;
-/** Of a round through the town, after which the walk begins again where it began. */
-const ROUND = 25;
 
 const browser = await chromium.launch({
   executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
@@ -24,14 +24,18 @@ const browser = await chromium.launch({
     "--disable-features=BackForwardCache"],
 });
 try {
-  const page = await (await browser.newContext({ viewport: { width: 400, height: 260 }, deviceScaleFactor: 0.3 })).newPage();
-  const walk = await walked(page, addresses[0]);
-  const visits = [];
-  for (const address of [...addresses, addresses[0]]) {
-    await opened(page, address);
-    visits.push(await heap_MB(page));
+  const context = await browser.newContext({ viewport: { width: 400, height: 260 }, deviceScaleFactor: 0.3 });
+  const walk = Number(minutes) > 0 ? await walked(await context.newPage(), addresses[0]) : {};
+  const visitor = await context.newPage();
+  const rounds = [[], []];
+  for (const round of rounds) {
+    for (const address of addresses) {
+      await opened(visitor, address);
+      round.push(await heap_MB(visitor));
+      console.error("visited", address, round.at(-1));
+    }
   }
-  console.log(JSON.stringify({ ...walk, first_visit_MB: visits[0], last_visit_MB: visits.at(-1), places: addresses.length }));
+  console.log(JSON.stringify({ ...walk, visits_MB: rounds }));
 } finally {
   await browser.close();
 }
@@ -39,12 +43,17 @@ try {
 async function opened(page, address) {
   await page.goto("about:blank");
   await page.goto(address, { waitUntil: "commit", timeout: PATIENCE_MS });
-  await page.waitForFunction(() => document.documentElement?.dataset.veduta, undefined, { timeout: PATIENCE_MS, polling: 100 });
+  await page.waitForFunction(() => document.documentElement?.dataset.veduta, undefined, { timeout: PATIENCE_MS, polling: 200 });
   await calm(page);
 }
 
+/** Waits until nothing has been on its way for a while. */
 async function calm(page) {
-  await page.waitForFunction(() => (window.veduta.stats().loading ?? 0) === 0, undefined, { timeout: PATIENCE_MS, polling: 50 });
+  for (let still = 0; still < 10; ) {
+    const isLoading = await page.evaluate(() => (window.veduta?.stats().loading ?? 0) > 0);
+    still = isLoading ? 0 : still + 1;
+    await page.waitForTimeout(200);
+  }
 }
 
 /** What the page holds after a forced collection. */
@@ -53,33 +62,55 @@ async function heap_MB(page) {
   for (let k = 0; k < 3; k += 1) await inner.send("HeapProfiler.collectGarbage");
   const { usedSize } = await inner.send("Runtime.getHeapUsage");
   await inner.detach();
-  return usedSize / 1e6;
+  return Number((usedSize / 1e6).toFixed(2));
+}
+
+/** Where one is after so many metres, which way one walks, and along which street. */
+function along(metres) {
+  const [west, east, south, pitch, count] = streets.split(",").map(Number);
+  const leg = east - west + pitch;
+  const at = Math.floor(metres / leg);
+  const [street, rest] = [at % count, metres - at * leg];
+  const isEastward = at % 2 === 0;
+  const y = south + pitch * street;
+  const walked_m = Math.min(rest, east - west);
+  const x = isEastward ? west + walked_m : east - walked_m;
+  if (rest > east - west) return { at, eye: [x, y + rest - (east - west), EYE_M], ahead: [0, 1] };
+  return { at, eye: [x, y, EYE_M], ahead: [isEastward ? 1 : -1, 0] };
+}
+
+async function shown(page, { eye, ahead }) {
+  const before = await page.evaluate(() => window.veduta.stats().frames);
+  const to = [eye[0] + ahead[0], eye[1] + ahead[1], eye[2]];
+  await page.evaluate((hash) => (location.hash = hash), `mode=walk&eye=${eye.join(",")}&to=${to.join(",")}&off=&hour=12`);
+  await page.waitForFunction((n) => window.veduta.stats().frames > n, before, { timeout: PATIENCE_MS, polling: 200 });
 }
 
 async function walked(page, address) {
   await opened(page, address);
-  const steps = Math.round((60 * Number(minutes) * SPEED_M_S) / STEP_M);
-  const { min, max } = await page.evaluate(() => window.veduta.bounds());
-  const at = (step) => {
-    // A round about the middle, at a third of the town's size.
-    const turn = (2 * Math.PI * (step % ROUND)) / ROUND;
-    const [x, y] = [0, 1].map((k) => (min[k] + max[k]) / 2 + ((max[k] - min[k]) / 3) * (k === 0 ? Math.cos(turn) : Math.sin(turn)));
-    return { eye: [x, y, EYE_M], to: [x - Math.sin(turn), y + Math.cos(turn), EYE_M] };
-  };
-  const heaps = [];
-  let frames = 0;
-  for (let step = 0; step <= steps; step += 1) {
-    const { eye, to } = at(step);
-    const before = await page.evaluate(() => window.veduta.stats().frames);
-    await page.evaluate((hash) => {
-      location.hash = hash;
-    }, `mode=walk&eye=${eye.join(",")}&to=${to.join(",")}&off=&hour=12`);
-    await page.waitForFunction((n) => window.veduta.stats().frames > n, before, { timeout: PATIENCE_MS, polling: 50 });
+  await shown(page, along(0));
+  await calm(page);
+  const begin_MB = await heap_MB(page);
+  const begin = Date.now();
+  const ends_MB = [];
+  let [steps, street, metres] = [0, 0, 0];
+  while (Date.now() - begin < 60_000 * Number(minutes)) {
+    await page.waitForTimeout(Math.max(0, begin + 1000 * STEP_S * steps - Date.now()));
+    metres = (SPEED_M_S * (Date.now() - begin)) / 1000;
+    const here = along(metres);
+    await shown(page, here);
+    steps += 1;
+    if (here.at === street) continue;
+    street = here.at;
     await calm(page);
-    frames += 1;
-    if (step % ROUND === 0 || step === steps) heaps.push(await heap_MB(page));
+    ends_MB.push(await heap_MB(page));
+    console.error("street", street, ends_MB.at(-1), await page.evaluate(() => JSON.stringify(window.veduta.stats())));
   }
-  return {
-    minutes: Number(minutes), steps: frames, begin_MB: heaps[0], rounds_MB: heaps.slice(1), most_MB: Math.max(...heaps),
-  };
+  const frames = await page.evaluate(() => window.veduta.stats().frames);
+  await shown(page, along(0));
+  await calm(page);
+  await page.waitForTimeout(5000);
+  const end_MB = await heap_MB(page);
+  console.error("walked", metres, begin_MB, end_MB);
+  return { minutes: Number(minutes), metres: Math.round(metres), steps, frames, begin_MB, end_MB, ends_MB };
 }

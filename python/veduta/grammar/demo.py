@@ -25,5 +25,4 @@ def demo_lots(count: int, seed: int) -> Lots:
         lots.append(Lot(id=name, name=name, rings_m=(outline - low,), anchor_m=anchor))
     middle = np.array([[-ENDS_M, STREET_M / 2, 0.0], [street.length_m + ENDS_M, STREET_M / 2, 0.0]])
     road = Road(middle, STREET_M - 2 * PAVEMENT_M)
-    look = (street.eye_m, street.target_m)
-    return Lots(tuple(lots), notes=(NOTE,), look=look, roads=(road,))
+    return Lots(tuple(lots), notes=(NOTE,), roads=(road,))

@@ -82,8 +82,7 @@ MOST_COMPARED = 10_000
 class Lots:
     """The lots of one call, about `origin_m` in `crs`, and what gave none.
 
-    look: where a visitor begins: eye and target (m, about the origin), if the lots know it. roads:
-    in metres about the origin.
+    roads: in metres about the origin.
     """
 
     lots: Sequence[Lot]
@@ -91,7 +90,6 @@ class Lots:
     origin_m: tuple[float, float, float] = (0.0, 0.0, 0.0)
     failures: Failures = field(default_factory=Failures)
     notes: tuple[str, ...] = ()
-    look: tuple[tuple[float, float, float], tuple[float, float, float]] | None = None
     roads: tuple[Road, ...] = ()
 
     def close(self) -> None:

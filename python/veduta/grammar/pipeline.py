@@ -49,7 +49,7 @@ from veduta.run.progress import Progress
 from veduta.run.record import CALL, PRIVATE
 from veduta.run.report import Failure, StepRecord, timed_step
 
-VERSION = "11"
+VERSION = "12"
 COMMAND = "grammar derive"
 MOST_SEPARATE = 100_000
 """Lots whose buildings may get a file each."""
@@ -210,7 +210,7 @@ def _call(
         square.name: _key("block", options, [*made_of, told(squares.block(square))])
         for square in squares.every
     }
-    origin: JsonValue = [lots.crs, list(lots.origin_m), lots.look and list(lots.look[0])]
+    origin: JsonValue = [lots.crs, list(lots.origin_m)]
     failed: JsonValue = lots.failures.told()
     key = _key("call", options, [dict(keys), origin, failed, source])
     return _Call(

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from veduta.formats.tiles import Box, Tile, union
 from veduta.geometry.ecef import Grid, ecef_from_grid, grid_of_crs
+from veduta.grammar.first_view import first_view
 from veduta.grammar.ground import height_at
 from veduta.grammar.ground_part import NAME
 from veduta.grammar.joining import GroundFiles, part_id
@@ -23,7 +24,7 @@ from veduta.place.manifest import IDENTITY, Bounds, PlacePart, Start
 from veduta.place.place import Place
 
 EYE_M = 1.7
-MIN_DISTANCE_M, MAX_DISTANCE_M = 15.0, 60.0
+MAX_DISTANCE_M = 60.0
 
 
 def place_of(
@@ -38,8 +39,7 @@ def place_of(
     origins = {name: summary["origin_m"] for name, summary in whole.blocks}
     fronts = [summary["front"] for _, summary in whole.blocks if summary["front"]]
     parts += [_ground(name, origins[name], files) for name, files in grounds.items()]
-    look = lots.look
-    start = _start(fronts, grounds) if look is None else Start(eye=look[0], target=look[1])
+    start = _start(lots, fronts, grounds)
     place = Place(crs=lots.crs, origin_m=lots.origin_m, tileset=tileset, start=start)
     for row in parts:
         place.lay(row, out)
@@ -165,21 +165,23 @@ def _ground(name: str, origin_m: Sequence[float], files: GroundFiles) -> PlacePa
     )
 
 
-def _start(built: Sequence[Mapping[str, Any]], grounds: Mapping[str, GroundFiles]) -> Start:
-    """South of the building in the middle of the southern edge, far enough to see it whole."""
+def _start(
+    lots: Lots, built: Sequence[Mapping[str, Any]], grounds: Mapping[str, GroundFiles]
+) -> Start:
+    """At a man's height, where the first view of the lots is; south of all where they have none."""
     low = np.array([lot["bounds"][0] for lot in built]) + [lot["anchor_m"] for lot in built]
     high = np.array([lot["bounds"][1] for lot in built]) + [lot["anchor_m"] for lot in built]
-    south, middle_x = float(low[:, 1].min()), float(low[:, 0].min() + high[:, 0].max()) / 2
-    across = np.abs((low[:, 0] + high[:, 0]) / 2 - middle_x)
-    front = int(np.argmin(across + (low[:, 1] - south)))
-    height = float(high[front, 2] - low[front, 2])
-    ground = float(low[front, 2])
-    x = float(low[front, 0] + high[front, 0]) / 2
-    distance = min(max(MIN_DISTANCE_M, 1.4 * height), MAX_DISTANCE_M)
-    eye_x, eye_y = x - 0.4 * distance, south - distance
-    under = height_at([files.ground for files in grounds.values()], eye_x, eye_y)
-    standing = under if under is not None else 0.0 if grounds else ground
+    view = first_view(lots.lots, float(np.median(high[:, 2] - low[:, 2])))
+    if view is None:
+        middle, away = (low.min(axis=0) + high.max(axis=0)) / 2, MAX_DISTANCE_M
+        return Start(eye=(middle[0], low[:, 1].min() - away, EYE_M), target=tuple(middle.tolist()))
+    target = np.array(view.target_m)
+    nearest = int(np.argmin(np.linalg.norm((low + high)[:, :2] / 2 - target, axis=1)))
+    height = float(high[nearest, 2] - low[nearest, 2])
+    ground = float(lots.lots[view.row].anchor_m[2])
+    under = height_at([files.ground for files in grounds.values()], *view.eye_m)
+    stand = under if under is not None else 0.0 if grounds else ground
     return Start(
-        eye=(eye_x, eye_y, max(standing, 0.0) + EYE_M),
-        target=(x, float(low[front, 1]), ground + 0.4 * height),
+        eye=(*view.eye_m, max(stand, 0.0) + EYE_M),
+        target=(*view.target_m, ground + view.up * height),
     )

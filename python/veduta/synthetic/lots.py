@@ -11,21 +11,17 @@ from veduta.synthetic.seeds import stream
 
 STREET_M = 15.0
 """From one row of fronts to the other."""
-EYE_M = 1.7
 
 
 @dataclass(frozen=True)
 class StreetLots:
     """Lots whose first edge lies along the street.
 
-    outlines_m: (4, 2) each, counter-clockwise. names: one for each. eye_m, target_m: x, y, z of
-    somebody who stands in the street, and of what they look at. length_m: of the longer row.
+    outlines_m: (4, 2) each, counter-clockwise. names: one for each. length_m: of the longer row.
     """
 
     outlines_m: list[NDArray[np.float64]]
     names: list[str]
-    eye_m: tuple[float, float, float]
-    target_m: tuple[float, float, float]
     length_m: float
 
 
@@ -42,9 +38,7 @@ def street_of_lots(count: int, seed: int) -> StreetLots:
         ends[side] = right = left + float(width)
         outlines.append(_lot(left, right, float(depth), side))
         names.append(f"{side}-{number // 2 + 1}")
-    length = max(ends.values())
-    eye = (0.06 * length, STREET_M * 0.36, EYE_M)
-    return StreetLots(outlines, names, eye, (0.6 * length, STREET_M * 0.62, 6.5), length)
+    return StreetLots(outlines, names, max(ends.values()))
 
 
 def _lot(left: float, right: float, depth: float, side: str) -> NDArray[np.float64]:

@@ -47,8 +47,8 @@ export interface Inspection {
   /** What the last frame of that walk cost, and what is held for it; null where one is on none. */
   strollCost(): StrollCost | null;
   bounds(): { min: Vec3; max: Vec3 };
-  /** `loading`: files on their way; `missing`: those that did not come. */
-  stats(): ViewerStats & { load_s: number; loading: number; missing: string[] };
+  /** `loading`: files on their way; `missing`: those that did not come; `held_MB`: what is kept of tiles, drawn or not. */
+  stats(): ViewerStats & { load_s: number; loading: number; missing: string[]; held_MB: number };
 }
 
 declare global {
@@ -129,7 +129,8 @@ export function inspect(session: Session, store: Store<StudioState>): Inspection
     stats: () => {
       const { waiting, missing } = session.onTheWay;
       const loading = waiting + (session.town?.isLoading === true ? 1 : 0);
-      return { ...viewer.stats, load_s: session.loadSeconds, loading, missing: missing.map(({ file }) => file) };
+      const held_MB = (session.town?.heldBytes ?? 0) / 1e6;
+      return { ...viewer.stats, load_s: session.loadSeconds, loading, missing: missing.map(({ file }) => file), held_MB };
     },
   };
 }

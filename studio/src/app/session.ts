@@ -82,7 +82,7 @@ export async function openPlace(
   const town =
     tileset === null
       ? null
-      : new Town(fileAddress(tileset, address), budget.tileError_px, () => viewer?.invalidate(), onShown);
+      : new Town(fileAddress(tileset, address), budget, () => viewer?.invalidate(), onShown);
   const parts = tileset === null ? place.parts.map((part) => new PartSlot(part)) : [];
   const images = new SharedImages();
   const alive = new Set(place.animals.map(({ part }) => part));

@@ -13,6 +13,8 @@ const HIGH_LENGTHS = 0.8;
 const FREE_LENGTHS = 6;
 /** Its low parts must be seen too: so high over its path (lengths). */
 const LOW_LENGTHS = 0.06;
+/** Others that stand so near to the first (lengths) are shown with it. */
+const TOGETHER_LENGTHS = 8;
 /** Directions are tried in steps around the animal, each from above, then from higher (rise over run). */
 const STEPS = 12;
 const [LEAST_RISE, MOST_RISE] = [0.32, 0.9];
@@ -34,30 +36,54 @@ export function beginsWithAnimal(place: Place): boolean {
   return length(subtract(max, min)) > SEEN_LENGTHS * animal.length_m;
 }
 
-/**
- * The look at an animal of a length that stands at `at` and goes `ahead`: as the place's start looks, or as little
- * beside that as it takes for nothing to be in the way. Where it is hidden from everywhere, as the start looks.
- */
-export function lookAtAnimal(
-  { at, ahead, length_m }: { readonly at: Vec3; readonly ahead: Vec3; readonly length_m: number },
-  start: Place["start"],
-  sight: Sight,
-): FirstLook {
-  const middle = add(at, [0, 0, LOW_LENGTHS * length_m]);
-  const points = [middle, add(middle, scale(ahead, 0.4 * length_m)), add(middle, scale(ahead, -0.4 * length_m))];
-  const isFree = (direction: Vec3): boolean =>
-    points.every((point) => sight(point, scale(direction, -1)) > FREE_LENGTHS * length_m);
-  const directions = directionsFrom(subtract(start.target, start.eye));
-  const direction = directions.find(isFree) ?? directions[0] ?? [0, 1, 0];
-  return { corners: cornersOf(around(at, length_m)), direction };
+/** Where an animal is, and which way it goes; world frame. */
+export interface Stand {
+  readonly at: Vec3;
+  readonly ahead: Vec3;
+  readonly length_m: number;
 }
 
-/** The first animal where the place has it at the beginning. */
-export function firstStand({ animals }: Pick<Place, "animals">): { at: Vec3; ahead: Vec3; length_m: number } | null {
-  const [animal] = animals;
-  if (animal === undefined) return null;
-  const { point, ahead } = new Course(animal, () => null).at(0);
-  return { at: point, ahead, length_m: animal.length_m };
+/**
+ * The look at animals that stand where they do: as the place's start looks, or as little
+ * beside that as it takes for nothing to be in the way. Where one is hidden from everywhere, the look at the first; where
+ * that is, as the start looks.
+ */
+export function lookAtAnimals(stands: readonly Stand[], start: Place["start"], sight: Sight): FirstLook {
+  const [first] = stands;
+  const directions = directionsFrom(subtract(start.target, start.eye));
+  const groups = first === undefined ? [] : [stands, [first]];
+  for (const group of groups) {
+    const points = group.flatMap(pointsOf);
+    const far = FREE_LENGTHS * Math.max(...group.map(({ length_m }) => length_m));
+    const direction = directions.find((one) => points.every((point) => sight(point, scale(one, -1)) > far));
+    if (direction !== undefined) return { corners: group.flatMap(cornersAround), direction };
+  }
+  return { corners: stands.slice(0, 1).flatMap(cornersAround), direction: directions[0] ?? [0, 1, 0] };
+}
+
+/** Where the place has its animals at the beginning. */
+export function standsOf({ animals }: Pick<Place, "animals">): Stand[] {
+  return animals.map((animal): Stand => {
+    const { point, ahead } = new Course(animal, () => null).at(0);
+    return { at: point, ahead, length_m: animal.length_m };
+  });
+}
+
+/** The first and those near to it. */
+export function together(stands: readonly Stand[]): Stand[] {
+  const [first] = stands;
+  if (first === undefined) return [];
+  return stands.filter(({ at }) => length(subtract(at, first.at)) <= TOGETHER_LENGTHS * first.length_m);
+}
+
+/** The middle of an animal, its head and its tail, low over its path. */
+function pointsOf({ at, ahead, length_m }: Stand): Vec3[] {
+  const middle = add(at, [0, 0, LOW_LENGTHS * length_m]);
+  return [middle, add(middle, scale(ahead, 0.4 * length_m)), add(middle, scale(ahead, -0.4 * length_m))];
+}
+
+function cornersAround({ at, length_m }: Stand): Vec3[] {
+  return cornersOf(around(at, length_m));
 }
 
 function around([x, y, z]: Vec3, length_m: number): Box {

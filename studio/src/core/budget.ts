@@ -9,6 +9,10 @@ export interface Machine {
 export interface Budget {
   /** A tile is refined where its error is larger on the screen (pixels). */
   readonly tileError_px: number;
+  /** Tiles that are not drawn are kept while the geometry of all takes less than this; bytes. */
+  readonly keptTiles_bytes: number;
+  /** No tile more is asked for while it takes so much. */
+  readonly mostTiles_bytes: number;
   /** The side of the shadow map (pixels) over a place of some radius (m). */
   shadowSide_px(radius_m: number): number;
 }
@@ -19,6 +23,10 @@ const FINE_PX = 4;
 const COARSE_PX = 14;
 /** So much more may be wrong on a small screen, which is held at the same distance. */
 const SMALL_SCREEN = 1.5;
+/** Repeated windows are held once: a street of a town takes some 5 MB. What was left comes back from the browser's cache. */
+const KEPT_BYTES = 12e6;
+const MOST_BYTES = 400e6;
+const SMALL_MOST_BYTES = 150e6;
 /** Shadows of a wider place are too coarse on the smaller map. */
 const NARROW_M = 25;
 
@@ -26,6 +34,8 @@ export function budgetOf(place: Pick<Place, "parts">, { isSmall }: Machine): Bud
   const error_px = builtArea_m2(place) > SMALL_PLACE_M2 ? COARSE_PX : FINE_PX;
   return {
     tileError_px: isSmall ? SMALL_SCREEN * error_px : error_px,
+    keptTiles_bytes: KEPT_BYTES,
+    mostTiles_bytes: isSmall ? SMALL_MOST_BYTES : MOST_BYTES,
     shadowSide_px: (radius_m) => {
       if (isSmall) return radius_m > NARROW_M ? 2048 : 1024;
       return radius_m > NARROW_M ? 4096 : 2048;

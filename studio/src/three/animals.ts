@@ -203,9 +203,9 @@ export class Animals {
     return this.#living.map(({ animal, place, course }) => ({ id: animal.id, place, pace: course.pace }));
   }
 
-  /** The first one; null while its model is on its way. */
-  get first(): Goer | null {
-    return this.#all[0]?.goer ?? null;
+  /** Where one is and goes; null while its model is on its way. */
+  goerOf(which: number): Goer | null {
+    return this.#all[which]?.goer ?? null;
   }
 
   placeOf(which: number): Vec3 | null {

@@ -2,7 +2,7 @@
 import { Box3, type Group, type PerspectiveCamera, Scene, Vector3, type WebGLRenderer } from "three";
 import type { Budget } from "../core/budget.ts";
 import { daylightAt, type SunPath, sunPathOf } from "../core/daylight.ts";
-import { beginsWithAnimal, type FirstLook, firstStand, lookAtAnimal } from "../core/animal-view.ts";
+import { beginsWithAnimal, type FirstLook, lookAtAnimals, standsOf, together } from "../core/animal-view.ts";
 import { drawnFaces, drawnFromWorld, worldPoint } from "../core/frames.ts";
 import { length, subtract, type Vec3 } from "../core/vector.ts";
 import { type Box, boxOfPoints, cornersOf } from "../core/framing.ts";
@@ -123,12 +123,13 @@ export class Stage {
 
   /** What the first picture shows instead of all, where an animal would be but a dot in it; null elsewhere. */
   get firstLook(): FirstLook | null {
-    const stand = beginsWithAnimal(this.#place) ? firstStand(this.#place) : null;
-    if (stand === null) return null;
-    const now = this.animals.first;
-    const at = now === null ? stand : { ...stand, at: now.place, ahead: now.ahead };
+    if (!beginsWithAnimal(this.#place)) return null;
+    const stands = standsOf(this.#place).map((stand, which) => {
+      const now = this.animals.goerOf(which);
+      return now === null ? stand : { ...stand, at: now.place, ahead: now.ahead };
+    });
     const sight = (from: Vec3, along: Vec3): number => this.solid.firstHit(from, along, () => true)?.distance_m ?? Infinity;
-    return lookAtAnimal(at, this.#place.start, sight);
+    return lookAtAnimals(together(stands), this.#place.start, sight);
   }
 
   /** Who walks here. */

@@ -4,7 +4,6 @@
  * tiles that are there.
  */
 import type { Tile } from "3d-tiles-renderer/core";
-import { TilesRenderer } from "3d-tiles-renderer/three";
 import {
   Box3,
   Color,
@@ -21,15 +20,16 @@ import { MeshoptDecoder } from "three/examples/jsm/libs/meshopt_decoder.module.j
 import { type GLTF, GLTFLoader } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { CLASS_LOOKS, PROVENANCE_LOOKS, type Provenance, type SemanticClass } from "../core/classes.ts";
 import { Asking } from "../core/asking.ts";
+import type { Budget } from "../core/budget.ts";
 import { Absent, Fault } from "../core/fault.ts";
 import { drawnFromWorld, worldFromDrawn } from "../core/frames.ts";
 import type { FeatureTable } from "../core/features.ts";
 import type { Box } from "../core/framing.ts";
 import type { FeatureRef, StudioState } from "../core/state.ts";
-import { TileTable } from "../core/tile-table.ts";
 import type { Vec3 } from "../core/vector.ts";
 import type { Body, Obstacles } from "../core/walking.ts";
 import type { Missing } from "./arrivals.ts";
+import { FlatTiles, tableOf } from "./flat-tiles.ts";
 import { layGround } from "./ground-material.ts";
 import { type Hit, Solid } from "./solid.ts";
 import { SharedImages } from "./shared-images.ts";
@@ -46,28 +46,6 @@ const CALM_ROUNDS = 20;
 const PLAINEST_PX = 1000;
 /** Of a tile that was dropped; what is chosen keeps its number. */
 const GONE: FeatureTable = { rows: [] };
-
-interface VedutaTile extends Tile {
-  extras?: { veduta?: { world_m?: readonly number[] } };
-  transform?: number[];
-}
-
-/** The world frame is flat: tiles stand where the place's own frame has them, not on the globe. */
-class FlatTiles extends TilesRenderer {
-  preprocessNode(tile: VedutaTile, folder: string, parent: Tile | null = null): void {
-    const at = tile.extras?.veduta?.world_m;
-    if (at?.length === 3) {
-      const [x = 0, y = 0, z = 0] = at;
-      tile.transform = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, x, y, z, 1];
-    }
-    // The types leave it out; plugins and this class rely on it.
-    (TilesRenderer.prototype as unknown as Preprocessing).preprocessNode.call(this, tile, folder, parent);
-  }
-}
-
-interface Preprocessing {
-  preprocessNode(this: FlatTiles, tile: Tile, folder: string, parent: Tile | null): void;
-}
 
 export class Town implements Obstacles {
   readonly group = new Group();
@@ -91,14 +69,14 @@ export class Town implements Obstacles {
   readonly #asking = new Asking(() => this.#askAgain());
   #state: StudioState | null = null;
 
-  /** `error_px`: how wrong a tile may be on the screen; `onShown` is called when other tiles are shown than before. */
-  constructor(address: URL, error_px: number, onChange: () => void, onShown: () => void) {
+  /** `onShown` is called when other tiles are shown than before. */
+  constructor(address: URL, budget: Budget, onChange: () => void, onShown: () => void) {
     this.#onChange = onChange;
     this.#folder = new URL("..", address).href;
-    this.#tiles = new FlatTiles(address.href);
-    this.#error_px = error_px;
-    this.#plain_px = error_px;
-    this.#tiles.errorTarget = error_px;
+    this.#tiles = new FlatTiles(address.href, budget);
+    this.#error_px = budget.tileError_px;
+    this.#plain_px = this.#error_px;
+    this.#tiles.errorTarget = this.#error_px;
     const loader = new GLTFLoader(this.#tiles.manager).setMeshoptDecoder(MeshoptDecoder);
     loader.register((parser) => this.#images.pluginOf(parser));
     this.#tiles.manager.addHandler(/\.(gltf|glb)$/i, loader);
@@ -171,6 +149,11 @@ export class Town implements Obstacles {
   /** Does not wait for the end of a pause. */
   askNow(): void {
     this.#asking.now();
+  }
+
+  /** What is kept of tiles for the card, drawn or not. */
+  get heldBytes(): number {
+    return this.#tiles.heldBytes;
   }
 
   /** Tiles that are drawn now. */
@@ -307,8 +290,10 @@ export class Town implements Obstacles {
   #take(scene: Object3D, tile: Tile, url: string): void {
     this.#asking.succeeded();
     try {
-      const { metadata } = (tile as unknown as { engineData: { metadata: GLTF } }).engineData;
-      const model = new TileModel(scene, tableOf(metadata, url));
+      const { engineData } = tile as unknown as { engineData: { metadata: GLTF | null } };
+      if (engineData.metadata === null) return;
+      const model = new TileModel(scene, tableOf(engineData.metadata, url));
+      engineData.metadata = null; // the file itself, which nobody asks for again
       const part = this.#byPart.length;
       this.#byPart.push(model);
       this.tables.push(model.table);
@@ -403,19 +388,6 @@ export class Town implements Obstacles {
     const [first] = this.#missing.values();
     if (first !== undefined) throw first;
   }
-}
-
-function tableOf(gltf: GLTF, url: string): TileTable {
-  const parser = gltf.parser as unknown as {
-    json: { bufferViews: { byteOffset?: number; byteLength: number }[]; extensions?: Record<string, unknown> };
-    extensions: Record<string, { body?: ArrayBuffer } | undefined>;
-  };
-  const body = parser.extensions.KHR_binary_glTF?.body ?? new ArrayBuffer(0);
-  const views = (view: number): Uint8Array => {
-    const { byteOffset = 0, byteLength } = parser.json.bufferViews[view] ?? { byteLength: 0 };
-    return new Uint8Array(body, byteOffset, byteLength);
-  };
-  return new TileTable(parser.json.extensions?.EXT_structural_metadata, views, url);
 }
 
 function dress(model: TileModel, state: StudioState): void {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { beginsWithAnimal, firstStand, lookAtAnimal, type Sight } from "../../src/core/animal-view.ts";
+import { beginsWithAnimal, lookAtAnimals, standsOf, type Sight, together } from "../../src/core/animal-view.ts";
 import { boxOfPoints } from "../../src/core/framing.ts";
 import { type Place, readPlace } from "../../src/core/place.ts";
 import { dot, length, type Vec3 } from "../../src/core/vector.ts";
@@ -33,12 +33,12 @@ describe("the first look at an animal", () => {
   });
 
   it("knows where the animal is at first", () => {
-    expect(firstStand(place(20))).toMatchObject({ at: [2, 0, 0], length_m: 0.5 });
-    expect(firstStand(place(20, { animals: [] }))).toBeNull();
+    expect(standsOf(place(20))).toMatchObject([{ at: [2, 0, 0], length_m: 0.5 }]);
+    expect(standsOf(place(20, { animals: [] }))).toEqual([]);
   });
 
   it("is as the start looks, from above, and shows a few lengths around the animal", () => {
-    const { corners, direction } = lookAtAnimal(stand, START, free);
+    const { corners, direction } = lookAtAnimals([stand], START, free);
     expect(length(direction)).toBeCloseTo(1, 9);
     expect(direction[0]).toBeCloseTo(0, 9);
     expect(direction[1]).toBeGreaterThan(0.9);
@@ -51,27 +51,43 @@ describe("the first look at an animal", () => {
   it("goes beside that as little as it takes for nothing to hide the animal", () => {
     // A wall hides what is looked at towards the north within 40 degrees.
     const wall: Sight = (_, along) => (-along[1] / Math.hypot(along[0], along[1]) > Math.cos((40 * Math.PI) / 180) ? 1 : Infinity);
-    const { direction } = lookAtAnimal(stand, START, wall);
+    const { direction } = lookAtAnimals([stand], START, wall);
     expect((Math.acos(dot(direction, [0, 1, 0]) / Math.hypot(direction[0], direction[1])) * 180) / Math.PI).toBeCloseTo(60, 6);
   });
 
   it("looks from higher where something is in the way all around", () => {
     const yard: Sight = (_, along) => (along[2] < 0.5 ? 1 : Infinity);
-    const { direction } = lookAtAnimal(stand, START, yard);
+    const { direction } = lookAtAnimals([stand], START, yard);
     expect(direction[2]).toBeLessThan(-0.5);
     expect(direction[0]).toBeCloseTo(0, 9);
   });
 
   it("looks as the start does where the animal is hidden from everywhere, and where the start says no way", () => {
-    expect(lookAtAnimal(stand, START, () => 0).direction).toEqual(lookAtAnimal(stand, START, free).direction);
+    expect(lookAtAnimals([stand], START, () => 0).direction).toEqual(lookAtAnimals([stand], START, free).direction);
     const down = { eye: [3, 0, 9] as Vec3, target: [3, 0, 0] as Vec3 };
-    const { direction } = lookAtAnimal(stand, down, free);
+    const { direction } = lookAtAnimals([stand], down, free);
     expect(direction[0]).toBeCloseTo(0, 9);
     expect(direction[1]).toBeGreaterThan(0.7);
   });
 
   it("looks down as the start does", () => {
-    const { direction } = lookAtAnimal(stand, { eye: [3, -6, 3], target: [3, 0, 0] }, free);
+    const { direction } = lookAtAnimals([stand], { eye: [3, -6, 3], target: [3, 0, 0] }, free);
     expect(direction[2] / direction[1]).toBeCloseTo(-0.5, 9);
+  });
+
+  it("shows those that are together, and not one that is far away", () => {
+    const other = { at: [5, 1, 0] as Vec3, ahead: [1, 0, 0] as Vec3, length_m: 0.5 };
+    const far = { ...other, at: [40, 0, 0] as Vec3 };
+    expect(together([stand, other, far])).toEqual([stand, other]);
+    expect(together([])).toEqual([]);
+    const { min, max } = boxOfPoints(lookAtAnimals([stand, other], START, free).corners);
+    expect([min[0], max[0], min[1], max[1]]).toEqual([2.25, 5.75, -0.75, 1.75]);
+  });
+
+  it("shows the first alone where another is hidden from everywhere", () => {
+    const other = { at: [5, 1, 0] as Vec3, ahead: [1, 0, 0] as Vec3, length_m: 0.5 };
+    const hides: Sight = ([x]) => (x > 4 ? 0 : Infinity);
+    const { min, max } = boxOfPoints(lookAtAnimals([stand, other], START, hides).corners);
+    expect([min[0], max[0]]).toEqual([2.25, 3.75]);
   });
 });

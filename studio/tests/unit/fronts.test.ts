@@ -12,9 +12,11 @@ function facade(turn_deg: number, photo: string | null = "photo.jpg"): Part {
   };
 }
 
+const NORTHWARD = { eye: [3, -20, 1.7], target: [3, 0, 5] } as const;
+
 /** How well a front that is turned so is seen: positive from before, negative from behind. */
 function seen(parts: Part[], turn_deg: number): number {
-  const [east, north] = outlookOfFronts({ parts, tileset: null }) ?? [0, 0, 0];
+  const [east, north] = outlookOfFronts({ parts, tileset: null, start: NORTHWARD });
   const turn = (turn_deg * Math.PI) / 180;
   return -Math.sin(turn) * east + Math.cos(turn) * north;
 }
@@ -34,8 +36,30 @@ describe("the first look", () => {
     for (const turn of [20, 200]) expect(Math.abs(seen(street, turn))).toBeLessThan(0.2);
   });
 
-  it("is from above where there is no front, and left to the town's size where there are tiles", () => {
-    expect(outlookOfFronts({ parts: [facade(0, null)], tileset: null })?.[2]).toBeLessThan(-0.3);
-    expect(outlookOfFronts({ parts: [facade(0)], tileset: "tileset.json" })).toBeNull();
+  it("is from above where there is no front, the way that a visitor begins to look", () => {
+    const eastward = { eye: [-9, 2, 1.7], target: [0, 2, 3] } as const;
+    const [east, north, up] = outlookOfFronts({ parts: [facade(0, null), facade(0, null)], tileset: null, start: eastward });
+    expect([east, north]).toEqual([1, 0]);
+    expect(up).toBeLessThan(-0.3);
+  });
+
+  it("is that of a visitor in a town of tiles, whose size says from how high", () => {
+    const west = { eye: [9, 2, 1.7], target: [0, 2, 3] } as const;
+    const [east, north, up] = outlookOfFronts({ parts: [facade(0)], tileset: "tileset.json", start: west });
+    expect(east).toBeCloseTo(-1, 9);
+    expect(north).toBeCloseTo(0, 9);
+    expect(up).toBeCloseTo(0, 9);
+  });
+
+  it("is three-quarter at a house before whose door one begins", () => {
+    const house = { ...facade(0, null), document: "plan.json" };
+    const [east, north] = outlookOfFronts({ parts: [house], tileset: null, start: NORTHWARD });
+    expect(east).toBeCloseTo(0.5, 9);
+    expect(north).toBeCloseTo(Math.sqrt(3) / 2, 9);
+  });
+
+  it("does not fail where the visitor looks straight down", () => {
+    const down = { eye: [0, 0, 9], target: [0, 0, 0] } as const;
+    expect(outlookOfFronts({ parts: [], tileset: null, start: down }).every((one) => Number.isFinite(one))).toBe(true);
   });
 });

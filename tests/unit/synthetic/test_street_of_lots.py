@@ -26,12 +26,6 @@ def test_lots_line_the_street_and_do_not_overlap(seed: int) -> None:
             assert left == pytest.approx(right)
 
 
-def test_somebody_stands_in_the_street() -> None:
-    street = street_of_lots(14, 0)
-    assert 0.0 < street.eye_m[1] < STREET_M
-    assert street.target_m[0] > street.eye_m[0]
-
-
 def test_a_seed_gives_one_street() -> None:
     first, again, other = (street_of_lots(5, seed).outlines_m for seed in (1, 1, 2))
     assert np.array_equal(np.concatenate(first), np.concatenate(again))
