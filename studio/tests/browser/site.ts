@@ -23,6 +23,9 @@ export interface Site {
   readonly origin: string;
   /** The folder that is served; a test may damage its own. */
   readonly folder: string;
+  /** The server ends, and is there again at the same address. */
+  leave(): Promise<void>;
+  comeBack(): Promise<void>;
   close(): Promise<void>;
 }
 
@@ -33,15 +36,24 @@ export async function makeSite(houses = 1): Promise<Site> {
   const folder = mkdtempSync(join(tmpdir(), "veduta-studio-"));
   cpSync(STATIC, folder, { recursive: true });
   makePlace(folder, houses);
-  const server = serve(folder);
-  await new Promise<void>((resolve) => server.listen(0, "127.0.0.1", resolve));
+  let server = serve(folder);
+  const listen = async (at: number): Promise<void> => await new Promise((resolve) => server.listen(at, "127.0.0.1", resolve));
+  await listen(0);
   const { port } = server.address() as AddressInfo;
+  const leave = async (): Promise<void> => {
+    server.closeAllConnections();
+    await new Promise((resolve) => server.close(resolve));
+  };
   return {
     origin: `http://127.0.0.1:${port}`,
     folder,
+    leave,
+    comeBack: async () => {
+      server = serve(folder);
+      await listen(port);
+    },
     close: async () => {
-      server.closeAllConnections();
-      await new Promise((resolve) => server.close(resolve));
+      await leave();
       rmSync(folder, { recursive: true, force: true });
     },
   };
