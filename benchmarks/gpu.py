@@ -68,7 +68,7 @@ def _pairs(data: Any, core: Any, card: Any) -> list[dict[str, Any]]:
         call = [np.ascontiguousarray(data[f"p{number}{one}"]) for one in parts]
         low, count = (int(one) for one in data[f"p{number}t"])
         (a, on_card), (b, on_cores) = (
-            timed(partial(engine.match_pair, *call, low=low, count=count, **RULE))
+            timed(partial(engine.match_pair, *call, core.PairRule(low=low, count=count, **RULE)))
             for engine in (card, core)
         )
         same = float(((np.isnan(a) & np.isnan(b)) | (np.abs(a - b) < 1e-3)).mean())
@@ -95,7 +95,9 @@ def _links(data: Any, core: Any, card: Any) -> dict[str, Any]:
 
     def linked(engine: Any) -> list[Any]:
         return [
-            engine.link_views(camera, width, height, chains, near=near, far=far, **LINKS)
+            engine.link_views(
+                camera, width, height, chains, core.LinkRule(near=near, far=far, **LINKS)
+            )
             for camera, width, height, chains, near, far in given
         ]
 

@@ -50,20 +50,7 @@ class GraphicsCard:
         depths: Sequence[_Array2[np.float32] | None],
         start: _Array2[np.float32] | None,
         start_shape: tuple[int, int],
-        *,
-        near: float,
-        far: float,
-        sweeps: int,
-        views: int,
-        step_px: float,
-        gamma_grey: float,
-        gamma_px: float,
-        noise_grey: float,
-        consistency: float,
-        most_px: float,
-        vary_depth: float,
-        vary_normal: float,
-        seed: int,
+        rule: SearchRule,
     ) -> _Array2[np.float32]:
         """As `match_planes` does."""
     def match_pair(
@@ -72,14 +59,7 @@ class GraphicsCard:
         there: _Array3[np.uint8],
         shown_here: _Array2[np.bool_],
         shown_there: _Array2[np.bool_],
-        *,
-        low: int,
-        count: int,
-        rows: int,
-        gamma_colour: float,
-        gamma_px: float,
-        most: int,
-        path: tuple[int, int] | None,
+        rule: PairRule,
     ) -> _Array2[np.float32]:
         """As `match_pair` does."""
     def link_views(
@@ -97,12 +77,7 @@ class GraphicsCard:
                 ]
             ]
         ],
-        *,
-        deviation_px: float,
-        most_deviations: float,
-        most_across_px: float,
-        near: float,
-        far: float,
+        rule: LinkRule,
     ) -> tuple[_Array1[np.float32], _Array1[np.float32], _Array1[np.uint8]]:
         """As `link_views` does."""
 
@@ -670,19 +645,10 @@ def match_pair(
     there: _Array3[np.uint8],
     shown_here: _Array2[np.bool_],
     shown_there: _Array2[np.bool_],
-    *,
-    low: int,
-    count: int,
-    rows: int,
-    gamma_colour: float,
-    gamma_px: float,
-    most: int,
-    path: tuple[int, int] | None,
+    rule: PairRule,
 ) -> _Array2[np.float32]:
     """The disparity of each pixel of a rectified picture, x there less x here (px), NaN where there is
-    none. here, there: (h, w, 3) sRGB; shown: (h, w), where each has pixels. low, count: the disparities
-    that are tried. rows, gamma_colour, gamma_px, most: of the costs (3.1, 3.2). path: what a step of
-    one disparity along a row costs, and one of more; None takes the least cost of each pixel.
+    none. here, there: (h, w, 3) sRGB; shown: (h, w), where each has pixels.
     """
 
 def confirm_pair(
@@ -701,12 +667,7 @@ def link_views(
             ]
         ]
     ],
-    *,
-    deviation_px: float,
-    most_deviations: float,
-    most_across_px: float,
-    near: float,
-    far: float,
+    rule: LinkRule,
 ) -> tuple[_Array1[np.float32], _Array1[np.float32], _Array1[np.uint8]]:
     """Depths of a view (m, NaN where unknown) row by row, their deviations (of the inverse depth), and
     the number of views that each was found from, by chains of links (3.3, 3.4). width, height: of the
@@ -869,26 +830,69 @@ def match_planes(
     depths: Sequence[_Array2[np.float32] | None],
     start: _Array2[np.float32] | None,
     start_shape: tuple[int, int],
-    *,
-    near: float,
-    far: float,
-    sweeps: int,
-    views: int,
-    step_px: float,
-    gamma_grey: float,
-    gamma_px: float,
-    noise_grey: float,
-    consistency: float,
-    most_px: float,
-    vary_depth: float,
-    vary_normal: float,
-    seed: int,
+    rule: SearchRule,
 ) -> _Array2[np.float32]:
     """A plane for each pixel of a grey picture, by what its neighbours show: inverse depth (1/m), its
     slopes along x and y (1/m/px), and the cost, in (pixels, 4), row by row. cameras: a row of 16
     numbers for each neighbour (focal lengths, principal point, rotation, shift). depths: of each
     neighbour, (h, w) in metres, or None. start: planes of this view at another size (`start_shape`).
     """
+
+# stereo_rules.rs
+class SearchRule:
+    """How `match_planes` looks for planes. near, far: the depths that are tried (m). views: of the
+    neighbours, so many of least cost count. step_px, gamma_grey, gamma_px, noise_grey: of a window.
+    consistency, most_px: the cost per pixel by which a neighbour's depth leads elsewhere, and the
+    most. vary_depth, vary_normal: how far planes are varied at random.
+    """
+    def __new__(
+        cls,
+        *,
+        near: float,
+        far: float,
+        sweeps: int,
+        views: int,
+        step_px: float,
+        gamma_grey: float,
+        gamma_px: float,
+        noise_grey: float,
+        consistency: float,
+        most_px: float,
+        vary_depth: float,
+        vary_normal: float,
+        seed: int,
+    ) -> SearchRule: ...
+
+class PairRule:
+    """How `match_pair` matches. low, count: the disparities that are tried. rows, gamma_colour,
+    gamma_px, most: of the costs (3.1, 3.2). path: what a step of one disparity along a row costs,
+    and one of more; None takes the least cost of each pixel.
+    """
+    def __new__(
+        cls,
+        *,
+        low: int,
+        count: int,
+        rows: int,
+        gamma_colour: float,
+        gamma_px: float,
+        most: int,
+        path: tuple[int, int] | None,
+    ) -> PairRule: ...
+
+class LinkRule:
+    """When a chain of `link_views` goes on. deviation_px: of a link. most_deviations: an estimate that
+    is farther off is an outlier. most_across_px: from the epipolar line. near, far: depths (m).
+    """
+    def __new__(
+        cls,
+        *,
+        deviation_px: float,
+        most_deviations: float,
+        most_across_px: float,
+        near: float,
+        far: float,
+    ) -> LinkRule: ...
 
 # surface.rs
 class SurfaceFault(ValueError): ...

@@ -10,14 +10,12 @@ use veduta_gpu::link::Linker;
 use veduta_gpu::pair::Matcher;
 use veduta_gpu::search::Searcher;
 use veduta_gpu::{Card, GpuError};
-use veduta_stereo::link::{LinkRule, Step};
-use veduta_stereo::pair::PairRule;
-use veduta_stereo::patch::Window;
-use veduta_stereo::search::Search;
+use veduta_stereo::link::Step;
 
 use crate::carve::{views_of, CarvedVolume};
-use crate::linking::{own_step, path_given, rectified, shaped, step_of, told, OwnStep};
+use crate::linking::{own_step, rectified, shaped, step_of, told, OwnStep};
 use crate::stereo::{camera_of, planes_told, Matching};
+use crate::stereo_rules::{LinkRule, PairRule, SearchRule};
 
 /// As in `linking`: the stub's types are read file by file.
 type GivenStep<'py> = (
@@ -102,10 +100,8 @@ impl GraphicsCard {
     }
 
     /// As `match_planes` does.
-    #[pyo3(signature = (image, camera, neighbours, cameras, depths, start, start_shape, *, near,
-                        far, sweeps, views, step_px, gamma_grey, gamma_px, noise_grey, consistency,
-                        most_px, vary_depth, vary_normal, seed))]
-    #[allow(clippy::too_many_arguments)] // each is a number of its own to who calls
+    #[pyo3(signature = (image, camera, neighbours, cameras, depths, start, start_shape, rule))]
+    #[allow(clippy::too_many_arguments)] // each is one thing to who calls
     fn match_planes<'py>(
         &self,
         py: Python<'py>,
@@ -116,42 +112,14 @@ impl GraphicsCard {
         depths: Vec<Option<PyReadonlyArray2<'py, f32>>>,
         start: Option<PyReadonlyArray2<'py, f32>>,
         start_shape: (usize, usize),
-        near: f32,
-        far: f32,
-        sweeps: usize,
-        views: usize,
-        step_px: f32,
-        gamma_grey: f32,
-        gamma_px: f32,
-        noise_grey: f32,
-        consistency: f32,
-        most_px: f32,
-        vary_depth: f32,
-        vary_normal: f32,
-        seed: u64,
+        rule: &SearchRule,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
         let given = Matching::new(
             &image,
             &camera,
             (&neighbours, &cameras, &depths),
             (start.as_ref(), start_shape),
-            Search {
-                window: Window {
-                    step_px,
-                    gamma_grey,
-                    gamma_px,
-                    noise_grey,
-                },
-                sweeps,
-                near,
-                far,
-                views,
-                consistency,
-                most_px,
-                vary_depth,
-                vary_normal,
-                seed,
-            },
+            rule.rule,
         )?;
         let found = py.detach(|| {
             given.planes(|image, camera, others, start, rule| {
@@ -163,9 +131,6 @@ impl GraphicsCard {
     }
 
     /// As `match_pair` does.
-    #[pyo3(signature = (here, there, shown_here, shown_there, *, low, count, rows, gamma_colour,
-                        gamma_px, most, path))]
-    #[allow(clippy::too_many_arguments)]
     fn match_pair<'py>(
         &self,
         py: Python<'py>,
@@ -173,35 +138,17 @@ impl GraphicsCard {
         there: PyReadonlyArray3<'py, u8>,
         shown_here: PyReadonlyArray2<'py, bool>,
         shown_there: PyReadonlyArray2<'py, bool>,
-        low: i32,
-        count: usize,
-        rows: usize,
-        gamma_colour: f64,
-        gamma_px: f64,
-        most: u8,
-        path: Option<(u16, u16)>,
+        rule: &PairRule,
     ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-        let rule = PairRule {
-            low,
-            count,
-            rows,
-            gamma_colour,
-            gamma_px,
-            most,
-            path: path_given(path),
-        };
         let (own, other) = (
             rectified(&here, &shown_here)?,
             rectified(&there, &shown_there)?,
         );
-        let found = py.detach(|| self.matcher.disparities(&self.card, own, other, &rule));
+        let found = py.detach(|| self.matcher.disparities(&self.card, own, other, &rule.rule));
         shaped(py, found.map_err(fault)?, (own.height, own.width))
     }
 
     /// As `link_views` does.
-    #[pyo3(signature = (camera, width, height, chains, *, deviation_px, most_deviations,
-                        most_across_px, near, far))]
-    #[allow(clippy::too_many_arguments)]
     fn link_views<'py>(
         &self,
         py: Python<'py>,
@@ -209,11 +156,7 @@ impl GraphicsCard {
         width: usize,
         height: usize,
         chains: Vec<Vec<GivenStep<'py>>>,
-        deviation_px: f32,
-        most_deviations: f32,
-        most_across_px: f32,
-        near: f32,
-        far: f32,
+        rule: &LinkRule,
     ) -> PyResult<Found<'py>> {
         let own = camera_of(&camera.as_array().to_vec())?;
         let each = |chain: &Vec<GivenStep<'py>>| chain.iter().map(own_step).collect();
@@ -221,19 +164,12 @@ impl GraphicsCard {
         let [up, down] = given.as_slice() else {
             return Err(GpuFault::new_err("a chain up and one down"));
         };
-        let rule = LinkRule {
-            deviation_px,
-            most_deviations,
-            most_across_px,
-            near,
-            far,
-        };
         let found = py.detach(|| {
             let up: Vec<Step<'_>> = up.iter().map(step_of).collect();
             let down: Vec<Step<'_>> = down.iter().map(step_of).collect();
             let chains: [&[Step<'_>]; 2] = [&up, &down];
             self.linker
-                .link(&self.card, own, [width, height], chains, &rule)
+                .link(&self.card, own, [width, height], chains, &rule.rule)
         });
         Ok(told(py, found.map_err(fault)?))
     }

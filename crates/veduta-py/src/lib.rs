@@ -28,6 +28,7 @@ mod roofs;
 mod rules;
 mod standing;
 mod stereo;
+mod stereo_rules;
 mod surface;
 mod surroundings;
 mod texture;
@@ -56,6 +57,7 @@ fn _core(m: &Bound<'_, PyModule>) -> PyResult<()> {
     derived_lots::register(m)?;
     depth_maps::register(m)?;
     stereo::register(m)?;
+    stereo_rules::register(m)?;
     surface::register(m)?;
     surroundings::register(m)?;
     texture::register(m)?;

@@ -6,11 +6,11 @@ use numpy::{
 };
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use veduta_stereo::link::{link, Homography, LinkRule, Linked, Step};
-use veduta_stereo::pair::{confirmed, disparities, PairRule, Rectified};
-use veduta_stereo::path::Path;
+use veduta_stereo::link::{link, Homography, Linked, Step};
+use veduta_stereo::pair::{confirmed, disparities, Rectified};
 
 use crate::stereo::{camera_of, fault, values, StereoFault};
+use crate::stereo_rules::{LinkRule, PairRule};
 
 /// A step of a chain: the next view's camera, the homographies, the disparities.
 pub type GivenStep<'py> = (
@@ -48,47 +48,23 @@ pub fn rectified<'a>(
     })
 }
 
-pub fn path_given(path: Option<(u16, u16)>) -> Option<Path> {
-    path.map(|(step, jump)| Path { step, jump })
-}
-
 /// The disparity of each pixel of a rectified picture, x there less x here (px), NaN where there is
-/// none. here, there: (h, w, 3) sRGB; shown: (h, w), where each has pixels. low, count: the disparities
-/// that are tried. rows, gamma_colour, gamma_px, most: of the costs (3.1, 3.2). path: what a step of
-/// one disparity along a row costs, and one of more; None takes the least cost of each pixel.
+/// none. here, there: (h, w, 3) sRGB; shown: (h, w), where each has pixels.
 #[pyfunction]
-#[pyo3(signature = (here, there, shown_here, shown_there, *, low, count, rows, gamma_colour, gamma_px,
-                    most, path))]
-#[allow(clippy::too_many_arguments)]
 fn match_pair<'py>(
     py: Python<'py>,
     here: PyReadonlyArray3<'py, u8>,
     there: PyReadonlyArray3<'py, u8>,
     shown_here: PyReadonlyArray2<'py, bool>,
     shown_there: PyReadonlyArray2<'py, bool>,
-    low: i32,
-    count: usize,
-    rows: usize,
-    gamma_colour: f64,
-    gamma_px: f64,
-    most: u8,
-    path: Option<(u16, u16)>,
+    rule: &PairRule,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
-    let rule = PairRule {
-        low,
-        count,
-        rows,
-        gamma_colour,
-        gamma_px,
-        most,
-        path: path_given(path),
-    };
     let (own, other) = (
         rectified(&here, &shown_here)?,
         rectified(&there, &shown_there)?,
     );
     let found = py
-        .detach(|| disparities(own, other, &rule))
+        .detach(|| disparities(own, other, &rule.rule))
         .map_err(fault)?;
     shaped(py, found, (own.height, own.width))
 }
@@ -156,31 +132,17 @@ pub fn told(py: Python<'_>, found: Linked) -> Found<'_> {
 /// view. chains: up and down the sequence, for each step the next view's camera, rectified from this
 /// view's pixels, the next view's pixels from rectified ones, and the disparities.
 #[pyfunction]
-#[pyo3(signature = (camera, width, height, chains, *, deviation_px, most_deviations, most_across_px,
-                    near, far))]
-#[allow(clippy::too_many_arguments)]
 fn link_views<'py>(
     py: Python<'py>,
     camera: PyReadonlyArray1<'py, f64>,
     width: usize,
     height: usize,
     chains: Vec<Vec<GivenStep<'py>>>,
-    deviation_px: f32,
-    most_deviations: f32,
-    most_across_px: f32,
-    near: f32,
-    far: f32,
+    rule: &LinkRule,
 ) -> PyResult<Found<'py>> {
     let own = camera_of(&camera.as_array().to_vec())?;
     let each = |chain: &Vec<GivenStep<'py>>| chain.iter().map(own_step).collect();
     let given: Vec<Vec<OwnStep>> = chains.iter().map(each).collect::<PyResult<_>>()?;
-    let rule = LinkRule {
-        deviation_px,
-        most_deviations,
-        most_across_px,
-        near,
-        far,
-    };
     let found = py
         .detach(|| {
             let steps: Vec<Vec<Step<'_>>> = given
@@ -188,7 +150,7 @@ fn link_views<'py>(
                 .map(|chain| chain.iter().map(step_of).collect())
                 .collect();
             let chains: Vec<&[Step<'_>]> = steps.iter().map(Vec::as_slice).collect();
-            link(own, [width, height], &chains, &rule)
+            link(own, [width, height], &chains, &rule.rule)
         })
         .map_err(fault)?;
     Ok(told(py, found))

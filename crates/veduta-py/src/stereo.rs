@@ -5,10 +5,11 @@ use numpy::{IntoPyArray, PyArray2, PyReadonlyArray1, PyReadonlyArray2};
 use pyo3::create_exception;
 use pyo3::exceptions::PyValueError;
 use pyo3::prelude::*;
-use veduta_stereo::patch::Window;
 use veduta_stereo::planes::{Plane, Planes};
 use veduta_stereo::search::{search, Neighbour, Search};
 use veduta_stereo::{Camera, Grey, StereoError};
+
+use crate::stereo_rules::SearchRule;
 
 create_exception!(_core, StereoFault, PyValueError);
 
@@ -72,10 +73,8 @@ fn planes_of(rows: &PyReadonlyArray2<'_, f32>, shape: (usize, usize)) -> PyResul
 /// numbers for each neighbour (focal lengths, principal point, rotation, shift). depths: of each
 /// neighbour, (h, w) in metres, or None. start: planes of this view at another size (`start_shape`).
 #[pyfunction]
-#[pyo3(signature = (image, camera, neighbours, cameras, depths, start, start_shape, *, near, far,
-                    sweeps, views, step_px, gamma_grey, gamma_px, noise_grey, consistency, most_px,
-                    vary_depth, vary_normal, seed))]
-#[allow(clippy::too_many_arguments)] // each is a number of its own to who calls
+#[pyo3(signature = (image, camera, neighbours, cameras, depths, start, start_shape, rule))]
+#[allow(clippy::too_many_arguments)] // each is one thing to who calls
 fn match_planes<'py>(
     py: Python<'py>,
     image: PyReadonlyArray2<'py, u8>,
@@ -85,42 +84,14 @@ fn match_planes<'py>(
     depths: Vec<Option<PyReadonlyArray2<'py, f32>>>,
     start: Option<PyReadonlyArray2<'py, f32>>,
     start_shape: (usize, usize),
-    near: f32,
-    far: f32,
-    sweeps: usize,
-    views: usize,
-    step_px: f32,
-    gamma_grey: f32,
-    gamma_px: f32,
-    noise_grey: f32,
-    consistency: f32,
-    most_px: f32,
-    vary_depth: f32,
-    vary_normal: f32,
-    seed: u64,
+    rule: &SearchRule,
 ) -> PyResult<Bound<'py, PyArray2<f32>>> {
     let given = Matching::new(
         &image,
         &camera,
         (&neighbours, &cameras, &depths),
         (start.as_ref(), start_shape),
-        Search {
-            window: Window {
-                step_px,
-                gamma_grey,
-                gamma_px,
-                noise_grey,
-            },
-            sweeps,
-            near,
-            far,
-            views,
-            consistency,
-            most_px,
-            vary_depth,
-            vary_normal,
-            seed,
-        },
+        rule.rule,
     )?;
     planes_told(py, py.detach(|| given.planes(search)).map_err(fault)?)
 }

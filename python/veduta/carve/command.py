@@ -17,6 +17,7 @@ from veduta.carve.build.bounds import find_bounds
 from veduta.carve.build.consistency import Consistency, carve_by_colour
 from veduta.carve.build.hull import Hull, carve_hull, root_of
 from veduta.carve.build.measures import Measures, measure_mesh, overlaps
+from veduta.carve.build.pieces import without_crumbs
 from veduta.carve.build.place import Shape, base_of, object_mesh, photo_name, place_of
 from veduta.carve.build.texturing import textured
 from veduta.carve.build.upright import turn_upright
@@ -39,7 +40,7 @@ from veduta.run.progress import Progress
 from veduta.run.verb import VerbCall, VerbResult, run_verb
 from veduta.run.work import Work
 
-VERSION = "4"
+VERSION = "5"
 MODEL, POINTS = "object.glb", "object.ply"
 
 
@@ -177,6 +178,14 @@ def _mesh(work: Work, views: Sequence[View], hull: Hull, consistency: Consistenc
         positions, triangles = hull.surface()
         if not len(triangles):
             raise _nothing(views)
+        whole = without_crumbs(positions, triangles, views)
+        positions, triangles = whole.positions, whole.triangles
+        step.counts["crumbs left out"] = whole.dropped
+        if whole.dropped:
+            work.note(
+                f"{whole.dropped} loose crumbs, {whole.dropped_share:.2%} of the volume, are left"
+                " out: they fill no silhouette that the object leaves open."
+            )
         step.counts["vertices"], step.counts["triangles"] = len(positions), len(triangles)
         carved = np.zeros(len(triangles), dtype=bool)
         if consistency is not None and consistency.carved.any():
@@ -198,6 +207,7 @@ def _measure(work: Work, views: Sequence[View], shape: Shape, cameras: CameraSet
     work.measure(f"volume_{unit}3", float(f"{found.volume:.5g}"))
     work.measure(f"volume_error_{unit}3", float(f"{found.volume_error:.2g}"))
     work.measure(f"area_{unit}2", float(f"{found.area:.5g}"))
+    work.measure(f"area_error_{unit}2", float(f"{found.area_error:.2g}"))
     work.measure("triangles", len(shape.triangles))
     work.measure("pieces", found.pieces)
     work.measure("silhouette_iou_mean", round(float(fits.mean()), 4))
@@ -251,7 +261,7 @@ def _tell(
     volume = f"{measures.volume:.4g} ± {measures.volume_error:.1g}"
     work.fact("Size", f"{size} {unit}")
     work.fact("Volume", f"{volume} {unit}, cubed")
-    work.fact("Area", f"{measures.area:.4g} {unit}, squared")
+    work.fact("Area", f"{measures.area:.4g} ± {measures.area_error:.1g} {unit}, squared")
     work.fact("Triangles", f"{len(shape.triangles):,}")
     carved = float(shape.carved.mean())
     work.summary = (

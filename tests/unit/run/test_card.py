@@ -137,13 +137,15 @@ def test_a_real_card_finds_the_same_and_may_vanish() -> None:
             there,
             shown,
             shown,
-            low=-2,
-            count=12,
-            rows=9,
-            gamma_colour=20.0,
-            gamma_px=9.0,
-            most=40,
-            path=(600, 12_000),
+            _core.PairRule(
+                low=-2,
+                count=12,
+                rows=9,
+                gamma_colour=20.0,
+                gamma_px=9.0,
+                most=40,
+                path=(600, 12_000),
+            ),
         )
         return found
 

@@ -9,7 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from veduta import _core
+from veduta.carve.build.pieces import pieces_of
 from veduta.carve.views import View, camera_rows
+from veduta.surfaces import vertex_normals
 
 Floats = NDArray[np.float64]
 Triangles = NDArray[np.uint32]
@@ -19,12 +21,14 @@ Triangles = NDArray[np.uint32]
 class Measures:
     """Of the mesh, in the cameras' unit (metres where the scale is known).
 
-    volume_error: the area times what a silhouette's outline may be off (`outline_px`).
+    volume_error: the area times what a silhouette's outline may be off (`outline_px`). area_error: by
+    how much the area changes where the surface moves as far out or in.
     """
 
     volume: float
     volume_error: float
     area: float
+    area_error: float
     size: tuple[float, float, float]
     pieces: int
 
@@ -35,7 +39,7 @@ def measure_mesh(
     """The figures of a closed mesh."""
     corners = positions[triangles]
     cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area = 0.5 * float(np.linalg.norm(cross, axis=1).sum())
+    area = _area(positions, triangles)
     volume = float((corners[:, 0] * cross).sum() / 6.0)
     middle = positions.mean(axis=0)
     pixel = float(
@@ -47,18 +51,19 @@ def measure_mesh(
         )
     )
     x, y, z = np.ptp(positions, axis=0).tolist()
-    return Measures(volume, area * pixel * outline_px, area, (x, y, z), _pieces(positions, triangles))
+    off = pixel * outline_px
+    normals = vertex_normals(positions, triangles)
+    moved = [_area(positions + side * off * normals, triangles) for side in (1.0, -1.0)]
+    pieces = int(pieces_of(len(positions), triangles).max()) + 1
+    return Measures(
+        volume, area * off, area, 0.5 * abs(moved[0] - moved[1]), (x, y, z), pieces
+    )
 
 
-def _pieces(positions: Floats, triangles: Triangles) -> int:
-    from scipy.sparse import coo_matrix
-    from scipy.sparse.csgraph import connected_components
-
-    starts = np.concatenate([triangles[:, 0], triangles[:, 1]]).astype(np.int64)
-    ends = np.concatenate([triangles[:, 1], triangles[:, 2]]).astype(np.int64)
-    count = len(positions)
-    links = coo_matrix((np.ones(len(starts), dtype=np.int8), (starts, ends)), (count, count))
-    return int(connected_components(links, directed=False)[0])
+def _area(positions: Floats, triangles: Triangles) -> float:
+    corners = positions[triangles]
+    cross = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    return 0.5 * float(np.linalg.norm(cross, axis=1).sum())
 
 
 def overlaps(views: Sequence[View], positions: Floats, triangles: Triangles) -> Floats:

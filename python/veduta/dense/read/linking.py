@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from typing import TypedDict
 
 import numpy as np
 from numpy.typing import NDArray
@@ -53,28 +52,6 @@ class LinkParameters:
     most_across_px: float = 1.5
     most_links: int = 6
     sure_share: float = 0.05
-
-
-class PairSettings(TypedDict):
-    """What `match_pair` is told."""
-
-    low: int
-    count: int
-    rows: int
-    gamma_colour: float
-    gamma_px: float
-    most: int
-    path: tuple[int, int] | None
-
-
-class LinkSettings(TypedDict):
-    """What `link_views` is told."""
-
-    deviation_px: float
-    most_deviations: float
-    most_across_px: float
-    near: float
-    far: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -139,7 +116,7 @@ def disparities_of(
     """(h, w) x there less x here (px), NaN where unknown. path: by dynamic programming along each
     row; else each pixel takes the disparity of least cost.
     """
-    settings = PairSettings(
+    told = _core.PairRule(
         low=tried[0],
         count=tried[1],
         rows=rule.rows,
@@ -150,8 +127,8 @@ def disparities_of(
     )
     given = (here[0], there[0], here[1], there[1])
     return engine.run(
-        lambda card: card.match_pair(*given, **settings),
-        lambda: _core.match_pair(*given, **settings),
+        lambda card: card.match_pair(*given, told),
+        lambda: _core.match_pair(*given, told),
         "pairs",
     )
 
@@ -194,7 +171,7 @@ def linked_depths(
         camera.height_px,
         [chain_steps(views, chain) for chain in chains],
     )
-    settings = LinkSettings(
+    told = _core.LinkRule(
         deviation_px=rule.deviation_px,
         most_deviations=rule.most_deviations,
         most_across_px=rule.most_across_px,
@@ -202,8 +179,8 @@ def linked_depths(
         far=comparison.far_m,
     )
     depths, deviations, estimates = engine.run(
-        lambda card: card.link_views(*given, **settings),
-        lambda: _core.link_views(*given, **settings),
+        lambda card: card.link_views(*given, told),
+        lambda: _core.link_views(*given, told),
         "links",
     )
     reachable = sum(len(chain) for chain in chains)

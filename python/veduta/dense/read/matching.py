@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import TypedDict
 
 import cv2
 import numpy as np
@@ -16,24 +15,6 @@ from veduta.run.card import Engine
 
 Planes = NDArray[np.float32]
 Depths = list[NDArray[np.float32] | None]
-
-
-class MatchSettings(TypedDict):
-    """What `match_planes` takes by name."""
-
-    near: float
-    far: float
-    sweeps: int
-    views: int
-    step_px: float
-    gamma_grey: float
-    gamma_px: float
-    noise_grey: float
-    consistency: float
-    most_px: float
-    vary_depth: float
-    vary_normal: float
-    seed: int
 
 
 @dataclass(frozen=True)
@@ -131,7 +112,7 @@ def _match(
         start[0],
         start[1],
     )
-    settings = MatchSettings(
+    rule = _core.SearchRule(
         near=comparison.near_m,
         far=comparison.far_m,
         sweeps=sweeps,
@@ -147,8 +128,8 @@ def _match(
         seed=seed,
     )
     return engine.run(
-        lambda card: card.match_planes(*given, **settings),
-        lambda: _core.match_planes(*given, **settings),
+        lambda card: card.match_planes(*given, rule),
+        lambda: _core.match_planes(*given, rule),
     )
 
 

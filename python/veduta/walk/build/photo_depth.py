@@ -94,15 +94,17 @@ class FramePlanes:
         shape = (1, 1)
         for scale, sweeps, vary_depth, vary_normal in settings.coarse:
             pictures = [self._grey(one, scale) for one in (number, *others)]
-            planes = _core.match_planes(
-                pictures[0], _row(self.cameras[number], scale), pictures[1:],
-                np.stack([_row(self.cameras[one], scale) for one in others]),
-                [None for _ in others], planes, shape,
+            rule = _core.SearchRule(
                 near=near, far=far, sweeps=sweeps, views=max(1, (len(others) + 1) // 2),
                 step_px=settings.step_px, gamma_grey=settings.gamma_grey,
                 gamma_px=settings.gamma_px, noise_grey=settings.noise_grey,
                 consistency=settings.consistency, most_px=settings.most_px,
                 vary_depth=vary_depth, vary_normal=vary_normal, seed=settings.seed + number,
+            )  # fmt: skip
+            planes = _core.match_planes(
+                pictures[0], _row(self.cameras[number], scale), pictures[1:],
+                np.stack([_row(self.cameras[one], scale) for one in others]),
+                [None for _ in others], planes, shape, rule,
             )  # fmt: skip
             shape = (pictures[0].shape[0], pictures[0].shape[1])
         if planes is None:
