@@ -1,11 +1,12 @@
 """Which style the fronts of real photos have.
 
-    python benchmarks/facade/style_photos.py [ecp | cmp] [--images 20] [--rows FILE]
+    python benchmarks/facade/style_photos.py [ecp | cmp | cmp-seen] [--images 20] [--rows FILE]
 
 ECP val is Haussmann, by what the set is; its pictures were not trained on. (What the
 front without a style counts was set by looking at one picture of ECP's other part.) CMP, of which
 pictures are taken that the eyes were not trained on, has fronts of many kinds and towns: told is
-the share that is none of the styles. All styles are compared, with none of them.
+the share that is none of the styles; `cmp-seen` are some that they were trained on, for
+`style_odds.py`. All styles are compared, with none of them.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from facade_truth import Labelled, cmp, ecp  # noqa: E402
 from record import keep_or_print  # noqa: E402
-from style_rows import Row, rows_of  # noqa: E402
+from style_rows import Row, logs_of, rows_of, told  # noqa: E402
 
 from veduta.facade.analyse import analyse  # noqa: E402
 from veduta.facade.document import Source  # noqa: E402
@@ -46,14 +47,15 @@ CMP_HELD_FROM = 241
 def main() -> None:
     """Read, compare, print and record."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("set", nargs="?", choices=["ecp", "cmp"], default="ecp")
+    parser.add_argument("set", nargs="?", choices=["ecp", "cmp", "cmp-seen"], default="ecp")
     parser.add_argument("--images", type=int, default=20)
     parser.add_argument("--rows", type=Path, help="where rows are kept as they come")
+    parser.add_argument("--most", type=int, help="make no more than so many rows")
     parser.add_argument("--draft", action="store_true", help="keep nothing")
     call = parser.parse_args()
-    pictures = ecp(DATA, "val") if call.set == "ecp" else _held_out()
+    pictures = ecp(DATA, "val") if call.set == "ecp" else _of_cmp(call.set == "cmp")
     paths = {one.name: one.image for one in pictures[: call.images]}
-    rows = rows_of(call.rows, paths, lambda name: measured(name, paths[name]))
+    rows = rows_of(call.rows, paths, lambda name: measured(name, paths[name]), call.most)
     right = sum(row["found"] == RIGHT for row in rows)
     best = sum(row["best style"] == RIGHT for row in rows)
     none = sum(row["found"] == "none" for row in rows)
@@ -64,12 +66,17 @@ def main() -> None:
         "none counts: of the likelihood of the best front without a style, what the best style"
         " has.",
     ]
-    keep_or_print(f"facade-style-{call.set}", rows, notes, not call.draft)
+    keep_or_print(f"facade-style-{call.set}", told(rows), notes, not call.draft)
 
 
-def _held_out() -> list[Labelled]:
-    """Of the pictures of CMP that the eyes were not trained on."""
-    return [one for one in cmp(DATA) if int(one.name.removeprefix("cmp_b")) >= CMP_HELD_FROM]
+def _of_cmp(held_out: bool) -> list[Labelled]:
+    """Pictures of CMP that the eyes were not trained on, or every fourth of the others."""
+
+    def is_held(one: Labelled) -> bool:
+        return int(one.name.removeprefix("cmp_b")) >= CMP_HELD_FROM
+
+    found = [one for one in cmp(DATA) if is_held(one) is held_out]
+    return found if held_out else found[::4]
 
 
 def measured(name: str, path: Path) -> Row:
@@ -101,6 +108,7 @@ def measured(name: str, path: Path) -> Row:
         "read storeys": document.storeys,
         "choices": ", ".join(choices),
         "acceptance": _acceptance(found.chosen.searched),
+        "logs": logs_of(found),
         "seconds": round(time.perf_counter() - started, 1),
     }
 

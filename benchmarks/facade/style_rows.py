@@ -6,17 +6,31 @@ import json
 from collections.abc import Callable, Iterable
 from pathlib import Path
 
+from veduta.facade.style.infer import StyleFound, log_mass
+
 Row = dict[str, str | int | float | bool | None]
 
 
-def rows_of(path: Path | None, keys: Iterable[str], make: Callable[[str], Row]) -> list[Row]:
-    """A row for each key: from the file where it has one, else made and appended to it."""
+UNTOLD = ("logs",)
+"""Columns that are kept in the file of rows alone."""
+
+
+def rows_of(
+    path: Path | None, keys: Iterable[str], make: Callable[[str], Row], most: int | None = None
+) -> list[Row]:
+    """A row for each key: from the file where it has one, else made and appended to it.
+
+    most: no more than so many are made; the others are left out.
+    """
     known: dict[str, Row] = {}
     if path is not None and path.exists():
         known = dict(json.loads(line) for line in path.read_text("utf-8").splitlines())
-    found = []
+    found, made = [], 0
     for key in keys:
         if key not in known:
+            if most is not None and made >= most:
+                continue
+            made += 1
             known[key] = make(key)
             print(known[key], flush=True)
             if path is not None:
@@ -24,3 +38,20 @@ def rows_of(path: Path | None, keys: Iterable[str], make: Callable[[str], Row]) 
                     file.write(json.dumps([key, known[key]]) + "\n")
         found.append(known[key])
     return found
+
+
+def logs_of(found: StyleFound) -> str:
+    """Of each candidate: name, ln likelihood and ln prior mass of its best structure."""
+    told = {
+        one.name: (
+            round(one.best.log_likelihood, 3),
+            round(log_mass(one.posterior.grammar, one.best), 3),
+        )
+        for one in found.candidates
+    }
+    return json.dumps(told)
+
+
+def told(rows: Iterable[Row]) -> list[Row]:
+    """The rows as they are recorded."""
+    return [{key: value for key, value in row.items() if key not in UNTOLD} for row in rows]

@@ -24,7 +24,7 @@ sys.path[:0] = [str(HERE), str(HERE.parent)]
 
 from record import keep_or_print  # noqa: E402
 from style_fronts import TrueFront, read_front, true_front  # noqa: E402
-from style_rows import Row, rows_of  # noqa: E402
+from style_rows import Row, logs_of, rows_of, told  # noqa: E402
 
 from veduta.facade.style.grammar import ANY_FRONT  # noqa: E402
 from veduta.facade.style.infer import AUTO, Candidate, StyleFound, infer_style  # noqa: E402
@@ -47,17 +47,19 @@ def main() -> None:
     parser.add_argument("--steps", type=int, default=400)
     parser.add_argument("--searches", type=int, default=1, help="fronts with the other searches")
     parser.add_argument("--rows", type=Path, help="where rows are kept as they come")
+    parser.add_argument("--most", type=int, help="make no more than so many rows")
     parser.add_argument("--draft", action="store_true", help="keep nothing")
     call = parser.parse_args()
-    keys = [f"{k} {s}" for s in call.styles for k in range(call.first, call.first + call.fronts)]
+    seeds = range(call.first, call.first + call.fronts)
+    keys = [f"{k} {s}" for k in seeds for s in call.styles]
 
     def make(key: str) -> Row:
         seed, style = key.split()
         others = int(seed) < call.first + call.searches
         return measured(true_front(style, int(seed)), int(seed), call.steps, others)
 
-    rows = rows_of(call.rows, keys, make)
-    keep_or_print("facade-style-synthetic", [*summary(rows), *rows], NOTES, not call.draft)
+    rows = rows_of(call.rows, keys, make, call.most)
+    keep_or_print("facade-style-synthetic", [*summary(rows), *told(rows)], NOTES, not call.draft)
 
 
 NOTES = [
@@ -86,6 +88,7 @@ def measured(front: TrueFront, seed: int, steps: int, others: bool) -> Row:
         "chance": round(found.chances[0], 4),
         "none counts": _share_of_any(found, front.style),
         "storeys": read.document.storeys,
+        "logs": logs_of(found),
     }
     if own is not None:
         row |= _structure(front, own, steps, others)

@@ -311,6 +311,11 @@ class Derivation:
         """Derives the shape at `path` anew with these edits of the whole tree, and leaves the rest.
         False where there is no such shape.
         """
+    def copy(self) -> Derivation:
+        """Another derivation with the same shapes, which a later `rederive` of this one leaves alone."""
+    @property
+    def random_shapes(self) -> list[int]:
+        """The numbers of the shapes whose rules took random alternatives, in the order of the tree."""
     def __len__(self) -> int: ...
     def __repr__(self) -> str: ...
     @property

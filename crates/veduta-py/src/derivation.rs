@@ -128,6 +128,24 @@ impl Derivation {
         })
     }
 
+    /// Another derivation with the same shapes, which a later `rederive` of this one leaves alone.
+    fn copy(&self, py: Python<'_>) -> Derivation {
+        Derivation {
+            rules: self.rules.clone_ref(py),
+            options: self.options.clone(),
+            tree: self.tree.clone(),
+        }
+    }
+
+    /// The numbers of the shapes whose rules took random alternatives, in the order of the tree.
+    #[getter]
+    fn random_shapes(&self) -> Vec<u32> {
+        let all = (0..).zip(&self.tree.nodes);
+        all.filter(|(_, node)| !node.choices.is_empty())
+            .map(|(number, _)| number)
+            .collect()
+    }
+
     fn __len__(&self) -> usize {
         self.tree.nodes.len()
     }

@@ -230,3 +230,24 @@ def test_distributions_are_read_from_a_rule_file() -> None:
 def test_the_scale_is_an_attribute_of_each_grammar(haussmann: StyleGrammar) -> None:
     assert SCALE in haussmann.distributions
     assert haussmann.start().scale == pytest.approx(1.0)
+
+
+def test_a_tree_that_is_cut_is_the_one_that_is_derived_as_a_whole(haussmann: StyleGrammar) -> None:
+    rng = np.random.default_rng(11)
+    derived = haussmann.complete(haussmann.start(), rng)
+    assert derived is not None
+    for path, taken in derived.state.choices.items():
+        for other in haussmann.alternatives(path, taken):
+            before = haussmann.cut, haussmann.derived
+            cut = haussmann.complete(
+                derived.state.with_choice(path, other), rng, (derived.state, path)
+            )
+            assert cut is not None
+            assert (haussmann.cut > before[0], haussmann.derived) == (True, before[1])
+            haussmann._trees.clear()
+            whole = haussmann.complete(cut.state, rng)
+            assert whole is not None
+            assert whole.state == cut.state
+            for kind, boxes in whole.front.boxes.items():
+                np.testing.assert_array_equal(boxes, cut.front.boxes[kind])
+            haussmann.complete(derived.state, rng)

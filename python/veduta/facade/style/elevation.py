@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from itertools import product
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,7 +19,6 @@ ON_WALL_M = 0.05
 """What lies in the plane of the wall along the lot's first edge."""
 DEEPEST_M = 2.0
 """What lies further behind the wall is another wall's: arcades are the deepest recesses."""
-_CORNERS = np.array(list(product((0, 1), repeat=3)))
 
 
 @dataclass(frozen=True)
@@ -99,9 +97,11 @@ def _instances(
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
     """The lower and upper corner (i, 3) of each instance."""
     boxes = np.array([assets[name].box_m for name in derived.asset_names])  # (a, 2, 3)
-    corners = boxes[:, _CORNERS, [0, 1, 2]]  # (a, 8, 3), y up
-    corners = np.stack([corners[..., 0], -corners[..., 2], corners[..., 1]], axis=-1)
+    middles, halves = boxes.mean(axis=1), 0.5 * np.diff(boxes, axis=1)[:, 0]  # y up
+    middles = np.column_stack([middles[:, 0], -middles[:, 2], middles[:, 1]])
+    halves = halves[:, [0, 2, 1]]
     place = derived.instance_transform.reshape(-1, 3, 4)
-    own = corners[derived.instance_asset]
-    points = np.einsum("nij,ncj->nci", place[:, :, :3], own) + place[:, None, :, 3]
-    return points.min(axis=1), points.max(axis=1)
+    turn, own = place[:, :, :3], derived.instance_asset
+    middle = np.matmul(turn, middles[own][:, :, None])[..., 0] + place[:, :, 3]
+    half = np.matmul(np.abs(turn), halves[own][:, :, None])[..., 0]
+    return middle - half, middle + half

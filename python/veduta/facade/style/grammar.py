@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import takewhile
 from pathlib import Path as FilePath
 
 import numpy as np
@@ -27,6 +28,8 @@ ANY_FRONT = "none"
 """The name of the grammar that stands for no style: any front with floors and columns."""
 _ANY_FILE = FilePath(__file__).with_name("any_front.cga")
 _MAX_PASSES = 8
+_KEPT_TREES = 8
+"""Trees that stay at hand to be cut: those of the chains, and of what was tried last."""
 
 
 @dataclass(frozen=True)
@@ -43,7 +46,8 @@ class StyleGrammar:
 
     distributions: of its attributes, with that of the scale. chances: of the alternatives of each
     random choice, by rule and number of the choice; None where nobody sees which one was taken.
-    Both fill as derivations meet rules.
+    Both fill as derivations meet rules. derived, cut: how many trees were derived as a whole, and
+    how many from a shape down.
     """
 
     name: str
@@ -52,6 +56,8 @@ class StyleGrammar:
     width_m: float
     chances: dict[tuple[str, int], tuple[float, ...] | None] = field(default_factory=dict)
     derived: int = 0
+    cut: int = 0
+    _trees: dict[tuple[object, ...], _core.Derivation] = field(default_factory=dict, repr=False)
 
     def start(self) -> State:
         """The likeliest value of each attribute, and no choices."""
@@ -65,21 +71,56 @@ class StyleGrammar:
         """Of a complete state."""
         return state.log_prior(self.distributions)
 
-    def complete(self, state: State, rng: np.random.Generator) -> Derived | None:
+    def complete(
+        self, state: State, rng: np.random.Generator, near: tuple[State, Path] | None = None
+    ) -> Derived | None:
         """Derive a state, draw what it leaves open, and drop what it has no shapes for.
 
-        None where the rules make no building of it.
+        near: a state with the same attributes, and the shape at or below which alone its choices
+        are others: where its tree is at hand, that is derived from there down. None where the
+        rules make no building of it.
         """
+        tree = self._near(state, near)
         for _ in range(_MAX_PASSES):
-            tree = self._tree(state)
             if tree is None:
                 return None
             choices, is_whole = self._choices(tree, state, rng)
             whole = replace(state, choices=choices)
             if is_whole:
+                self._keep(whole, tree)
                 return Derived(whole, self._front(tree, state.scale))
+            changed = [p for p, taken in choices.items() if state.choices.get(p) != taken]
             state = whole
+            tree = self._from(tree, state, _common(changed))
         return None
+
+    def _near(self, state: State, near: tuple[State, Path] | None) -> _core.Derivation | None:
+        before = None if near is None else self._trees.get(near[0].key)
+        if near is None or before is None:
+            return self._tree(state)
+        return self._from(before.copy(), state, near[1])
+
+    def _from(self, tree: _core.Derivation, state: State, cut: Path) -> _core.Derivation | None:
+        """The tree of a state, whose choices alone differ from the tree's, at or below the cut."""
+        found = self._cut(tree, cut, _edits(state))
+        return self._tree(state) if found is None else found
+
+    def _cut(
+        self, tree: _core.Derivation, path: Path, edits: list[CoreEdit]
+    ) -> _core.Derivation | None:
+        """The tree itself, derived anew from a shape down; None where that is not to be."""
+        self.cut += 1
+        try:
+            is_done = self.rules.with_assets(lambda: tree.rederive(list(path), edits))
+        except _core.GrammarFault:
+            return None
+        return tree if is_done else None
+
+    def _keep(self, state: State, tree: _core.Derivation) -> None:
+        self._trees.pop(state.key, None)
+        self._trees[state.key] = tree
+        if len(self._trees) > _KEPT_TREES:
+            del self._trees[next(iter(self._trees))]
 
     def alternatives(self, path: Path, taken: Taken) -> Iterator[Taken]:
         """All that a shape's rule could take, in the choices that one sees."""
@@ -105,10 +146,8 @@ class StyleGrammar:
         """What the shapes of a tree took or shall take, and whether the tree has it already."""
         found: dict[Path, Taken] = {}
         is_whole = True
-        for number in range(len(tree)):
+        for number in tree.random_shapes:
             made = tree.choices(number)
-            if not made:
-                continue
             rule = tree.name(number)
             seen = [self._chances(tree, number, slot, state) for slot in range(len(made))]
             if all(chances is None for chances in seen):
@@ -139,7 +178,8 @@ class StyleGrammar:
         chances, fronts = [], []
         for one in range(count):
             forced = (*[None] * slot, one)
-            other = self._tree(state, Edit(path, key[0], choices=forced))
+            edits = _edits(state, Edit(path, key[0], choices=forced))
+            other = self._cut(tree.copy(), path, edits)
             place = None if other is None else other.find(list(path))
             if other is None or place is None or len(other.choices(place)) <= slot:
                 return None
@@ -150,19 +190,8 @@ class StyleGrammar:
         self.chances[key] = tuple(c / total for c in chances) if is_seen else None
         return self.chances[key]
 
-    def _tree(self, state: State, *more: Edit) -> _core.Derivation | None:
-        edits = [
-            Edit(path, taken.rule, choices=taken.alternatives).core
-            for path, taken in sorted(state.choices.items())
-            if path not in {edit.path for edit in more}
-        ]
-        edits += [edit.core for edit in more]
+    def _tree(self, state: State) -> _core.Derivation | None:
         width = self.width_m * state.scale
-        return self._derived(width, state, edits)
-
-    def _derived(
-        self, width: float, state: State, edits: list[CoreEdit]
-    ) -> _core.Derivation | None:
         corners = [(0.0, 0.0, 0.0), (width, 0.0, 0.0), (width, DEPTH_M, 0.0), (0.0, DEPTH_M, 0.0)]
         attributes = {name: v for name, v in state.attributes.items() if name != SCALE}
         self.derived += 1
@@ -173,7 +202,7 @@ class StyleGrammar:
                     [corners],
                     SEED,
                     attributes={**attributes, "LOD": LOD},
-                    edits=edits,
+                    edits=_edits(state),
                 )
             )
         except _core.GrammarFault:
@@ -183,6 +212,23 @@ class StyleGrammar:
         columns = tree.columns()
         found = elevation(columns, self.rules.library.assets_of(columns))
         return front_of(found, self.width_m * scale, scale)
+
+
+def _edits(state: State, *more: Edit) -> list[CoreEdit]:
+    """The choices of a state, but for those that `more` has."""
+    edits = [
+        Edit(path, taken.rule, choices=taken.alternatives).core
+        for path, taken in sorted(state.choices.items())
+        if path not in {edit.path for edit in more}
+    ]
+    return [*edits, *(edit.core for edit in more)]
+
+
+def _common(paths: Sequence[Path]) -> Path:
+    """The shape that all of these are at or below."""
+    first, last = min(paths, default=()), max(paths, default=())
+    shared = takewhile(lambda pair: pair[0] == pair[1], zip(first, last, strict=False))
+    return tuple(place for place, _ in shared)
 
 
 def _same(one: Front, other: Front) -> bool:

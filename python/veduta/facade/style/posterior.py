@@ -15,7 +15,7 @@ from veduta.facade.style.likelihood import (
     log_likelihood,
 )
 from veduta.facade.style.observed import Observed
-from veduta.facade.style.state import State
+from veduta.facade.style.state import Path, State
 
 
 @dataclass(frozen=True)
@@ -42,9 +42,14 @@ class Posterior:
     parameters: LikelihoodParameters = field(default_factory=LikelihoodParameters)
     evaluations: int = 0
 
-    def score(self, state: State, rng: np.random.Generator) -> Scored | None:
-        """A state with what it leaves open drawn from the prior; None where nothing is built."""
-        derived = self.grammar.complete(state, rng)
+    def score(
+        self, state: State, rng: np.random.Generator, near: tuple[State, Path] | None = None
+    ) -> Scored | None:
+        """A state with what it leaves open drawn from the prior; None where nothing is built.
+
+        near: a state with the same attributes, and the shape below which alone it differs.
+        """
+        derived = self.grammar.complete(state, rng, near)
         return None if derived is None else self.of(derived)
 
     def of(self, derived: Derived) -> Scored:
@@ -68,7 +73,7 @@ class Posterior:
             for path, taken in one.state.choices.items():
                 for other in self.grammar.alternatives(path, taken):
                     state = one.state.with_choice(path, other)
-                    found = self.score(state, rng)
+                    found = self.score(state, rng, (one.state, path))
                     if found is not None and found.state.key not in seen:
                         seen.add(found.state.key)
                         waiting.append(found)

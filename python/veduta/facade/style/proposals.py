@@ -48,7 +48,7 @@ def propose(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Step 
 def _cut(posterior: Posterior, at: Scored, rng: np.random.Generator) -> Step | None:
     cuts = at.state.cuts()
     cut = cuts[int(rng.integers(len(cuts)))]
-    found = posterior.score(at.state.without(cut), rng)
+    found = posterior.score(at.state.without(cut), rng, (at.state, cut))
     if found is None:
         return None
     back = found.state.cuts()

@@ -10,7 +10,7 @@ from veduta.facade.document import FacadeDocument
 from veduta.facade.style.grammar import StyleGrammar
 from veduta.facade.style.posterior import Posterior, Scored
 from veduta.facade.style.prior import Choice, Real, Value
-from veduta.facade.style.state import SCALE, State
+from veduta.facade.style.state import SCALE, Path, State
 
 PITCHES = {"bayWidth": 1.0, "moduleWidth": 2.0, "houseWidth": 2.0}
 """Attributes that have the width of so many columns."""
@@ -131,7 +131,8 @@ def _best_choices(posterior: Posterior, at: Scored, rng: np.random.Generator) ->
             continue
         for other in posterior.grammar.alternatives(path, taken):
             if other.alternatives != taken.alternatives:
-                at = _better(posterior, at, at.state.with_choice(path, other), rng)
+                near = at.state, path
+                at = _better(posterior, at, at.state.with_choice(path, other), rng, near)
     return at
 
 
@@ -161,8 +162,14 @@ def _near(distribution: Choice, value: Value) -> list[Value]:
     ]
 
 
-def _better(posterior: Posterior, at: Scored, state: State, rng: np.random.Generator) -> Scored:
-    found = posterior.score(state, rng)
+def _better(
+    posterior: Posterior,
+    at: Scored,
+    state: State,
+    rng: np.random.Generator,
+    near: tuple[State, Path] | None = None,
+) -> Scored:
+    found = posterior.score(state, rng, near)
     if found is None or found.log_posterior <= at.log_posterior:
         return at
     return found
