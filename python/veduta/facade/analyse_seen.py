@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from veduta.facade.compose import Parse, compose
-from veduta.facade.document import FacadeDocument, Source
+from veduta.facade.document import FacadeDocument, RoofKind, Source
 from veduta.facade.evidence import Evidence, Float, gather
 from veduta.facade.extent import Skyline, find_skyline, row_histograms
 from veduta.facade.eyes import Seen, SeenElement, look, seen_elements
 from veduta.facade.floors import Floors, split_floors
+from veduta.facade.gable import Gable, GableParameters, find_gable, is_wall
 from veduta.facade.heads import with_heads
 from veduta.facade.options import FacadeOptions
 from veduta.facade.presence import REMEDY, require_building
@@ -55,6 +56,8 @@ _UNSURE = "storeys: most windows are not sure"
 class _Storeys:
     floors: Floors
     doubts: list[str]
+    gable: Gable | None = None
+    roof: RoofKind = "mansard"
 
 
 def analyse_seen(
@@ -96,7 +99,8 @@ def analyse_seen(
             raise NotFoundError("a facade", "no window or door lies between its sides", REMEDY)
         wall = seen.chance_at((evidence.width, evidence.height), *WALL)
         wall = wall[: inner.height, sides.left : sides.right]
-        storeys = _storeys(inner, skyline, elements, wall, options)
+        storeys = _under_gable(skyline, elements, wall, inner.height)
+        storeys = storeys or _storeys(inner, skyline, elements, wall, options)
         step.counts["floors_above_ground"] = len(storeys.floors.boundaries) - 1
     with timed_step(steps, "openings") as step:
         columns = columns_of(elements)
@@ -107,7 +111,10 @@ def analyse_seen(
             step.counts[kind] = sum(box.kind == kind for box in boxes)
     with timed_step(steps, "document"):
         doubts = [*storeys.doubts]
-        parse = Parse(inner, sky, skyline, sides, storeys.floors, columns, boxes, doubts)
+        parse = Parse(
+            inner, sky, skyline, sides, storeys.floors, columns, boxes, doubts, storeys.gable,
+            storeys.roof,
+        )  # fmt: skip
         document = compose(parse, rectified, source, options)
         notes = [*document.notes, *hidden_notes(seen, front)]
         document = document.model_copy(update={"notes": notes})
@@ -162,6 +169,29 @@ def _storeys(
         return _Storeys(floors, [])
     reason = _UNEVEN if len(rows) > 1 else _ONE_ROW
     return _Storeys(_plane(rows, skyline, elements), [_PLANE, reason])
+
+
+def _under_gable(
+    skyline: Skyline, elements: list[SeenElement], wall: Float, height: int
+) -> _Storeys | None:
+    """Floors below the eaves of a gable or a hipped roof; None where the outline shows none.
+
+    wall: (h, w) the chance of wall.
+    """
+    gable = find_gable(skyline)
+    parameters = RowParameters()
+    windows = [e for e in elements if e.kind == "window"]
+    if gable is None or not are_sure(windows, parameters):
+        return None
+    eaves = round(gable.eaves)
+    below = [e for e in windows if 0.5 * (e.y0 + e.y1) > eaves]
+    boxes = np.array([[e.x0, e.y0, e.x1, e.y1] for e in below]).reshape(-1, 4)
+    rows = window_rows(boxes, parameters)
+    floors = floors_of_rows(rows, eaves, eaves, height, parameters)
+    kind: RoofKind = "gable" if is_wall(gable, wall, skyline, GableParameters().wall) else "hip"
+    if floors is None or not is_even(rows, eaves, parameters):
+        return None
+    return _Storeys(replace(floors, boundaries=[eaves, *floors.boundaries[1:]]), [], gable, kind)
 
 
 def _plain_floors(evidence: Evidence, skyline: Skyline, options: FacadeOptions) -> Floors | None:

@@ -17,14 +17,17 @@ from veduta.facade.document import (
     FacadeBox,
     FacadeDocument,
     Rectification,
+    RoofKind,
     Source,
 )
 from veduta.facade.evidence import Evidence
 from veduta.facade.extent import Skyline
 from veduta.facade.floors import Floors
+from veduta.facade.gable import Gable
 from veduta.facade.measured.elevation import metres_per_px
 from veduta.facade.options import FacadeOptions
 from veduta.facade.rectify import Rectified
+from veduta.facade.roof import LEAST_ROOF_M
 from veduta.facade.scale import metres, require_possible, scale_notes
 from veduta.facade.sides import Sides
 
@@ -44,6 +47,8 @@ class Parse:
     columns: Columns
     boxes: list[Box]
     doubts: list[str]
+    gable: Gable | None = None
+    roof: RoofKind = "mansard"
 
 
 @dataclass(frozen=True)
@@ -80,7 +85,8 @@ def compose(
     )
     require_possible(facade, record, scale.basis)
     elements = [_element(b, k, facade, m) for b in parse.boxes]
-    rules = rule_parameters(rows, parse.skyline.level * k.down, facade, elements, m)
+    ridge = parse.skyline.level if parse.gable is None else parse.gable.top
+    rules = rule_parameters(rows, ridge * k.down, facade, elements, m)
     notes = [*rectified.notes, *parse.sides.reasons, *scale_notes(scale, options.scale)]
     if parse.skyline.reason:
         notes.append(f"no sky: {parse.skyline.reason}; the eaves and the roof are inferred")
@@ -92,6 +98,7 @@ def compose(
         facade=facade,
         extents=_extents(parse, k, rows[0], facade, record),
         elements=elements,
+        roof="flat" if rules.roof_height_m < LEAST_ROOF_M else parse.roof,
         storeys=len(parse.floors.boundaries),
         storeys_doubtful=bool(parse.doubts),
         rules=rules,

@@ -84,6 +84,9 @@ class Extent(_Record):
     provenance: Provenance = "measured"
 
 
+RoofKind = Literal["mansard", "gable", "hip", "flat"]
+
+
 class Moulding(_Record):
     """What projects all along a part of the front: a cornice, or a narrower course.
 
@@ -196,6 +199,10 @@ class FacadeDocument(_Record):
     classes: list[FacadeClass] = list(CLASSES)
     extents: list[Extent] = Field(description="painted in order, before the elements")
     elements: list[Element] = Field(description="painted in order")
+    roof: RoofKind = Field(
+        default="mansard",
+        description="what stands on the eaves; a gable's wall and windows are in the front's plane",
+    )
     mouldings: list[Moulding] = Field(
         default=[], description="cornices and courses along the front, from above"
     )

@@ -6,7 +6,7 @@ All in metres of the facade frame, on whole millimetres, as the rule file has it
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
 
 from veduta.facade.adjusted import left_out
@@ -18,6 +18,7 @@ from veduta.facade.layout import Layout, Opening, lay_out
 from veduta.facade.ledges import PlannedLedge, plan_ledges
 from veduta.facade.measured_depths import MeasuredDepths
 from veduta.facade.mouldings import PlannedMoulding, plan_mouldings
+from veduta.facade.planned_gable import PlannedGable, plan_gable
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.roof import Mansard, plan_mansard
 
@@ -56,6 +57,7 @@ class Plan:
     bands: tuple[Band, ...]
     balconies: tuple[Opening, ...]
     mansard: Mansard | None
+    gable: PlannedGable | None
     dormers: tuple[Dormer, ...]
     chimneys: tuple[Chimney, ...]
     mouldings: tuple[PlannedMoulding, ...]
@@ -73,14 +75,17 @@ def plan_building(document: FacadeDocument) -> Plan:
     layout = lay_out(document)
     notes.extend(layout.notes)
     openings = _separable(_snapped(layout.openings), wall, notes)
-    mansard = plan_mansard(
-        width,
-        depth,
-        eaves,
-        _rounded(document.rules.roof_height_m),
-        _rounded(reach_m(layout.dormers, eaves)),
-    )
-    dormers = _on_the_slope(plan_dormers(layout.dormers, mansard, notes), mansard, notes)
+    roof_m = _rounded(document.rules.roof_height_m)
+    mansard = gable = None
+    if document.roof in ("gable", "hip"):
+        gable = plan_gable(document.roof, (width, eaves, roof_m), layout.dormers, notes)
+    else:
+        reach = _rounded(reach_m(layout.dormers, eaves))
+        mansard = plan_mansard(width, depth, eaves, roof_m, reach)
+    above = layout.dormers if gable is None else ()
+    dormers = _on_the_slope(plan_dormers(above, mansard, notes), mansard, notes)
+    if gable is not None:
+        gable = _with_separable(gable, notes)
     chimneys = plan_chimneys(layout.chimneys, (width, depth, eaves), mansard, notes)
     balconies = _snapped(layout.balconies)
     ledges = plan_ledges(document, [opening.rectangle for opening in openings], eaves, notes)
@@ -88,11 +93,12 @@ def plan_building(document: FacadeDocument) -> Plan:
         width_m=width,
         depth_m=depth,
         eaves_m=eaves,
-        top_m=_top_m(layout, mansard, eaves),
+        top_m=_top_m(layout, mansard, eaves if gable is None else gable.top_m),
         setback_m=_rounded(min(_setback_m(document), DEEPEST_SHARE * depth)),
         bands=_bands(document.rules.facade.sizes_m, eaves, openings),
         balconies=balconies,
         mansard=mansard,
+        gable=gable,
         dormers=dormers,
         chimneys=chimneys,
         mouldings=plan_mouldings(document, width, ledges),
@@ -135,6 +141,11 @@ def _separable(
         children = _separable(opening.children, opening.rectangle, notes)
         kept.append(Opening(opening.rectangle, opening.element, opening.number, children))
     return tuple(kept)
+
+
+def _with_separable(gable: PlannedGable, notes: list[str]) -> PlannedGable:
+    region = Rectangle(0.0, gable.eaves_m, gable.width_m, gable.top_m)
+    return replace(gable, openings=_separable(_snapped(gable.openings), region, notes))
 
 
 def _on_the_slope(

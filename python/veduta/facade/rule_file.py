@@ -22,6 +22,7 @@ from veduta.facade.dormers import LID_M, LID_SIDE_M, Dormer
 from veduta.facade.layout import Opening
 from veduta.facade.mouldings import PlannedMoulding
 from veduta.facade.plan import Band, Plan
+from veduta.facade.planned_gable import PlannedGable
 from veduta.facade.rectangles import Rectangle
 from veduta.facade.rule_head import (
     CELLS,
@@ -93,10 +94,11 @@ class _Writer:
     def building(self) -> str:
         """From the lot to the sides of the building."""
         plan = self.plan
-        roof = " [ t(0, eaves, 0) Roof ]" if plan.mansard else ""
-        top = "NIL" if plan.mansard else "FlatRoof"
+        is_roofed = plan.mansard is not None or plan.gable is not None
+        roof = " [ t(0, eaves, 0) Roof ]" if is_roofed else ""
+        top = "NIL" if is_roofed else "FlatRoof"
         text = _BODY.format(inside=f"[ Body ]{roof}{self._chimneys()}", top=top)
-        return text if plan.mansard else text + _FLAT_ROOF
+        return text if is_roofed else text + _FLAT_ROOF
 
     def front(self) -> list[str]:
         """The front, its floors, shop fronts and balconies."""
@@ -115,6 +117,8 @@ class _Writer:
 
     def slope(self, said: Provenance) -> str:
         """The front slope of the roof, with its dormers."""
+        if self.plan.gable is not None:
+            return self._gable(self.plan.gable)
         mansard = self.plan.mansard
         if mansard is None:
             return ""
@@ -124,6 +128,18 @@ class _Writer:
         cells = [self._dormer(*each) for each in enumerate(self.plan.dormers, start=1)]
         region = Rectangle(0.0, mansard.eaves_m, mansard.width_m, mansard.break_m)
         return _FRONT_SLOPE.format(said=said, cut=splits(cells, region, "Roof.", "up({})"))
+
+    def _gable(self, gable: PlannedGable) -> str:
+        """The gable in the front's plane, with its openings; nothing for a hipped roof."""
+        names = [f"slope {number}" for number in range(1, 5)]
+        self.known |= {name: Known(_NO_SIZE) for name in (*names, "front gable", "back gable")}
+        self.parts |= {gable.kind}
+        if gable.kind == "hip":
+            return ""
+        region = Rectangle(0.0, gable.eaves_m, gable.width_m, gable.top_m)
+        rules: list[str] = []
+        cells = [self._opening(o, "setback", 1.0, rules, "Wall.") for o in gable.openings]
+        return "\n".join([_FRONT_GABLE.format(cut=splits(cells, region, "Wall.")), *rules])
 
     def _name(self, opening: Opening) -> str:
         """The name of the surface of an element, with the next number of its kind."""
@@ -271,8 +287,8 @@ def _part(name: str) -> str:
 
 _ORDER: Sequence[str] = (
     "window", "shaped", "column", "opening", "panel", "reveal", "balcony", "ledge", "mansard",
-    "dormer", "slope_column", "chimney", "library_railing", "library_door", "library_dormer",
-    "library_chimney", "library_cornice",
+    "gable", "hip", "dormer", "slope_column", "chimney", "library_railing", "library_door",
+    "library_dormer", "library_chimney", "library_cornice",
 )  # fmt: skip
 _COLUMNS = {" Column(": "column", " SlopeColumn(": "slope_column"}
 
@@ -314,6 +330,13 @@ Floors --> split(y) {{ {floors} }}
 _FRONT_SLOPE = """
 FrontSlope -->
     set(surface, "front lower slope") set(provenance, "{said}")
+    color(1) texture(wallPhoto) projectUV(0)
+    {cut}
+"""
+_FRONT_GABLE = """
+FrontGable -->
+    setupProjection(0, scope.xy, photoWidth, photoHeight, photoLeft, photoFoot - eaves)
+    set(material.name, "wall") set(surface, "front gable") set(provenance, "measured")
     color(1) texture(wallPhoto) projectUV(0)
     {cut}
 """

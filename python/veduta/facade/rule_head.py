@@ -70,6 +70,10 @@ def rule_head(plan: Plan, textures: FacadeTextures, photo: str, parts: Set[str])
             upper=metres(plan.mansard.upper_m),
             angle=f"{plan.mansard.slope_deg:.9g}",
         )
+    if plan.gable is not None:
+        text += (
+            f"\n// The roof, from the eaves up.\nattr gableHeight = {metres(plan.gable.height_m)}\n"
+        )
     if "dormer" in parts:
         text += _DORMER
     if "balcony" in parts:

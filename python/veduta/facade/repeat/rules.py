@@ -19,8 +19,10 @@ from veduta.facade.repeat.words import (
     BEFORE,
     DORMERS,
     FLAT_ROOF,
+    GABLE,
     GROUND,
     HEAD,
+    HIP,
     MANSARD,
     WALLS,
     WINDOWS,
@@ -57,7 +59,7 @@ class _Writer:
         parts = [
             WALLS.format(rows=self._rows_of_front(), dormers="[ Dormers ] " if dormers else "")
         ]
-        parts += [MANSARD if self.plan.mansard else FLAT_ROOF, *floors]
+        parts += [self._roof(), *floors]
         parts += [_row(name, columns) for name, columns in self.rows.items()]
         parts += [
             WINDOWS,
@@ -73,6 +75,11 @@ class _Writer:
         if self.pattern.ground_m > 0.0:
             parts += [_ground(self.pattern.ground), GROUND]
         return parts
+
+    def _roof(self) -> str:
+        if self.plan.gable is not None:
+            return GABLE if self.plan.gable.kind == "gable" else HIP
+        return MANSARD if self.plan.mansard else FLAT_ROOF
 
     def _rows_of_front(self) -> str:
         """The cells of the front from below: the ground floor, and the floors."""
@@ -122,17 +129,18 @@ class _Writer:
 
 def _head(plan: Plan, colours: Colours, photo: str) -> str:
     roof = plan.mansard
+    upper = plan.gable.height_m if plan.gable is not None else 0.0
     measured = None if plan.depths is None else plan.depths.median_m("balcony")
     return HEAD.format(
         photo=photo.replace("*/", "* /"),
         rules=RULES,
         lot=LOT,
         width=metres(plan.width_m),
-        height=metres(plan.eaves_m if roof is None else roof.top_m),
+        height=metres(plan.eaves_m + upper if roof is None else roof.top_m),
         ground=metres(plan.bands[0].top_m) if plan.bands[0].floor == 0 else "0",
         setback=metres(plan.setback_m),
         lower="0" if roof is None else metres(roof.lower_m),
-        upper="0" if roof is None else metres(roof.upper_m),
+        upper=metres(upper) if roof is None else metres(roof.upper_m),
         angle="72" if roof is None else f"{roof.slope_deg:.4g}",
         wall=hex_colour(colours.wall),
         roof=hex_colour(colours.roof),

@@ -83,6 +83,22 @@ MANSARD = """
 Gutter --> set(material.name, "roof") color(roofColor) Roof.
 Roof --> roofs.MansardBetween(roofAngle, lowerRoof, upperRoof, roofColor, roofColor, wallColor)
 """
+GABLE = """
+Gutter --> set(material.name, "roof") color(roofColor) Roof.
+Roof -->
+    set(material.name, "roof") color(roofColor)
+    roofGable(byHeight, upperRoof, 0, 0, false, 0)
+    comp(f) { bottom : NIL | vertical : GableWall | all : Roof. }
+
+GableWall --> set(material.name, "wall") color(wallColor) Wall.
+"""
+HIP = """
+Gutter --> set(material.name, "roof") color(roofColor) Roof.
+Roof -->
+    set(material.name, "roof") color(roofColor)
+    roofHip(byHeight, upperRoof)
+    comp(f) { bottom : NIL | all : Roof. }
+"""
 FLAT_ROOF = """
 Gutter --> set(material.name, "roof") color(roofColor) Roof.
 Roof --> NIL
