@@ -149,6 +149,9 @@ def _web(call: ExportCall, web: Path) -> int:
     from veduta.studio.export import export_web
 
     result = export_web(call.out, web, about=call.about, card=call.card, force=call.force)
+    if result.card is not None and result.card.is_small:
+        width, height = result.card.size_px
+        print(f"the card of a link is {width} x {height} px, no larger than --picture")
     if result.written:
         print(f"{web}: {result.files} files, {result.size_bytes / 1e6:.1f} MB")
     else:

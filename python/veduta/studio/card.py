@@ -9,6 +9,7 @@ from __future__ import annotations
 
 import html
 import re
+from dataclasses import dataclass
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -25,6 +26,8 @@ CARD = "card.jpg"
 CARD_PX = (1200, 630)
 """Width and height: what most services show whole."""
 _QUALITY = 86
+_LARGE_PX = 600
+"""Cards across the page show pictures of this width and more; others stand beside the words."""
 GENERAL = "A measured, walkable place made with Veduta"
 _TITLE = re.compile(r"<title>[^<]*</title>")
 _DESCRIPTION = re.compile(r'<meta name="description"[^>]*>\s*')
@@ -53,22 +56,40 @@ def checked_address(address: str) -> str:
         found = False
     if not found:
         raise InputError(
-            f"--address {address}", "is no address of a page", "Write it whole: https://example.org/place/"
+            f"--address {address}",
+            "is no address of a page",
+            "Write it whole: https://example.org/place/",
         )
     bare = address.split("#")[0].split("?")[0]
     return bare if bare.endswith("/") else f"{bare}/"
 
 
-def card_picture(path: Path) -> bytes:
-    """The picture of the card as JPEG: what of it fills `CARD_PX`, from its middle."""
+@dataclass(frozen=True)
+class CardPicture:
+    """The picture of a card as JPEG, and its width and height (px)."""
+
+    content: bytes
+    size_px: tuple[int, int]
+
+    @property
+    def is_small(self) -> bool:
+        """Whether services show larger ones."""
+        return self.size_px < CARD_PX
+
+
+def card_picture(path: Path) -> CardPicture:
+    """What of the picture has the shape of `CARD_PX`, from its middle; never enlarged."""
     image = Image.fromarray(read_image(path).pixels)
-    return jpeg_bytes(ImageOps.fit(image, CARD_PX, Image.Resampling.LANCZOS), _QUALITY)
+    share = min(1.0, *(own / side for own, side in zip(image.size, CARD_PX, strict=True)))
+    width, height = (max(1, round(share * side)) for side in CARD_PX)
+    fitted = ImageOps.fit(image, (width, height), Image.Resampling.LANCZOS)
+    return CardPicture(jpeg_bytes(fitted, _QUALITY), (width, height))
 
 
-def page_of(page: str, place: Place, *, address: str | None, picture: bool) -> str:
+def page_of(page: str, place: Place, *, address: str | None, picture: CardPicture | None) -> str:
     """The studio's page with the words of the place in its head.
 
-    address: of the folder, as `checked_address` has it. picture: whether `CARD` lies in the folder.
+    address: of the folder, as `checked_address` has it. picture: what lies in the folder as `CARD`.
     """
     title = place.title or "A place made with Veduta"
     description = place.description or GENERAL
@@ -84,13 +105,15 @@ def page_of(page: str, place: Place, *, address: str | None, picture: bool) -> s
     ]
     if address is not None:
         rows.append(("property", "og:url", address))
-    if picture:
+    if picture is not None:
+        width, height = picture.size_px
+        large = width >= _LARGE_PX
         rows += [
             ("property", "og:image", f"{address or ''}{CARD}"),
-            ("property", "og:image:width", str(CARD_PX[0])),
-            ("property", "og:image:height", str(CARD_PX[1])),
+            ("property", "og:image:width", str(width)),
+            ("property", "og:image:height", str(height)),
             ("property", "og:image:alt", title),
-            ("name", "twitter:card", "summary_large_image"),
+            ("name", "twitter:card", "summary_large_image" if large else "summary"),
         ]
     said = "\n    ".join(
         f'<meta {kind}="{field}" content="{html.escape(words)}" />' for kind, field, words in rows

@@ -21,7 +21,14 @@ from veduta.place.about import AboutOptions
 from veduta.run.atomic import atomic_folder, write_bytes
 from veduta.run.digests import bytes_digest, file_digest
 from veduta.run.errors import InputError
-from veduta.studio.card import CARD, CardOptions, card_picture, checked_address, page_of
+from veduta.studio.card import (
+    CARD,
+    CardOptions,
+    CardPicture,
+    card_picture,
+    checked_address,
+    page_of,
+)
 from veduta.studio.content import MANIFEST, place_folder, studio_folder
 from veduta.studio.parts import part_files
 
@@ -43,11 +50,12 @@ class WebRecord(BaseModel):
 
 @dataclass(frozen=True)
 class ExportResult:
-    """`written` is False where the folder was up to date."""
+    """`written` is False where the folder was up to date; the card is None without a picture."""
 
     written: bool
     files: int
     size_bytes: int
+    card: CardPicture | None = None
 
 
 def export_web(
@@ -63,7 +71,9 @@ def export_web(
     about: words that take the place of those in `place.json`. card: what a link to it is shown with.
     """
     place = place_folder(out, "export")
-    said = _said(studio_folder(), place, about or AboutOptions(), card or CardOptions())
+    asked = card or CardOptions()
+    picture = None if asked.picture is None else card_picture(asked.picture)
+    said = _said(studio_folder(), place, about or AboutOptions(), picture, asked.address)
     sources = _sources(studio_folder(), place, said)
     record = WebRecord(files={name: _digest(source) for name, source in sources.items()})
     target = _resolved_target(web, place)
@@ -73,7 +83,7 @@ def export_web(
         for source in sources.values()
     )
     if earlier == record:
-        return ExportResult(written=False, files=len(sources), size_bytes=size)
+        return ExportResult(False, len(sources), size, picture)
     if earlier is not None and not force:
         raise InputError(
             web,
@@ -81,20 +91,22 @@ def export_web(
             "Use --force to replace it, or another folder.",
         )
     _write(sources, record, target)
-    return ExportResult(written=True, files=len(sources), size_bytes=size)
+    return ExportResult(True, len(sources), size, picture)
 
 
-def _said(static: Path, place: Path, about: AboutOptions, card: CardOptions) -> dict[str, bytes]:
+def _said(
+    static: Path, place: Path, about: AboutOptions, picture: CardPicture | None, at: str | None
+) -> dict[str, bytes]:
     """The files that are written for this export: the page, its card, and the manifest."""
     told = read_place(place / MANIFEST).model_copy(update=about.given())
     made: dict[str, bytes] = {}
     if about.given():
         made[MANIFEST] = manifest_bytes(told)
-    if card.picture is not None:
-        made[CARD] = card_picture(card.picture)
-    address = None if card.address is None else checked_address(card.address)
+    if picture is not None:
+        made[CARD] = picture.content
+    address = None if at is None else checked_address(at)
     page = (static / PAGE).read_text(encoding="utf-8")
-    made[PAGE] = page_of(page, told, address=address, picture=CARD in made).encode()
+    made[PAGE] = page_of(page, told, address=address, picture=picture).encode()
     return made
 
 

@@ -1,5 +1,6 @@
 /** What of the place has not come: named, and asked for again. */
 import { css, html, LitElement, nothing, type TemplateResult } from "lit";
+import { Absent } from "../core/fault.ts";
 import type { Missing } from "../three/arrivals.ts";
 import { theme } from "./theme.ts";
 
@@ -69,12 +70,14 @@ export class MissingPanel extends LitElement {
 
   #missing(missing: readonly Missing[]): TemplateResult {
     const more = missing.length - NAMED;
-    return html`<p>${missing.length === 1 ? "One file has" : `${missing.length} files have`} not come. They are asked for again.</p>
+    const isAsked = missing.some(({ fault }) => fault instanceof Absent);
+    const words = isAsked ? "not come: asked for again." : "not come whole: left out.";
+    return html`<p>${missing.length === 1 ? "One file has" : `${missing.length} files have`} ${words}</p>
       <ul>
         ${missing.slice(0, NAMED).map(({ file, fault }) => html`<li>${file}: ${fault.fault}</li>`)}
         ${more > 0 ? html`<li>and ${more} more</li>` : nothing}
       </ul>
-      <button @click=${() => this.dispatchEvent(new CustomEvent("ask-now"))}>Ask now</button>`;
+      ${isAsked ? html`<button @click=${() => this.dispatchEvent(new CustomEvent("ask-now"))}>Ask now</button>` : nothing}`;
   }
 }
 

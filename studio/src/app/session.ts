@@ -114,7 +114,10 @@ export async function openPlace(
   await (isFew ? arrivals.tried() : arrivals.first());
   const [firstMissing] = arrivals.missing;
   if (firstMissing !== undefined && !parts.some(({ isThere }) => isThere)) throw firstMissing.fault;
-  const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file));
+  const noClouds: Missing[] = [];
+  const clouds = await loadClouds(place.clouds, address, (share, file) => onProgress(0.97 * share, file), (one) => noClouds.push(one));
+  const [firstCloud] = noClouds;
+  if (firstCloud !== undefined && clouds.children.length + place.parts.length === 0) throw firstCloud.fault;
   const textures = place.shots.length === 0 ? null : new PhotoTextures(place.shots, address, onFault);
   const frusta = textures === null ? null : new Frusta(place, textures, () => viewer?.invalidate());
   const sunPath = sunPathOf(place.sun);
@@ -145,7 +148,7 @@ export async function openPlace(
       return houses.some(({ house }) => house.storeys.some(({ lamps }) => lamps.length > 0));
     },
     get onTheWay() {
-      return { waiting: arrivals.waiting, missing: town?.missing ?? arrivals.missing };
+      return { waiting: arrivals.waiting, missing: [...(town?.missing ?? arrivals.missing), ...noClouds] };
     },
     askNow: () => {
       arrivals.askNow();

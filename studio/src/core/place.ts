@@ -60,6 +60,8 @@ export interface Cloud {
   /** Distances are other points again, in colours that show how far they lie from a model. */
   readonly layer: "points" | "distances";
   readonly worldFromPoints: readonly number[];
+  /** How many points the file has; null where the place does not say. */
+  readonly count: number | null;
   /** Around nearly all of the points, in their own frame. */
   readonly bounds: Box;
 }
@@ -306,7 +308,8 @@ function readCloud(value: unknown, which: string, broken: (fault: string) => Fau
   if (min.some((low, axis) => low > (max[axis] ?? low))) throw bad("bounds");
   const layer: unknown = cloud.layer ?? "points";
   if (layer !== "points" && layer !== "distances") throw bad("layer");
-  return { file: cloud.file, layer, worldFromPoints: transform, bounds: { min, max } };
+  const count = typeof cloud.count === "number" ? cloud.count : null;
+  return { file: cloud.file, layer, worldFromPoints: transform, count, bounds: { min, max } };
 }
 
 function readShot(value: unknown, which: string, broken: (fault: string) => Fault): Shot {

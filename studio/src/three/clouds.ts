@@ -1,26 +1,38 @@
 /** Clouds of points, in their own colours. */
 import { type BufferGeometry, Group, Points, PointsMaterial, Vector3 } from "three";
 import { PLYLoader } from "three/examples/jsm/loaders/PLYLoader.js";
-import { Fault } from "../core/fault.ts";
+import { Fault, faultOf } from "../core/fault.ts";
 import { drawnFromModel, worldFromDrawn } from "../core/frames.ts";
 import { type Cloud, fileAddress } from "../core/place.ts";
 import type { Layer } from "../core/state.ts";
+import type { Missing } from "./arrivals.ts";
 import { fetchBytes } from "./fetch.ts";
 
 const MAGIC = "ply";
 const REMEDY = "Write the place again, for example with `veduta photos`.";
 
+/** A cloud that does not come, or is broken, is left out and told. */
 export async function loadClouds(
   clouds: readonly Cloud[],
   manifest: URL,
   onProgress: (share: number, file: string) => void,
+  onMissing: (missing: Missing) => void,
 ): Promise<Group> {
   const group = new Group();
   for (const [index, cloud] of clouds.entries()) {
-    const bytes = await fetchBytes(fileAddress(cloud.file, manifest), cloud.file, (got, total) => {
-      onProgress((index + (total === null ? 0.5 : got / total)) / clouds.length, cloud.file);
+    const read = async (): Promise<BufferGeometry> => {
+      const bytes = await fetchBytes(fileAddress(cloud.file, manifest), cloud.file, (got, total) => {
+        onProgress((index + (total === null ? 0.5 : got / total)) / clouds.length, cloud.file);
+      });
+      return readPoints(bytes, cloud);
+    };
+    const geometry = await read().catch((error: unknown) => {
+      const { fault, remedy } = faultOf(error);
+      onMissing({ file: cloud.file, fault: new Fault(cloud.file, fault, remedy) });
+      return null;
     });
-    const points = new Points(readPoints(bytes, cloud.file), makeMaterial());
+    if (geometry === null) continue;
+    const points = new Points(geometry, makeMaterial());
     // The file is z-up like the place, so its own axes turn with it.
     points.rotation.x = -Math.PI / 2;
     const placed = new Group();
@@ -82,12 +94,16 @@ function makeMaterial(): PointsMaterial {
   });
 }
 
-function readPoints(bytes: ArrayBuffer, file: string): BufferGeometry {
+/** The points of a file; a fault where it has others than the place says. */
+export function readPoints(bytes: ArrayBuffer, { file, count }: Pick<Cloud, "file" | "count">): BufferGeometry {
   const magic = new TextDecoder().decode(bytes.slice(0, MAGIC.length));
   if (magic !== MAGIC) throw new Fault(file, "it is not a PLY file", REMEDY);
   try {
     const geometry = new PLYLoader().parse(bytes);
     if (!geometry.hasAttribute("position")) throw new Error("it has no points");
+    const read = geometry.getAttribute("position");
+    const isWhole = read.array.every((value) => Number.isFinite(value));
+    if (!isWhole || (count !== null && read.count < count)) throw new Error("it is cut short");
     return geometry;
   } catch (error) {
     const words = error instanceof Error ? error.message : String(error);

@@ -1,17 +1,26 @@
 /** The page for those who use a keyboard or a screen reader: axe finds nothing in any of its states. */
-import { readFileSync } from "node:fs";
+import { mkdirSync, readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { join } from "node:path";
 import type { AxeResults } from "axe-core";
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, describe, expect, it } from "vitest";
+import { addAnimal } from "../fixture/animal.mjs";
+import { makePlace } from "../fixture/make-place.mjs";
 import { addPhotos, editPlace } from "../fixture/photos.mjs";
 import { makeRooms } from "../fixture/rooms.mjs";
+import { addWalk } from "../fixture/walk.mjs";
 import { launch, MISSING } from "./chromium.ts";
 import { open, settled } from "./page.ts";
 import { makeSite, type Site } from "./site.ts";
 
 const AXE = readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+
+function addTour(folder: string): void {
+  const stretches = [{ room: null, name: "The street", start_s: 0, end_s: 20 }];
+  const tour = { id: "tour", name: "Tour", times_s: [0, 20], eyes: [[-4, -9, 1.7], [6, -9, 1.7]], directions: [[0, 1, 0], [0, 1, 0]], stretches };
+  editPlace(folder, (place) => Object.assign(place, { tours: [tour] }));
+}
 
 /** What axe finds, each with the elements that it is found on. */
 async function findings(page: Page): Promise<string[]> {
@@ -27,9 +36,15 @@ describe.skipIf(MISSING !== null)("axe", () => {
   let page: Page;
 
   beforeAll(async () => {
-    [site, browser] = [await makeSite(), await launch()];
+    [site, browser] = [await makeSite(2), await launch()];
     addPhotos(site.folder, [{ eye: [5, -14, 1.7], target: [5, 0, 5] }]);
     makeRooms(join(site.folder, "rooms"));
+    for (const [name, add] of [["animal", addAnimal], ["stroll", addWalk], ["tour", addTour]] as const) {
+      const folder = join(site.folder, name);
+      mkdirSync(folder);
+      makePlace(folder);
+      add(folder);
+    }
     ({ page } = await open(browser, `${site.origin}/`));
   });
 
@@ -82,6 +97,51 @@ describe.skipIf(MISSING !== null)("axe", () => {
     const { page: small } = await open(browser, `${site.origin}/#mode=walk`, phone);
     expect(await findings(small)).toEqual([]);
     await small.context().close();
+  });
+
+  it("finds nothing while a photo lies on the place", async () => {
+    const { page: other } = await open(browser, `${site.origin}/`);
+    await other.keyboard.press("t");
+    await other.waitForFunction(() => (window.veduta?.photosShown().length ?? 0) > 0);
+    expect(await findings(other)).toEqual([]);
+    await other.context().close();
+  });
+
+  it("finds nothing by night, in the colours of the classes and of what is known", async () => {
+    const { page: night } = await open(browser, `${site.origin}/#hour=23&colour=class`);
+    expect(await findings(night)).toEqual([]);
+    await night.keyboard.press("p");
+    expect(await findings(night)).toEqual([]);
+    await night.context().close();
+  });
+
+  it("finds nothing where something has not come", async () => {
+    const { page: other } = await open(browser, `${site.origin}/`);
+    await other.route("**/house-2/model.glb", (route) => route.abort());
+    await other.reload();
+    await other.waitForFunction(() => (window.veduta?.stats().missing.length ?? 0) > 0);
+    expect(await findings(other)).toEqual([]);
+    await other.context().close();
+  });
+
+  it("finds nothing beside an animal, on a tour, and on a walk from view to view", async () => {
+    for (const path of ["animal", "tour", "stroll"]) {
+      const { page: other } = await open(browser, `${site.origin}/?place=${path}/`);
+      if (path === "tour") await other.keyboard.press("g");
+      expect(await findings(other), path).toEqual([]);
+      await other.context().close();
+    }
+  });
+
+  it("finds nothing where there is no WebGL", async () => {
+    const without = await launch({ webgl: false });
+    for (const path of ["", "?place=stroll/"]) {
+      const { page: plain } = await open(without, `${site.origin}/${path}`);
+      await plain.evaluate(AXE);
+      const { violations } = await plain.evaluate<AxeResults>("axe.run()");
+      expect(violations.map(({ id }) => id)).toEqual([]);
+    }
+    await without.close();
   });
 
   it("finds nothing in the card of a place that cannot be shown", async () => {

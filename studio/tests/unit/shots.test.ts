@@ -70,6 +70,7 @@ describe("the pyramids", () => {
       file: "points.ply",
       layer: "points",
       worldFromPoints: [...IDENTITY.slice(0, 12), 10, 0, 0, 1],
+      count: null,
       bounds: { min: [0, 0, 0], max: [1, 2, 3] },
     } as const;
     expect(boundsOfShots([cloud], [at(-5, 0, 7)])).toEqual({ min: [-5, 0, 0], max: [11, 2, 7] });
